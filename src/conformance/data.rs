@@ -1,6 +1,7 @@
 //! The suite's files. A release build embeds them as an archive; a debug build reads them from the repository, so that
 //! new cases need no rebuild.
 
+use std::collections::BTreeMap;
 #[cfg(any(test, suite_in_repository))]
 use std::path::Path;
 use std::sync::LazyLock;
@@ -31,6 +32,8 @@ pub const ROBOTS: &str = "robots";
 pub const VALID: &str = "valid";
 /// The base URDDs of cases: one folder each.
 pub const BASES: &str = "bases";
+/// Files of bases that equal another base's file: both paths relative to [`BASES`]. Only the other file is stored.
+pub const COPIES: &str = "bases/copies.json";
 /// Cases, including near misses: one folder per code.
 pub const INVALID: &str = "invalid";
 /// The URDD's folder within its case's folder; other files may be beside it.
@@ -43,7 +46,23 @@ pub const VECTORS: &str = "vectors";
 #[error("the conformance suite cannot be read: {0}")]
 pub struct DataError(String);
 
-static SUITE: LazyLock<Result<Files, DataError>> = LazyLock::new(|| read().map_err(DataError));
+static SUITE: LazyLock<Result<Files, DataError>> =
+    LazyLock::new(|| read().and_then(with_copies).map_err(DataError));
+
+/// Replaces [`COPIES`] by the files that it lists: the suite stores equal files of bases once.
+fn with_copies(mut files: Files) -> Result<Files, String> {
+    let list = files.remove(COPIES).unwrap_or_else(|| b"{}".to_vec());
+    let copies: BTreeMap<String, String> =
+        serde_json::from_slice(&list).map_err(|error| format!("{COPIES}: {error}"))?;
+    for (copy, stored) in copies {
+        let bytes = files.get(&format!("{BASES}/{stored}")).cloned();
+        let bytes = bytes.ok_or(format!(
+            "{COPIES}: {stored} is missing, which {copy} equals"
+        ))?;
+        files.insert(format!("{BASES}/{copy}"), bytes);
+    }
+    Ok(files)
+}
 
 /// Checks that the suite can be read. If it cannot, [`below`] returns nothing.
 ///
@@ -79,9 +98,31 @@ mod tests {
         let packed = archive::pack(&files).expect("an archive");
         assert_eq!(archive::unpack(&packed).expect("what was packed"), files);
         assert_eq!(archive::pack(&files).expect("the same again"), packed);
-        // The archive adds about 0.8 MB to the program, for the 7 MB of the suite.
+        // The archive adds about 0.8 MB to the program.
         assert!(packed.len() < 1_500_000, "{} bytes", packed.len());
         assert!(archive::unpack(&packed[..packed.len() / 2]).is_err());
+    }
+
+    #[test]
+    fn copies_are_files_and_need_a_stored_one() {
+        let files = |stored: &str| {
+            let list = format!(r#"{{"b/robot/x": "{stored}"}}"#);
+            [
+                (COPIES, list.as_str()),
+                ("bases/a/robot/x", "1"),
+                ("bases/b/robot/y", "2"),
+            ]
+            .map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec()))
+        };
+        let all = with_copies(files("a/robot/x").into()).expect("a stored file");
+        let paths: Vec<&String> = all.keys().collect();
+        assert_eq!(
+            paths,
+            ["bases/a/robot/x", "bases/b/robot/x", "bases/b/robot/y"]
+        );
+        assert_eq!(all["bases/b/robot/x"], b"1");
+        let error = with_copies(files("a/robot/z").into()).expect_err("nothing is stored there");
+        assert!(error.contains("a/robot/z is missing"), "{error}");
     }
 
     #[test]

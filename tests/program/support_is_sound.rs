@@ -29,13 +29,8 @@ fn toy_holds_what_it_promises() {
     let toy = Fixture::toy();
     let kinds = ModuleKind::ALL
         .iter()
-        // It was not put together from others, and nobody asked for a model.
-        .filter(|kind| {
-            !matches!(
-                kind,
-                ModuleKind::Composition | ModuleKind::SelfCollisionModel
-            )
-        })
+        // What a class requires, and what is recommended to all.
+        .filter(|kind| kind.class().is_some() || **kind == ModuleKind::KinematicsSamples)
         .filter(|kind| find(**kind, SPEC_VERSION).is_some());
     // And `urdd.json`.
     assert_eq!(toy.documents.len(), kinds.count() + 1);

@@ -112,12 +112,13 @@ fn asked() -> Option<(String, Stand)> {
     Some((start, stand))
 }
 
-/// Whether one case is worked at, so that tests of all others are not wanted.
-pub fn one_is_asked_for() -> bool {
-    asked().is_some()
+/// The beginning of the cases that somebody works at, so that tests of all others are not wanted.
+pub fn asked_for() -> Option<String> {
+    asked().map(|(start, _)| start)
 }
 
-fn beginning_with(start: &str) -> Vec<Case> {
+/// The cases whose code/name begins so.
+pub fn beginning_with(start: &str) -> Vec<Case> {
     let mut cases = cases();
     cases.retain(|case| format!("{}/{}", case.code, case.name).starts_with(start));
     cases

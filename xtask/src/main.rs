@@ -1,28 +1,39 @@
 //! Commands for contributors, run by `cargo xtask`: see CONTRIBUTING.md.
 
+mod check;
+mod new_module;
 mod new_rule;
+mod source;
+mod update;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info]
+cargo xtask check
+    What you forgot, after a rule, a module or a message: each with its remedy.
 
-Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
-The code is the family and its next free number (SRC009); the name states the fault.
+cargo xtask update
+    Writes again what is generated: cases, schemas, annex A of SPEC.md, snapshots, counts, types for Python.
+
+cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
+    Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
+    The code is the family and its next free number (SRC009); the name states the fault.
+    A family that is new gets a folder: --family battery.
+
+cargo xtask new-module NAME
+    Makes the files of a new module of the format: its type, its entries in the registry, its place in SPEC.md.
 ";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let result = match words.first().map(String::as_str) {
-        Some("new-rule") => new_rule(&words[1..]),
-        _ => Err(USAGE.to_owned()),
+    let result = match words.split_first() {
+        Some((command, words)) => run(command, words),
+        None => Err(USAGE.to_owned()),
     };
     match result {
-        Ok(text) => {
-            print!("{text}");
-            ExitCode::SUCCESS
-        }
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
         Err(message) => {
             eprintln!("{}", message.trim_end());
             ExitCode::from(2)
@@ -30,27 +41,51 @@ fn main() -> ExitCode {
     }
 }
 
-fn new_rule(words: &[String]) -> Result<String, String> {
+/// Runs a command; returns whether everything is right.
+fn run(command: &str, words: &[String]) -> Result<bool, String> {
+    // For tests: the root of another copy of the source.
+    let (plain, mut options) = arguments(words)?;
+    let given = options.remove("--root").map(PathBuf::from);
+    let root =
+        given.unwrap_or_else(|| Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).into());
+    let plain: Vec<&str> = plain.iter().map(String::as_str).collect();
+    let text = match (command, plain.as_slice()) {
+        ("check", []) => return check::run(&root),
+        ("update", []) => return update::run(&root),
+        ("new-rule", [code, name]) => {
+            let option = |name: &str| options.get(name).map(String::as_str);
+            let new = new_rule::NewRule {
+                code,
+                name,
+                clause: option("--clause"),
+                severity: option("--severity").unwrap_or("error"),
+                family: option("--family"),
+            };
+            new_rule::make(&root, &new)?
+        }
+        ("new-module", [name]) => new_module::make(&root, name)?,
+        _ => return Err(USAGE.to_owned()),
+    };
+    print!("{text}");
+    Ok(true)
+}
+
+type Options = std::collections::BTreeMap<String, String>;
+
+/// The words without options, and the options with their values.
+fn arguments(words: &[String]) -> Result<(Vec<String>, Options), String> {
     let mut plain = Vec::new();
-    let (mut clause, mut severity, mut root) = (None, "error".to_owned(), repository());
+    let mut options = Options::new();
     let mut words = words.iter().cloned();
     while let Some(word) = words.next() {
-        let mut value = || words.next().ok_or(format!("{word} needs a value"));
         match word.as_str() {
-            "--clause" => clause = Some(value()?),
-            "--severity" => severity = value()?,
-            // For tests: the root of another copy of the source.
-            "--root" => root = value()?.into(),
+            "--clause" | "--severity" | "--family" | "--root" => {
+                let value = words.next().ok_or(format!("{word} needs a value"))?;
+                options.insert(word, value);
+            }
             _ if word.starts_with('-') => return Err(format!("{word} is not known\n\n{USAGE}")),
             _ => plain.push(word),
         }
     }
-    let [code, name] = plain.as_slice() else {
-        return Err(USAGE.to_owned());
-    };
-    new_rule::make(&root, code, name, clause.as_deref(), &severity)
-}
-
-fn repository() -> PathBuf {
-    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+    Ok((plain, options))
 }

@@ -1,92 +1,108 @@
 //! Creates the files of a new rule.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use crate::source::{Edits, camel, with_module};
 
 const CODES: &str = "crates/urdd-validate/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
+const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";
 const CASES: &str = "tests/rules/main.rs";
 
 /// Families whose cases need no meshes; they use the small base.
 const CORE: &[&str] = &["URD", "SRC", "DOF", "CHN", "CON", "BND", "KIN"];
 
-/// A file with its new text.
-struct Edit {
-    path: PathBuf,
-    text: String,
+/// A rule to be created.
+pub struct NewRule<'a> {
+    /// Its code.
+    pub code: &'a str,
+    /// Its name.
+    pub name: &'a str,
+    /// The clause of SPEC.md, where it is known.
+    pub clause: Option<&'a str>,
+    /// `error`, `warning` or `info`.
+    pub severity: &'a str,
+    /// The folder of its family, where that is new.
+    pub family: Option<&'a str>,
 }
 
 /// Creates a rule. Writes nothing unless all edits are possible.
 ///
 /// # Errors
 /// If the code or the name is invalid, or the source does not have the expected form.
-pub fn make(
-    root: &Path,
-    code: &str,
-    name: &str,
-    clause: Option<&str>,
-    severity: &str,
-) -> Result<String, String> {
+pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
+    let (code, name) = (new.code, new.name);
     let family = family(code)?;
     check_name(name)?;
-    let clause = clause.unwrap_or("TODO");
-    let severity = match severity {
+    let clause = new.clause.unwrap_or("TODO");
+    let severity = match new.severity {
         "error" => "Error",
         "warning" => "Warning",
         "info" => "Info",
         other => return Err(format!("--severity {other}: write error, warning or info")),
     };
-    let codes = add_code(&read(root, CODES)?, code)?;
-    let room = room_of(root, family)?;
+    let mut edits = Edits::new(root);
+    let room = match (room_of(root, family)?, new.family) {
+        (Some(room), None) => room,
+        (Some(room), Some(_)) => {
+            return Err(format!(
+                "{family} is the family of {RULES}/{room}: leave out --family"
+            ));
+        }
+        (None, None) => {
+            return Err(format!(
+                "there is no family {family}; {CODES} lists them. A new one needs --family FOLDER"
+            ));
+        }
+        (None, Some(room)) => {
+            new_family(&mut edits, code, room)?;
+            room.to_owned()
+        }
+    };
+    edits.set(CODES, add_code(&edits.read(CODES)?, code)?);
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
-    if root.join(&rule_path).exists() {
-        return Err(format!("{rule_path} is there already"));
-    }
+    // Of a module as it was scaffolded, the rule can already read the values.
+    let types = edits.read(&format!("crates/urdd-format/src/{room}.rs"));
+    let has_values = types.is_ok_and(|text| text.contains("pub values: Vec<f64>,"));
+    let about = has_values.then_some(room.as_str());
+    edits.create(&rule_path, rule(code, name, severity, clause, about))?;
     let list = format!("{RULES}/{room}/mod.rs");
-    let mut edits = vec![
-        (CODES.to_owned(), codes),
-        (list.clone(), register(&read(root, &list)?, &module, &list)?),
-        (rule_path.clone(), rule(code, name, severity, clause)),
-    ];
+    edits.set(&list, register(&edits.read(&list)?, &module, &list)?);
     let mut steps = Vec::new();
-    let spec = match clause {
-        "TODO" => None,
-        _ => Some(mark_clause(&read(root, SPEC)?, clause, code)?),
-    };
-    match spec {
-        Some(text) => {
-            edits.push((SPEC.to_owned(), text));
-            steps.push(format!("Say it in {SPEC}, clause {clause}: one sentence with MUST or SHOULD, instead of the TODO."));
-        }
-        None => steps.push(format!(
+    if clause == "TODO" {
+        steps.push(format!(
             "Say it in {SPEC}: one sentence with MUST or SHOULD, and [{code}] after it; write its clause into {rule_path}."
-        )),
+        ));
+    } else {
+        edits.set(SPEC, mark_clause(&edits.read(SPEC)?, clause, code)?);
+        steps.push(format!("Say it in {SPEC}, clause {clause}: one sentence with MUST or SHOULD, instead of the TODO."));
     }
     let test = format!("tests/rules/{room}.rs");
     let cases = format!("{}_cases", code.to_lowercase());
-    edits.push((
-        test.clone(),
-        read(root, &test)?.trim_end().to_owned() + "\n\n" + &two_cases(code, family, &cases),
-    ));
-    edits.push((
-        CASES.to_owned(),
-        list_cases(&read(root, CASES)?, &room, &cases)?,
-    ));
-    let edits = edits.into_iter().map(|(path, text)| Edit {
-        path: root.join(path),
-        text,
-    });
-    for edit in edits.collect::<Vec<_>>() {
-        fs::write(&edit.path, edit.text)
-            .map_err(|error| format!("{}: cannot be written: {error}", edit.path.display()))?;
-    }
+    let others = edits.read(&test)?;
+    let base = match (CORE.contains(&family), others.contains("\nfn base() ->")) {
+        (true, _) => {
+            "\n    let base = || testkit::fixture::Fixture::core(&testkit::fixture::toy_robot());"
+        }
+        (false, true) => "",
+        (false, false) => "\n    let base = || testkit::fixture::Fixture::toy();",
+    };
+    edits.set(
+        &test,
+        format!("{}\n\n{}", others.trim_end(), two_cases(code, base, &cases)),
+    );
+    edits.set(CASES, list_cases(&edits.read(CASES)?, &room, &cases)?);
+    edits.write()?;
     steps.extend([
         format!("Write the rule: {rule_path}."),
         format!("Write its two cases: {test}, fn {cases}."),
         format!("URDD_CASE={code} cargo test --test rules      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)"),
-        "URDD_UPDATE=1 cargo test --test rules         (writes the cases as data; read what it wrote)".to_owned(),
+        format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules         (writes the cases as data; read what it wrote)"),
+        "cargo xtask update       (what is generated)".to_owned(),
+        "cargo xtask check        (what is left)".to_owned(),
     ]);
     let lines = steps.iter().enumerate();
     Ok(lines
@@ -94,8 +110,62 @@ pub fn make(
         .collect())
 }
 
-fn read(root: &Path, path: &str) -> Result<String, String> {
-    fs::read_to_string(root.join(path)).map_err(|error| format!("{path}: cannot be read: {error}"))
+/// Adds a family without rules: its folder, the first code's place, and its file of cases. Families of modules come
+/// before the legacy ones.
+fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
+    check_name(&room.replace('_', "-"))?;
+    let family = &code[..3];
+    if !code.ends_with("001") {
+        return Err(format!("{code}: the first code of a family is {family}001"));
+    }
+    let about = match is_module(edits, room) {
+        true => format!("`{room}_module`"),
+        false => "TODO: what the rules are about".to_owned(),
+    };
+    edits.insert_before(CODES, "    LEG001 ", &format!("    {code}\n"))?;
+    edits.create(
+        &format!("{RULES}/{room}/mod.rs"),
+        family_list(family, &about),
+    )?;
+    edits.insert_module(ALL, &format!("pub mod {room};"))?;
+    edits.insert_before(
+        ALL,
+        "        legacy::RULES,",
+        &format!("        {room}::RULES,\n"),
+    )?;
+    edits.create(
+        &format!("tests/rules/{room}.rs"),
+        family_cases(edits, family, room),
+    )?;
+    edits.insert_module(CASES, &format!("mod {room};"))?;
+    Ok(())
+}
+
+/// Whether a family is about a module of version 1 that has its type in a file of that name.
+fn is_module(edits: &Edits, room: &str) -> bool {
+    let registry = edits.read("crates/urdd-format/src/registry.rs");
+    registry.is_ok_and(|text| text.contains(&format!("({room}::")))
+}
+
+/// The file of a new family's cases.
+fn family_cases(edits: &Edits, family: &str, room: &str) -> String {
+    if !is_module(edits, room) {
+        return format!("//! {family}.\n");
+    }
+    let kind = camel(room);
+    format!(
+        r#"//! {family}: `{room}_module`.
+
+use serde_json::json;
+use testkit::fixture::{{Fixture, toy_robot}};
+use urdd_format::registry::ModuleKind;
+
+/// A small URDD that has the module.
+fn base() -> Fixture {{
+    Fixture::core_with(&toy_robot(), ModuleKind::{kind}, json!({{ "values": [] }}))
+}}
+"#
+    )
 }
 
 /// The family of a code: its first three letters.
@@ -142,9 +212,12 @@ fn add_code(text: &str, code: &str) -> Result<String, String> {
         .split_whitespace()
         .filter(|word| word.starts_with(family))
         .collect();
-    let Some(last) = known.last() else {
-        return Err(format!("there is no family {family}; {CODES} lists them"));
-    };
+    if known == [code] {
+        return Ok(text.to_owned());
+    }
+    let last = known
+        .last()
+        .ok_or(format!("{CODES} has no family {family}"))?;
     let next = last[3..].parse::<u32>().unwrap_or(0) + 1;
     if number.parse::<u32>() != Ok(next) {
         return Err(format!(
@@ -155,8 +228,8 @@ fn add_code(text: &str, code: &str) -> Result<String, String> {
     Ok(format!("{} {code}{}", &text[..place], &text[place..]))
 }
 
-/// The folder of the rules of a family.
-fn room_of(root: &Path, family: &str) -> Result<String, String> {
+/// The folder of the rules of a family; `None` if it has none yet.
+fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
     let failed = |error| format!("{RULES}: cannot be read: {error}");
     for room in fs::read_dir(root.join(RULES)).map_err(failed)? {
         let room = room.map_err(failed)?;
@@ -168,28 +241,17 @@ fn room_of(root: &Path, family: &str) -> Result<String, String> {
             let mut lines = after.lines().map(str::trim);
             let first = lines.find(|line| !line.is_empty() && !line.starts_with("///"));
             if first.is_some_and(|line| line.starts_with(family)) {
-                return Ok(room.file_name().to_string_lossy().into_owned());
+                return Ok(Some(room.file_name().to_string_lossy().into_owned()));
             }
         }
     }
-    Err(format!("no rule in {RULES} is of the family {family}"))
+    Ok(None)
 }
 
 /// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
 fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
-    let unexpected = || format!("{path} is not as expected: no list of modules and rules");
-    let line = format!("pub mod {module};");
-    let name = |line: &str| line.trim_start_matches("pub ").to_owned();
-    let modules: Vec<&str> = text
-        .lines()
-        .filter(|line| name(line).starts_with("mod "))
-        .collect();
-    let before = modules.iter().rev().find(|other| name(other) < name(&line));
-    let text = match (before, modules.first()) {
-        (Some(before), _) => text.replacen(before, &format!("{before}\n{line}"), 1),
-        (None, Some(first)) => text.replacen(first, &format!("{line}\n{first}"), 1),
-        (None, None) => return Err(unexpected()),
-    };
+    let text = with_module(text, &format!("pub mod {module};"), path)?;
+    let unexpected = || format!("{path} is not as expected: no list of rules");
     let (head, rest) = text.split_once("rules! {").ok_or_else(unexpected)?;
     let (list, tail) = rest.split_once('}').ok_or_else(unexpected)?;
     let mut rules: Vec<&str> = list.split(',').map(str::trim).collect();
@@ -204,6 +266,11 @@ fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
         }
     }
     Ok(format!("{head}rules! {{\n{}\n}}{tail}", lines.join("\n")))
+}
+
+/// The `mod.rs` of a family without rules.
+fn family_list(family: &str, about: &str) -> String {
+    format!("//! {family}: {about}.\n\nuse crate::rule::rules;\n\nrules! {{}}\n")
 }
 
 /// Appends a placeholder sentence to the clause in SPEC.md.
@@ -221,11 +288,25 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
     ))
 }
 
-fn rule(code: &str, name: &str, severity: &str, clause: &str) -> String {
+fn rule(code: &str, name: &str, severity: &str, clause: &str, module: Option<&str>) -> String {
     // Rules about unusual robots judge the source.
-    let (judges, need) = match code.starts_with("SRC") {
-        true => ("judges Source, ", "SourceRobot"),
-        false => ("", "Module(Kind::Urdf)"),
+    let (judges, need) = match (module, code.starts_with("SRC")) {
+        (Some(room), _) => ("", format!("ModuleV1(Kind::{})", camel(room))),
+        (None, true) => ("judges Source, ", "SourceRobot".to_owned()),
+        (None, false) => ("", "Module(Kind::Urdf)".to_owned()),
+    };
+    let look = match module {
+        Some(room) => format!(
+            r#"    let module = document!(context, {})?;
+    if module.values.is_empty() {{
+        Finding::at("{room}_module/module.json", "/values", "TODO: what is wrong here, and what to do")"#,
+            camel(room)
+        ),
+        None => r#"    let robot = context.robot()?;
+    let file = context.robot_file()?;
+    if robot.links.is_empty() {
+        Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")"#
+            .to_owned(),
     };
     format!(
         r#"use crate::rules::prelude::*;
@@ -241,10 +322,7 @@ declare_rule! {{
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
     // TODO: report each place. `context.rs` shows the available data, `tolerance.rs` how to compare numbers (both in
     // `crates/urdd-validate/src/`). Declare in `needs` what you take with `?`.
-    let robot = context.robot()?;
-    let file = context.robot_file()?;
-    if robot.links.is_empty() {{
-        Finding::at(file, "/links/0", "TODO: what is wrong here, and what to do")
+{look}
             .expected("TODO")
             .actual("TODO")
             .report(findings);
@@ -255,18 +333,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
     )
 }
 
-fn two_cases(code: &str, family: &str, cases: &str) -> String {
-    let base = match CORE.contains(&family) {
-        true => "testkit::fixture::Fixture::core(&testkit::fixture::toy_robot())",
-        false => "testkit::fixture::Fixture::toy()",
-    };
+fn two_cases(code: &str, base: &str, cases: &str) -> String {
     format!(
         r#"pub fn {cases}() -> Vec<crate::Case> {{
-    use urdd_validate::code::Code::{code};
-    let base = || {base};
+    use urdd_validate::code::Code::{code};{base}
     vec![
         crate::changed({code}, "todo-name-the-fault", true, base, |_urdd| {{
-            todo!("{code}: change the URDD so that exactly this rule catches it")
+            todo!("{code}: change the URDD so that exactly this rule catches it: `urdd.set(module, pointer, value)`")
         }}),
         crate::changed({code}, "todo-name-what-comes-near", false, base, |_urdd| {{
             todo!("{code}: change the URDD so that it comes near the fault, and is right")
@@ -277,11 +350,16 @@ fn two_cases(code: &str, family: &str, cases: &str) -> String {
     )
 }
 
-/// Adds the rule's cases to the list of all cases.
+/// Adds the rule's cases to the list of all cases: after those of the family, or, where it is new, before the legacy ones.
 fn list_cases(text: &str, room: &str, cases: &str) -> Result<String, String> {
+    let new = format!("        {room}::{cases}(),\n");
     let own = format!("        {room}::cases(),\n");
-    match text.contains(&own) {
-        true => Ok(text.replacen(&own, &format!("{own}        {room}::{cases}(),\n"), 1)),
-        false => Err(format!("{CASES} lists no {room}::cases()")),
+    let legacy = "        legacy::cases(),\n";
+    if text.contains(&own) {
+        Ok(text.replacen(&own, &format!("{own}{new}"), 1))
+    } else if text.contains(legacy) {
+        Ok(text.replacen(legacy, &format!("{new}{legacy}"), 1))
+    } else {
+        Err(format!("{CASES} lists no {room}::cases()"))
     }
 }

@@ -21,13 +21,15 @@ fn known() -> String {
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1 that can be selected, in the order of the specification. The composition module is not
-/// selectable: every composed robot gets it.
-fn kinds() -> Vec<ModuleKind> {
+/// The modules of version 1 that cannot be selected: every composed robot gets the composition module.
+const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition];
+
+/// The modules of version 1 that can be selected, in the order of the specification.
+pub(crate) fn kinds() -> Vec<ModuleKind> {
     let current = MODULES.iter().filter(|spec| spec.profile == Profile::V1);
     let kinds = current.map(|spec| spec.kind);
     kinds
-        .filter(|kind| *kind != ModuleKind::Composition)
+        .filter(|kind| !NOT_SELECTABLE.contains(kind))
         .collect()
 }
 

@@ -30,10 +30,24 @@ pub fn difference(old: &Tree, new: &Tree) -> Difference {
     work.add_and_delete(new);
     let kept = untrue_entries(new);
     rehash(&mut work.tree, &kept);
-    for path in new.nodes.keys().chain(work.tree.nodes.keys()) {
-        assert!(same(&work.tree, new, path), "{path}: the changes miss it");
+    if let Some(path) = missed(&work.tree, new) {
+        panic!("{path}: the changes miss it");
     }
     (work.changes, kept)
+}
+
+/// Whether changes that were made earlier still make `new` of `old`.
+pub fn makes(old: &Tree, changes: &[Change], kept: &BTreeSet<String>, new: &Tree) -> bool {
+    let mut tree = old.clone();
+    let applied = changes.iter().all(|change| change.apply(&mut tree).is_ok());
+    rehash(&mut tree, kept);
+    applied && *kept == untrue_entries(new) && missed(&tree, new).is_none()
+}
+
+/// A path at which the two differ.
+fn missed<'a>(tree: &'a Tree, new: &'a Tree) -> Option<&'a FilePath> {
+    let mut paths = new.nodes.keys().chain(tree.nodes.keys());
+    paths.find(|path| !same(tree, new, path))
 }
 
 struct Work {

@@ -1,8 +1,10 @@
 //! The cases as data: `conformance/invalid` and `conformance/bases` are made of the closures in this
 //! test. `URDD_UPDATE=1 cargo test --test rules` writes them; without it, what is there is compared.
 //!
-//! A case names the base that needs the fewest words. A URDD that is far from every base becomes one.
+//! A case names the base that needs the fewest words. A URDD that is far from every base becomes one. What is stored and
+//! still makes the case stays, so that a new case changes no other.
 
+mod bases;
 mod changes;
 mod patch;
 
@@ -10,29 +12,27 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde_json::Value;
 use urdd::conformance::case::{self, Expected, Kind, Verdict};
-use urdd::conformance::change::mirror_of;
-use urdd::conformance::data::{BASES, INVALID, URDD};
+use urdd::conformance::data::{BASES, INVALID};
 use urdd::conformance::judge;
-use urdd::conformance::seal::add_mirrors;
-use urdd::conformance::tree::{Node, Tree};
+use urdd::conformance::tree::Tree;
 use urdd_directory::canonical;
 use urdd_validate::rule::Severity;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
-use self::changes::{Difference, difference};
-use crate::{Case, Make, cases, legacy};
-use testkit::fixture::{Fixture, toy_robot};
+use self::bases::Bases;
+use self::changes::Difference;
+use crate::{Case, Make};
 
-/// A case that takes more of a base's bytes than this part gets a base of its own.
-const TOO_DIFFERENT: f64 = 0.25;
-/// But not below so many bytes.
-const SMALL: usize = 3000;
 /// In which versions of the specification the cases hold.
 const SPEC_VERSIONS: &str = ">=1.0.0, <2.0.0";
+
+/// So many cases are held in memory.
+const AT_ONCE: usize = 32;
 
 fn update() -> bool {
     std::env::var_os("URDD_UPDATE").is_some()
@@ -64,112 +64,16 @@ fn tree_written(write: &dyn Fn(&Path)) -> Tree {
     Tree::read(folder.path(), &root).expect("what was just written")
 }
 
-/// Bases by name, in the order in which they were made.
-struct Bases(Vec<(String, Tree)>);
-
-impl Bases {
-    fn new() -> Bases {
-        let fixture = |fixture: Fixture| {
-            tree_of(&Make::Fixture(Box::new(move || {
-                crate::canonical(fixture.clone())
-            })))
-        };
-        Bases(vec![
-            ("toy".to_owned(), fixture(Fixture::toy())),
-            ("toy_core".to_owned(), fixture(Fixture::core(&toy_robot()))),
-            ("legacy".to_owned(), tree_written(&legacy::write_legacy)),
-        ])
-    }
-
-    /// The base from which it takes the fewest words to `tree`, and these. The few that share most
-    /// bytes with it are tried.
-    fn nearest(&self, tree: &Tree) -> (usize, Difference) {
-        let foreign = |base: &Tree| -> usize {
-            let nodes = tree.nodes.iter();
-            let missing = nodes.filter(|(path, node)| base.nodes.get(path) != Some(node));
-            missing.map(|(_, node)| size(node)).sum()
-        };
-        let mut order: Vec<usize> = (0..self.0.len()).collect();
-        order.sort_by_cached_key(|at| foreign(&self.0[*at].1));
-        let mut nearest: Option<(usize, Difference)> = None;
-        for at in order.into_iter().take(4) {
-            let way = difference(&self.0[at].1, tree);
-            if nearest
-                .as_ref()
-                .is_none_or(|(_, best)| length(&way) < length(best))
-            {
-                nearest = Some((at, way));
-            }
-            if nearest.as_ref().is_some_and(|(_, way)| length(way) < SMALL) {
-                break;
-            }
-        }
-        nearest.expect("there are bases")
-    }
-
-    /// The same, from a new base where all are far away.
-    fn for_case(&mut self, case: &Case) -> (usize, Difference) {
-        let tree = tree_of(&case.make);
-        let found = self.nearest(&tree);
-        let own = stored(&tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
-        let limit = SMALL.max((own as f64 * TOO_DIFFERENT) as usize);
-        if length(&found.1) <= limit.min(own) {
-            return found;
-        }
-        let base = case.base.as_ref().map(tree_of);
-        // One that is far larger than the case is of no use to it.
-        let bytes = |tree: &Tree| stored(tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
-        let base = base.filter(|base| bytes(base) <= 2 * bytes(&tree));
-        let mut base = base.unwrap_or_else(|| tree.clone());
-        // A base has files only; what else there is comes by changes.
-        base.nodes
-            .retain(|path, node| path.as_str().is_some() && matches!(node, Node::File(_)));
-        let name = format!("{}-{}", case.code.as_str().to_lowercase(), case.name);
-        self.0.push((name, base));
-        let found = self.nearest(&tree);
-        if found.0 + 1 != self.0.len() {
-            self.0.pop();
-        }
-        found
-    }
-}
-
-fn size(node: &Node) -> usize {
-    match node {
-        Node::File(bytes) => bytes.len(),
-        Node::Link(_) | Node::Folder => 0,
-    }
-}
-
-fn length((changes, kept): &Difference) -> usize {
-    let text = serde_json::to_string(&(changes, kept));
-    text.expect("changes are JSON").len()
-}
-
-/// The files of a base that are stored: mirrors that sealing makes are not.
-fn stored(tree: &Tree) -> impl Iterator<Item = (&str, &[u8])> {
-    let mut made = tree.clone();
-    made.nodes.retain(|path, _| mirror_of(path).is_some());
-    add_mirrors(&mut made);
-    tree.nodes.iter().filter_map(move |(path, node)| {
-        let Node::File(bytes) = node else { return None };
-        let path = path.as_str()?;
-        let is_made = path.ends_with("module.yaml") && made.file(path) == Some(bytes);
-        (!is_made).then_some((path, &**bytes))
-    })
-}
-
-/// What the validator finds in a case.
-fn found(case: &Case) -> Vec<Expected> {
+/// What the validator finds in a case, which is this URDD.
+fn found(case: &case::Case, urdd: &Tree) -> Vec<Expected> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
-    fs::create_dir(&root).expect("the URDD's folder");
-    case.make.write(&root);
+    urdd.write(&root).expect("the URDD is written");
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let report = run.report;
-    let found = judge::found(case.code.as_str(), &report);
+    let found = judge::found(&case.code, &report);
     let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
-    let right = case.caught.then_some(case.code.as_str());
+    let right = (case.kind == Kind::Invalid).then_some(case.code.as_str());
     assert_eq!(
         codes,
         right.into_iter().collect(),
@@ -200,39 +104,46 @@ fn as_data(case: &Case, base: String, way: Difference, old: Option<&case::Case>)
             false => Verdict::Accept,
         },
         // Places are the validator's; a person reads them once, when they are written.
-        expected: match (update(), old) {
-            (true, _) => found(case),
-            (false, Some(old)) => old.expected.clone(),
-            (false, None) => Vec::new(),
-        },
+        expected: old.map(|old| old.expected.clone()).unwrap_or_default(),
         base,
         changes: way.0,
         hashes_kept: way.1,
     }
 }
 
-/// Every file that the closures make, by its path in `conformance/`.
-fn files() -> BTreeMap<String, Vec<u8>> {
-    let mut bases = Bases::new();
+/// Every file that the closures make, by its path in `conformance/`. Of some cases only: what they add, beside the bases
+/// as they are stored.
+fn files(cases: &[Case], all: bool) -> BTreeMap<String, Vec<u8>> {
+    let mut bases = match all {
+        true => Bases::made_again(cases),
+        false => Bases::stored(),
+    };
     let mut files = BTreeMap::new();
-    for case in cases() {
-        let (base, way) = bases.for_case(&case);
-        let path = format!("{INVALID}/{}/{}.json", case.code, case.name);
-        let old = fs::read(suite().join(&path)).ok();
-        let old = old.and_then(|text| serde_json::from_slice(&text).ok());
-        let data = as_data(&case, bases.0[base].0.clone(), way, old.as_ref());
-        let value: Value = serde_json::to_value(data).expect("a case is JSON");
-        files.insert(path, canonical::json_string(&value).into_bytes());
-    }
-    for (name, tree) in &bases.0 {
-        for (path, bytes) in stored(tree) {
-            let path = match path.strip_prefix("../") {
-                Some(beside) => beside.to_owned(),
-                None => format!("{URDD}/{path}"),
-            };
-            files.insert(format!("{BASES}/{name}/{path}"), bytes.to_vec());
+    let mut used = BTreeSet::new();
+    for cases in cases.chunks(AT_ONCE) {
+        let mut data: Vec<(String, case::Case, Tree)> = Vec::new();
+        for case in cases {
+            let path = format!("{INVALID}/{}/{}.json", case.code, case.name);
+            let old = fs::read(suite().join(&path)).ok();
+            let old: Option<case::Case> = old.and_then(|text| serde_json::from_slice(&text).ok());
+            let urdd = tree_of(&case.make);
+            let (base, way) = bases.for_case(case, &urdd, old.as_ref());
+            used.insert(base.clone());
+            data.push((path, as_data(case, base, way, old.as_ref()), urdd));
+        }
+        if update() {
+            data.par_iter_mut()
+                .for_each(|(_, case, urdd)| case.expected = found(case, urdd));
+        }
+        for (path, case, _) in data {
+            let value: Value = serde_json::to_value(case).expect("a case is JSON");
+            files.insert(path, canonical::json_string(&value).into_bytes());
         }
     }
+    if all {
+        bases.keep(&used);
+    }
+    files.extend(bases.files());
     files
 }
 
@@ -254,16 +165,19 @@ fn on_disk() -> BTreeSet<String> {
     found
 }
 
+/// `URDD_UPDATE=1` writes what is missing or stale; with `URDD_CASE`, of these cases alone.
 #[test]
 fn the_suite_is_what_the_closures_say() {
-    if crate::one_case::one_is_asked_for() && !update() {
+    let asked = crate::one_case::asked_for();
+    if asked.is_some() && !update() {
         println!("left out: URDD_CASE asks for others");
         return;
     }
-    let files = files();
+    let cases = crate::one_case::beginning_with(asked.as_deref().unwrap_or_default());
+    let files = files(&cases, asked.is_none());
     let stray: Vec<String> = on_disk()
         .into_iter()
-        .filter(|path| !files.contains_key(path))
+        .filter(|path| asked.is_none() && !files.contains_key(path))
         .collect();
     let differs = |(path, bytes): &(&String, &Vec<u8>)| {
         fs::read(suite().join(path)).ok().as_ref() != Some(*bytes)
@@ -271,6 +185,7 @@ fn the_suite_is_what_the_closures_say() {
     let stale: Vec<(&String, &Vec<u8>)> = files.iter().filter(differs).collect();
     if update() {
         for path in stray {
+            println!("removed conformance/{path}");
             let path = suite().join(path);
             fs::remove_file(&path).expect("removed");
             // Its folders, as far as nothing else is in them.
@@ -281,6 +196,7 @@ fn the_suite_is_what_the_closures_say() {
             {}
         }
         for (path, bytes) in stale {
+            println!("wrote conformance/{path}");
             let path = suite().join(path);
             fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             fs::write(path, bytes).expect("written");

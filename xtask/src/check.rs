@@ -1,0 +1,235 @@
+//! `cargo xtask check`: what a newcomer forgets after adding a rule, a module or a message, each with its remedy.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// The tests that are run, by the beginning of their path, and what to do where one fails.
+const TESTS: &[(&str, &str)] = &[
+    ("spec_agrees::the_tables_of_fields", UPDATE),
+    (
+        "spec_agrees::the_table_of_modules",
+        "list the module in the table of SPEC.md, clause 12.1, where the registry has it",
+    ),
+    (
+        "spec_agrees::",
+        "bring SPEC.md and the rule together: the rule's clause, its code in brackets after one sentence, MUST for errors, SHOULD for warnings",
+    ),
+    ("architecture::files_stay_small", "split the file by ideas"),
+    (
+        "architecture::every_rule_on_disk",
+        "list the rule in the family's mod.rs, and its code in crates/urdd-validate/src/code.rs",
+    ),
+    (
+        "architecture::",
+        "see the message; CONTRIBUTING.md says how a rule is written",
+    ),
+    ("snapshots::", UPDATE),
+    ("conformance::cases::the_pages_say", UPDATE),
+    (
+        "conformance::cases::every_case_is_judged",
+        "look which is right, the case or the validator; `cargo xtask update` writes what the validator finds now",
+    ),
+    (
+        "conformance::cases::",
+        "cargo xtask update, after every rule has its two cases in tests/rules",
+    ),
+    (
+        "as_data::the_suite_is_what",
+        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules for one rule; read what it wrote",
+    ),
+    (
+        "every_rule_has_an_invalid_case",
+        "write the case in tests/rules: each rule has one that it catches, and one that comes near and passes",
+    ),
+    ("case_names_are_unique", "give the case another name"),
+    (
+        "a_case_that_is_asked_for",
+        "see the message, and `urdd explain` of the rule",
+    ),
+    ("published_schemas::the_committed_schemas", UPDATE),
+    (
+        "published_schemas::",
+        "see the message; a released schema never changes: make a new version of the module",
+    ),
+    (
+        "support_is_sound::toy_holds",
+        "say in that test that the toy does not have the module, or make it in testkit/src/core_modules.rs",
+    ),
+    (
+        "generate::core::what_is_asked_for",
+        "see the message; crates/urdd-generate/src/stages.rs lists what `urdd generate` makes",
+    ),
+    (
+        "links::",
+        "mend the link: the file or heading that it names is not there",
+    ),
+    ("security_doc::", "see the message"),
+    (
+        "results::",
+        "python3 benches/results.py: figures on the pages come from benches/results",
+    ),
+    (
+        PAGE,
+        "needs Node, npm and the target wasm32-unknown-unknown: .ci/page, and commit page/dist. Without them say so in the pull request; a maintainer does it",
+    ),
+];
+
+const UPDATE: &str = "cargo xtask update, and read what it wrote";
+/// A maintainer may mend it: its failure is only noted.
+const PAGE: &str = "page_bundle::";
+
+/// Folders and files in which a scaffold leaves a TODO.
+const SCAFFOLDED: &[&str] = &[
+    "SPEC.md",
+    "crates/urdd-format/src",
+    "crates/urdd-validate/src/rules",
+    "tests/rules",
+];
+
+/// Runs every check; returns whether all passed.
+///
+/// # Errors
+/// If cargo cannot be run.
+pub fn run(root: &Path) -> Result<bool, String> {
+    let mut faults = 0;
+    let mut fault = |what: &str, message: &str, remedy: &str| {
+        faults += 1;
+        println!("\nFAILED {what}\n{message}  -> {remedy}");
+    };
+    let left = left_to_write(root);
+    if !left.is_empty() {
+        let lines: String = left.iter().map(|place| format!("  {place}\n")).collect();
+        fault("what a scaffold left to you", &lines, "write it");
+    }
+    let formatted = cargo(root).args(["fmt", "--check", "--quiet"]).output();
+    if !formatted.is_ok_and(|output| output.status.success()) {
+        fault("formatting", "", "cargo fmt");
+    }
+    match python_types(root, &["--check"]) {
+        Some(false) => fault("types for Python", "", UPDATE),
+        Some(true) => {}
+        None => println!("left out: types for Python (python3 is not installed)"),
+    }
+    let output = cargo(root)
+        .args([
+            "test",
+            "--locked",
+            "--no-fail-fast",
+            "--test",
+            "program",
+            "--test",
+            "rules",
+            "--",
+        ])
+        .args(TESTS.iter().map(|(test, _)| test))
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("cargo cannot be run: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let failures = failures(&text);
+    if failures.is_empty() && !output.status.success() {
+        fault("build", "", "see what cargo printed above");
+    }
+    for (test, message) in failures {
+        let known = TESTS.iter().find(|(start, _)| test.starts_with(start));
+        let remedy = known.map_or("see the message", |(_, remedy)| remedy);
+        match test.starts_with(PAGE) {
+            true => println!("\nnote: page/dist is stale\n  {remedy}"),
+            false => fault(test, &message, remedy),
+        }
+    }
+    match faults {
+        0 => println!("\nNothing is missing. Before you send: .ci/quick"),
+        faults => println!("\n{faults} to mend"),
+    }
+    Ok(faults == 0)
+}
+
+/// Cargo, as it was started for us, in the repository.
+pub fn cargo(root: &Path) -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
+    command.current_dir(root);
+    command
+}
+
+/// Runs the script that writes the types for Python. `None` without python3.
+pub fn python_types(root: &Path, arguments: &[&str]) -> Option<bool> {
+    let script = Command::new("python3")
+        .arg("python/scripts/make_types.py")
+        .args(arguments)
+        .current_dir(root)
+        .output();
+    script.ok().map(|output| output.status.success())
+}
+
+/// The places of what a scaffold left to a person: `SPEC.md:341`.
+fn left_to_write(root: &Path) -> Vec<String> {
+    let mut places = Vec::new();
+    let mut paths: Vec<_> = SCAFFOLDED.iter().map(|path| root.join(path)).collect();
+    while let Some(path) = paths.pop() {
+        if let Ok(entries) = fs::read_dir(&path) {
+            paths.extend(entries.flatten().map(|entry| entry.path()));
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        let shown = path.strip_prefix(root).unwrap_or(&path).display();
+        for (number, line) in text.lines().enumerate() {
+            if let Some(todo) = line.to_ascii_lowercase().find("todo") {
+                let words: String = line[todo..].chars().take(80).collect();
+                places.push(format!("{shown}:{}: {words}", number + 1));
+            }
+        }
+    }
+    places.sort();
+    places
+}
+
+/// The tests that failed, each with what it printed.
+fn failures(output: &str) -> Vec<(&str, String)> {
+    let mut failures: Vec<(&str, String)> = Vec::new();
+    let mut inside = false;
+    for line in output.lines() {
+        let title = line.strip_prefix("---- ");
+        if let Some(test) = title.and_then(|title| title.strip_suffix(" stdout ----")) {
+            failures.push((test, String::new()));
+            inside = true;
+        } else if line == "failures:" {
+            inside = false;
+        } else if let (true, Some((_, message))) = (inside, failures.last_mut()) {
+            let of_rust = line.starts_with("thread '") || line.starts_with("note: run with");
+            if !line.trim().is_empty() && !of_rust {
+                *message += &format!("  {line}\n");
+            }
+        }
+    }
+    failures
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn failures_are_read_from_what_cargo_prints() {
+        let output = "test a::b ... FAILED\ntest a::c ... ok\n\nfailures:\n\n---- a::b stdout ----\n\n\
+                      thread 'a::b' (7) panicked at x.rs:1:2:\nDOF003 is not in SPEC.md\n\
+                      note: run with `RUST_BACKTRACE=1` environment variable to display a backtrace\n\n\nfailures:\n    a::b\n";
+        let message = "  DOF003 is not in SPEC.md\n".to_owned();
+        assert_eq!(failures(output), [("a::b", message)]);
+    }
+
+    #[test]
+    fn what_is_left_to_write_is_found() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let rules = folder.path().join("tests/rules");
+        fs::create_dir_all(&rules).expect("a folder");
+        fs::write(rules.join("a.rs"), "one\n  todo!(\"x\")\n").expect("written");
+        fs::write(folder.path().join("SPEC.md"), "TODO: say it\n").expect("written");
+        let places = [
+            "SPEC.md:1: TODO: say it",
+            "tests/rules/a.rs:2: todo!(\"x\")",
+        ];
+        assert_eq!(left_to_write(folder.path()), places);
+    }
+}

@@ -1,0 +1,108 @@
+//! `cargo xtask update`: writes again what is generated from the source, and says which files it changed.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use crate::check::{cargo, python_types};
+
+/// Where generated text is.
+const GENERATED: &[&str] = &[
+    "README.md",
+    "SPEC.md",
+    "conformance",
+    "crates/urdd-validate/tests",
+    "docs",
+    "python/lib/urdd",
+    "schema",
+    "tests/program",
+];
+
+/// The tests that write what they compare with.
+const WRITERS: &[&str] = &[
+    "as_data::the_suite_is_what",
+    "conformance::cases::the_pages_say",
+    "snapshots::",
+    "spec_agrees::the_tables_of_fields",
+];
+
+/// Writes everything that is generated; returns whether that worked.
+///
+/// # Errors
+/// If cargo cannot be run.
+pub fn run(root: &Path) -> Result<bool, String> {
+    let before = texts(root);
+    let failed = |error| format!("cargo cannot be run: {error}");
+    let schemas = cargo(root)
+        .args([
+            "run", "--quiet", "--locked", "--bin", "urdd", "--", "schema", "export", "schema",
+        ])
+        .output()
+        .map_err(failed)?;
+    let mut right = schemas.status.success();
+    if !right {
+        eprint!("{}", String::from_utf8_lossy(&schemas.stderr));
+    }
+    match python_types(root, &[]) {
+        Some(written) => right &= written,
+        None => println!("left out: types for Python (python3 is not installed)"),
+    }
+    // First the cases, whose number is on the pages.
+    for (target, tests) in [("rules", &WRITERS[..1]), ("program", &WRITERS[1..])] {
+        let tests = cargo(root)
+            .args([
+                "test",
+                "--quiet",
+                "--locked",
+                "--no-fail-fast",
+                "--test",
+                target,
+                "--",
+            ])
+            .args(tests)
+            .env("URDD_UPDATE", "1")
+            .env("INSTA_UPDATE", "always")
+            .env_remove("URDD_CASE")
+            .output()
+            .map_err(failed)?;
+        if !tests.status.success() {
+            right = false;
+            eprint!("{}", String::from_utf8_lossy(&tests.stderr));
+            print!("{}", String::from_utf8_lossy(&tests.stdout));
+        }
+    }
+    let after = texts(root);
+    let mut changed = 0;
+    for path in before
+        .keys()
+        .chain(after.keys().filter(|path| !before.contains_key(*path)))
+    {
+        let word = match (before.get(path), after.get(path)) {
+            (before, after) if before == after => continue,
+            (None, _) => "new",
+            (_, None) => "removed",
+            _ => "changed",
+        };
+        println!("{word:8} {path}");
+        changed += 1;
+    }
+    if changed == 0 {
+        println!("Nothing changed.");
+    }
+    Ok(right)
+}
+
+/// Every file of [`GENERATED`] with its bytes.
+fn texts(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut texts = BTreeMap::new();
+    let mut paths: Vec<_> = GENERATED.iter().map(|path| root.join(path)).collect();
+    while let Some(path) = paths.pop() {
+        if let Ok(entries) = fs::read_dir(&path) {
+            paths.extend(entries.flatten().map(|entry| entry.path()));
+        } else if let Ok(bytes) = fs::read(&path) {
+            let path = path.strip_prefix(root).unwrap_or(&path);
+            texts.insert(path.display().to_string(), bytes);
+        }
+    }
+    texts
+}

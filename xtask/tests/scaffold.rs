@@ -1,0 +1,299 @@
+//! The scaffolds of a rule and of a module, on a copy of the source.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+fn copy(from: &Path, to: &Path) {
+    if from.is_dir() {
+        fs::create_dir_all(to).expect("a folder");
+        for entry in fs::read_dir(from).expect("a folder") {
+            let entry = entry.expect("an entry");
+            copy(&entry.path(), &to.join(entry.file_name()));
+        }
+    } else {
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(from, to).expect("a file");
+    }
+}
+
+/// What the scaffolds read and write.
+fn source() -> TempDir {
+    let folder = TempDir::new().expect("a folder");
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for part in [
+        "crates/urdd-format/src/lib.rs",
+        "crates/urdd-format/src/registry.rs",
+        "crates/urdd-generate/src/selection.rs",
+        "crates/urdd-validate/src/code.rs",
+        "crates/urdd-validate/src/rules",
+        "SPEC.md",
+        "tests/rules",
+    ] {
+        copy(&repository.join(part), &folder.path().join(part));
+    }
+    folder
+}
+
+fn new_rule(root: &Path, arguments: &[&str]) -> Output {
+    xtask(root, "new-rule", arguments)
+}
+
+fn xtask(root: &Path, command: &str, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .arg(command)
+        .args(arguments)
+        .arg("--root")
+        .arg(root)
+        .output()
+        .expect("xtask runs")
+}
+
+fn text(root: &Path, path: &str) -> String {
+    fs::read_to_string(root.join(path)).expect(path)
+}
+
+/// The next free code of a family.
+fn next(root: &Path, family: &str) -> String {
+    let codes = text(root, "crates/urdd-validate/src/code.rs");
+    let of_family = codes
+        .split_whitespace()
+        .filter(|word| word.starts_with(family));
+    let numbers = of_family.filter_map(|word| word.get(3..)?.parse::<u32>().ok());
+    format!("{family}{:03}", numbers.max().expect("a code") + 1)
+}
+
+#[test]
+fn a_rule_gets_all_of_its_files() {
+    let folder = source();
+    let root = folder.path();
+    let code = next(root, "SRC");
+    let output = new_rule(
+        root,
+        &[
+            &code,
+            "made-of-cheese",
+            "--clause",
+            "6.1.7",
+            "--severity",
+            "warning",
+        ],
+    );
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(said.contains(&format!("URDD_CASE={code}")), "{said}");
+
+    let rule = text(
+        root,
+        "crates/urdd-validate/src/rules/source/made_of_cheese.rs",
+    );
+    assert!(
+        rule.contains(&format!(
+            "{code} \"made-of-cheese\", Warning, clause \"6.1.7\""
+        )),
+        "{rule}"
+    );
+    let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
+    assert!(
+        list.contains("pub mod made_of_cheese;\n") && list.contains(" made_of_cheese,"),
+        "{list}"
+    );
+    // In order: after `inertia_…`, before `mass_…`.
+    let place = |name: &str| list.find(&format!("mod {name};")).expect(name);
+    assert!(place("inertia_not_positive_definite") < place("made_of_cheese"));
+    assert!(place("made_of_cheese") < place("mass_not_positive"));
+    assert!(text(root, "crates/urdd-validate/src/code.rs").contains(&format!(" {code}")));
+    let spec = text(root, "SPEC.md");
+    let clause = spec
+        .split("\n\n")
+        .find(|clause| clause.trim_start().starts_with("**6.1.7**"))
+        .expect("the clause");
+    assert!(
+        clause.trim_end().ends_with(&format!("[{code}]")),
+        "{clause}"
+    );
+    let cases = format!("{}_cases", code.to_lowercase());
+    let test = text(root, "tests/rules/source.rs");
+    let own = test.split(&cases).nth(1).expect("the cases");
+    assert!(
+        own.contains("Fixture::core")
+            && own.contains("todo!(")
+            && own.contains("true, base")
+            && own.contains("false, base")
+    );
+    assert!(text(root, "tests/rules/main.rs").contains(&format!("source::{cases}(),")));
+
+    // Again, it is taken.
+    let again = new_rule(root, &[&code, "made-of-cheese"]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&again.stderr).contains("next free code"));
+}
+
+#[test]
+fn every_family_can_have_another_rule() {
+    let codes = text(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join(".."),
+        "crates/urdd-validate/src/code.rs",
+    );
+    let list = codes.split_once("\ncodes! {").expect("the list").1;
+    let list = list.split_once("\n}").expect("its end").0;
+    let mut families: Vec<&str> = list
+        .split_whitespace()
+        .filter_map(|code| code.get(..3))
+        .collect();
+    families.dedup();
+    let folder = source();
+    let mut made = 0;
+    for family in families.into_iter().filter(|family| *family != "TST") {
+        let code = next(folder.path(), family);
+        let output = new_rule(
+            folder.path(),
+            &[&code, &format!("odd-{}", family.to_lowercase())],
+        );
+        assert!(
+            output.status.success(),
+            "{code}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        made += 1;
+    }
+    assert!(made > 10);
+}
+
+#[test]
+fn a_module_and_a_family_of_rules_get_all_of_their_files() {
+    let folder = source();
+    let root = folder.path();
+    let succeeds = |command: &str, arguments: &[&str]| {
+        let output = xtask(root, command, arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{arguments:?}: {said}");
+    };
+    succeeds("new-module", &["battery_pack"]);
+    succeeds(
+        "new-rule",
+        &[
+            "BAT001",
+            "no-values",
+            "--family",
+            "battery_pack",
+            "--clause",
+            "6.7.1",
+        ],
+    );
+    succeeds("new-rule", &["BAT002", "odd-values", "--clause", "6.7.1"]);
+
+    for (path, words) in [
+        (
+            "crates/urdd-format/src/battery_pack.rs",
+            "pub struct BatteryPackModule {",
+        ),
+        (
+            "crates/urdd-format/src/lib.rs",
+            "pub mod battery_pack;\npub mod bounds;",
+        ),
+        (
+            "crates/urdd-format/src/registry.rs",
+            "BatteryPack(battery_pack::BatteryPackModule): BatteryPack @ \"1.0.0\", V1;\n    LegacyUrdf(",
+        ),
+        (
+            "crates/urdd-generate/src/selection.rs",
+            "&[ModuleKind::BatteryPack, ",
+        ),
+        ("SPEC.md", "### 6.7 `battery_pack_module`\n\n**6.7.1** TODO"),
+        (
+            "SPEC.md",
+            "[BAT001] TODO: say what MUST or SHOULD be. [BAT002]\n\n## 7 ",
+        ),
+        (
+            "SPEC.md",
+            "|\n| `battery_pack_module` | `battery_pack_module` | (optional) | `urdf_module` |\n\n## 13",
+        ),
+        (
+            "crates/urdd-validate/src/code.rs",
+            "    BAT001 BAT002\n    LEG001",
+        ),
+        (
+            "crates/urdd-validate/src/rules/mod.rs",
+            "pub mod battery_pack;\npub mod bounds;",
+        ),
+        (
+            "crates/urdd-validate/src/rules/battery_pack/mod.rs",
+            "pub mod no_values;\npub mod odd_values;",
+        ),
+        (
+            "crates/urdd-validate/src/rules/battery_pack/mod.rs",
+            "rules! {\n    no_values, odd_values,\n}",
+        ),
+        (
+            "crates/urdd-validate/src/rules/battery_pack/no_values.rs",
+            "needs [ModuleV1(Kind::BatteryPack)]",
+        ),
+        ("tests/rules/main.rs", "mod battery_pack;\nmod bounds;"),
+        (
+            "tests/rules/main.rs",
+            "battery_pack::bat001_cases(),\n        battery_pack::bat002_cases(),",
+        ),
+        ("tests/rules/battery_pack.rs", "ModuleKind::BatteryPack"),
+    ] {
+        let text = text(root, path);
+        assert!(text.contains(words), "{path} has no {words:?}:\n{text}");
+    }
+
+    for (name, words) in [
+        ("battery_pack", "is there already"),
+        ("bounds_module", "is there already"),
+        ("creator", "is there already"),
+        ("Battery", "is not a name"),
+        ("3d", "is not a name"),
+    ] {
+        let output = xtask(root, "new-module", &[name]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert!(said.contains(words), "{name}: {said}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_writes_nothing() {
+    let folder = source();
+    let root = folder.path();
+    let before = text(root, "crates/urdd-validate/src/code.rs");
+    let next = next(root, "SRC");
+    for (arguments, words) in [
+        (&["SRC999", "a-name"][..], "next free code"),
+        (&["ABC001", "a-name"], "no family ABC"),
+        (&["ABC002", "a-name", "--family", "abc"], "is ABC001"),
+        (&["ABC001", "a-name", "--family", "a b"], "is not a name"),
+        (
+            &["ABC001", "a-name", "--family", "source"],
+            "is there already",
+        ),
+        (
+            &[&next, "a-name", "--family", "source"],
+            "leave out --family",
+        ),
+        (&["src009", "a-name"], "is not a code"),
+        (&["SRC01é", "a-name"], "is not a code"),
+        (&[&next, "A Name"], "is not a name"),
+        (&[&next, "crossed-limits"], "is there already"),
+        (&[&next, "a-name", "--clause", "99.9"], "no clause 99.9"),
+        (
+            &[&next, "a-name", "--severity", "grave"],
+            "write error, warning or info",
+        ),
+        (&[&next], "cargo xtask new-rule"),
+    ] {
+        let output = new_rule(root, arguments);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(said.contains(words), "{arguments:?}: {said}");
+    }
+    assert_eq!(text(root, "crates/urdd-validate/src/code.rs"), before);
+}
