@@ -4,18 +4,16 @@
 //! data. Rules are one file each, in `rules/`.
 //!
 //! ```
-//! use urdd_format::report::Severity;
 //! use urdd_validate::{settings::Settings, validate};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # let path = folder.path().join("toy");
 //! # testkit::fixture::Fixture::toy().write_to(&path);
 //! let run = validate(&[path], &Settings::default())?; // URDDs, and folders with URDDs at any depth
-//! let report = run.report(Severity::Error);
-//! for finding in report.urdds.iter().flat_map(|urdd| &urdd.findings) {
+//! for finding in run.report.urdds.iter().flat_map(|urdd| &urdd.findings) {
 //!     println!("{}: {}", finding.code, finding.message);
 //! }
-//! assert_eq!(report.urdds[0].findings, []);
+//! assert_eq!(run.report.urdds[0].findings, []);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -40,6 +38,7 @@ mod names;
 mod needs;
 #[doc(hidden)]
 pub mod part;
+#[doc(hidden)]
 pub mod reference;
 pub mod report;
 #[doc(hidden)]
