@@ -109,20 +109,3 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
         ..made
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::selection;
-
-    #[test]
-    fn whatever_can_be_selected_has_a_stage() {
-        let kinds = selection::kinds().into_iter();
-        let without: Vec<ModuleKind> = kinds.filter(|kind| of(*kind).is_none()).collect();
-        assert_eq!(
-            without,
-            [],
-            "add a stage, or say in selection.rs that it is not selectable"
-        );
-    }
-}
