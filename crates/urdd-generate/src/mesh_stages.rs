@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::distinct::for_each_content;
-use super::donor::links::{TakenFiles, TakenMesh};
+use super::donor::links::LinkMesh;
 use super::error::GenerateError;
 use super::made::{Made, MadeFile, made_with};
 use super::meshes::original::{OriginalMeshes, original_meshes};
@@ -38,7 +38,7 @@ pub(super) fn original(context: &Context) -> Result<Made<OriginalMeshes>, Genera
 pub(super) fn plain(
     context: &Context,
     original: Option<&OriginalMeshes>,
-    taken: &[Option<(GeometryKind, TakenMesh)>],
+    taken: &[Option<(GeometryKind, LinkMesh)>],
 ) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
     let preferred = context.settings.preferred_geometry;
     let robot = &context.source.reading.robot;
@@ -57,7 +57,7 @@ pub(super) fn plain(
         .map(|(link, geometry)| {
             let files = context.mesh_files(ModuleKind::PlainMeshes, link, None);
             if let Some((geometry, taken)) = taken.get(link).and_then(Option::as_ref) {
-                let contents = taken.files.named(&files);
+                let contents = taken.files(&files, Shading::Smooth)?;
                 let plain = PlainMesh {
                     geometry: *geometry,
                     files,
@@ -89,7 +89,7 @@ pub(super) fn plain(
 pub(super) fn hulls(
     context: &Context,
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<TakenMesh>>>,
+    taken: Vec<Option<Vec<LinkMesh>>>,
 ) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
     // A plain mesh has a triangle with positive area. It therefore has a convex hull.
     let hull = |mesh: &Mesh| {
@@ -125,7 +125,7 @@ pub(super) fn decomposition(settings: &Settings) -> decompose::Settings {
 pub(super) fn pieces(
     context: &Context,
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<TakenMesh>>>,
+    taken: Vec<Option<Vec<LinkMesh>>>,
 ) -> Result<Made<Vec<Vec<WrittenMesh>>>, GenerateError> {
     let settings = decomposition(context.settings);
     let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
@@ -153,16 +153,10 @@ pub(super) fn pieces(
     made_with(&module, files, pieces.collect())
 }
 
-/// A hull or a piece, with its files if a donor has them.
-struct Solid {
-    mesh: WrittenMesh,
-    files: Option<TakenFiles>,
-}
-
 /// The plain meshes for which nothing is taken, in order.
 fn not_taken<'a>(
     plain: &'a [Option<WrittenMesh>],
-    taken: &[Option<Vec<TakenMesh>>],
+    taken: &[Option<Vec<LinkMesh>>],
 ) -> Vec<&'a Mesh> {
     let to_do = plain.iter().zip(taken).filter(|(_, taken)| taken.is_none());
     let to_do = to_do.filter_map(|(plain, _)| plain.as_ref());
@@ -172,22 +166,18 @@ fn not_taken<'a>(
 /// The solids of each link: those that are taken, or the next of those that were built, in the colour of the link.
 fn solids(
     plain: &[Option<WrittenMesh>],
-    taken: Vec<Option<Vec<TakenMesh>>>,
+    taken: Vec<Option<Vec<LinkMesh>>>,
     mut built: impl Iterator<Item = Vec<Mesh>>,
-) -> Vec<Vec<Solid>> {
+) -> Vec<Vec<LinkMesh>> {
     let links = plain.iter().zip(taken).map(|(plain, taken)| {
         let Some(plain) = plain else {
             return Vec::new();
         };
         if let Some(taken) = taken {
-            let solid = |TakenMesh { mesh, files }| Solid {
-                mesh,
-                files: Some(files),
-            };
-            return taken.into_iter().map(solid).collect();
+            return taken;
         }
         let color = plain.color;
-        let solid = |mesh| Solid {
+        let solid = |mesh| LinkMesh {
             mesh: WrittenMesh { mesh, color },
             files: None,
         };
@@ -201,7 +191,7 @@ fn solids(
 fn write(
     context: &Context,
     kind: ModuleKind,
-    links: &[Vec<Solid>],
+    links: &[Vec<LinkMesh>],
 ) -> Result<(Vec<Vec<MeshFiles>>, Vec<MadeFile>), GenerateError> {
     let are_pieces = kind == ModuleKind::ConvexDecompositionMeshes;
     let written: Vec<Vec<(MeshFiles, Vec<MadeFile>)>> = links
@@ -210,10 +200,7 @@ fn write(
         .map(|(link, solids)| {
             let solids = solids.iter().enumerate().map(|(idx, solid)| {
                 let files = context.mesh_files(kind, link, are_pieces.then_some(idx));
-                let contents = match &solid.files {
-                    Some(taken) => taken.named(&files),
-                    None => files_of(&[solid.mesh.part()], &files, Shading::Flat)?,
-                };
+                let contents = solid.files(&files, Shading::Flat)?;
                 Ok((files, contents))
             });
             solids.collect()

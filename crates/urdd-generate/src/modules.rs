@@ -22,7 +22,7 @@ use urdd_format::root_metadata::FileEntry;
 pub struct MadeModule {
     /// Which module.
     pub kind: ModuleKind,
-    /// Whether it was kept from the old URDD because none of its inputs changed.
+    /// Whether it was kept from the replaced URDD because none of its inputs changed.
     pub kept: bool,
 }
 

@@ -10,6 +10,7 @@ use super::meshes::written::{WrittenMesh, read_mesh};
 use urdd_directory::root::Root;
 use urdd_format::convex_decomposition_meshes::ConvexDecompositionMeshesModule;
 use urdd_format::convex_hull_meshes::ConvexHullMeshesModule;
+use urdd_format::meshes::MeshFiles;
 use urdd_format::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
 
@@ -67,8 +68,7 @@ pub(super) fn plain(
 ) -> Result<Vec<Option<WrittenMesh>>, GenerateError> {
     let module: Arc<PlainMeshesModule> = document(root, kind)?;
     let links = module.link_meshes.iter().map(Option::as_ref);
-    let meshes = links.map(|link| link.map(|mesh| read_mesh(root, &mesh.files)));
-    meshes.map(Option::transpose).collect()
+    one_each(root, links.map(|link| link.map(|mesh| &mesh.files)))
 }
 
 /// Reads the hull of each link.
@@ -77,7 +77,13 @@ pub(super) fn hulls(
     kind: ModuleKind,
 ) -> Result<Vec<Option<WrittenMesh>>, GenerateError> {
     let module: Arc<ConvexHullMeshesModule> = document(root, kind)?;
-    let links = module.link_hulls.iter().map(Option::as_ref);
+    one_each(root, module.link_hulls.iter().map(Option::as_ref))
+}
+
+fn one_each<'a>(
+    root: &Root,
+    links: impl Iterator<Item = Option<&'a MeshFiles>>,
+) -> Result<Vec<Option<WrittenMesh>>, GenerateError> {
     let meshes = links.map(|link| link.map(|files| read_mesh(root, files)));
     meshes.map(Option::transpose).collect()
 }

@@ -35,18 +35,16 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
         let taken = donors.plain(context, original.as_ref(), digests);
         meshes::plain(context, original.as_ref(), &taken)
     })?;
-    let hulls = modules.product(Kind::ConvexHullMeshes, product::hulls, |digests| {
+    let kind = Kind::ConvexHullMeshes;
+    let hulls = modules.product(kind, product::hulls, |digests| {
         let plain = plain.get()?;
-        meshes::hulls(context, plain, donors.hulls(context, plain, digests))
+        meshes::hulls(context, plain, donors.solids(context, kind, plain, digests))
     })?;
-    let pieces = modules.product(
-        Kind::ConvexDecompositionMeshes,
-        product::pieces,
-        |digests| {
-            let plain = plain.get()?;
-            meshes::pieces(context, plain, donors.pieces(context, plain, digests))
-        },
-    )?;
+    let kind = Kind::ConvexDecompositionMeshes;
+    let pieces = modules.product(kind, product::pieces, |digests| {
+        let plain = plain.get()?;
+        meshes::pieces(context, plain, donors.solids(context, kind, plain, digests))
+    })?;
 
     let solids = || -> Result<_, GenerateError> {
         let (hulls, pieces) = (hulls.get()?, pieces.get()?);

@@ -10,9 +10,10 @@ use sha2::{Digest, Sha256};
 use super::Donor;
 use super::link_keys::link_keys;
 use crate::context::Context;
+use crate::error::GenerateError;
 use crate::made::{Digests, MadeFile};
 use crate::meshes::original::OriginalMeshes;
-use crate::meshes::written::{WrittenMesh, read_glb};
+use crate::meshes::written::{Shading, WrittenMesh, files_of, read_glb};
 use crate::shapes::{ConvexMeshes, Shape};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
@@ -27,22 +28,35 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata;
 use urdd_format::urdf::UrdfModule;
 
-/// A mesh of a donor.
-pub(crate) struct TakenMesh {
+/// A mesh of a link, and its files if a donor has them.
+pub(crate) struct LinkMesh {
     pub mesh: WrittenMesh,
-    pub files: TakenFiles,
+    pub files: Option<DonorFiles>,
+}
+
+impl LinkMesh {
+    /// Its files under these names: those of the donor, or new ones.
+    pub fn files(
+        &self,
+        names: &MeshFiles,
+        shading: Shading,
+    ) -> Result<Vec<MadeFile>, GenerateError> {
+        match &self.files {
+            Some(files) => Ok(files.named(names)),
+            None => files_of(&[self.mesh.part()], names, shading),
+        }
+    }
 }
 
 /// The bytes of the files of a mesh.
-pub(crate) struct TakenFiles {
+pub(crate) struct DonorFiles {
     stl: Option<Arc<Vec<u8>>>,
     obj: Option<Arc<Vec<u8>>>,
     glb: Arc<Vec<u8>>,
 }
 
-impl TakenFiles {
-    /// The files under these names.
-    pub fn named(&self, names: &MeshFiles) -> Vec<MadeFile> {
+impl DonorFiles {
+    fn named(&self, names: &MeshFiles) -> Vec<MadeFile> {
         let stl = names.stl.as_ref().zip(self.stl.as_ref());
         let obj = names.obj.as_ref().zip(self.obj.as_ref());
         let all = stl.into_iter().chain(obj).chain([(&names.glb, &self.glb)]);
@@ -153,7 +167,7 @@ impl DonorLinks {
         context: &Context,
         original: Option<&OriginalMeshes>,
         digests: &Digests,
-    ) -> Vec<Option<(GeometryKind, TakenMesh)>> {
+    ) -> Vec<Option<(GeometryKind, LinkMesh)>> {
         let Some(original) = original.filter(|_| !self.donors.is_empty()) else {
             return Vec::new();
         };
@@ -167,33 +181,18 @@ impl DonorLinks {
         taken.collect()
     }
 
-    /// The hull of each link, if a donor has it for the same plain mesh.
-    pub fn hulls(
+    /// The hulls or the pieces of each link, if a donor has them for the same plain mesh.
+    pub fn solids(
         &self,
         context: &Context,
+        kind: ModuleKind,
         plain: &[Option<WrittenMesh>],
         digests: &Digests,
-    ) -> Vec<Option<Vec<TakenMesh>>> {
-        self.of_plain(&self.hulls, context, plain, digests)
-    }
-
-    /// The pieces of each link, if a donor has them for the same plain mesh.
-    pub fn pieces(
-        &self,
-        context: &Context,
-        plain: &[Option<WrittenMesh>],
-        digests: &Digests,
-    ) -> Vec<Option<Vec<TakenMesh>>> {
-        self.of_plain(&self.pieces, context, plain, digests)
-    }
-
-    fn of_plain(
-        &self,
-        known: &HashMap<String, Place<Vec<MeshFiles>>>,
-        context: &Context,
-        plain: &[Option<WrittenMesh>],
-        digests: &Digests,
-    ) -> Vec<Option<Vec<TakenMesh>>> {
+    ) -> Vec<Option<Vec<LinkMesh>>> {
+        let known = match kind {
+            ModuleKind::ConvexHullMeshes => &self.hulls,
+            _ => &self.pieces,
+        };
         let taken = plain.par_iter().enumerate().map(|(link, plain)| {
             plain.as_ref().filter(|_| !known.is_empty())?;
             // All meshes have the same formats.
@@ -231,20 +230,20 @@ impl DonorLinks {
 
 impl Files {
     /// A mesh with the wanted files, if all of them are unchanged.
-    fn take(&self, files: &MeshFiles, wanted: &MeshFiles) -> Option<TakenMesh> {
+    fn take(&self, files: &MeshFiles, wanted: &MeshFiles) -> Option<LinkMesh> {
         let beside = |there: &Option<String>, wanted: &Option<String>| match (there, wanted) {
             (_, None) => Some(None),
             (Some(path), Some(_)) => self.intact(path).map(Some),
             (None, Some(_)) => None,
         };
         let glb = self.intact(&files.glb)?;
-        Some(TakenMesh {
+        Some(LinkMesh {
             mesh: read_glb(&glb, &files.glb).ok()?,
-            files: TakenFiles {
+            files: Some(DonorFiles {
                 stl: beside(&files.stl, &wanted.stl)?,
                 obj: beside(&files.obj, &wanted.obj)?,
                 glb,
-            },
+            }),
         })
     }
 

@@ -92,15 +92,7 @@ pub(crate) fn load(
         is_verbatim = false;
     }
     let names = names(&canonical);
-    source(Read {
-        shown,
-        folder,
-        names,
-        bytes,
-        text,
-        is_verbatim,
-        notes,
-    })
+    source(shown, folder, names, bytes, (text, is_verbatim), notes)
 }
 
 /// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`.
@@ -127,40 +119,19 @@ pub(crate) fn load_text(
     let mut notes = Vec::new();
     let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
     let names = names(Path::new("robot.urdf"));
-    source(Read {
-        shown,
-        folder,
-        names,
-        bytes,
-        text,
-        is_verbatim,
-        notes,
-    })
+    source(shown, folder, names, bytes, (text, is_verbatim), notes)
 }
 
-/// The inputs of `source`.
-struct Read {
+/// `names` are the file name without its extensions, and the file name in the URDD. `is_verbatim` is true if the text is an
+/// exact decoding of the bytes.
+fn source(
     shown: String,
     folder: PathBuf,
-    /// The file name without its extensions, and the file name in the URDD.
     names: (String, String),
     bytes: Vec<u8>,
-    text: String,
-    /// Whether the text is an exact decoding of the bytes.
-    is_verbatim: bool,
-    notes: Vec<Note>,
-}
-
-fn source(read: Read) -> Result<Source, GenerateError> {
-    let Read {
-        shown,
-        folder,
-        names,
-        bytes,
-        text,
-        mut is_verbatim,
-        mut notes,
-    } = read;
+    (text, mut is_verbatim): (String, bool),
+    mut notes: Vec<Note>,
+) -> Result<Source, GenerateError> {
     let (name, file_name) = names;
     let mended = mend(text, &name, &shown, &mut notes)?;
     is_verbatim &= mended.is_verbatim;
