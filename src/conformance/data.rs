@@ -98,7 +98,7 @@ mod tests {
         let packed = archive::pack(&files).expect("an archive");
         assert_eq!(archive::unpack(&packed).expect("what was packed"), files);
         assert_eq!(archive::pack(&files).expect("the same again"), packed);
-        // The archive adds about 0.8 MB to the program, for the 7 MB of the suite.
+        // The archive adds about 0.8 MB to the program.
         assert!(packed.len() < 1_500_000, "{} bytes", packed.len());
         assert!(archive::unpack(&packed[..packed.len() / 2]).is_err());
     }
