@@ -43,7 +43,7 @@ pub enum ReadError {
     #[error("{0}")]
     Archive(#[from] ArchiveFault),
     /// A folder too deep to be searched.
-    #[error("it is more than {limit} folders deep; give its path to examine it")]
+    #[error("it is deeper than {limit} folders; give its path to examine it")]
     TooDeep {
         /// Maximum search depth, folders.
         limit: usize,
