@@ -25,24 +25,25 @@ pub struct CheckCollisionsArguments {
     #[arg(value_name = "URDD")]
     path: PathBuf,
 
-    /// Configurations: a file, or `-` for standard input. On each line a value for each DOF (rad or m), as a JSON list,
-    /// as a JSON object by names of DOFs, or with commas between them. Without, the robot's default configuration.
+    /// File with one configuration per line, or `-` for standard input. A line is a JSON list with a value for each DOF
+    /// (rad or m), a JSON object of DOF names and values, or comma-separated values. Default: the robot's default
+    /// configuration.
     #[arg(long, short, value_name = "FILE", conflicts_with = "random")]
     configurations: Option<PathBuf>,
 
-    /// So many random configurations within the bounds, the same in each run.
+    /// Checks N random configurations within the bounds, the same ones in each run.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_RANDOM))]
     random: Option<u64>,
 
-    /// Which shapes stand for the links.
+    /// Shapes that represent the links.
     #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
     shapes: Shapes,
 
-    /// How many of the nearest pairs to show for each configuration.
+    /// Number of nearest pairs to show for each configuration.
     #[arg(long, value_name = "K", default_value_t = 3)]
     nearest: usize,
 
-    /// As text, or as JSON: one object a line for each configuration.
+    /// Output format: text, or JSON with one object per line for each configuration.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -159,7 +160,7 @@ fn totals(proximity: &Proximity, count: u64) -> String {
         count => format!("{count} configurations"),
     };
     format!(
-        "{configurations}, {} shapes ({}), {} pairs that are not skipped\n",
+        "{configurations}, {} shapes ({}), {} pairs not skipped\n",
         proximity.num_shapes(),
         proximity.kind(),
         proximity.num_pairs()

@@ -20,22 +20,22 @@ const FAILED: u8 = 1;
 /// Arguments of `urdd combine`.
 #[derive(Args)]
 #[command(
-    after_help = "A recipe names the parts, and what each hangs on (docs/combine.md has all keys):\n\n  \
+    after_help = "A recipe lists the parts, and where each one is attached (docs/combine.md explains all keys):\n\n  \
     name = \"cell\"\n\n  [[part]]\n  id = \"arm\"\n  source = \"arm_urdd\"\n  prefix = \"\"\n\n  [[part]]\n  id = \"gripper\"\n  \
     source = \"gripper.urdf\"\n  attach = { to = \"arm/tool0\", xyz = [0, 0, 0.1] }\n\n\
     A part is a URDD (a folder or a zip archive), or a URDF or xacro file. URDDs are validated first, and one with errors is \
     refused.\n\n\
-    Parts are in the folder of the recipe, or in one that --allow-folder names; a xacro file that a recipe names runs only \
-    with --xacro.\n\n\
-    Exit status: 0 made; 1 not made; 2 wrong usage, or results could not be written; 129, 130 or 143 stopped by a signal."
+    Parts must be in the recipe's folder, or in a folder given by --allow-folder. A xacro file named in a recipe is \
+    expanded only with --xacro.\n\n\
+    Exit status: 0 combined; 1 not combined; 2 usage error, or results could not be written; 129, 130 or 143 stopped by a signal."
 )]
 pub struct CombineArguments {
-    /// A recipe; or two robots, the second of which hangs on the link `--at` of the first.
+    /// A recipe; or two robots, where the second is attached to the link `--at` of the first.
     #[arg(required_unless_present = "from", conflicts_with = "from", num_args = 1..=2, value_name = "RECIPE.toml|ROBOT")]
     sources: Vec<PathBuf>,
 
-    /// A published URDD of before version 1 that was combined, adjusted or created; its parts lie beside it. Without
-    /// --output, its recipe is printed.
+    /// A published URDD from before version 1 that was combined, adjusted or created, with its parts beside it. Without
+    /// --output, prints its recipe.
     #[arg(long, value_name = "LEGACY_DIR")]
     from: Option<PathBuf>,
 
@@ -43,19 +43,19 @@ pub struct CombineArguments {
     #[arg(long, short, value_name = "DIR", required_unless_present = "from")]
     output: Option<PathBuf>,
 
-    /// Of two robots: the link of the first one that the second hangs on.
+    /// For two robots: link of the first robot that the second one is attached to.
     #[arg(long, value_name = "LINK")]
     at: Option<String>,
 
-    /// Of two robots: position of the second one's root in the frame of that link, metres.
+    /// For two robots: position of the second one's root in the frame of that link, in metres.
     #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], allow_negative_numbers = true, requires = "at")]
     xyz: Option<Vec<f64>>,
 
-    /// Of two robots: fixed-axis roll, pitch, yaw of the second one's root in that frame, radians.
+    /// For two robots: fixed-axis roll, pitch, yaw of the second one's root in that frame, in radians.
     #[arg(long, num_args = 3, value_names = ["ROLL", "PITCH", "YAW"], allow_negative_numbers = true, requires = "at")]
     rpy: Option<Vec<f64>>,
 
-    /// Of two robots: the name of what is made; without it, the names of both.
+    /// For two robots: name of the combined robot; default: the names of both.
     #[arg(long, requires = "at")]
     name: Option<String>,
 
@@ -99,10 +99,10 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
             let pose = [three(&arguments.xyz), three(&arguments.rpy)];
             Recipe::of_two(holder, held, arguments.name.as_deref(), at, pose)
         }
-        ([_], Some(_)) => return Err("--at is for two robots: give the second one too".to_owned()),
+        ([_], Some(_)) => return Err("--at attaches a second robot: give two robots".to_owned()),
         _ => {
             return Err(
-                "of two robots, --at names the link of the first one that the second hangs on"
+                "two robots need --at: give the link of the first robot that the second one is attached to"
                     .to_owned(),
             );
         }

@@ -70,7 +70,7 @@ fn text(file: &Path) -> Result<String, String> {
     read.map_err(|error| error.to_string())?;
     if bytes.len() as u64 == MAX_BYTES {
         return Err(format!(
-            "it has more than {MAX_BYTES} bytes: give less at a time"
+            "it has more than {MAX_BYTES} bytes: split it into smaller files"
         ));
     }
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
@@ -86,7 +86,7 @@ fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Strin
     let number = |value: &Value| {
         value
             .as_f64()
-            .ok_or_else(|| format!("{} is no number", escape::line(&value.to_string())))
+            .ok_or_else(|| format!("{} is not a number", escape::line(&value.to_string())))
     };
     match &value {
         Value::Array(values) => {
@@ -127,7 +127,7 @@ fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Listed, (u64, St
             let found: Vec<usize> = record.iter().map(index).collect::<Result<_, _>>()?;
             if let Some(missing) = (0..dofs.len()).find(|dof| !found.contains(dof)) {
                 let name = escape::line(&dofs[missing]);
-                return Err(fail(format!("there is no column for the DOF `{name}`")));
+                return Err(fail(format!("the column for the DOF `{name}` is missing")));
             }
             if found.len() != dofs.len() {
                 return Err(fail("a DOF has two columns".to_owned()));
@@ -136,7 +136,7 @@ fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Listed, (u64, St
             continue;
         }
         let parse = |field: &str| {
-            let why = || fail(format!("`{}` is no number", escape::line(field)));
+            let why = || fail(format!("`{}` is not a number", escape::line(field)));
             field.parse::<f64>().map_err(|_| why())
         };
         let values: Vec<f64> = record.iter().map(parse).collect::<Result<_, _>>()?;
@@ -158,7 +158,7 @@ fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, String> {
         let (found, expected) = (values.len(), dofs.len());
         let names: Vec<_> = dofs.iter().map(|name| escape::line(name)).collect();
         return Err(format!(
-            "{found} values, and the robot has {expected} DOFs: {}",
+            "{found} values, but the robot has {expected} DOFs: {}",
             names.join(", ")
         ));
     }

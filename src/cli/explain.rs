@@ -16,19 +16,19 @@ use urdd_validate::selection::Codes;
 /// Arguments of `urdd explain`.
 #[derive(Args)]
 pub struct ExplainArguments {
-    /// Code of a rule, such as DOF003, or its name; or a family, such as DOF. Without it, every rule is listed.
+    /// Code of a rule, such as DOF003, or its name; or a family, such as DOF. Default: lists every rule.
     rule: Option<String>,
 
-    /// How it is written.
+    /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Text for people.
     Human,
-    /// As JSON: an object for each rule.
+    /// JSON: an object for each rule.
     Json,
 }
 
@@ -62,7 +62,7 @@ pub fn run(arguments: &ExplainArguments) -> ExitCode {
 fn without_rule(wanted: &str, format: Format) -> ExitCode {
     let Some(retired) = RetiredCode::parse(wanted) else {
         return printed(Err(format!(
-            "there is no rule `{}`; `urdd explain` without a code lists them",
+            "unknown rule `{}`; `urdd explain` without a code lists all rules",
             escape::line(wanted)
         )));
     };

@@ -20,7 +20,7 @@ const MAX_SRDF_BYTES: u64 = 16 << 20;
 /// Arguments of `urdd export`.
 #[derive(Args)]
 #[command(
-    after_help = "Meshes go into a folder beside the file, named as it is with `_meshes` after it.\n\n\
+    after_help = "Meshes are written to a folder beside the file: the file's name without its extension, followed by `_meshes`.\n\n\
     Exit status: 0 written; 2 nothing was written."
 )]
 pub struct ExportArguments {
@@ -32,51 +32,51 @@ pub struct ExportArguments {
     #[arg(value_name = "URDD")]
     path: PathBuf,
 
-    /// The file to write; `-` prints a format without meshes.
+    /// The file to write; `-` prints a format that has no mesh files.
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 
-    /// Which shapes stand for the links: as collision geometry, and for which pairs are disabled.
+    /// Shapes that represent the links, in the collision geometry and in the disabled pairs.
     #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
     shapes: Shapes,
 
-    /// For which reasons pairs of links are disabled, separated by commas. Without it, those of the URDD. A person's
-    /// edits hold in either case.
+    /// Reasons for which pairs of links are disabled, separated by commas. Default: those of the URDD. A person's edits
+    /// apply in either case.
     #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
     reasons: Option<Vec<Skip>>,
 
-    /// Checks a pair of links of which the URDD skips some pieces and checks others, in formats that know links only.
-    /// Without it, such a pair is disabled. MJCF has each piece as the URDD has it, in either case.
+    /// Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
+    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece.
     #[arg(long)]
     keep_pairs: bool,
 
-    /// At most so many spheres for each link. Without it, 12 on average and at most 150 in all; with `--cover`, 8.
+    /// Maximum number of spheres per link. Default: 12 on average and at most 150 in total; with `--cover`, 8.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     spheres: Option<u16>,
 
-    /// At most so many spheres for all links together, but at least one for each.
+    /// Maximum number of spheres for all links together; each link has at least one.
     #[arg(long, value_name = "N", conflicts_with = "spheres", value_parser = clap::value_parser!(u16).range(1..))]
     total_spheres: Option<u16>,
 
-    /// Spheres hold all of each link. No collision is missed then, but often every configuration is in contact: the file
-    /// says how often. Without it, spheres are fitted such that they answer as the shapes do.
+    /// Makes the spheres enclose each link completely. No collision is missed then, but often every configuration is in
+    /// contact; the file states how often. By default, spheres are fitted to give the same answers as the shapes.
     #[arg(long)]
     cover: bool,
 
-    /// In how many sampled configurations spheres are measured, or fewer where that is much work.
+    /// Number of sampled configurations in which spheres are measured; fewer where that would take long.
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     samples: u32,
 
-    /// Leaves out what links look like: the file has collision geometry only.
+    /// Leaves out visual geometry.
     #[arg(long)]
     no_visuals: bool,
 
-    /// Replaces the pairs of links in an SRDF that is there, but those that a person wrote (their reason is `User`, or a
-    /// text), and leaves everything else in it as it is.
+    /// Replaces the pairs of links in an existing SRDF, except those that a person wrote (their reason is `User` or free
+    /// text). Everything else in the file is unchanged.
     #[arg(long, conflicts_with = "force")]
     update: bool,
 
-    /// Writes over files that are there.
+    /// Overwrites existing files.
     #[arg(long)]
     force: bool,
 }
@@ -85,15 +85,15 @@ pub struct ExportArguments {
 enum Target {
     /// Pairs of links that need no check, for MoveIt.
     Srdf,
-    /// The robot with our shapes as collision geometry.
+    /// URDF of the robot, with the URDD's shapes as collision geometry.
     Urdf,
     /// The same for Drake, with collision filter groups.
     Drake,
     /// For MuJoCo: bodies, joints, shapes, excluded pairs.
     Mjcf,
-    /// Spheres and ignored pairs by link, for cuRobo.
+    /// Spheres and ignored pairs per link, for cuRobo.
     Curobo,
-    /// Spheres by link, as Foam writes them.
+    /// Spheres per link, in Foam's format.
     Foam,
 }
 
@@ -123,10 +123,10 @@ fn write(arguments: &ExportArguments) -> Result<(), String> {
     let output = &arguments.output;
     let to_standard_output = output.as_os_str() == "-";
     if to_standard_output && arguments.format.has_meshes() {
-        return Err("this format has mesh files beside it: give a file with -o".to_owned());
+        return Err("this format writes mesh files beside its own: give a file with -o".to_owned());
     }
     if arguments.update && arguments.format != Target::Srdf {
-        return Err("--update is for SRDF only; --force writes over a file".to_owned());
+        return Err("--update is for SRDF only; --force overwrites a file".to_owned());
     }
     let robot = shapes::open(&arguments.path)?;
     let stem = output.file_stem().map(|stem| stem.to_string_lossy());
@@ -180,7 +180,7 @@ fn merged(file: &Path, new: &str) -> Result<String, String> {
     let failed = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
     let old = regular::read(file, MAX_SRDF_BYTES).map_err(|error| {
         failed(&format!(
-            "cannot be read: {error}; leave --update out to write a new file"
+            "cannot be read: {error}; omit --update to write a new file"
         ))
     })?;
     let old = String::from_utf8(old).map_err(|_| failed(&"it is not UTF-8"))?;
@@ -192,12 +192,14 @@ fn merged(file: &Path, new: &str) -> Result<String, String> {
     if merged.kept > 0 {
         let pairs = pairs(merged.kept);
         output::error(&format!(
-            "note: {pairs} kept that a person disabled: their reason is none of Adjacent, Always, Default, Never"
+            "note: kept {pairs} that a person disabled: their reason is not Adjacent, Always, Default or Never"
         ));
     }
     if merged.enabled > 0 {
         let pairs = pairs(merged.enabled);
-        output::error(&format!("note: {pairs} not disabled that a person enabled"));
+        output::error(&format!(
+            "note: did not disable {pairs} that a person enabled"
+        ));
     }
     Ok(merged.text)
 }
@@ -224,7 +226,7 @@ fn refuse_existing(arguments: &ExportArguments, made: &Export, place: &Path) -> 
         _ => "",
     };
     Err(format!(
-        "{} is there already: --force writes over it{also}",
+        "{} already exists: --force overwrites it{also}",
         escape::line(&there.display().to_string())
     ))
 }

@@ -26,8 +26,8 @@ fn of_file(path: &Path) -> Option<&'static str> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let by_name = match extension.to_ascii_lowercase().as_str() {
         "xacro" => Some(
-            "this is a xacro file; `urdd generate` expands it and makes a URDD of it, \
-             or `xacro FILE > robot.urdf` makes a URDF that can be validated",
+            "this is a xacro file; `urdd generate` expands it and generates a URDD, \
+             or `xacro FILE > robot.urdf` writes a URDF that can be validated",
         ),
         "sdf" | "world" => Some(SDF),
         "srdf" => Some(
@@ -36,19 +36,19 @@ fn of_file(path: &Path) -> Option<&'static str> {
         ),
         "mjcf" => Some(MJCF),
         "usd" | "usda" | "usdc" | "usdz" => Some(
-            "this is USD; URDDs are made of URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
+            "this is USD; URDDs are generated from URDF: export one (Isaac Sim has a URDF exporter), then `urdd generate`",
         ),
         "json" | "yaml" | "yml" => Some(
-            "this is a file of a URDD, or none; give the folder that holds urdd.json and the module folders",
+            "a URDD is a folder, not a single file; give the folder that contains urdd.json and the module folders",
         ),
         _ => None,
     };
     by_name.or_else(|| by_content(path))
 }
 
-const SDF: &str = "this is SDF; URDDs are made of URDF: convert it (for example with `sdf2urdf`), then `urdd generate`";
-const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are made of URDF: look for the URDF that it was made \
-    from, or convert it, then `urdd generate`";
+const SDF: &str = "this is SDF; URDDs are generated from URDF: convert it (for example with `sdf2urdf`), then `urdd generate`";
+const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are generated from URDF: look for the original URDF, \
+    or convert it, then `urdd generate`";
 
 fn by_content(path: &Path) -> Option<&'static str> {
     let mut head = Vec::new();
@@ -61,7 +61,7 @@ fn by_content(path: &Path) -> Option<&'static str> {
         Some(SDF)
     } else if head.contains("<robot") {
         Some(
-            "this looks like a URDF; name it .urdf to validate it by itself, or make a URDD of it with `urdd generate`",
+            "this looks like a URDF; name it .urdf to validate it on its own, or use `urdd generate` to generate a URDD from it",
         )
     } else {
         None

@@ -24,28 +24,28 @@ const STANDARD_INPUT: &str = "-";
 /// Arguments of `urdd generate`.
 #[derive(Args)]
 #[command(
-    after_help = "Mesh files are taken from the URDF's folder (or the package, or the folder above `urdf/`, that it lies in), from \
-    packages, and from folders that --allow-folder names; a robot that names other files is refused. A .xacro file is \
+    after_help = "Mesh files are read from the URDF's folder (or the package, or the folder above `urdf/`, that contains it), from \
+    packages, and from folders given by --allow-folder; a robot that names other files is refused. A .xacro file is \
     expanded by the program `xacro`.\n\n\
-    Mesh names are looked up as ROS does: package:// by --package, by package.xml or a folder of that \
+    Mesh names are resolved as in ROS: package:// by --package, by package.xml or a folder of that \
     name at or above the URDF, by ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; file://, relative to the URDF, absolute.\n\n\
-    Exit status: 0 every robot was made; 1 some were not; 2 wrong usage, no robot was found, or results could not be \
+    Exit status: 0 every robot was generated; 1 some were not; 2 usage error, no robot was found, or results could not be \
     written; 130 or 143 stopped by a signal."
 )]
 pub struct GenerateArguments {
-    /// A URDF or xacro file, or `-` for a URDF from standard input; or several, or folders of them, for a batch. A word
+    /// A URDF or xacro file, or `-` for a URDF from standard input; several files, or folders of them, are a batch.
     /// `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "ROBOT.urdf")]
     robots: Vec<PathBuf>,
 
-    /// The folder of the URDD; of a batch, the folder that gets a URDD for each robot.
+    /// Folder of the URDD; for a batch, the folder that contains a URDD for each robot.
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
 
     #[command(flatten)]
     making: MakingArguments,
 
-    /// Of a batch, only the i-th of n parts.
+    /// Generates only the i-th of n parts of a batch.
     #[arg(long, value_name = "i/n")]
     shard: Option<Shard>,
 }
@@ -66,7 +66,9 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     std::panic::set_hook(Box::new(|_| {}));
     let is_batch = batch::is_batch(&robots);
     if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
-        return Err("`-` is one robot, and cannot be part of a batch".to_owned());
+        return Err(
+            "`-` cannot be part of a batch: it reads one robot from standard input".to_owned(),
+        );
     }
     let printer = Printer::new(
         arguments.making.format,
@@ -95,13 +97,13 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
             return Err("--shard is for batches: give several robots, or a folder".to_owned());
         }
         let source = robots.into_iter().next();
-        let source = source.ok_or("there is no robot; give a URDF or xacro file")?;
+        let source = source.ok_or("no robot given; give a URDF or xacro file")?;
         check_used(arguments, &settings, [source.as_path()])?;
         one(source, &arguments.output, &settings, &pool, &printer)?
     };
     let _ = std::panic::take_hook();
     if let Some(status) = signals.status() {
-        output::error("stopped by a signal; URDDs that were not done are as they were before");
+        output::error("stopped by a signal; URDDs that were not finished are unchanged");
         return Ok(status);
     }
     match printer.unprinted() {
@@ -122,7 +124,7 @@ fn check_used<'a>(
     };
     match settings.xacro.arguments.first() {
         Some(unused) if !sources.into_iter().any(is_expanded) => Err(format!(
-            "`{}` is an argument for xacro, and there is no .xacro file; `--xacro` expands macros in .urdf files too",
+            "`{}` is an argument for xacro, but no .xacro file is given; `--xacro` also expands macros in .urdf files",
             escape::line(unused)
         )),
         _ => Ok(()),

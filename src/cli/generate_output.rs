@@ -21,9 +21,9 @@ const MOST_TOLD: usize = 3;
 /// How results are written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
-    /// For people.
+    /// Text for people.
     Human,
-    /// As JSON lines: one object a robot, and after a batch one with the totals.
+    /// JSON lines: one object per robot, and after a batch one with the totals.
     Json,
 }
 

@@ -18,16 +18,16 @@ pub struct InfoArguments {
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
-    /// How it is told.
+    /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Text for people.
     Human,
-    /// As JSON: a list with an object per URDD.
+    /// JSON: a list with an object per URDD.
     Json,
 }
 

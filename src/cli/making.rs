@@ -16,26 +16,26 @@ use urdd_generate::{MeshFormats, Packages, Pieces, Selection, Settings, XacroSet
 /// How a URDD is made.
 #[derive(Args)]
 pub(super) struct MakingArguments {
-    /// Modules to make besides the core class, or classes (core, geometry, shapes), separated by commas; what they are
-    /// derived from is made too. Without it, all but self_collision_model, which takes some seconds to train.
+    /// Modules or classes (core, geometry, shapes) to generate besides the core class, separated by commas. The modules
+    /// that they depend on are added. Default: all except self_collision_model, which takes some seconds to train.
     #[arg(long, value_name = "MODULES", value_delimiter = ',')]
     modules: Vec<String>,
 
-    /// Where a ROS package is; may be given again.
+    /// Folder of a ROS package. May be repeated.
     #[arg(long = "package", value_name = "NAME=PATH")]
     packages: Vec<String>,
 
-    /// A folder besides those of the robot and its packages from which mesh files may be taken, and the parts of a recipe
-    /// besides its own folder; may be given again.
+    /// Additional folder that mesh files and the parts of a recipe may be read from, besides those of the robot, its
+    /// packages and the recipe. May be repeated.
     #[arg(long = "allow-folder", value_name = "DIR")]
     allowed_folders: Vec<PathBuf>,
 
-    /// Which geometry links are made from; a link that has none of it gets the other.
+    /// Elements that the geometry of links is taken from. A link without any of them uses the other kind.
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
     geometry: Preferred,
 
-    /// The files of each plain mesh, hull and piece, separated by commas. The .glb is always made; `glb` alone makes a
-    /// URDD about half as large.
+    /// File formats of each plain mesh, hull and piece, separated by commas. The .glb is always written; `glb` alone
+    /// makes the URDD about half as large.
     #[arg(
         long,
         value_enum,
@@ -45,49 +45,49 @@ pub(super) struct MakingArguments {
     )]
     mesh_formats: Vec<MeshFormat>,
 
-    /// Most convex pieces of a link.
+    /// Maximum number of convex pieces per link.
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u8).range(1..=64))]
     pieces: u8,
 
-    /// A link gets no more pieces than are needed for this mean distance from their outside to its surface, metres.
-    /// Without it, as many as save enough, of small links and large ones alike.
+    /// Stops adding pieces to a link once the estimated mean distance from their outside to its surface is at most this,
+    /// in metres. By default, stops once another piece would save too little in proportion to the link's size.
     #[arg(long, value_name = "METRES", value_parser = length)]
     piece_tolerance: Option<f64>,
 
-    /// Sampled configurations of the distance statistics, 100,000 at most.
+    /// Number of sampled configurations for the distance statistics, at most 100,000.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     samples: u32,
 
-    /// For which reasons pairs of shapes are skipped in collision checks, separated by commas. Without it, those of the
-    /// URDD that is replaced; of a new one same-link, always, adjacent and default. `never` rests on samples alone.
+    /// Reasons for which collision checks skip pairs of shapes, separated by commas. Default: those of the URDD that is
+    /// replaced; for a new one same-link, always, adjacent and default. `never` is based on samples alone.
     #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
     skip: Option<Vec<Skip>>,
 
-    /// Threads; without it, one for each processor. The URDD is the same for any number.
+    /// Number of threads; default: one per processor. The URDD is the same for any number.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
 
-    /// Makes nothing of a robot of which a mesh is not found, or anything has to be assumed that changes it.
+    /// Refuses a robot if a mesh is not found, or if an assumption would change the robot.
     #[arg(long)]
     strict: bool,
 
-    /// Expands macros in .urdf files too, and the xacro files that a recipe names.
+    /// Also expands macros in .urdf files, and the xacro files named in a recipe.
     #[arg(long)]
     pub(super) xacro: bool,
 
-    /// How long xacro may take for a file, seconds.
+    /// Time limit for xacro per file, in seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
     xacro_timeout: u32,
 
-    /// Drops the edits of skips in the URDD that is replaced; without it, a new run keeps them, or stops where it cannot.
+    /// Drops the edits of skips in the URDD that is replaced. By default, a new run keeps them, or stops if it cannot.
     #[arg(long)]
     drop_edits: bool,
 
-    /// Writes into a folder that holds something else than a URDD of this program. Files of other names stay.
+    /// Writes even into a folder that contains something other than a URDD of this program. Files with other names stay.
     #[arg(long)]
     force: bool,
 
-    /// How results are written to standard output.
+    /// Format of the results on standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub(super) format: Format,
 }
@@ -112,7 +112,7 @@ enum MeshFormat {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Skip {
-    /// Both shapes are on one link.
+    /// Both shapes belong to the same link.
     SameLink,
     /// In contact in every sampled configuration.
     Always,
@@ -140,7 +140,7 @@ impl From<Skip> for SkippedReason {
 fn length(word: &str) -> Result<f64, String> {
     match word.parse() {
         Ok(length) if length > 0.0 && f64::is_finite(length) => Ok(length),
-        _ => Err("it is to be a number above 0, in metres".to_owned()),
+        _ => Err("expected a number above 0, in metres".to_owned()),
     }
 }
 

@@ -35,7 +35,7 @@ use urdd_format::escape;
 #[derive(Parser)]
 #[command(name = "urdd", version, about, arg_required_else_help = true)]
 struct Arguments {
-    /// When output is coloured.
+    /// When to colour the output.
     #[arg(long, global = true, value_enum, default_value_t = Color::Auto, value_name = "WHEN")]
     color: Color,
 
@@ -45,31 +45,31 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Make URDDs of URDFs.
+    /// Generate URDDs from URDFs.
     Generate(generate::GenerateArguments),
-    /// Put robots together: a gripper on an arm, arms on a base.
+    /// Combine robots: a gripper on an arm, arms on a base.
     Combine(combine::CombineArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
-    /// Ask a robot whether it collides with itself, and which of its parts are nearest.
+    /// Check a robot for self-collisions, and list its nearest pairs of links.
     CheckCollisions(check_collisions::CheckCollisionsArguments),
     /// Show robots in the browser: shapes, joints, distances, skips and findings.
     View(view::ViewArguments),
-    /// Hand a robot on: SRDF, URDF, MJCF, spheres.
+    /// Export a robot: SRDF, URDF, MJCF, spheres.
     Export(export::ExportArguments),
-    /// A person's edits of the skips: read them from an SRDF.
+    /// Import edits of the skips from an SRDF.
     Skips(skips::SkipsArguments),
-    /// Tell about a rule, or list them all.
+    /// Explain a rule, or list all rules.
     Explain(explain::ExplainArguments),
-    /// Tell what a URDD holds, without judging it.
+    /// Show what a URDD contains, without validating it.
     Info(info::InfoArguments),
-    /// Bring the sizes and hashes in urdd.json up to date with the files.
+    /// Update the sizes and hashes in urdd.json to match the files.
     Rehash(rehash::RehashArguments),
-    /// The conformance suite: for people who write producers and validators.
+    /// Conformance suite, for authors of producers and validators.
     Conformance(conformance::ConformanceArguments),
     /// Show, export or check the published JSON Schemas.
     Schema(schema::SchemaArguments),
-    /// Print completions for a shell: `urdd completions bash > ~/.local/share/bash-completion/completions/urdd`.
+    /// Print the completion script of a shell: `urdd completions bash > ~/.local/share/bash-completion/completions/urdd`.
     Completions {
         /// The shell.
         shell: Shell,

@@ -115,7 +115,7 @@ fn safe(text: &str) -> String {
 /// When output is coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Color {
-    /// On a terminal that is not dumb, unless NO_COLOR is set; elsewhere where CLICOLOR_FORCE is.
+    /// Never if NO_COLOR is set; otherwise on a terminal that is not dumb, and anywhere if CLICOLOR_FORCE is set.
     #[default]
     Auto,
     /// Always.
@@ -284,7 +284,7 @@ pub fn check_name(file: &Path) -> Result<(), String> {
         .is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA));
     match marker {
         true => Err(format!(
-            "{}: a file of this name makes its folder a URDD, and the next `urdd validate` would examine it as one; \
+            "{}: a file with this name makes its folder a URDD, which the next `urdd validate` would examine; \
              give it another name, such as urdd-report.json",
             escape::line(&file.display().to_string())
         )),

@@ -21,7 +21,7 @@ const FAILED: u8 = 2;
 /// Arguments of `urdd rehash`.
 #[derive(Args)]
 #[command(
-    after_help = "Exit status: 0 up to date; 1 up to date, but the document of a module is broken; 2 could not be brought up to date."
+    after_help = "Exit status: 0 up to date; 1 up to date, but the document of a module is broken; 2 could not be updated."
 )]
 pub struct RehashArguments {
     /// URDDs of version 1, or folders with URDDs at any depth.
@@ -54,7 +54,7 @@ pub fn run(arguments: &RehashArguments) -> ExitCode {
                 Ok(changed) => {
                     text += &match changed.is_empty() {
                         true => format!("{name}: up to date\n"),
-                        false => format!("{name}: brought up to date\n"),
+                        false => format!("{name}: updated\n"),
                     };
                     for path in changed {
                         text += &format!("  {}\n", escape::line(&path));

@@ -24,24 +24,24 @@ enum Command {
     List,
     /// Print a schema.
     Show {
-        /// Which one, such as `dof_module@1.0.0`.
+        /// Its id, such as `dof_module@1.0.0`.
         id: String,
         #[command(flatten)]
         open: Open,
     },
     /// Write every schema into a folder.
     Export {
-        /// The folder; created where it does not exist.
+        /// The folder; created if it does not exist.
         folder: PathBuf,
         #[command(flatten)]
         open: Open,
     },
-    /// Print one schema of a whole URDD of version 1, for code generators.
+    /// Print a single schema that covers a whole URDD of version 1, for code generators.
     Bundle {
         #[command(flatten)]
         open: Open,
     },
-    /// Compare a folder of schemas with what this program writes.
+    /// Compare a folder of schemas with those that this program writes.
     Check {
         /// The folder.
         #[arg(default_value = "schema")]
@@ -51,7 +51,7 @@ enum Command {
 
 #[derive(Args)]
 struct Open {
-    /// Let unknown keys pass: for code generators, so that a later minor version is read too.
+    /// Allow unknown keys, so that generated code can also read later minor versions.
     #[arg(long)]
     open: bool,
 }
@@ -72,7 +72,7 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
         Command::List => print(&table()),
         Command::Show { id, open } => match Subject::find(id) {
             Ok(subject) => print(&subject.text(open.variant())),
-            Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` names them all")),
+            Err(error) => fail(&format!("{error}\nhelp: `urdd schema list` lists them all")),
         },
         Command::Bundle { open } => print(&format!("{:#}\n", bundle::bundle(open.variant()))),
         Command::Export { folder, open } => match schema_files::export(folder, open.variant()) {
@@ -84,7 +84,9 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
             Err(error) => fail(&error.to_string()),
         },
         Command::Check { folder } => match schema_files::check(folder) {
-            Ok(faults) if faults.is_empty() => print("every schema is as this program writes it\n"),
+            Ok(faults) if faults.is_empty() => {
+                print("every schema matches what this program writes\n")
+            }
             Ok(faults) => match output::print(&report(&faults, folder)) {
                 Ok(()) => ExitCode::FAILURE,
                 Err(error) => fail(&error),

@@ -16,13 +16,13 @@ pub enum Shapes {
     Pieces,
     /// The convex hulls of links.
     Hulls,
-    /// The boxes about hulls.
+    /// The bounding boxes of hulls.
     Boxes,
-    /// The spheres about hulls.
+    /// The bounding spheres of hulls.
     Spheres,
-    /// The boxes about pieces.
+    /// The bounding boxes of pieces.
     PieceBoxes,
-    /// The spheres about pieces.
+    /// The bounding spheres of pieces.
     PieceSpheres,
 }
 
@@ -49,7 +49,7 @@ pub fn open(path: &Path) -> Result<Robot, String> {
         if path.ends_with(".urdf") {
             let shown = escape::line(&path);
             return Err(format!(
-                "{shown}: this is a URDF; make a URDD of it first: urdd generate {shown} -o DIR"
+                "{shown}: this is a URDF; generate a URDD from it first: urdd generate {shown} -o DIR"
             ));
         }
         return Err(foreign::advice(&DiscoverError::NotAFolder { path }));

@@ -31,11 +31,11 @@ pub struct SkipsArguments {
 
 #[derive(Subcommand)]
 enum SkipsCommand {
-    /// Read the pairs of links of an SRDF into the edits of a URDD.
+    /// Import the pairs of links in an SRDF as edits of a URDD.
     #[command(
-        after_help = "Pairs that the URDD skips and the SRDF does not stay skipped. Edits that are there stay; where the SRDF says the \
-        contrary of one, nothing is written unless --force lets the SRDF decide.\n\n\
-        Exit status: 0 read; 2 nothing was written."
+        after_help = "Pairs that the URDD skips but the SRDF does not disable stay skipped. Existing edits stay; if the SRDF contradicts \
+        one, nothing is written unless --force is given.\n\n\
+        Exit status: 0 imported; 2 nothing was written."
     )]
     Import {
         /// The SRDF.
@@ -46,7 +46,7 @@ enum SkipsCommand {
         #[arg(value_name = "DIR")]
         urdd: PathBuf,
 
-        /// Lets the SRDF decide where it says the contrary of an edit that is there.
+        /// Replaces existing edits that the SRDF contradicts.
         #[arg(long)]
         force: bool,
     },
@@ -66,7 +66,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     let text = String::from_utf8(bytes).map_err(|_| of_srdf(&"it is not UTF-8"))?;
     if !urdd.is_dir() {
         return Err(of_urdd(
-            &"this is no folder; edits are written into the folder of a URDD",
+            &"not a folder; edits are written into the folder of a URDD",
         ));
     }
     for _ in 0..MAX_TRIES {
@@ -90,7 +90,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
         return Ok(told(&shown(urdd), &imported, edited.model_is_stale));
     }
     Err(of_urdd(
-        &"another program writes into this folder again and again; nothing was written",
+        &"another program keeps writing into this folder; nothing was written",
     ))
 }
 
@@ -111,7 +111,7 @@ fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
         _ => format!("{number} {what}s"),
     };
     let mut told = format!(
-        "{urdd}: {} added; {} of the SRDF as they were\n",
+        "{urdd}: {} added; {} of the SRDF unchanged\n",
         count(imported.added, "edit"),
         count(imported.already, "pair")
     );
@@ -122,7 +122,7 @@ fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
         );
     }
     if model_is_stale {
-        told += "  the self-collision model was trained with the skips before: `urdd generate` with `--modules all,self_collision_model` makes another\n";
+        told += "  the self-collision model was trained with the previous skips: `urdd generate` with `--modules all,self_collision_model` trains it again\n";
     }
     told
 }

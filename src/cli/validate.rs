@@ -32,24 +32,24 @@ const INTERNAL: u8 = 101;
 /// Arguments of `urdd validate`.
 #[derive(Args)]
 #[command(
-    after_help = "Exit status: 0 conforming; 1 findings at or above --fail-on; 2 wrong usage, nothing could be \
-    examined, or a report could not be written; 101 a rule crashed (a fault of this program)."
+    after_help = "Exit status: 0 conforming; 1 findings at or above --fail-on; 2 usage error, nothing could be \
+    examined, or a report could not be written; 101 a rule crashed (a bug in this program)."
 )]
 pub struct ValidateArguments {
     /// URDDs, or folders with URDDs at any depth.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
-    /// How the report is written to standard output.
+    /// Format of the report on standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 
-    /// Writes the report to a file too, in the format of the file's ending: .sarif, .xml (JUnit),
-    /// otherwise JSON. May be given several times.
+    /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit),
+    /// otherwise JSON. May be repeated.
     #[arg(long, value_name = "FILE")]
     output: Vec<PathBuf>,
 
-    /// The conformance class to hold every URDD to.
+    /// Conformance class that every URDD must meet.
     #[arg(long, value_name = "CLASS", ignore_case = true)]
     class: Option<Class>,
 
@@ -57,16 +57,16 @@ pub struct ValidateArguments {
     #[arg(long)]
     deep: bool,
 
-    /// The severity from which on a run fails; `error` without it.
+    /// Lowest severity of findings that fails the run; default: `error`.
     #[arg(long, value_name = "SEVERITY")]
     fail_on: Option<Level>,
 
-    /// Settings file; without it, urdd.toml in the current folder where there is one.
+    /// Settings file; default: urdd.toml in the current folder, if it exists.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 
-    /// Leaves out what lies in folders of this path, from the path that is given; `*` and `**` as in .gitignore.
-    /// May be given several times, and in urdd.toml as `exclude`.
+    /// Leaves out folders with this path, relative to the given path; `*` and `**` as in .gitignore.
+    /// May be repeated; in urdd.toml it is `exclude`.
     #[arg(long, value_name = "GLOB")]
     exclude: Vec<String>,
 
@@ -78,11 +78,11 @@ pub struct ValidateArguments {
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     ignore: Vec<Codes>,
 
-    /// Shows every URDD in full; without it, more than three are summed up.
+    /// Shows every URDD in full; by default, more than three are summarized.
     #[arg(long)]
     full: bool,
 
-    /// Places of a finding that are shown to people; the other formats have all.
+    /// Maximum number of places shown per finding in the human format; the other formats list all.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
     max_places: u16,
 
@@ -90,7 +90,7 @@ pub struct ValidateArguments {
     #[arg(long, short)]
     quiet: bool,
 
-    /// Runs a rule that crashes too, to see how crashes are reported.
+    /// Also runs a rule that crashes, to show how crashes are reported.
     #[arg(long, hide = true)]
     with_crashing_rule: bool,
 }
@@ -98,15 +98,15 @@ pub struct ValidateArguments {
 /// How a report is written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// For people.
+    /// Text for people.
     Human,
-    /// As JSON; its schema is `urdd schema show report@1.0.0`.
+    /// JSON; its schema is `urdd schema show report@1.0.0`.
     Json,
-    /// As SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
+    /// SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
     Sarif,
-    /// As workflow commands of GitHub Actions: annotations in pull requests, without an upload.
+    /// Workflow commands of GitHub Actions: annotations in pull requests, without an upload.
     Github,
-    /// As JUnit XML, for what shows tests: a suite for each URDD, a case for each rule.
+    /// JUnit XML, for tools that show test results: a suite for each URDD, a case for each rule.
     Junit,
 }
 
@@ -151,7 +151,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     if run.report.urdds.is_empty() {
         let urdds = run.excluded;
         return Err(format!(
-            "nothing to examine: all URDDs that were found ({urdds}) are excluded"
+            "nothing to examine: all URDDs found ({urdds}) are excluded"
         ));
     }
     let report = &run.report;

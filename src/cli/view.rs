@@ -23,17 +23,17 @@ use urdd_generate::{Packages, Progress, Settings};
 /// Arguments of `urdd view`.
 #[derive(Args)]
 #[command(
-    after_help = "The page is served on 127.0.0.1 alone, and only the address that is printed opens it. A folder without URDDs that \
-    holds one URDF is shown too: a URDD is generated first, into a temporary folder.\n\n\
-    Exit status: 0 after Ctrl-C, or when the site is written; 1 no URDD could be made; 2 wrong usage, no robot was found, \
-    or there is no server."
+    after_help = "The page is served only on 127.0.0.1, and opens only from the printed address. A folder without URDDs that \
+    contains one URDF is shown too: a URDD is first generated in a temporary folder.\n\n\
+    Exit status: 0 after Ctrl-C, or when the site is written; 1 no URDD could be generated; 2 usage error, no robot was \
+    found, or the server could not start."
 )]
 pub struct ViewArguments {
     /// URDDs, folders of them, zip archives of them, or a URDF.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
-    /// The port; without it, 8642 or any that is free.
+    /// The port; default: 8642, or any free port.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     port: Option<u16>,
 
@@ -41,17 +41,17 @@ pub struct ViewArguments {
     #[arg(long)]
     no_open: bool,
 
-    /// Writes the page and the robots into a folder instead, as a site for any web server; or, with a name that ends in
-    /// `.html`, the page with one robot into a file that opens from the disk.
+    /// Writes the page and the robots into a folder instead, as a site for any web server. A name that ends in `.html`
+    /// writes the page with one robot into a single file that opens without a server.
     #[arg(long, value_name = "DIR|FILE.html", conflicts_with_all = ["port", "no_open"])]
     export: Option<PathBuf>,
 
-    /// Where a ROS package is, for a URDF; may be given again.
+    /// For a URDF: folder of a ROS package. May be repeated.
     #[arg(long = "package", value_name = "NAME=PATH")]
     packages: Vec<String>,
 
-    /// A folder besides those of the robot and its packages from which mesh files may be taken, for a URDF; may be given
-    /// again.
+    /// For a URDF: additional folder that mesh files may be read from, besides those of the robot and its packages. May be
+    /// repeated.
     #[arg(long = "allow-folder", value_name = "DIR")]
     allowed_folders: Vec<PathBuf>,
 }
@@ -158,7 +158,7 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
     };
     if ends_with(path, "xacro") {
         return Err(usage(format!(
-            "{}: macros are not run to show a robot; `urdd generate` expands them",
+            "{}: `urdd view` does not expand xacro macros; `urdd generate` does",
             path.display()
         )));
     }
@@ -187,7 +187,7 @@ fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
                 .map(|path| path.display().to_string())
                 .collect();
             Err(usage(format!(
-                "{}: there are several URDFs; give one of them: {}",
+                "{}: contains several URDFs; give one of them: {}",
                 path.display(),
                 names.join(", ")
             )))
@@ -296,7 +296,7 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         let [robot] = collection.robots() else {
             let count = collection.robots().len();
             return Err(usage(format!(
-                "a page in one file holds one robot, and here are {count}; give one of them, or a folder to --export"
+                "a page in one file shows one robot, but {count} were given; give one of them, or a folder to --export"
             )));
         };
         if !may_hold_page(folder) {
@@ -310,7 +310,7 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
     let stay = export(collection, folder, &signals.cancellation(), &mut tell).map_err(usage)?;
     for file in stay {
         output::error(&escape::line(&format!(
-            "{}: changed since the last export, and the site does not need it any more: it stays",
+            "{}: kept, since it was changed after the last export; the site does not need it any more",
             file.display()
         )));
     }

@@ -30,11 +30,11 @@ impl Class {
 /// A severity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Level {
-    /// A MUST of the specification that is not kept.
+    /// A violated MUST of the specification.
     Error,
-    /// A SHOULD that is not kept, or an odd robot.
+    /// A violated SHOULD of the specification, or an unusual robot.
     Warning,
-    /// A convention of old, or something worth knowing.
+    /// An outdated convention, or something worth knowing.
     Info,
 }
 

@@ -104,7 +104,7 @@ pub enum ChangeError {
         error: json_patch::PatchError,
     },
     /// The text to replace does not occur.
-    #[error("{file}: the text {from:?} is not there")]
+    #[error("{file}: the text {from:?} was not found")]
     NotThere {
         /// The file.
         file: FilePath,

@@ -22,7 +22,7 @@ const README: &str = "README.md";
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The folder is not empty.
-    #[error("{}: this folder is not empty; give one that is new", .0.display())]
+    #[error("{}: this folder is not empty; give a new one", .0.display())]
     NotEmpty(PathBuf),
     /// A file or folder cannot be written.
     #[error("{}: cannot be written: {error}", path.display())]

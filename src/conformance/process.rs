@@ -61,7 +61,7 @@ pub struct Template {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TemplateError {
     /// The command is empty.
-    #[error("there is no command; give it after `--`")]
+    #[error("no command given; give it after `--`")]
     Empty,
     /// A placeholder is missing.
     #[error("the command has no {{{0}}}; put it where the path belongs")]

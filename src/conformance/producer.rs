@@ -167,7 +167,7 @@ fn robot(
 /// The validator's result, or the reason why there is none.
 fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
     if !out.is_dir() {
-        return Err(Some("the command made no folder at {out}".to_owned()));
+        return Err(Some("the command created no folder at {out}".to_owned()));
     }
     let settings = Settings {
         class: Some(plan.class),
@@ -183,7 +183,7 @@ fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
         (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
         _ => Err(Some(
-            "{out} itself must be the URDD: no folder around it, and only one".to_owned(),
+            "{out} itself must be the URDD: one URDD, without a folder around it".to_owned(),
         )),
     }
 }

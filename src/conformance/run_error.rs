@@ -26,7 +26,7 @@ pub enum RunError {
     #[error("there is no robot `{0}`; the robots are {1}")]
     UnknownRobot(String, String),
     /// No case matches the version and the ids.
-    #[error("there is no case to run; `urdd conformance export` writes them all, and their list")]
+    #[error("no case to run; `urdd conformance export` writes all cases, and their list")]
     NoCase,
     /// The skip list names something that does not exist.
     #[error("the skip list: {0}")]
@@ -35,7 +35,7 @@ pub enum RunError {
     #[error(transparent)]
     Folder(#[from] WorkplaceError),
     /// The thread pool cannot be created.
-    #[error("{0} commands at a time cannot be run: {1}")]
+    #[error("cannot run {0} commands at a time: {1}")]
     Jobs(usize, rayon::ThreadPoolBuildError),
     /// A robot or a case cannot be written to the working folder.
     #[error(transparent)]

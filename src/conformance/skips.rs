@@ -27,7 +27,7 @@ pub enum SkipError {
     #[error("line {0}: say why, after a `#`: `{1}  # reason`")]
     NoReason(usize, String),
     /// A line with too many words.
-    #[error("line {0}: `{1}` is too much; write {2}")]
+    #[error("line {0}: unexpected `{1}`; write {2}")]
     TooMany(usize, String, &'static str),
     /// A line that names something that does not exist.
     #[error("line {0}: there is no `{1}`")]

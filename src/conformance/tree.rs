@@ -147,7 +147,7 @@ pub enum TreeError {
         error: io::Error,
     },
     /// The operating system does not support such names, or symbolic links.
-    #[error("{0}: this operating system cannot have it")]
+    #[error("{0}: this operating system cannot store it")]
     Unsupported(String),
 }
 

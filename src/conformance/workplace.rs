@@ -18,10 +18,10 @@ pub enum Workplace {
 #[derive(Debug, thiserror::Error)]
 pub enum WorkplaceError {
     /// A temporary folder cannot be created.
-    #[error("no temporary folder: {0}")]
+    #[error("a temporary folder cannot be created: {0}")]
     Temporary(io::Error),
     /// The folder is not empty.
-    #[error("{}: this folder is not empty; give one that is new", .0.display())]
+    #[error("{}: this folder is not empty; give a new one", .0.display())]
     NotEmpty(PathBuf),
     /// The folder cannot be created or read.
     #[error("{}: cannot be used: {error}", path.display())]

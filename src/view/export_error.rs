@@ -17,7 +17,7 @@ pub enum ExportError {
     Occupied(PathBuf),
     /// The folder contains a site of 0.2.0, which has no list of its files.
     #[error(
-        "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; see \
+        "{}: urdd 0.2.0 wrote this site without a list of its files, so nothing was changed. Delete what it wrote ({}; check \
          that nothing below robots is yours) and run this again: all other files stay",
         folder.display(), names(left)
     )]
@@ -44,7 +44,7 @@ pub enum ExportError {
     #[error("the page cannot be unpacked: {0}")]
     Page(io::Error),
     /// A robot is too large for one file.
-    #[error("{robot}: {size} bytes are too much for a page in one file; give a folder")]
+    #[error("{robot}: {size} bytes are too many for a page in one file; give a folder")]
     TooLarge {
         /// Its name.
         robot: String,

@@ -41,8 +41,8 @@ impl Refusal {
     /// The message for the response.
     pub fn message(self) -> &'static str {
         match self {
-            Refusal::Host => "this server answers to 127.0.0.1 and localhost alone\n",
-            Refusal::Origin => "this server answers to its own page alone\n",
+            Refusal::Host => "this server accepts requests only for 127.0.0.1 and localhost\n",
+            Refusal::Origin => "this server accepts requests only from its own page\n",
             Refusal::Token => {
                 "the token is missing or wrong: open the address that `urdd view` printed\n"
             }

@@ -163,7 +163,7 @@ fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
 /// The length of a request's body, or the response that rejects it.
 fn length(asked: &Asked, limit: u64) -> Result<u64, Reply> {
     if asked.header("Transfer-Encoding").is_some() {
-        return Err(Reply::failure(411, "say the length of the body\n"));
+        return Err(Reply::failure(411, "the length of the body is missing\n"));
     }
     match asked.header("Content-Length").map(str::parse::<u64>) {
         None => Ok(0),
@@ -177,7 +177,7 @@ fn body(reader: &mut impl Read, length: u64, body: &mut Vec<u8>) -> io::Result<R
     reader.take(length).read_to_end(body)?;
     Ok(match body.len() as u64 == length {
         true => Ok(()),
-        false => Err(Reply::failure(400, "the body is cut off\n")),
+        false => Err(Reply::failure(400, "the body is incomplete\n")),
     })
 }
 

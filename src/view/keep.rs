@@ -26,7 +26,7 @@ struct Wish {
 pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
     let wish: Wish = match serde_json::from_slice(body) {
         Ok(wish) => wish,
-        Err(error) => return Reply::failure(400, format!("this names no folder: {error}\n")),
+        Err(error) => return Reply::failure(400, format!("not the name of a folder: {error}\n")),
     };
     match kept(robot, &wish.folder) {
         Ok(folder) => Reply::json(&json!({
@@ -39,7 +39,7 @@ pub fn keep(robot: &Shown, body: &[u8]) -> Reply {
 
 fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
     if !robot.is_temporary() {
-        return Err((403, "this URDD lies in a folder already".to_owned()));
+        return Err((403, "this URDD is already in a folder".to_owned()));
     }
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
     let target = resolved(folder)?;
@@ -67,7 +67,7 @@ fn resolved(folder: &str) -> Result<PathBuf, Failure> {
             None => {
                 return Err((
                     400,
-                    "there is no home folder: write the path out".to_owned(),
+                    "the home folder is unknown: write the full path".to_owned(),
                 ));
             }
         },
@@ -87,7 +87,7 @@ fn free(target: &Path) -> Result<(), Failure> {
     if !metadata.is_dir() {
         return Err((
             403,
-            format!("{shown}: there is a file of that name; nothing was saved"),
+            format!("{shown}: a file of that name exists; nothing was saved"),
         ));
     }
     let entries = std::fs::read_dir(target).map_err(|error| (403, format!("{shown}: {error}")))?;
@@ -95,7 +95,7 @@ fn free(target: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     let what = match target.join(ROOT_METADATA).is_file() {
-        true => "there is a URDD already; `urdd generate` into it keeps what was decided there",
+        true => "this folder has a URDD already; `urdd generate` into it keeps its edits",
         false => "this folder is not empty",
     };
     Err((

@@ -37,7 +37,7 @@ struct Wish {
 pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
     let wish: Wish = match serde_json::from_slice(body) {
         Ok(wish) => wish,
-        Err(error) => return Reply::failure(400, format!("this is no list of edits: {error}\n")),
+        Err(error) => return Reply::failure(400, format!("not a list of edits: {error}\n")),
     };
     if !robot.is_writable() {
         let why = "this URDD cannot be written: it is an archive, or was made for this view\n";
@@ -119,7 +119,7 @@ fn made(
     reasons: Option<Vec<SkippedReason>>,
 ) -> Result<Files, Failure> {
     if edits.len() > MAX_EDITS {
-        return Err((400, "these are too many edits".to_owned()));
+        return Err((400, "too many edits".to_owned()));
     }
     if edits
         .iter()

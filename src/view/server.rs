@@ -36,7 +36,7 @@ pub enum ServerError {
         reason: String,
     },
     /// No random numbers.
-    #[error("the operating system gives no random numbers: {0}")]
+    #[error("the operating system provides no random numbers: {0}")]
     Random(String),
 }
 

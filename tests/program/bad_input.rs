@@ -111,7 +111,7 @@ fn nothing_to_examine() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("urdd.json");
     fs::write(&file, "{}").expect("written");
-    assert_refused(&validate(&file), "this is a file");
+    assert_refused(&validate(&file), "not a single file");
     assert_refused(&validate(&folder.path().join("nowhere")), "no such");
 }
 

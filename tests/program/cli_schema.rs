@@ -84,7 +84,7 @@ fn checks_what_it_exports_and_says_how_to_mend_it() {
         format!(
             "chain_module/1.0.0.json: not what the types write\n\
              dof_module/1.0.0.json: missing\n\
-             dof_module/2.0.0.json: no published schema; remove it\n\
+             dof_module/2.0.0.json: not a published schema; remove it\n\
              repair: urdd schema export {path}\n"
         )
     );

@@ -367,7 +367,7 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
     assert_eq!(status(folder.path(), &["robot"]), 1);
     assert_eq!(
         stdout(&rehash()),
-        "robot: brought up to date\n  dof_module/module.json\n"
+        "robot: updated\n  dof_module/module.json\n"
     );
     assert_eq!(status(folder.path(), &["robot"]), 0);
 

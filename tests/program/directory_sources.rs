@@ -183,7 +183,7 @@ fn an_archive_that_cannot_be_read_is_unreadable() {
     let alone = urdd(&["validate"], &zip);
     assert_eq!(alone.status.code(), Some(2));
     let words = String::from_utf8_lossy(&alone.stdout).into_owned();
-    assert!(words.contains("not a whole zip archive"), "{words}");
+    assert!(words.contains("not a complete zip archive"), "{words}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ArchiveFault {
     /// Not a zip archive, or damaged.
-    #[error("it is not a whole zip archive ({reason}); pack the URDD again")]
+    #[error("it is not a complete zip archive ({reason}); pack the URDD again")]
     Broken {
         /// What is wrong.
         reason: String,
@@ -17,7 +17,7 @@ pub enum ArchiveFault {
     )]
     Zip64,
     /// The number of entries differs from the stated one.
-    #[error("it states {stated} entries and lists {listed}; pack the URDD again")]
+    #[error("it states {stated} entries, but lists {listed}; pack the URDD again")]
     Count {
         /// Stated number of entries.
         stated: usize,
@@ -26,12 +26,12 @@ pub enum ArchiveFault {
     },
     /// Bytes that belong to no entry or to two: other programs may extract different files.
     #[error(
-        "it holds bytes that belong to none of its entries, or to two of them, as two archives in one file do; pack the URDD again"
+        "it contains bytes that belong to no entry or to two entries, as if two archives were in one file; pack the URDD again"
     )]
     OtherBytes,
     /// The archive inflates to more than the limit.
     #[error(
-        "its files are {size} bytes in all, and at most {limit} are read from an archive of its size; unpack it, and give the folder"
+        "its files have {size} bytes in total; the limit for an archive of its size is {limit}; unpack it, and give the folder"
     )]
     Inflates {
         /// Inflated size by the archive's own statement, bytes.
@@ -49,12 +49,12 @@ pub enum ArchiveFault {
     },
     /// The archive does not contain a URDD.
     #[error(
-        "it holds no URDD: neither the archive itself nor a folder at its top holds urdd.json or a module folder such as urdf_module"
+        "it contains no URDD: neither its root nor a top-level folder contains urdd.json or a module folder such as urdf_module"
     )]
     NoUrdd,
     /// The archive contains several URDDs.
     #[error(
-        "it holds several URDDs ({} and {}); unpack it, and give the folder, or pack each by itself",
+        "it contains several URDDs ({} and {}); unpack it, and give the folder, or pack each one separately",
         first.escape_debug(), second.escape_debug()
     )]
     ManyUrdds {
@@ -83,7 +83,7 @@ pub enum EntryFault {
     Path,
     /// A name longer than file systems allow.
     #[error(
-        "has a name of {length} bytes, and at most {limit} are read, {part} between two slashes; rename it"
+        "has a name of {length} bytes; the limit is {limit}, and {part} between two slashes; rename it"
     )]
     LongName {
         /// Its length, bytes.
@@ -99,7 +99,7 @@ pub enum EntryFault {
     )]
     Header,
     /// Two entries have the same name, or a file has the name of a folder.
-    #[error("is there twice")]
+    #[error("occurs twice")]
     Duplicate,
     /// Encrypted.
     #[error("is encrypted; pack the URDD without a password")]
@@ -111,7 +111,7 @@ pub enum EntryFault {
         method: u16,
     },
     /// Larger than the limit.
-    #[error("is {size} bytes long, and at most {limit} are read")]
+    #[error("is {size} bytes long; the limit is {limit}")]
     TooLarge {
         /// Its size, bytes.
         size: u64,

@@ -14,7 +14,7 @@ pub struct Cancellation(Arc<AtomicBool>);
 
 /// The operation was cancelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("stopped before it was done")]
+#[error("stopped before it was finished")]
 pub struct Cancelled;
 
 impl Cancellation {

@@ -53,7 +53,7 @@ pub fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
             let key = key();
             let name = key.pointer.rsplit('/').next().unwrap_or_default();
             let message = format!(
-                "`{}` is named a second time in its object: readers differ in which they keep; remove one",
+                "the key `{}` occurs twice in its object: readers differ in which one they keep; remove one",
                 name.replace("~1", "/").replace("~0", "~")
             );
             TextFault::new(TextFaultKind::DuplicateKey, message)
@@ -83,7 +83,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
     }
     let (start, word) = word_around(text, offset);
     if is_non_finite(word) {
-        let message = format!("`{word}` is no number in JSON: write null or a finite number");
+        let message = format!("`{word}` is not a number in JSON: write null or a finite number");
         return TextFault {
             found: Some(word.to_owned()),
             ..at(start, TextFaultKind::NonFiniteNumber, message)
@@ -106,7 +106,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
 fn reason(error: &serde_json::Error) -> String {
     let whole = error.to_string();
     if whole.contains("hex escape") || whole.contains("surrogate") {
-        return "a broken escape, or one of half a surrogate pair: write the character itself"
+        return "an invalid escape, or half of a surrogate pair: write the character itself"
             .to_owned();
     }
     match whole.rfind(" at line ") {

@@ -29,7 +29,7 @@ pub enum PathFault {
     #[error("the path has a control character")]
     ControlCharacter,
     /// The path of another file, or of a folder.
-    #[error("the path is a file's and a folder's at once")]
+    #[error("the path is listed both as a file and as a folder")]
     Taken,
 }
 

@@ -26,7 +26,7 @@ pub enum ReadError {
     #[error("it is neither a folder nor a zip archive")]
     NotAUrdd,
     /// Larger than the limit.
-    #[error("it is {size} bytes long, and at most {limit} are read")]
+    #[error("it is {size} bytes long; the limit is {limit}")]
     TooLarge {
         /// Its size, bytes.
         size: u64,
@@ -43,7 +43,7 @@ pub enum ReadError {
     #[error("{0}")]
     Archive(#[from] ArchiveFault),
     /// A folder too deep to be searched.
-    #[error("it lies deeper than {limit} folders; give its path to examine it")]
+    #[error("it is deeper than {limit} folders; give its path to examine it")]
     TooDeep {
         /// Maximum search depth, folders.
         limit: usize,

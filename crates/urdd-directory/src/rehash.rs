@@ -27,10 +27,10 @@ pub enum RehashError {
     #[error("{ROOT_METADATA}: {0}")]
     Metadata(ReadError),
     /// `urdd.json` is not JSON.
-    #[error("{ROOT_METADATA} is not JSON: {0}; `urdd validate` says more")]
+    #[error("{ROOT_METADATA} is not JSON: {0}; run `urdd validate` for details")]
     NotJson(#[from] super::text_fault::UnreadableText),
     /// A listed file cannot be read.
-    #[error("{path}: {error}; take it off the list in {ROOT_METADATA}, or bring it back")]
+    #[error("{path}: {error}; remove it from the list in {ROOT_METADATA}, or restore it")]
     File {
         /// The listed path.
         path: String,
@@ -38,7 +38,7 @@ pub enum RehashError {
         error: ReadError,
     },
     /// The URDD is in an archive.
-    #[error("a zip archive is not written to; unpack it, rehash the folder, and pack it again")]
+    #[error("zip archives are read only; unpack it, rehash the folder, and pack it again")]
     NotAFolder,
     /// `urdd.json` cannot be written.
     #[error("{ROOT_METADATA} cannot be written: {0}")]

@@ -73,7 +73,7 @@ impl fmt::Display for SchemaFault {
         match self {
             SchemaFault::Missing { path } => write!(f, "{path}: missing"),
             SchemaFault::Outdated { path } => write!(f, "{path}: not what the types write"),
-            SchemaFault::Stray { path } => write!(f, "{path}: no published schema; remove it"),
+            SchemaFault::Stray { path } => write!(f, "{path}: not a published schema; remove it"),
             SchemaFault::Changed {
                 id,
                 released,

@@ -47,17 +47,17 @@ pub enum StagingError {
         error: io::Error,
     },
     /// An unrelated file has the path of a file of the URDD.
-    #[error("{}: this file is not of the URDD, and would be overwritten; move it away", path.display())]
+    #[error("{}: this file does not belong to the URDD, and would be overwritten; move it away", path.display())]
     InTheWay {
         /// The file.
         path: PathBuf,
     },
     /// The run was cancelled.
-    #[error("stopped before it was done; nothing was changed")]
+    #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// The target has unrelated content.
     #[error(
-        "{}: this folder is not empty, and no URDD that `urdd generate` wrote; give another one, or --force to write there (files of other names stay)", path.display()
+        "{}: this folder is not empty, and is not a URDD that `urdd generate` wrote; give another folder, or --force to write there (files with other names stay)", path.display()
     )]
     Occupied {
         /// The target.
@@ -217,7 +217,7 @@ fn place(target: &Path) -> Result<PathBuf, StagingError> {
     };
     if let Ok(metadata) = fs::metadata(target) {
         if !metadata.is_dir() {
-            return refuse("there is a file of that name");
+            return refuse("a file of that name exists");
         }
         let canonical = target.canonicalize().map_err(write)?;
         if canonical.parent().is_none() {

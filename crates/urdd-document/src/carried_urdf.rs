@@ -24,7 +24,7 @@ pub struct CarriedUrdf {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NoUrdf {
     /// The root metadata is unusable, so the source is unknown.
-    #[error("{ROOT_METADATA} does not fit its schema, so the source is not known")]
+    #[error("{ROOT_METADATA} does not match its schema, so the source is unknown")]
     MetadataUnusable,
     /// Only selected modules were read.
     #[error("the URDF was not read")]
@@ -36,7 +36,7 @@ pub enum NoUrdf {
     #[error("no URDF file is carried")]
     NoneCarried,
     /// No root metadata, and several `.urdf` files, none named after the folder.
-    #[error("several URDF files are carried, and none is named as the folder is")]
+    #[error("several URDF files are carried, and none has the folder's name")]
     Several,
     /// The file cannot be read.
     #[error("{path}: {error}")]

@@ -135,7 +135,7 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
         Kind::Required { property } => {
             let key = property.as_str().unwrap_or_default();
             violation.message = format!(
-                "the key `{key}` is missing; every key is required, write null for what is absent"
+                "the key `{key}` is missing; every key is required: write null for an absent value"
             );
             violation.expected = Some(format!("key {key}"));
         }
@@ -160,12 +160,12 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
                     .collect::<Vec<_>>()
                     .join(" or "),
             };
-            violation.message = format!("the value is of the wrong type: {expected} is needed");
+            violation.message = format!("the value has the wrong type: expected {expected}");
             violation.expected = Some(expected);
             violation.actual = Some(excerpt(instance));
         }
         Kind::Enum { options } => {
-            violation.message = "the word is not one of those that are defined".to_owned();
+            violation.message = "the word is not one of the defined ones".to_owned();
             violation.expected = Some(format!("one of {}", excerpt(options)));
             violation.actual = Some(excerpt(instance));
         }
@@ -182,13 +182,13 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
             violation.actual = Some(excerpt(instance));
         }
         Kind::Pattern { pattern } => {
-            violation.message = "the text is not of the form that is needed".to_owned();
+            violation.message = "the text does not have the required form".to_owned();
             violation.expected = Some(format!("text matching {pattern}"));
             violation.actual = Some(excerpt(instance));
         }
         _ => {
             violation.message = format!(
-                "the value does not fit: {}",
+                "the value does not match the schema: {}",
                 shorten(&error.masked().to_string())
             );
             violation.actual = Some(excerpt(instance));
@@ -198,7 +198,7 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
 }
 
 fn items(violation: &mut SchemaViolation, bound: &str, limit: u64, instance: &Value) {
-    violation.message = "the list is of the wrong length".to_owned();
+    violation.message = "the list has the wrong length".to_owned();
     violation.expected = Some(format!("{bound} {limit} elements"));
     violation.actual = instance
         .as_array()

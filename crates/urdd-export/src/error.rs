@@ -15,7 +15,7 @@ pub enum ExportError {
     #[error(transparent)]
     Robot(#[from] RobotError),
     /// The joints of the robot do not form a tree.
-    #[error("the joints form no tree with one root: `urdd validate` says more")]
+    #[error("the joints do not form a tree with one root: run `urdd validate` for details")]
     NoTree,
     /// A name that the format cannot represent.
     #[error("{} cannot hold the name `{}` of a {what}: {reason}; give it another name in the URDF, and generate the URDD again", .format.name(), .name.escape_debug())]
@@ -31,14 +31,14 @@ pub enum ExportError {
     },
     /// The mimic joints cannot be resolved.
     #[error(
-        "a mimic names a joint that is not there, or they go in a circle: `urdd validate` says more"
+        "a mimic names a joint that does not exist, or mimics form a cycle: run `urdd validate` for details"
     )]
     Mimics,
     /// The URDD has no shapes of the requested kind, and the format needs them.
-    #[error("no link has {0}: ask for other shapes, or for another format")]
+    #[error("no link has {0}: choose other shapes, or another format")]
     NoShapes(ShapeKind),
     /// Spheres cannot be fitted to shapes of this kind.
-    #[error("spheres are fitted to pieces or hulls, not to {0}: leave --shapes out")]
+    #[error("spheres are fitted to pieces or hulls, not to {0}: omit --shapes")]
     SpheresOf(ShapeKind),
     /// A mesh that cannot be written.
     #[error("the mesh of link `{}` cannot be written: {error}", .link.escape_debug())]
@@ -86,7 +86,7 @@ pub enum Note {
     },
     /// Elements that URDF does not define and that cannot be copied into the file.
     #[error(
-        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed by themselves"
+        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed on their own"
     )]
     Elements(usize),
     /// A transmission or a loop that the format's reader rejects.

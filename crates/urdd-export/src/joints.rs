@@ -11,8 +11,10 @@ use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
 use urdd_kinematics::rotation::unit_axis;
 
-const STANDS: &str = "it follows a fixed joint and never moves; it is a fixed joint at its offset";
-const SEVERAL: &str = "it follows a joint of several DOFs, which no program reads; it moves freely";
+const STANDS: &str =
+    "it mimics a fixed joint and never moves; it is exported as a fixed joint at its offset";
+const SEVERAL: &str =
+    "it mimics a joint of several DOFs, which no program supports; it moves freely";
 
 /// The joints of the robot, in URDF order.
 pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {

@@ -25,10 +25,10 @@ pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), Ex
         let reason = match format {
             _ if !links.insert(link.name.as_str()) => "two links have it",
             Format::Mjcf if is_inner_world => {
-                "MuJoCo has a body of that name, and only the root can be it"
+                "MuJoCo has a body of that name, which only the root can use"
             }
             Format::Drake if is_inner_world => {
-                "Drake has a body of that name, and only the root can be it"
+                "Drake has a body of that name, which only the root can use"
             }
             _ => continue,
         };
@@ -63,12 +63,14 @@ fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
-        Format::Drake if name.is_empty() => "Drake stops at a robot without a name",
+        Format::Drake if name.is_empty() => "Drake refuses a robot without a name",
         Format::Drake if what == "link" && name.contains("::") => {
-            "Drake reads what is before `::` as the name of a model"
+            "Drake reads the part before `::` as the name of a model"
         }
         Format::Curobo if is_long_key(name) => "a key of YAML has at most 1,024 characters",
-        _ if is_xml && !name.chars().all(is_character) => "it has characters that XML cannot hold",
+        _ if is_xml && !name.chars().all(is_character) => {
+            "it has characters that XML does not allow"
+        }
         _ => return Ok(()),
     };
     Err(error(format, what, name, reason))

@@ -36,7 +36,7 @@ pub enum ImportError {
     },
     /// The SRDF contradicts an existing edit.
     #[error(
-        "the URDD has an edit that says of `{}` and `{}` what the SRDF does not (\"{}\"); --force lets the SRDF decide", link_a.escape_debug(), link_b.escape_debug(), reason.escape_debug()
+        "the URDD has an edit of `{}` and `{}` that contradicts the SRDF (\"{}\"); --force lets the SRDF decide", link_a.escape_debug(), link_b.escape_debug(), reason.escape_debug()
     )]
     Edited {
         /// One link.

@@ -21,7 +21,7 @@ const FOUND_BY_PROGRAMS: &[&str] = &["Adjacent", "Always", "Default", "Never"];
 #[non_exhaustive]
 pub enum SrdfError {
     /// Not well-formed XML, or beyond a limit of the XML parser.
-    #[error("line {line}, column {column}: this is not well-formed XML: {reason}")]
+    #[error("line {line}, column {column}: not well-formed XML: {reason}")]
     Xml {
         /// The line, from 1.
         line: u32,
@@ -31,7 +31,7 @@ pub enum SrdfError {
         reason: String,
     },
     /// Not an SRDF.
-    #[error("this is no SRDF: its element is `{}`, not `robot`", .0.escape_debug())]
+    #[error("this is not an SRDF: its outermost element is `{}`, not `robot`", .0.escape_debug())]
     NotSrdf(String),
     /// The SRDF of another robot.
     #[error("this is the SRDF of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]

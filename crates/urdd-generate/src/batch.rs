@@ -44,7 +44,7 @@ pub enum BatchError {
     },
     /// A folder below the maximum search depth.
     #[error(
-        "{path}: deeper than {MAX_FOLDER_DEPTH} folders is not searched; give this folder by itself"
+        "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
     TooDeep {
         /// The folder.

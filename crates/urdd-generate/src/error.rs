@@ -51,7 +51,7 @@ pub enum GenerateError {
     },
     /// The user's edits in the URDD that is to be replaced would be lost.
     #[error(
-        "{}{}: {fault}; the edits of skips there are a person's, and a new run would lose them. Correct the file, or drop all its edits: `--drop-edits`",
+        "{}{}: {fault}; a new run would lose a person's edits of skips in it. Correct the file, or drop all its edits: `--drop-edits`",
         file.display(),
         at.map(|at| format!(":{at}")).unwrap_or_default()
     )]
@@ -65,7 +65,7 @@ pub enum GenerateError {
     },
     /// A xacro file, but no xacro program on the PATH.
     #[error(
-        "{file}: this is to be expanded by xacro, and there is no program `xacro` on the PATH to expand it; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
+        "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
     NoXacro {
         /// The file, as the user named it.
@@ -80,7 +80,7 @@ pub enum GenerateError {
         reason: String,
     },
     /// The output would replace its own source.
-    #[error("{file}: it lies in the output folder {}, which is to be replaced; give another output folder", target.display())]
+    #[error("{file}: it is in the output folder {}, which would be replaced; give another output folder", target.display())]
     SourceInTarget {
         /// The file, as the user named it.
         file: String,
@@ -91,7 +91,7 @@ pub enum GenerateError {
     #[error(transparent)]
     Write(StagingError),
     /// Generation was cancelled: `Settings::cancellation`.
-    #[error("stopped before it was done; nothing was changed")]
+    #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// The robot's geometry is out of the range that can be computed.
     #[error("{file}: {reason}; fix the mesh, or leave out the distances: `--modules geometry`")]
@@ -103,7 +103,7 @@ pub enum GenerateError {
     },
     /// A bug in this program.
     #[error(
-        "{file}: the generator failed: {reason}; this is a fault of the program, please report it with the file"
+        "{file}: the generator failed: {reason}; this is a bug in the program, please report it with the file"
     )]
     Internal {
         /// The file, as the user named it.
@@ -165,17 +165,17 @@ pub enum EditsFault {
     #[error("this edit cannot be used: {0}")]
     Edit(String),
     /// An edit names a link that the URDD does not have.
-    #[error("this edit names the link `{}`, and the robot of this URDD has no such link", escape::line(.0))]
+    #[error("this edit names the link `{}`, but the robot of this URDD has no such link", escape::line(.0))]
     UnknownLink(String),
     /// There is a YAML file but no JSON file.
-    #[error("there is no module.json beside this file, and it may hold edits")]
+    #[error("this file may contain edits, but module.json is missing beside it")]
     NoJson,
     /// The YAML file differs from the JSON file.
-    #[error("this file differs from module.json, which is the one that counts: {0}")]
+    #[error("this file differs from module.json, which takes precedence: {0}")]
     Yaml(String),
     /// The selected modules do not include the edits.
     #[error(
-        "it holds {0} edit{s}, and the modules asked for leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
+        "it holds {0} edit{s}, but the requested modules leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
         s = if *.0 == 1 { "" } else { "s" }
     )]
     NotAskedFor(usize),
@@ -204,7 +204,7 @@ impl fmt::Display for OutsideMeshes<'_> {
         for mesh in meshes.iter().take(MOST_SHOWN) {
             writeln!(
                 f,
-                "{file}:{}:{}: mesh `{}` lies outside of the folders of the robot and its packages, at {}",
+                "{file}:{}:{}: mesh `{}` is outside of the folders of the robot and its packages, at {}",
                 mesh.line,
                 mesh.column,
                 escape::line(&mesh.name),
@@ -214,13 +214,13 @@ impl fmt::Display for OutsideMeshes<'_> {
         if meshes.len() > MOST_SHOWN {
             writeln!(
                 f,
-                "{file}: and {} more of such meshes",
+                "{file}: and {} more such meshes",
                 meshes.len() - MOST_SHOWN
             )?;
         }
         write!(
             f,
-            "{file}: a URDD carries its meshes, and a URDF must not make you publish other files; where these are meant, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
+            "{file}: a URDD carries its meshes, and a URDF must not make you publish other files; if you want to publish these, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
         )
     }
 }
@@ -236,9 +236,7 @@ impl fmt::Display for Assumptions<'_> {
         if self.0.len() > MOST_SHOWN {
             writeln!(f, "and {} more", self.0.len() - MOST_SHOWN)?;
         }
-        f.write_str(
-            "nothing was written: with --strict, nothing that changes the robot may be assumed",
-        )
+        f.write_str("nothing was written: --strict allows no assumption that changes the robot")
     }
 }
 
@@ -261,7 +259,7 @@ impl fmt::Display for FaultLines<'_> {
         if faults.len() > MOST_SHOWN {
             write!(
                 f,
-                "\n{file}: and {} more of such faults",
+                "\n{file}: and {} more such faults",
                 faults.len() - MOST_SHOWN
             )?;
         }

@@ -11,15 +11,15 @@ pub enum Fault {
     NotXml(String),
     /// The file declares XML entities.
     #[error(
-        "the file declares XML entities of its own (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them"
+        "the file declares XML entities of its own (`<!ENTITY`), which are not supported; `xmllint --noent FILE` writes the file without them"
     )]
     Entities,
     /// The root element is not `<robot>`.
-    #[error("the outermost element is `<{0}>`, and that of a URDF is `<robot>`{hint}", hint = sdf_hint(.0))]
+    #[error("the outermost element is `<{0}>`, but that of a URDF is `<robot>`{hint}", hint = sdf_hint(.0))]
     NotRobot(String),
     /// The robot consists of xacro macros that are not expanded.
     #[error(
-        "the file holds xacro macros only, and no link; expand it first: `xacro FILE > robot.urdf`"
+        "the file contains only xacro macros, and no link; expand it first: `xacro FILE > robot.urdf`"
     )]
     OnlyMacros,
     /// A required attribute is missing.
@@ -40,7 +40,7 @@ pub enum Fault {
     },
     /// A joint type that URDF does not define.
     #[error(
-        "joint `{joint}` is of type `{found}`; the types of URDF are revolute, continuous, prismatic, fixed, floating, planar, spherical"
+        "joint `{joint}` has the unknown type `{found}`; the types of URDF are revolute, continuous, prismatic, fixed, floating, planar, spherical"
     )]
     UnknownJointType {
         /// The joint.
@@ -49,10 +49,10 @@ pub enum Fault {
         found: String,
     },
     /// A rotation given both as `rpy` and as `quat_xyzw`.
-    #[error("`rpy` and `quat_xyzw` both say the rotation of an `<origin>`; keep one of them")]
+    #[error("`rpy` and `quat_xyzw` both give the rotation of an `<origin>`; keep one of them")]
     TwoRotations,
     /// Two links with the same name.
-    #[error("there are two links named `{name}`; the other one is in line {first}")]
+    #[error("two links are named `{name}`; the other one is on line {first}")]
     TwoLinks {
         /// The name.
         name: String,
@@ -60,7 +60,7 @@ pub enum Fault {
         first: u32,
     },
     /// Two joints with the same name.
-    #[error("there are two joints named `{name}`; the other one is in line {first}")]
+    #[error("two joints are named `{name}`; the other one is on line {first}")]
     TwoJoints {
         /// The name.
         name: String,
@@ -68,7 +68,7 @@ pub enum Fault {
         first: u32,
     },
     /// A joint whose parent or child link does not exist.
-    #[error("joint `{joint}` has the {end} link `{link}`, and there is no such link{hint}")]
+    #[error("joint `{joint}` has the {end} link `{link}`, which does not exist{hint}")]
     UnknownLink {
         /// The joint.
         joint: String,
@@ -81,7 +81,7 @@ pub enum Fault {
     },
     /// A link that is the child of two joints.
     #[error(
-        "link `{link}` is the child of joint `{joint}`, and of joint `{first}` already: a URDF is a tree"
+        "link `{link}` is the child of joint `{joint}`, and already of joint `{first}`: a URDF must be a tree"
     )]
     TwoParents {
         /// The link.
@@ -92,11 +92,11 @@ pub enum Fault {
         first: String,
     },
     /// The robot has no links.
-    #[error("there is no `<link>` in `<robot>`")]
+    #[error("`<robot>` contains no `<link>`")]
     NoLinks,
     /// Several root links.
     #[error(
-        "{count} links are no joint's child, and a URDF has one root: {names}. Join them with `fixed` joints, or take the loose ones out"
+        "{count} links are not the child of any joint, but a URDF has one root: {names}. Connect them with `fixed` joints, or remove the loose ones"
     )]
     ManyRoots {
         /// The number of root links.
@@ -105,19 +105,19 @@ pub enum Fault {
         names: String,
     },
     /// The joints form a cycle.
-    #[error("the joints go in a circle: {0}. A URDF is a tree")]
+    #[error("the joints form a cycle: {0}. A URDF must be a tree")]
     Cycle(String),
     /// Mimic joints form a cycle.
     #[error("the mimic of joint `{0}` leads back to that joint")]
     MimicCircle(String),
     /// The product of mimic multipliers, or an offset, overflows binary64.
     #[error(
-        "the multipliers or offsets along the mimics of joint `{0}` are beyond what a 64-bit number holds"
+        "the multipliers or offsets along the mimics of joint `{0}` are beyond the range of 64-bit numbers"
     )]
     MimicOverflow(String),
     /// A zero axis.
     #[error(
-        "joint `{joint}` is {joint_type} about the axis `{axis}`, which has no direction; give it one, or make the joint fixed"
+        "joint `{joint}` is {joint_type}, but its axis `{axis}` has no direction; give it one, or make the joint fixed"
     )]
     ZeroAxis {
         /// The joint.
@@ -128,11 +128,11 @@ pub enum Fault {
         axis: String,
     },
     /// Link poses overflow binary64.
-    #[error("the numbers are so large that no 64-bit number holds where the links are ({0})")]
+    #[error("the numbers in the URDF are too large ({0})")]
     NoPoses(String),
     /// The robot has more links than the generator accepts.
     #[error(
-        "the robot has {found} links, and URDDs are made of up to {limit}: lists over all pairs of links grow with the square"
+        "the robot has {found} links, but a URDD has at most {limit}: lists over all pairs of links grow with the square of their number"
     )]
     TooManyLinks {
         /// The number found.
@@ -142,7 +142,7 @@ pub enum Fault {
     },
     /// The robot has more elements than the generator accepts.
     #[error(
-        "the robot has {found} elements (shapes, materials, and elements that URDF does not know), and URDDs are made of up to {limit}"
+        "the robot has {found} elements (shapes, materials, and elements that URDF does not know), but a URDD has at most {limit}"
     )]
     TooManyElements {
         /// The number found.
@@ -152,7 +152,7 @@ pub enum Fault {
     },
     /// A link has more triangles than the generator accepts.
     #[error(
-        "the shapes of link `{link}` have {found} triangles, and URDDs are made of up to {limit} a link; make its meshes coarser, or leave them out: `--modules core`"
+        "the shapes of link `{link}` have {found} triangles, but a link of a URDD has at most {limit}; make its meshes coarser, or leave them out: `--modules core`"
     )]
     TooManyTriangles {
         /// The link.
@@ -164,7 +164,7 @@ pub enum Fault {
     },
     /// All links together have more triangles than the generator accepts.
     #[error(
-        "the shapes of all links have more than {limit} triangles, which is the most that URDDs are made of; make the meshes coarser, or leave them out: `--modules core`"
+        "the shapes of all links have more than {limit} triangles, the limit of a URDD; make the meshes coarser, or leave them out: `--modules core`"
     )]
     TooManyTrianglesInAll {
         /// The maximum number.

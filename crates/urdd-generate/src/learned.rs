@@ -68,7 +68,7 @@ pub(super) fn self_collision_model(
     match model {
         Ok(module) => made(&module),
         Err(NoModel::OfNoUse(useless)) => {
-            let problem = format!("a self-collision model is of no use: {useless}");
+            let problem = format!("a self-collision model would be of no use: {useless}");
             let assumed = "self_collision_model_module is left out";
             Ok(Made {
                 document: None,
@@ -111,7 +111,7 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
         let of = of.map_or_else(String::new, |of| {
             format!(" piece {} of link {}", of.piece_idx, of.link_idx)
         });
-        format!("distances cannot be taken of{of}: {error}")
+        format!("distances cannot be computed for{of}: {error}")
     })?;
     let links = &skips.full_shapes;
     for (i, a) in links.iter().enumerate() {

@@ -59,9 +59,9 @@ pub(super) fn distance_statistics(
         made.notes.push(context.note(
             NoteKind::TooLarge,
             format!(
-                "the robot has {pieces} convex pieces, and matrices over more than {MOST_PIECES_WITH_MATRICES} grow too large"
+                "the robot has {pieces} convex pieces; matrices over more than {MOST_PIECES_WITH_MATRICES} are too large"
             ),
-            "distances and skips between pieces are left out; those between links are there",
+            "distances and skips between pieces are left out; those between links are included",
         ));
     }
     Ok(made)
@@ -96,7 +96,7 @@ pub(super) fn edited_skips(
     let mut made = streamed(shape_documents::skips(&module), module)?;
     let lost = context.edits.lost.iter().map(|edit| {
         let problem = format!(
-            "the URDD that was there has an edit of the skips between `{}` and `{}`, and the robot has no longer both links",
+            "the previous URDD has an edit of the skips between `{}` and `{}`, but the robot no longer has both links",
             edit.link_a, edit.link_b
         );
         context.note(NoteKind::LeftOut, problem, "the edit is left out")

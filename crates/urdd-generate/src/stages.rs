@@ -85,7 +85,7 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
         context.note(
             NoteKind::TooLarge,
             format!(
-                "the robot has {links} links, and the paths of all pairs grow too large above {MOST_LINKS_WITH_PAIRS} links, or {MOST_LINKS_IN_PAIRS} links in the paths"
+                "the robot has {links} links; the paths of all pairs are too large above {MOST_LINKS_WITH_PAIRS} links, or {MOST_LINKS_IN_PAIRS} links in the paths"
             ),
             "connections_module leaves them out; they follow from its root paths and lowest common ancestors",
         )

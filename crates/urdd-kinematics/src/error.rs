@@ -62,7 +62,7 @@ pub enum Fault {
         found: usize,
     },
     /// An index out of range.
-    #[error("there is no {what} {index}: the number of them is {count}")]
+    #[error("{what} {index} is out of range: there are {count}")]
     OutOfRange {
         /// The indexed items.
         what: &'static str,
@@ -72,13 +72,13 @@ pub enum Fault {
         count: usize,
     },
     /// A joint's child is the root link.
-    #[error("this joint moves link {link}, the root")]
+    #[error("this joint's child is the root link, {link}")]
     RootMoved {
         /// Index of the root.
         link: usize,
     },
     /// Two joints have the same child link.
-    #[error("link {link} is moved by joint {first} already")]
+    #[error("link {link} is already the child of joint {first}")]
     MovedTwice {
         /// Index of the link.
         link: usize,
@@ -129,7 +129,7 @@ pub enum Fault {
 #[non_exhaustive]
 pub enum ConfigurationError {
     /// The number of values is not the number of DOFs.
-    #[error("the configuration has {found} values, the robot {expected} DOFs")]
+    #[error("the configuration has {found} values, but the robot has {expected} DOFs")]
     Length {
         /// Number of DOFs.
         expected: usize,
@@ -145,7 +145,7 @@ pub enum ConfigurationError {
         value: f64,
     },
     /// Values so large that a link's pose overflows `f64`.
-    #[error("link {link_idx} is out of the range of 64-bit numbers")]
+    #[error("the pose of link {link_idx} is beyond the range of 64-bit numbers")]
     Overflow {
         /// Index of the link.
         link_idx: usize,

@@ -39,7 +39,7 @@ impl Robot {
         let links = links.chain(others.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]));
         let num_links = self.link_names()?.len();
         if let Some(link) = links.map(|link| link.get()).find(|link| *link >= num_links) {
-            let reason = format!("link {link} is not one of the robot's {num_links}");
+            let reason = format!("link {link} is out of range: the robot has {num_links} links");
             return Err(unusable(reason));
         }
         CollisionModel::new(module, num_dofs).map_err(|error| unusable(error.to_string()))

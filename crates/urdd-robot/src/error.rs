@@ -24,10 +24,10 @@ pub enum RobotError {
     #[error("the files of the URDD cannot be listed: {0}")]
     List(ReadError),
     /// A required module is missing.
-    #[error("{} is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), .0.short_name())]
+    #[error("{} is missing: generate it with `urdd generate ROBOT.urdf -o DIR --modules {}`", .0.name(), .0.short_name())]
     Missing(ModuleKind),
     /// A required module is unusable.
-    #[error("{}: {reason}: `urdd validate` says more", .module.name())]
+    #[error("{}: {reason}: run `urdd validate` for details", .module.name())]
     Unusable {
         /// Which module.
         module: ModuleKind,
@@ -35,7 +35,7 @@ pub enum RobotError {
         reason: String,
     },
     /// A legacy URDD does not define how its joints move.
-    #[error("the modules do not say how the joints move: `urdd validate` says more")]
+    #[error("the modules do not define how the joints move: run `urdd validate` for details")]
     MotionOpen,
     /// `urdd.json` is missing or unusable.
     #[error("urdd.json: {0}")]
@@ -47,7 +47,7 @@ pub enum RobotError {
     #[error(transparent)]
     Configuration(#[from] ConfigurationError),
     /// The number of values in a batch is not a multiple of the number of DOFs.
-    #[error("{found} values are no whole number of configurations of {dofs} values")]
+    #[error("{found} values do not divide into configurations of {dofs} values")]
     Batch {
         /// Number of values.
         found: usize,
@@ -85,7 +85,7 @@ pub enum RobotError {
         nearest: Option<String>,
     },
     /// Index out of range.
-    #[error("there is no {what} {index}: their number is {count}")]
+    #[error("{what} {index} is out of range: there are {count}")]
     OutOfRange {
         /// What is indexed.
         what: &'static str,

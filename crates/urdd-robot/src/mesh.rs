@@ -156,7 +156,7 @@ fn why_absent(absence: Absence) -> String {
         Absence::Missing => "there is no such file".to_owned(),
         Absence::NoSibling(name) => {
             format!(
-                "it lies in the URDD `{}`, which is not beside this one",
+                "it is in the URDD `{}`, which is not beside this one",
                 name.escape_debug()
             )
         }

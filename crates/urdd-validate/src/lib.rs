@@ -201,7 +201,7 @@ fn caught(
         Err(panic) => {
             let message = engine::panic_message(&*panic);
             let reason = format!(
-                "the program crashed: {message}; this is a fault of the program, please report it"
+                "the program crashed: {message}; this is a bug in the program, please report it"
             );
             without_checks(Verdict::Incomplete, reason)
         }

@@ -90,10 +90,10 @@ pub enum SettingsError {
     #[error("there is no rule {0}; `urdd explain` lists them")]
     UnknownCode(String),
     /// Not a severity.
-    #[error("`{0}` is no severity; write \"error\", \"warning\" or \"info\"")]
+    #[error("`{0}` is not a severity; write \"error\", \"warning\" or \"info\"")]
     UnknownSeverity(String),
     /// Not a conformance class.
-    #[error("`{0}` is no conformance class; write \"core\", \"geometry\" or \"shapes\"")]
+    #[error("`{0}` is not a conformance class; write \"core\", \"geometry\" or \"shapes\"")]
     UnknownClass(String),
     /// An invalid pattern.
     #[error("the pattern `{pattern}` cannot be read: {reason}")]
@@ -104,7 +104,7 @@ pub enum SettingsError {
         reason: String,
     },
     /// An ignore without a reason.
-    #[error("the ignore of `{0}` has an empty reason; say why, for whoever reads this in a year")]
+    #[error("the ignore of `{0}` has an empty reason; state why, for later readers")]
     EmptyReason(String),
 }
 

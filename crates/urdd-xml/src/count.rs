@@ -44,7 +44,7 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
                         return Err(too_many("elements", kind.most_elements()));
                     }
                     if levels >= MOST_LEVELS {
-                        let what = "levels of elements inside one another";
+                        let what = "levels of nested elements";
                         return Err(too_many(what, MOST_LEVELS));
                     }
                     levels += usize::from(tag.kind == TagKind::Start);

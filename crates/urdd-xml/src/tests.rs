@@ -80,7 +80,7 @@ fn what_is_broken_is_left_to_the_parser() {
 fn levels_are_bounded() {
     let nested = |levels: usize| format!("{}{}", "<a b='>'>".repeat(levels), "</a>".repeat(levels));
     assert_eq!(result(&nested(MOST_LEVELS)), Ok(()));
-    let expected = "there are more than 256 levels of elements inside one another";
+    let expected = "there are more than 256 levels of nested elements";
     let error = result(&nested(MOST_LEVELS + 1)).unwrap_err();
     assert_eq!(error, format!("1:{}: {expected}", 9 * MOST_LEVELS + 1));
     // Not nested: empty elements, closed elements, text, and declarations in a document type.
@@ -208,8 +208,8 @@ fn each_fault_says_what_to_do() {
             "<r><xacro:a/></r>",
             "1:5: the prefix `xacro` is not declared; expand",
         ),
-        ("<r a=1/>", "1:6: a quote is expected, not `1`"),
-        ("<r a b='1'/>", "1:6: `=` is expected, not `b`"),
+        ("<r a=1/>", "1:6: expected a quote, found `1`"),
+        ("<r a b='1'/>", "1:6: expected `=`, found `b`"),
         ("<r><1/></r>", "1:5: a name begins with"),
         (
             "<r>\u{1}</r>",

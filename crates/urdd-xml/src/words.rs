@@ -30,7 +30,7 @@ fn of_parser(error: &Error, text: &str) -> String {
             format!("`</{found}>` where `</{expected}>` is expected; close an element before its parent")
         }
         Error::UnknownEntityReference(name, _) => format!(
-            "the entity `&{name};` is not declared; XML itself has `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;` only"
+            "the entity `&{name};` is not declared; XML itself defines only `&amp;`, `&lt;`, `&gt;`, `&quot;` and `&apos;`"
         ),
         Error::MalformedEntityReference(_) => {
             "`&` does not begin an entity here; write `&amp;` for the character".to_owned()
@@ -51,7 +51,7 @@ fn of_parser(error: &Error, text: &str) -> String {
             "the XML declaration `<?xml ...?>` must be at the very start of the file, once".to_owned()
         }
         Error::DtdDetected => {
-            "a document type (`<!DOCTYPE`) is not read here; remove it".to_owned()
+            "a document type (`<!DOCTYPE`) is not supported here; remove it".to_owned()
         }
         Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
             match text.trim().is_empty() {
@@ -63,7 +63,7 @@ fn of_parser(error: &Error, text: &str) -> String {
             format!("the file has more than {MOST_NODES} elements, texts and comments")
         }
         Error::AttributesLimitReached | Error::NamespacesLimitReached => {
-            "the file has more attributes or namespaces than can be read".to_owned()
+            "the file has too many attributes or namespaces".to_owned()
         }
         Error::InvalidName(_) => {
             "a name begins with, or contains, a character that XML does not allow in names; names begin with a letter or `_`"
@@ -77,7 +77,7 @@ fn of_parser(error: &Error, text: &str) -> String {
             expected_character(&format!("`{}`", char::from(*expected)), *found)
         }
         Error::InvalidChar2(expected, found, _) => expected_character(expected, *found),
-        Error::InvalidString(expected, _) => format!("`{expected}` is expected here"),
+        Error::InvalidString(expected, _) => format!("expected `{expected}` here"),
         Error::InvalidExternalID(_) => {
             "the document type (`<!DOCTYPE`) is not well-formed; remove it".to_owned()
         }
@@ -97,7 +97,7 @@ fn expected_character(expected: &str, found: u8) -> String {
         b'\n' | b'\r' => "the end of the line".to_owned(),
         other => format!("the byte 0x{other:02X}"),
     };
-    format!("{expected} is expected, not {found}")
+    format!("expected {expected}, found {found}")
 }
 
 /// The parser reports the same error for three faults; the position distinguishes them.
@@ -132,7 +132,7 @@ impl XmlError {
         match self {
             XmlError::Parser(error) => of_parser(error, text),
             XmlError::Entities(_) => {
-                "it declares entities (`<!ENTITY`), which are not read; `xmllint --noent FILE` writes the file without them".to_owned()
+                "it declares entities (`<!ENTITY`), which are not supported; `xmllint --noent FILE` writes the file without them".to_owned()
             }
             XmlError::Version { found, .. } => {
                 format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())

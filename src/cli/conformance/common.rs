@@ -35,36 +35,37 @@ const FAILED: u8 = 1;
 /// Arguments of both commands.
 #[derive(Args)]
 pub struct RunArguments {
-    /// Seconds that the command may take each time; then it and all that it started is killed (docs/security.md says how far).
+    /// Time limit for each run of the command, in seconds. After that, it and the processes it started are killed
+    /// (docs/security.md states the limits).
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..))]
     timeout: u64,
 
-    /// A list of what is known to fail, a line each, with the reason after a `#`. An entry that passes fails the run.
+    /// A list of known failures, one per line, each with its reason after a `#`. An entry that passes fails the run.
     #[arg(long, value_name = "FILE")]
     skip: Option<PathBuf>,
 
-    /// How the result is written to standard output.
+    /// Format of the result on standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
 
-    /// Writes the result as JSON to a file too.
+    /// Also writes the result as JSON to a file.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Writes each result to a file as soon as it is there, as a line of JSON: what was done stays when the run is stopped.
-    /// A file that is there and is not such a log is left alone.
+    /// Writes each result to a file as soon as it is known, as a line of JSON, so that an interrupted run keeps its
+    /// results. Does not overwrite an existing file that is not such a log.
     #[arg(long, value_name = "FILE")]
     log: Option<PathBuf>,
 
-    /// Lets --log write over a file that is not a log.
+    /// Lets --log overwrite a file that is not a log.
     #[arg(long, requires = "log")]
     force: bool,
 
-    /// How many commands run at a time.
+    /// Number of commands that run at the same time.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 
-    /// Keeps the folders that the command is run on in this folder, which must be new or empty.
+    /// Keeps the folders that the command runs on in this folder, which must be new or empty.
     #[arg(long, value_name = "DIR")]
     pub keep: Option<PathBuf>,
 
@@ -134,7 +135,7 @@ impl RunArguments {
         let is_there = fs::metadata(path).is_ok_and(|there| there.is_file() && there.len() > 0);
         match is_there && !self.force && !is_log(path) {
             true => Err(format!(
-                "{}: this file is there already, and is not a log of this command: give another one, or --force to write over it",
+                "{}: this file exists and is not a log of this command: give another file, or --force to overwrite it",
                 escape::line(&path.display().to_string())
             )),
             false => Ok(()),
@@ -189,7 +190,7 @@ pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
     process::adopt_orphans();
     let result = result(&signals);
     if let Some(status) = signals.status() {
-        output::error("stopped by a signal; all that was started has ended");
+        output::error("stopped by a signal; all started processes have ended");
         return ExitCode::from(status);
     }
     output::ended(result.map(|passed| if passed { PASSED } else { FAILED }))

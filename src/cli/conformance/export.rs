@@ -12,7 +12,7 @@ use crate::conformance::export::{Exported, export};
 /// Arguments of `urdd conformance export`.
 #[derive(Args)]
 pub struct ExportArguments {
-    /// The folder that gets the suite: robots, URDDs, and suite.json, which lists what is expected of each. New or empty.
+    /// Folder to write the suite into, new or empty: robots, URDDs, and suite.json with the expected results.
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }
@@ -29,11 +29,11 @@ fn told(exported: &Exported) -> String {
         exported.valid, exported.cases
     );
     for case in &exported.left_out {
-        text += &format!("left out, since this operating system cannot have it: {case}\n");
+        text += &format!("left out, since this operating system cannot store it: {case}\n");
     }
     for robot in &exported.other_bytes {
         text += &format!(
-            "valid/{robot} is right, but not byte for byte what the suite was checked with: another platform\n"
+            "valid/{robot} is correct, but its bytes differ from those that the suite was checked with, due to the platform\n"
         );
     }
     text

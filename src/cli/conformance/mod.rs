@@ -20,9 +20,9 @@ pub struct ConformanceArguments {
 enum Command {
     /// Write the suite into a folder.
     Export(export::ExportArguments),
-    /// Run somebody's producer on our robots, and score what it makes.
+    /// Run a producer on the suite's robots, and score the URDDs that it writes.
     Producer(producer::ProducerArguments),
-    /// Run somebody's validator on every case, and score its verdicts.
+    /// Run a validator on every case, and score its verdicts.
     Validator(validator::ValidatorArguments),
 }
 

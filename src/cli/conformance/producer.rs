@@ -15,17 +15,17 @@ use urdd_format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreSt
 /// Arguments of `urdd conformance producer`.
 #[derive(Args)]
 #[command(
-    after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder that is to become its URDD; the \
-    command runs once for each robot.\n\nExit status: 0 every robot passed but those skipped; 1 some did not, or a \
-    skip is stale; 2 wrong usage; 129, 130 or \
+    after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder to write its URDD into; the \
+    command runs once for each robot.\n\nExit status: 0 every robot passed or is skipped; 1 a robot failed, or a \
+    skip is stale; 2 usage error; 129, 130 or \
     143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ProducerArguments {
-    /// The conformance class to ask for.
+    /// The required conformance class.
     #[arg(long, value_name = "CLASS", default_value = "core", ignore_case = true)]
     class: Class,
 
-    /// Only this robot; may be given again.
+    /// Runs only this robot. May be repeated.
     #[arg(long = "robot", value_name = "NAME")]
     robots: Vec<String>,
 
@@ -93,7 +93,7 @@ fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
         )?;
     }
     for stale in &result.stale_skips {
-        writeln!(out, "stale skip, take it out: {stale}")?;
+        writeln!(out, "stale skip, remove it: {stale}")?;
     }
     let verdict = if result.passed { "passed" } else { "FAILED" };
     writeln!(out, "{verdict}")

@@ -17,24 +17,25 @@ use urdd_format::registry::SPEC_VERSION;
 #[derive(Args)]
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
-    accepts, 1 (or --reject-status) rejects; everything else, a signal and the time limit too, is no verdict, and wrong.\n\nExit status: 0 \
-    every case was judged right but those skipped; 1 some were not, or a skip is stale; 2 wrong usage; 129, 130 or \
-    143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
+    accepts, 1 (or --reject-status) rejects. Anything else, including a signal or the time limit, is not a verdict and \
+    counts as wrong.\n\nExit status: 0 every verdict is right or skipped; 1 a verdict is wrong, or a skip is stale; \
+    2 usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ValidatorArguments {
-    /// The version of the specification that the validator judges by; cases of others are not run.
+    /// Version of the specification that the validator implements; cases of other versions are not run.
     #[arg(long, value_name = "VERSION", default_value = SPEC_VERSION)]
     spec_version: Version,
 
-    /// Only cases whose name begins so: `DOF`, `DOF003`, `valid/`; may be given again.
+    /// Runs only cases whose name begins with this: `DOF`, `DOF003`, `valid/`. May be repeated.
     #[arg(long = "case", value_name = "START")]
     only: Vec<String>,
 
-    /// Leaves out legacy URDDs, those from before there was a specification.
+    /// Leaves out legacy URDDs, which are older than the specification.
     #[arg(long)]
     no_legacy: bool,
 
-    /// The exit status with which the command rejects. Choose one that a crash does not have: an uncaught exception of Python ends with 1 too.
+    /// Exit status with which the command rejects. Choose one that a crash does not have: an uncaught Python exception
+    /// also ends with 1.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(i32).range(1..=255))]
     reject_status: i32,
 
@@ -100,7 +101,7 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
         }
     }
     for case in &result.not_run {
-        writeln!(out, "{case} not run: this operating system cannot have it")?;
+        writeln!(out, "{case} not run: this operating system cannot store it")?;
     }
     for family in &result.families {
         writeln!(out, "{}  {}", family.name, score(&family.score))?;
@@ -113,13 +114,13 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     if let Some(first) = result.crashed.first() {
         writeln!(
             out,
-            "warning: {} rejections look like crashes, {first} is the first: an uncaught exception ends with status 1 in \
-             many languages. Reject with another status, and say so with --reject-status",
+            "warning: {} rejections look like crashes, the first is {first}: an uncaught exception ends with status 1 in \
+             many languages. Reject with another status, and give it with --reject-status",
             result.crashed.len()
         )?;
     }
     for stale in &result.stale_skips {
-        writeln!(out, "stale skip, take it out: {stale}")?;
+        writeln!(out, "stale skip, remove it: {stale}")?;
     }
     let verdict = if result.passed { "passed" } else { "FAILED" };
     writeln!(out, "{verdict}")

@@ -158,7 +158,7 @@ fn prefixes_of_xml_that_stand_for_two_things_are_refused() {
     let error = put_together(recipe, folder.path(), &core()).expect_err("two meanings");
     let words = error.to_string();
     assert!(
-        words.contains("cell.toml:5:6: the XML prefix `drake` stands for `http://drake.mit.edu`"),
+        words.contains("cell.toml:5:6: the XML prefix `drake` means `http://drake.mit.edu`"),
         "{words}"
     );
 }
@@ -180,7 +180,7 @@ fn materials_of_one_name_look_alike() {
     let words = error.to_string();
     assert!(
         words.contains(
-            "the material `steel` comes of part `g` and of part `h`, which gives it another look"
+            "the material `steel` comes from part `g` and from part `h`, where it looks different"
         ),
         "{words}"
     );

@@ -72,7 +72,7 @@ attach = { to = "base/combined_robot_world", name = "connection_joint_robot_2", 
     );
     assert_eq!(
         notes,
-        ["the axis of the joint of robot 1 is 0 0 0; 1 0 0 is taken"]
+        ["the axis of the joint of robot 1 is 0 0 0; 1 0 0 is used"]
     );
 }
 

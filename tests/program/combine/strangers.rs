@@ -109,7 +109,7 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
         fs::write(folder.join("cell.toml"), one(source)).expect("a file");
         let (status, said, ran) = with_xacro(folder, &["combine", "cell.toml", "-o", "out"]);
         assert_eq!((status, ran), (1, false), "{said}");
-        assert!(said.contains("allow that: --xacro"), "{said}");
+        assert!(said.contains("allow it with --xacro"), "{said}");
         let (status, said, ran) =
             with_xacro(folder, &["combine", "cell.toml", "-o", "out", "--xacro"]);
         assert_eq!((status, ran), (0, true), "{said}");
@@ -138,7 +138,7 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
             let from = ["combine", "--from", "legacy", "-o", "out"];
             let (status, said, ran) = with_xacro(folder, &[&from[..], more].concat());
             assert_eq!((status, ran), (1, false), "{name}: {said}");
-            assert!(said.contains("not the name of one"), "{said}");
+            assert!(said.contains("not the name of a folder"), "{said}");
         }
         let error = Recipe::of_legacy(&folder.join("legacy")).expect_err("not beside it");
         assert!(matches!(

@@ -66,7 +66,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
         told,
         (
             0,
-            "robot: 2 edits added; 1 pair of the SRDF as they were\n  3 pairs skipped that the SRDF does not disable\n".to_owned(),
+            "robot: 2 edits added; 1 pair of the SRDF unchanged\n  3 pairs skipped that the SRDF does not disable\n".to_owned(),
             String::new()
         )
     );
@@ -88,7 +88,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
     let (status, _, said) = run(&contrary, &[]);
     assert_eq!(status, 2);
     assert!(
-        said.contains("has an edit that says of `l0` and `l3`") && said.contains("SRDF: Never"),
+        said.contains("has an edit of `l0` and `l3`") && said.contains("SRDF: Never"),
         "{said}"
     );
     assert_eq!(skipped(&urdd).len(), 6);

@@ -262,7 +262,7 @@ fn folders_too_deep_to_search_are_named() {
     fs::create_dir_all(&deep).unwrap();
     fs::write(folder.path().join("a.urdf"), "<robot name=\"a\"/>").unwrap();
     let error = jobs(&[folder.path().to_owned()]).unwrap_err().to_string();
-    assert!(error.contains("deeper than 32 folders"), "{error}");
+    assert!(error.contains("more than 32 levels deep"), "{error}");
     fs::remove_dir(&deep).unwrap();
     assert_eq!(jobs(&[folder.path().to_owned()]).unwrap().len(), 1);
 }

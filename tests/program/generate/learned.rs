@@ -127,7 +127,7 @@ fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
     let error = Robot::open(&made).unwrap().collision_model().unwrap_err();
     assert_eq!(
         error.to_string(),
-        "self_collision_model_module is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules self_collision_model`"
+        "self_collision_model_module is missing: generate it with `urdd generate ROBOT.urdf -o DIR --modules self_collision_model`"
     );
 }
 
@@ -161,7 +161,7 @@ fn robots_for_which_it_is_of_no_use_go_without() {
         (&apart, "of 4000 sampled configurations 0 are in collision"),
         (
             &fixed,
-            "no two links that are not skipped move against each other",
+            "no two links that are not skipped move relative to each other",
         ),
     ] {
         let made = folder.path().join("made");
@@ -215,7 +215,7 @@ fn robots_that_are_too_large_go_without() {
         (
             "line",
             line,
-            "the robot has 103 DOFs, and a model is made of 100 at most",
+            "the robot has 103 DOFs, but a model supports at most 100",
         ),
     ] {
         let urdf = folder.path().join(format!("{name}.urdf"));

@@ -78,7 +78,7 @@ fn strict_makes_nothing_of_what_has_to_be_assumed() {
     assert_eq!(status, Some(1), "{said}");
     for words in [
         "`gone.stl` was not found",
-        "`text.stl` is no mesh",
+        "`text.stl` is not a mesh",
         "`flat.stl` is not usable",
         "--strict",
     ] {
@@ -156,7 +156,7 @@ fn what_is_no_file_is_said() {
         ("loop.urdf", 1, "loop.urdf: cannot be read: "),
         ("gone.urdf", 1, "gone.urdf: cannot be read: "),
         ("empty.urdf", 2, "there is no .urdf"),
-        ("name:=value", 2, "there is no robot"),
+        ("name:=value", 2, "no robot given"),
     ];
     for (source, expected, words) in cases {
         let (status, _, said) = run(path, &[source]);
@@ -192,7 +192,7 @@ fn a_robot_beyond_the_limits_is_refused() {
     for (text, words) in [
         (
             star(2_001),
-            "the robot has 2001 links, and URDDs are made of up to 2000",
+            "the robot has 2001 links, but a URDD has at most 2000",
         ),
         (unknown, "up to 100000"),
     ] {
@@ -232,7 +232,7 @@ fn more_triangles_than_files_hold_are_refused() {
     for (links, words) in [
         (
             vec![1, 2_344],
-            "the shapes of link `l1` have 3000320 triangles, and URDDs are made of up to 3000000 a link",
+            "the shapes of link `l1` have 3000320 triangles, but a link of a URDD has at most 3000000",
         ),
         (
             vec![1_954, 1_954, 1_954, 1_954],

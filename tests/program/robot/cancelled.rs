@@ -122,7 +122,7 @@ fn validate_says_nothing_of_what_it_did_not_finish() {
     };
     let stopped = validate(&[&path], &settings).err().expect("it stopped");
     assert!(matches!(stopped, ValidateError::Cancelled(_)), "{stopped}");
-    assert_eq!(stopped.to_string(), "stopped before it was done");
+    assert_eq!(stopped.to_string(), "stopped before it was finished");
 }
 
 #[test]

@@ -79,11 +79,11 @@ fn what_is_wrong_is_said_with_the_line() {
     let dofs = "axis_1, axis_2, axis_3, axis_4, axis_5, axis_6";
     assert_eq!(
         said("[0,0,0,0,0,0]\n[1,2]\n"),
-        format!("urdd: standard input:2: 2 values, and the robot has 6 DOFs: {dofs}\n")
+        format!("urdd: standard input:2: 2 values, but the robot has 6 DOFs: {dofs}\n")
     );
     assert_eq!(
         said("0,0,0,0,0,0\n0,0,0,0,0,x\u{7}\n"),
-        "urdd: standard input:2: `x\\u{7}` is no number\n"
+        "urdd: standard input:2: `x\\u{7}` is not a number\n"
     );
     assert_eq!(
         said("0,0,0,0,0,inf\n"),
@@ -95,12 +95,12 @@ fn what_is_wrong_is_said_with_the_line() {
     );
     assert_eq!(
         said("axis_1,axis_2\n1,2\n"),
-        "urdd: standard input:1: there is no column for the DOF `axis_3`\n"
+        "urdd: standard input:1: the column for the DOF `axis_3` is missing\n"
     );
     let (status, _, error) = check(&our_robots()[8].1, &[], "");
     assert_eq!(status, 2);
     assert!(
-        error.contains("this is a URDF; make a URDD of it first: urdd generate"),
+        error.contains("this is a URDF; generate a URDD from it first: urdd generate"),
         "{error}"
     );
     let (status, _, error) = check(&path.join("nowhere"), &[], "");

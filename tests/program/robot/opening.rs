@@ -116,7 +116,7 @@ fn what_is_missing_is_said_when_it_is_needed() {
     assert!(!robot.shapes(ShapeKind::Hulls).unwrap().is_empty());
     assert_eq!(
         robot.configurations().unwrap_err().to_string(),
-        "bounds_module is missing: make it with `urdd generate ROBOT.urdf -o DIR --modules bounds`"
+        "bounds_module is missing: generate it with `urdd generate ROBOT.urdf -o DIR --modules bounds`"
     );
     let error = robot.proximity(ShapeKind::Hulls).unwrap_err().to_string();
     assert!(

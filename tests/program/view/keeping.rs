@@ -81,7 +81,7 @@ fn nothing_is_overwritten() {
     let said = |place: &str| server.post("/robots/gripper/keep", &json!({ "folder": place }));
     for (place, status, words) in [
         (full.to_str(), 409, "not empty"),
-        (path.to_str(), 409, "there is a URDD already"),
+        (path.to_str(), 409, "this folder has a URDD already"),
         (file.to_str(), 403, "a file of that name"),
         (Some("  "), 400, "give a folder"),
         (Some("a\0b"), 400, "give a folder"),

@@ -348,7 +348,7 @@ impl Read for Checked {
         if read == 0 && !buffer.is_empty() {
             return match (self.left, self.crc.sum() == self.stated) {
                 (0, true) => Ok(0),
-                (0, false) => wrong("its checksum is not the stated one"),
+                (0, false) => wrong("its checksum does not match the stated one"),
                 _ => wrong("it is shorter than stated"),
             };
         }

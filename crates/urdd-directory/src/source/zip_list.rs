@@ -54,7 +54,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
     let record = Fields(&bytes[end..]);
     let (stated, size, start) = (record.short(10), record.word(12), record.word(16));
     if record.short(4) != 0 || record.short(6) != 0 || record.short(8) != stated {
-        return Err(broken("it is one part of several"));
+        return Err(broken("it is one part of a split archive"));
     }
     let (start, size) = (start as usize, size as usize);
     if start.checked_add(size) != Some(end) {
@@ -94,7 +94,7 @@ fn end(bytes: &[u8]) -> Result<usize, ArchiveFault> {
     let first = last.saturating_sub(u16::MAX.into());
     let mut found = memchr::memmem::rfind_iter(&bytes[first..], END).map(|at| first + at);
     let Some(end) = found.find(|end| *end <= last) else {
-        return Err(broken("it has no record at its end"));
+        return Err(broken("its end record is missing"));
     };
     // Other readers take the first end record that they find.
     let comment = usize::from(Fields(&bytes[end..]).short(20));
@@ -137,7 +137,7 @@ fn entry<'a>(
     let start = name_start + name_length + extra;
     let end = start.saturating_add(packed as usize);
     if end > list {
-        return fail(damaged("it lies beyond the archive's end"));
+        return fail(damaged("it extends beyond the archive's end"));
     }
     let flags = fields.short(8);
     let has_descriptor = header.short(6) & HAS_DESCRIPTOR != 0;

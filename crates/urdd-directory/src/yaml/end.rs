@@ -5,7 +5,8 @@ use saphyr_parser::{ScalarStyle, Span};
 use super::super::position::{Position, position};
 
 /// Message for a scalar at such an end.
-pub const DISPUTED: &str = "readers disagree about the end of this text, since the file's last line does not end: end it with a line break";
+pub const DISPUTED: &str =
+    "readers disagree about the end of this text, since its last line has no line break: add one";
 
 /// The end of a text.
 pub struct End<'y> {

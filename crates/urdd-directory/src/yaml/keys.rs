@@ -3,7 +3,7 @@
 use saphyr_parser::Span;
 
 /// Message for such a key.
-pub const TORN: &str = "a key in braces and its `:` on different lines make YAML 1.1 readers such as PyYAML refuse the file: write them on one";
+pub const TORN: &str = "a key in braces and its `:` on different lines make YAML 1.1 readers such as PyYAML refuse the file: write both on one line";
 
 /// A forward scan of a text.
 pub struct Keys<'y> {

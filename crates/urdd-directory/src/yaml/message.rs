@@ -98,7 +98,7 @@ fn name(reading: Reading) -> &'static str {
 /// A key that is not a string.
 pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
     let message = format!(
-        "the key {} is {}, and keys are strings: write `{}`",
+        "the key {} is {}, but keys are strings: write `{}`",
         found(text, reading),
         name(reading),
         excerpt(&yaml_quoted(text))
@@ -109,7 +109,7 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
 /// A key that is missing in the JSON.
 pub fn extra_key(key: &str) -> TextFault {
     let key = excerpt(key);
-    let message = format!("the YAML has a key `{key}` that the JSON has not");
+    let message = format!("the YAML has a key `{key}` that the JSON lacks");
     TextFault {
         found: Some(key),
         ..TextFault::new(TextFaultKind::YamlDiffers, message)
@@ -128,7 +128,7 @@ pub fn missing_key(key: &str, value: &Value) -> TextFault {
 /// A duplicate key.
 pub fn repeated_key(key: &str) -> TextFault {
     let message = format!(
-        "`{}` is named a second time in its mapping: readers differ in which they keep; remove one",
+        "the key `{}` occurs twice in its mapping: readers differ in which one they keep; remove one",
         excerpt(key)
     );
     TextFault::new(TextFaultKind::YamlDuplicateKey, message)

@@ -88,10 +88,10 @@ fn check_characters(text: &str, faults: &mut TextFaults) -> bool {
         let code = u32::from(c);
         faults.add(kind, || {
             let message = if kind == TextFaultKind::YamlSyntax {
-                format!("U+{code:04X} may not stand in YAML: write \\u{code:04x} in double quotes")
+                format!("U+{code:04X} is not allowed in YAML: write \\u{code:04x} in double quotes")
             } else {
                 format!(
-                    "U+{code:04X} ends a line in YAML 1.1 and not in YAML 1.2: write \\u{code:04x} in double quotes"
+                    "U+{code:04X} ends a line in YAML 1.1, but not in YAML 1.2: write \\u{code:04x} in double quotes"
                 )
             };
             let lines = lines.get_or_insert_with(|| LineIndex::new(text));

@@ -44,7 +44,7 @@ impl<W: Write> Follow<'_, '_, W> {
 }
 
 fn no_object<E: Error>() -> E {
-    E::custom("the document is no object")
+    E::custom("the document is not an object")
 }
 
 impl<'de, W: Write> DeserializeSeed<'de> for Follow<'_, '_, W> {
@@ -130,7 +130,7 @@ impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
                 out: &mut *self.out,
             })?;
             if !keys.insert(key) {
-                return Err(A::Error::custom("a key stands twice"));
+                return Err(A::Error::custom("a key occurs twice"));
             }
         }
         match keys.is_empty() {

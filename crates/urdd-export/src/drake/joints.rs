@@ -17,8 +17,8 @@ const CROSSED: &str =
     "its lower limit is above its upper one, at which Drake stops; it has no range";
 const NEGATIVE: &str =
     "a negative velocity, acceleration, effort or damping, which Drake refuses, is left out";
-const DAMPING: &str = "Drake wants three dampings of a planar joint; it has none";
-const FLOATING: &str = "Drake's floating joints hang on the world only; it is three prismatic joints and a ball joint, with links without mass between them";
+const DAMPING: &str = "Drake expects three damping values of a planar joint; it has none";
+const FLOATING: &str = "Drake allows floating joints only at the world; it is exported as three prismatic joints and a ball joint, with massless links between them";
 
 /// The elements that represent the joints.
 pub(super) struct DrakeJoints<'a> {

@@ -64,7 +64,7 @@ fn refused(
         return None;
     }
     if !is(&driven.of_one) {
-        return Some("its joint is not there, or has several DOFs");
+        return Some("its joint does not exist, or has several DOFs");
     }
     match actuators.insert(actuator.to_owned()) {
         true => None,

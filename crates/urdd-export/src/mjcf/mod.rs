@@ -134,7 +134,7 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
             _ => {
                 notes.push(Note::Joint {
                     joint: joint.name.clone(),
-                    what: "it follows a joint of several DOFs, which MuJoCo cannot say; it moves freely",
+                    what: "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely",
                 });
                 continue;
             }

@@ -79,7 +79,7 @@ pub(super) fn check_names(
         let attach = part.attach.as_ref().map(|attach| &attach.joint.name);
         let base = recipe.base.as_ref().map(|base| &base.joint.name);
         if let Some(name) = attach.or(base) {
-            let of = format!("what part `{}` hangs on", part.id.text);
+            let of = format!("the joint that attaches part `{}`", part.id.text);
             names.joint(&name.text, of, name)?;
         }
     }
@@ -156,7 +156,7 @@ fn materials(
             };
             if (&first.color, &first.texture) != (&material.color, &material.texture) {
                 let first = format!("part `{}`", parts[*of].part.id.text);
-                let second = format!("part `{}`, which gives it another look", taken.part.id.text);
+                let second = format!("part `{}`, where it looks different", taken.part.id.text);
                 return clash(
                     recipe,
                     "material",

@@ -109,7 +109,7 @@ pub enum PartFault {
     Missing(String),
     /// The source is outside the folders from which a recipe may use parts.
     #[error(
-        "this is {}, outside of {}, the folder of the recipe; to take parts from there too: --allow-folder {}",
+        "this is {}, outside of {}, the folder of the recipe; to use parts from there, add --allow-folder {}",
         escape::line(found),
         escape::line(folder),
         escape::line(allow)
@@ -124,12 +124,12 @@ pub enum PartFault {
     },
     /// A legacy module references a part that is not in a sibling folder.
     #[error(
-        "a legacy module names the folder of a part beside its own, and this is not the name of one: correct it, or write a recipe"
+        "a legacy module names a part by a folder beside its own, but this is not the name of a folder: correct it, or write a recipe"
     )]
     NotBeside,
     /// A xacro file that is named by the recipe, not by the user.
     #[error(
-        "this is a xacro file, which runs as a program, and the recipe names it; where you trust it, allow that: --xacro"
+        "the recipe names a xacro file, which runs as a program; if you trust it, allow it with --xacro"
     )]
     Xacro,
     /// A file of the URDD cannot be read.
@@ -142,20 +142,20 @@ pub enum PartFault {
     },
     /// The URDD contains no URDF.
     #[error(
-        "this URDD carries no URDF, and parts are put together as URDFs; give the URDF itself as the source"
+        "this URDD carries no URDF, but parts are combined as URDFs; give the URDF itself as the source"
     )]
     NoUrdf,
     /// It is not a combined URDD from before version 1.
     #[error(
-        "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which say how it was put together"
+        "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which describe how it was combined"
     )]
     NotComposed,
     /// Nothing in its composition can be expressed as a recipe.
-    #[error("nothing of how it was put together can be said in a recipe: {}", .0.join("; "))]
+    #[error("a recipe cannot express how it was combined: {}", .0.join("; "))]
     SaysNothing(Vec<String>),
     /// The part has validation errors.
     #[error(
-        "it does not pass `urdd validate`: {}; correct it, or take it as it is: --force", codes.join(", ")
+        "it does not pass `urdd validate`: {}; correct it, or use it anyway: --force", codes.join(", ")
     )]
     Fails {
         /// The codes of the rules that found errors, with the number of findings.

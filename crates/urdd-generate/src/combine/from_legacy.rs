@@ -171,7 +171,7 @@ impl Reader<'_> {
                     let Some(holder) = holder.map(|part| part.id.text.clone()) else {
                         let name = &robot.robot_name;
                         self.unsaid(format!(
-                            "robot {idx}, `{name}`, hangs on a robot that is not there; it is left out"
+                            "robot {idx}, `{name}`, is attached to a robot that does not exist; it is left out"
                         ));
                         continue;
                     };
@@ -189,7 +189,7 @@ impl Reader<'_> {
         let axis = robot.axis.xyz;
         if moves && axis == [0.0; 3] {
             self.unsaid(format!(
-                "the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is taken"
+                "the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is used"
             ));
         }
         if moves && (robot.dynamics.is_some() || robot.safety_controller.is_some()) {
@@ -240,7 +240,9 @@ impl Reader<'_> {
                     let kind =
                         kind.and_then(|value| Some(value.as_object()?.keys().next()?.clone()));
                     let kind = kind.unwrap_or_default();
-                    self.unsaid(format!("action {idx}, {kind}, makes or changes links, and a recipe puts robots together"));
+                    self.unsaid(format!(
+                        "action {idx}, {kind}, creates or changes links, which a recipe cannot do"
+                    ));
                 }
             }
         }
@@ -249,7 +251,7 @@ impl Reader<'_> {
     fn chain(&mut self, idx: usize, chain: &AddChain) {
         if chain.scale != [1.0; 3] {
             self.unsaid(format!(
-                "action {idx} scales `{}`, and a recipe scales nothing; its size is left as it is",
+                "action {idx} scales `{}`, which a recipe cannot do; its size is unchanged",
                 chain.name
             ));
         }

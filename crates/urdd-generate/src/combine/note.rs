@@ -115,19 +115,19 @@ impl fmt::Display for Note {
             ),
             Note::PlainMesh { part, link } => write!(
                 f,
-                "part `{}`: its URDD lacks the original mesh of link `{}`, and the plain one is taken: its colours are lost",
+                "part `{}`: its URDD lacks the original mesh of link `{}`; the plain mesh is used, without colours",
                 line(part),
                 line(link)
             ),
             Note::Texture { part, name } => write!(
                 f,
-                "part `{}`: texture `{}` of a material is not carried; its name stands as it is, and the file lies where it did",
+                "part `{}`: texture `{}` of a material is not carried; its name is unchanged, and the file stays where it is",
                 line(part),
                 line(name)
             ),
             Note::LeftAlone { part, place, name } => write!(
                 f,
-                "part `{}`: `{}` says `{}`, the name of a link or joint, and was left as it is; where it means that, write names = [\"{}\"]",
+                "part `{}`: `{}` contains `{}`, the name of a link or joint, and was left unchanged; if it refers to that, write names = [\"{}\"]",
                 line(part),
                 line(place),
                 line(name),
@@ -136,7 +136,7 @@ impl fmt::Display for Note {
             Note::Gone { part, what } => write!(f, "part `{}`: left out {}", line(part), line(what)),
             Note::Following { part, joint } => write!(
                 f,
-                "part `{}`: joint `{}` follows one that is frozen, and is frozen where it is then",
+                "part `{}`: joint `{}` mimics a frozen joint, and is frozen at the position that follows",
                 line(part),
                 line(joint)
             ),
@@ -153,11 +153,11 @@ impl fmt::Display for Note {
             ),
             Note::NotSaid(what) => f.write_str(&line(what)),
             Note::ReasonsDiffer => f.write_str(
-                "the parts skip pairs for different reasons; the usual ones are taken: same-link, always, adjacent, default (`--skip` says others)",
+                "the parts skip pairs for different reasons; the default ones are used: same-link, always, adjacent, default (`--skip` chooses others)",
             ),
             Note::UnequalModules { part, lacks } => write!(
                 f,
-                "part `{}` has no {}, which other parts have; what it lacks is computed",
+                "part `{}` has no {}, which other parts have; it is computed",
                 line(part),
                 lacks.join(", ")
             ),

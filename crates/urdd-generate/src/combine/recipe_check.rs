@@ -70,10 +70,10 @@ impl Recipe {
         // XML does not allow other control characters, and turns these into spaces.
         let is_unfit = |c: &char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
         let why = if text.trim().is_empty() {
-            "is nothing but white space; write a name".to_owned()
+            "is only white space; write a name".to_owned()
         } else if let Some(found) = text.chars().find(is_unfit) {
             format!(
-                "has the character U+{:04X}, which names in a URDF cannot have; leave it out",
+                "has the character U+{:04X}, which names in a URDF cannot contain; remove it",
                 u32::from(found)
             )
         } else if text.len() > limit {

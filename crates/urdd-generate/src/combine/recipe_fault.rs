@@ -55,7 +55,7 @@ pub enum RecipeFault {
     Toml(String),
     /// An unknown key.
     #[error(
-        "there is no key `{}`{}; there are: {known}",
+        "unknown key `{}`{}; expected one of: {known}",
         escape::line(key),
         Meant(nearest)
     )]
@@ -84,7 +84,7 @@ pub enum RecipeFault {
         limit: usize,
     },
     /// More text in the parts than a robot may have.
-    #[error("{what} of the parts have more than {} MiB together: use fewer parts, or shorter ones", limit >> 20)]
+    #[error("{what} of the parts have more than {} MiB in total: use fewer parts, or shorter ones", limit >> 20)]
     TooLong {
         /// The kind of text: `the URDFs`, `the composition modules`, `the edits of skips`.
         what: &'static str,
@@ -102,11 +102,11 @@ pub enum RecipeFault {
         why: String,
     },
     /// An id that cannot be used in `part/link`.
-    #[error("`{}` is no id; write letters, digits, `_` and `-`", escape::line(.0))]
+    #[error("`{}` is not a valid id; use letters, digits, `_` and `-`", escape::line(.0))]
     BadId(String),
     /// Two parts with the same id.
     #[error(
-        "there is another part `{}`{}; ids differ in more than upper and lower case", escape::line(id), Place(*first)
+        "another part has the id `{}`{}; ids must differ in more than upper and lower case", escape::line(id), Place(*first)
     )]
     IdTwice {
         /// The id.
@@ -115,7 +115,7 @@ pub enum RecipeFault {
         first: Option<Position>,
     },
     /// An attachment that does not name a part.
-    #[error("`{}` names no part; write `part/link`", escape::line(.0))]
+    #[error("`{}` does not name a part; write `part/link`", escape::line(.0))]
     NoPartNamed(String),
     /// A part that does not exist.
     #[error("there is no part `{}`{}", escape::line(name), Meant(nearest))]
@@ -144,7 +144,7 @@ pub enum RecipeFault {
     },
     /// Two parts without an attachment.
     #[error(
-        "parts `{}` and `{}` both hang on nothing, and a robot has one root; give one of them `attach`",
+        "parts `{}` and `{}` are both unattached, but a robot has one root; give one of them `attach`",
         escape::line(first),
         escape::line(second)
     )]
@@ -155,16 +155,16 @@ pub enum RecipeFault {
         second: String,
     },
     /// A part that is attached to itself.
-    #[error("part `{}` hangs on itself; `attach.to` names a link of another part", escape::line(.0))]
+    #[error("part `{}` is attached to itself; `attach.to` must name a link of another part", escape::line(.0))]
     OnItself(String),
     /// Parts that are attached to each other in a cycle.
     #[error(
-        "parts hang on each other in a ring: `{}`; one part must hang on nothing, or on `[base]`", escape::line(&.0.join("` on `"))
+        "parts are attached in a cycle: `{}`; one part must be unattached, or attached to `[base]`", escape::line(&.0.join("` to `"))
     )]
     Ring(Vec<String>),
     /// A joint type that URDF does not define.
     #[error(
-        "there is no joint type `{}`{}; there are: revolute, continuous, prismatic, fixed, floating, planar, spherical",
+        "unknown joint type `{}`{}; expected one of: revolute, continuous, prismatic, fixed, floating, planar, spherical",
         escape::line(found),
         Meant(nearest)
     )]
@@ -176,7 +176,7 @@ pub enum RecipeFault {
     },
     /// A joint without the limits that it needs.
     #[error(
-        "a {} joint has limits: `limit = {{ lower = …, upper = …, effort = …, velocity = … }}`", joint_type_word(*.0)
+        "a {} joint needs limits: `limit = {{ lower = …, upper = …, effort = …, velocity = … }}`", joint_type_word(*.0)
     )]
     NoLimit(JointType),
     /// A lower limit above the upper one.
@@ -195,7 +195,7 @@ pub enum RecipeFault {
     NotFinite(&'static str),
     /// The root link of a part cannot be dropped.
     #[error(
-        "`{}` is the root of part `{}`: without it nothing is left; leave out the part, or drop links further out",
+        "`{}` is the root of part `{}`, and without it nothing is left; leave out the part, or drop links farther from the root",
         escape::line(link),
         escape::line(part)
     )]
@@ -224,7 +224,7 @@ pub enum RecipeFault {
     },
     /// A mimic joint whose driver is dropped.
     #[error(
-        "joint `{}` of part `{}` follows `{}`, which is dropped with `{}`; freeze the joint, or drop what hangs on it too",
+        "joint `{}` of part `{}` follows `{}`, which is dropped with `{}`; freeze the joint, or drop its child link too",
         escape::line(joint),
         escape::line(part),
         escape::line(driver),
@@ -242,7 +242,7 @@ pub enum RecipeFault {
     },
     /// A fixed joint cannot be frozen.
     #[error(
-        "joint `{}` of part `{}` is fixed already",
+        "joint `{}` of part `{}` is already fixed",
         escape::line(joint),
         escape::line(part)
     )]
@@ -254,7 +254,7 @@ pub enum RecipeFault {
     },
     /// A frozen joint with the wrong number of values.
     #[error(
-        "joint `{}` of part `{}` has {expected} DOF{}, and there {} {found}", escape::line(joint), escape::line(part), if *expected == 1 { "" } else { "s" }, if *found == 1 { "is" } else { "are" }
+        "joint `{}` of part `{}` has {expected} DOF{}, but there {} {found}", escape::line(joint), escape::line(part), if *expected == 1 { "" } else { "s" }, if *found == 1 { "is" } else { "are" }
     )]
     FreezeCount {
         /// The part.
@@ -268,7 +268,7 @@ pub enum RecipeFault {
     },
     /// A joint frozen outside its limits.
     #[error(
-        "joint `{}` of part `{}` moves from {lower} to {upper}, and cannot be frozen at {value}",
+        "joint `{}` of part `{}` moves from {lower} to {upper}, so it cannot be frozen at {value}",
         escape::line(joint),
         escape::line(part)
     )]
@@ -286,7 +286,7 @@ pub enum RecipeFault {
     },
     /// A name that occurs twice.
     #[error(
-        "the {what} `{}` comes of {first} and of {second}; give one of them a `prefix`, or another name",
+        "the {what} `{}` comes from {first} and from {second}; give one of them a `prefix`, or another name",
         escape::line(name)
     )]
     Clash {
@@ -301,7 +301,7 @@ pub enum RecipeFault {
     },
     /// An XML prefix with two different namespaces.
     #[error(
-        "the XML prefix `{}` stands for `{}` in one part and for `{}` in part `{}`; write one of them otherwise in its URDF",
+        "the XML prefix `{}` means `{}` in one part and `{}` in part `{}`; rename one of them in its URDF",
         escape::line(prefix),
         escape::line(first),
         escape::line(second),
@@ -319,7 +319,7 @@ pub enum RecipeFault {
     },
     /// An entry of `names` in the wrong form.
     #[error(
-        "`{}` says not what names links and joints; write `element` for its text, or `element@attribute`", escape::line(.0)
+        "`{}` does not say where links and joints are named; write `element` for its text, or `element@attribute`", escape::line(.0)
     )]
     BadName(String),
 }

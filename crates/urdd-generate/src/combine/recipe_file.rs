@@ -28,7 +28,7 @@ impl Recipe {
         };
         if file.is_dir() || file.extension().is_none_or(|ending| ending != "toml") {
             let words =
-                "a recipe is a .toml file; to put two robots together, give both, and `--at LINK`";
+                "a recipe is a .toml file; to combine two robots, give both and `--at LINK`";
             return Err(unreadable(words.to_owned()));
         }
         let bytes =

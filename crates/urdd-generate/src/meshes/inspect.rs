@@ -156,7 +156,7 @@ impl Beside<'_> {
     }
 
     fn look(&self, side: &str) -> Found {
-        let missing = || "which is not there".to_owned();
+        let missing = || "which does not exist".to_owned();
         let name = side.replace('\\', "/");
         let name = Path::new(&name);
         let is_relative = name.components().all(|part| {
@@ -166,14 +166,14 @@ impl Beside<'_> {
             )
         });
         if !is_relative {
-            return Err("which is not named from the mesh's own folder".to_owned());
+            return Err("whose path is not relative to the mesh's own folder".to_owned());
         }
         let folder = self.mesh.parent().ok_or_else(missing)?;
         let file = folder.join(name).canonicalize().map_err(|_| missing())?;
         // Check the target of symbolic links: a harmless link name may lead to any file.
         let extension = extension(&file).unwrap_or_default();
         if !file.is_file() || !SIDE_FILES.contains(&extension.as_str()) {
-            return Err("which is no kind of file that meshes bring along".to_owned());
+            return Err("which is not a kind of file that meshes use".to_owned());
         }
         let package = match self.place {
             Place::Package(name, folder) => Some((name.as_str(), folder.as_path())),
@@ -181,7 +181,7 @@ impl Beside<'_> {
         };
         let Some(place) = self.roots.place(&file, package) else {
             return Err(format!(
-                "which lies outside of the robot's folders ({}; `--allow-folder` allows it)",
+                "which is outside of the robot's folders ({}; `--allow-folder` allows it)",
                 file.display()
             ));
         };

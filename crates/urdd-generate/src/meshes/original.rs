@@ -227,7 +227,7 @@ impl<'a> Notes<'a> {
         inside: &'a Inspected,
     ) {
         if let Some(assumed) = &found.assumed {
-            let problem = format!("mesh `{name}` is not named as files are");
+            let problem = format!("mesh `{name}` is not a plain file name");
             self.note(NoteKind::Mesh, place, problem, assumed);
         }
         if !self.said.insert(&found.file) {
@@ -247,14 +247,14 @@ impl<'a> Notes<'a> {
             }
             (None, why) => {
                 let why = why.as_ref().err().map_or("", String::as_str);
-                let problem = format!("mesh `{name}` is no mesh ({path}: {why})");
+                let problem = format!("mesh `{name}` is not a mesh ({path}: {why})");
                 let assumed = "not carried; the element has no surface";
                 self.note(NoteKind::MeshNotFound, place, problem, assumed);
                 return;
             }
         }
         for (side, why) in &inside.left_out {
-            let problem = format!("mesh `{name}` names `{side}`, {why}");
+            let problem = format!("mesh `{name}` refers to `{side}`, {why}");
             self.note(
                 NoteKind::Mesh,
                 place,
@@ -265,7 +265,7 @@ impl<'a> Notes<'a> {
         self.outside(format!("mesh `{name}`"), place, &found.file, &found.place);
         for (file, side) in &inside.side_files {
             let side_name = file.file_name().unwrap_or_default().to_string_lossy();
-            let what = format!("`{side_name}`, which mesh `{name}` names,");
+            let what = format!("`{side_name}`, which mesh `{name}` refers to,");
             self.outside(what, place, file, &side.place);
         }
     }
@@ -276,11 +276,11 @@ impl<'a> Notes<'a> {
             return;
         }
         let assumed = match of {
-            Place::Package(name, _) => format!("carried, as of the package `{name}`"),
+            Place::Package(name, _) => format!("carried, since it belongs to the package `{name}`"),
             Place::Own | Place::Allowed => "carried, since --allow-folder allows it".to_owned(),
         };
         let path = file.display();
-        let problem = format!("{what} lies outside of the URDF's folder and package, at {path}");
+        let problem = format!("{what} is outside of the URDF's folder and package, at {path}");
         self.note(NoteKind::Outside, place, problem, &assumed);
     }
 }

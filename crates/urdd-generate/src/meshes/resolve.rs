@@ -134,12 +134,13 @@ impl Search<'_> {
                 }
                 "http" | "https" | "ftp" => {
                     self.not_found = NotFound::because(
-                        "nothing is fetched over the network; download it and name the file",
+                        "nothing is fetched over the network; download the file and give its path",
                     );
                     None
                 }
                 other => {
-                    let words = format!("`{other}://` is no way to name a file that is known here");
+                    let words =
+                        format!("file names that begin with `{other}://` are not supported");
                     self.not_found = NotFound::because(&words);
                     None
                 }
@@ -189,10 +190,12 @@ impl Search<'_> {
         }
         let hint = match folders.is_empty() {
             true => format!(
-                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; say where it is: --package {package}=FOLDER",
+                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; give its folder: --package {package}=FOLDER",
                 urdf_folder.display()
             ),
-            false => format!("if the package is elsewhere, say where: --package {package}=FOLDER"),
+            false => {
+                format!("if the package is elsewhere, give its folder: --package {package}=FOLDER")
+            }
         };
         self.not_found.hint.get_or_insert(hint);
         None

@@ -63,8 +63,8 @@ pub(super) fn fault_of_side_file(
         }
         // Binary numbers: any bytes are valid.
         "bin" if matches!(mesh, Format::Gltf | Format::Glb) => None,
-        "mtl" | "bin" => Some("which is not a file that meshes of this format have"),
-        _ => (!is_image(bytes)).then_some("which is not an image that is known here"),
+        "mtl" | "bin" => Some("which is not a file that meshes of this format use"),
+        _ => (!is_image(bytes)).then_some("which is not an image of a supported format"),
     }
 }
 

@@ -209,9 +209,7 @@ where
         for of in of_link {
             let shape = shape(of).map_err(|error| {
                 let name = &chain.links_in_chain[body].name;
-                format!(
-                    "the mesh of link `{name}` is not one that distances can be taken of: {error}"
-                )
+                format!("distances cannot be computed for the mesh of link `{name}`: {error}")
             })?;
             shapes.push(PlacedShape { body, shape });
         }

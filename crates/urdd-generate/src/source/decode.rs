@@ -50,7 +50,7 @@ pub(super) fn decode(
     let encoding = match encoding {
         Some(encoding) => {
             let name = encoding.name();
-            let problem = format!("the file is in {name}, and URDDs are in UTF-8");
+            let problem = format!("the file is encoded in {name}, but URDDs are in UTF-8");
             note(problem, "carried in UTF-8".to_owned());
             encoding
         }

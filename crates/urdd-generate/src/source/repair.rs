@@ -24,7 +24,7 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
             kind: NoteKind::Xml,
             offset: 0,
             problem: "there is white space before the declaration `<?xml …?>`".to_owned(),
-            assumed: "taken out".to_owned(),
+            assumed: "removed".to_owned(),
         });
     }
     if let Some(range) = urdd_xml::wrong_version(&text) {
@@ -43,7 +43,7 @@ pub(super) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
             kind: NoteKind::Xml,
             offset: end,
             problem: "the file ends with a NUL byte".to_owned(),
-            assumed: "taken out".to_owned(),
+            assumed: "removed".to_owned(),
         });
         text.truncate(end);
     }

@@ -101,7 +101,7 @@ pub(super) fn expand(
             )));
         }
     };
-    let unread = || Err("it does not end".to_owned());
+    let unread = || Err("it did not end".to_owned());
     let written =
         written.unwrap_or_else(|| output.recv_timeout(LAST_WORDS).unwrap_or_else(|_| unread()));
     let written = written.map_err(|why| failed(format!("its output: {why}")))?;
@@ -110,7 +110,7 @@ pub(super) fn expand(
         let words = last_lines(&words.unwrap_or_default());
         return Err(failed(words.unwrap_or_else(|| status.to_string())));
     }
-    String::from_utf8(written).map_err(|_| failed("what it writes is not UTF-8".to_owned()))
+    String::from_utf8(written).map_err(|_| failed("its output is not UTF-8".to_owned()))
 }
 
 /// Reads a stream in a separate thread, so that the program never blocks on a full pipe.

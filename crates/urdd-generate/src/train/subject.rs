@@ -52,18 +52,18 @@ pub enum Useless {
         dof: String,
     },
     /// No two links that are not skipped move relative to each other.
-    #[error("no two links that are not skipped move against each other")]
+    #[error("no two links that are not skipped move relative to each other")]
     NothingMoves,
     /// Too many pairs of links.
     #[error(
-        "more than {most} pairs of links are not skipped, and a model of so many is no faster than what it stands for"
+        "more than {most} pairs of links are not skipped, and a model of so many is no faster than exact distances"
     )]
     ManyPairs {
         /// Maximum number of pairs.
         most: usize,
     },
     /// Too many DOFs.
-    #[error("the robot has {found} DOFs, and a model is made of {most} at most")]
+    #[error("the robot has {found} DOFs, but a model supports at most {most}")]
     ManyDofs {
         /// The number of DOFs.
         found: usize,
@@ -72,7 +72,7 @@ pub enum Useless {
     },
     /// Too few collisions among the samples.
     #[error(
-        "of {of} sampled configurations {found} are in collision, which is too few to learn from"
+        "{found} of {of} sampled configurations are in collision, which is too few to learn from"
     )]
     FewCollisions {
         /// The number of collisions.
@@ -82,7 +82,7 @@ pub enum Useless {
     },
     /// Too few free configurations.
     #[error(
-        "of {of} sampled configurations {found} are free of collisions, which is too few to learn from"
+        "{found} of {of} sampled configurations are free of collisions, which is too few to learn from"
     )]
     FewFree {
         /// The number of free configurations.

@@ -245,7 +245,7 @@ fn mimics(reader: &mut Reader) {
         let found = joints.get(mimic.joint.as_str()).copied();
         let many = |idx: usize| num_dofs(robot.joints[idx].joint_type) > 1;
         let problem = match found {
-            None => format!("joint `{name}` mimics `{driver}`, and there is no such joint"),
+            None => format!("joint `{name}` mimics `{driver}`, which does not exist"),
             Some(_) if many(idx) => {
                 let kind = joint.joint_type.as_str().to_ascii_lowercase();
                 format!(
@@ -264,7 +264,7 @@ fn mimics(reader: &mut Reader) {
     }
     for (idx, problem) in dropped {
         let place = reader.joint_places[idx].mimic.clone();
-        let assumed = "the mimic is left out: the joint moves by itself";
+        let assumed = "the mimic is left out: the joint moves on its own";
         reader.remark(NoteKind::Mimic, place.start, problem, assumed);
         reader.edit(place, "");
         reader.reading.robot.joints[idx].mimic = None;
@@ -322,7 +322,7 @@ fn missing_limits(reader: &mut Reader) {
             found.push((
                 place.joint,
                 problem,
-                format!("taken as not limited; its bounds are {bounds}"),
+                format!("treated as unlimited; its bounds are {bounds}"),
             ));
         }
     }

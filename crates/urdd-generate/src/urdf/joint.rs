@@ -110,7 +110,7 @@ impl Reader {
             }
             Some(_) if plain != word => {
                 let problem = format!(
-                    "the joint type `{}` is not as URDF writes it",
+                    "the joint type `{}` is not spelled as in URDF",
                     shortened(&word)
                 );
                 let assumed = format!("read as `{plain}`");

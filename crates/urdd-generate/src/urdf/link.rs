@@ -71,7 +71,7 @@ impl Reader {
                     NoteKind::Repeated,
                     shape.range().start,
                     problem,
-                    "the first counts",
+                    "the first is used",
                 );
                 continue;
             }

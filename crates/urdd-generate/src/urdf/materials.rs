@@ -28,16 +28,19 @@ pub(super) fn check(reader: &mut Reader) {
         let (problem, assumed) = match &material.name {
             None => (
                 "a material has no name".to_owned(),
-                "it is that of its element alone",
+                "it applies only to its element",
             ),
             Some(name) => match looks.get(name.as_str()) {
                 Some(first) if has_look && *first != look && told.insert(name) => (
-                    format!("there is another look of material `{}`", shortened(name)),
-                    "each element keeps its own; where only the name stands, the first counts",
+                    format!(
+                        "material `{}` is defined again, and looks different",
+                        shortened(name)
+                    ),
+                    "each element keeps its own; a name alone means the first",
                 ),
                 None if told.insert(name) => (
                     format!("no material `{}` has a colour or texture", shortened(name)),
-                    "the name is kept, and has no look",
+                    "the name is kept, without a look",
                 ),
                 _ => continue,
             },

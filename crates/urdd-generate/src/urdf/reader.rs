@@ -88,7 +88,7 @@ impl Reader {
                 NoteKind::Repeated,
                 again.range().start,
                 problem,
-                "the first counts",
+                "the first is used",
             );
         }
         Some(first)
@@ -111,7 +111,7 @@ impl Reader {
         if self.mended.insert(offset) {
             let element = xml::name(element);
             let problem = format!(
-                "`{}` of `<{element}>` is not as URDF writes it",
+                "`{}` of `<{element}>` is not spelled as in URDF",
                 found.name()
             );
             self.remark(NoteKind::Case, offset, problem, format!("read as `{name}`"));
@@ -166,7 +166,7 @@ impl Reader {
                 None
             }
             Numbers::Wrong => {
-                let problem = format!("{}, and should be {}", what(), numbers::what(N));
+                let problem = format!("{}, but should be {}", what(), numbers::what(N));
                 if let Some(numbers) = completed::<N>(attribute, found.value()) {
                     let words: Vec<String> = numbers.iter().map(f64::to_string).collect();
                     let text = words.join(" ");
@@ -207,7 +207,7 @@ impl Reader {
             }
             let lower = name.to_ascii_lowercase();
             if known.contains(&lower.as_str()) {
-                let problem = format!("`<{name}>` is no element of URDF, but `<{lower}>` is");
+                let problem = format!("`<{name}>` is not an element of URDF, but `<{lower}>` is");
                 let assumed = "kept as text, without effect";
                 self.remark(NoteKind::Case, element.range().start, problem, assumed);
             }
@@ -279,15 +279,16 @@ impl Reader {
             && self.attribute(origin, "quat_xyzw").is_some();
         if !has_quaternions(self.reading.robot.version.as_deref()) {
             if read.quat_xyzw.is_some() {
-                let problem = "`quat_xyzw` of `<origin>` has a meaning from URDF 1.1 on, and this is an older one";
-                let assumed = "kept, without effect; `version=\"1.1\"` of `<robot>` gives it one";
+                let problem = "`quat_xyzw` of `<origin>` needs URDF 1.1, but this version is older";
+                let assumed =
+                    "kept, without effect; to use it, write `version=\"1.1\"` on `<robot>`";
                 self.remark(NoteKind::Numbers, offset, problem.to_owned(), assumed);
             }
         } else if both {
             self.fault(offset, Fault::TwoRotations);
         } else if read.quat_xyzw.is_some_and(|xyzw| from_xyzw(xyzw).is_none()) {
-            let problem = "`quat_xyzw` of `<origin>` has no length".to_owned();
-            self.remark(NoteKind::Numbers, offset, problem, "taken as no rotation");
+            let problem = "`quat_xyzw` of `<origin>` has length 0".to_owned();
+            self.remark(NoteKind::Numbers, offset, problem, "treated as no rotation");
         }
         Some(read)
     }
@@ -319,9 +320,9 @@ fn absent(element: &str, attribute: &str) -> String {
         ("mimic", "multiplier") => "1",
         ("mimic", "offset") => "0",
         ("limit", "lower" | "upper") => "0 beside another limit",
-        _ => return "taken as absent".to_owned(),
+        _ => return "treated as absent".to_owned(),
     };
-    format!("taken as absent, which means {means}")
+    format!("treated as absent, which means {means}")
 }
 
 /// Shortens text for a message.

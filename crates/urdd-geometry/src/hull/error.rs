@@ -15,7 +15,7 @@ pub enum HullError {
         point: usize,
     },
     /// All points coincide.
-    #[error("all points are one")]
+    #[error("all points coincide")]
     Point,
     /// All points are collinear.
     #[error("all points lie on one line")]

@@ -63,7 +63,7 @@ impl Assembly {
         let dropped = placed.drop_non_finite();
         self.notes.add_many(
             NoteCode::NotFinite,
-            "a triangle with a corner that is no finite number was dropped",
+            "a triangle with a corner that is not finite was dropped",
             dropped,
         );
         if placed.triangles.is_empty() {
@@ -140,7 +140,7 @@ impl Assembly {
 
 /// Note for materials beyond [`MOST_PARTS`].
 pub(super) const TOO_MANY_PARTS: &str =
-    "more than 4096 materials; what has another one is taken without material";
+    "more than 4096 materials; faces with any other material are read without one";
 
 fn look_of(material: &Material) -> Look {
     (

@@ -64,7 +64,7 @@ pub enum Fault {
     },
     /// A file with geometry was not found.
     #[error(
-        "the file '{0}', which holds the geometry, was not found; put it where the mesh names it"
+        "the file '{0}', which contains the geometry, was not found; put it at the path that the mesh names"
     )]
     NoSideFile(String),
 }

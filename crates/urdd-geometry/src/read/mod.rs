@@ -105,7 +105,7 @@ fn read_format(
     let named = sniff::extension_format(name);
     if let Some(named) = named.filter(|named| named.extension() != format.extension()) {
         let text = format!(
-            "the extension says {}, the content is {}",
+            "the extension says {}, but the content is {}",
             named.label(),
             format.label()
         );

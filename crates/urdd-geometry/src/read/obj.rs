@@ -49,7 +49,7 @@ pub(super) fn read(
         }
         .map_err(|failure| failure.at(|| Place::Line(at + 1)))?;
     }
-    let text = "a face was dropped: it names a vertex that is not there, or holds something that is not an index";
+    let text = "a face was dropped: a vertex index is out of range, or is not an index";
     assembly
         .notes
         .add_many(NoteCode::IndexOutOfRange, text, faces.bad);
@@ -79,7 +79,7 @@ pub(super) fn read(
         let (mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
         assembly.notes.add_many(
             NoteCode::IndexOutOfRange,
-            "a triangle was dropped: it names a vertex that is not there",
+            "a triangle was dropped: a vertex index is out of range",
             left_out,
         );
         assembly.add(

@@ -21,7 +21,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     }
     if let Some(unsupported) = known_but_unread(bytes) {
         return Err(Fault::NotSupported(format!(
-            "this is {unsupported}, which is not read"
+            "this is {unsupported}, which is not supported"
         )));
     }
     let head = &bytes[..bytes.len().min(HEAD)];
@@ -53,7 +53,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     match extension {
         Some(Format::StlBinary) if bytes.len() >= STL_HEADER => Ok(Format::StlBinary),
         Some(Format::StlBinary) => Err(Fault::Truncated(format!(
-            "an STL has a header of {STL_HEADER} bytes, and this file {}",
+            "an STL has a header of {STL_HEADER} bytes, but this file has {}",
             bytes.len()
         ))),
         Some(Format::Obj) if is_text => Ok(Format::Obj),
@@ -93,10 +93,10 @@ fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
         (b"ply\r", "PLY"),
         (b"Kaydara FBX", "FBX"),
         (b"BLENDER", "a Blender file"),
-        (b"\x1f\x8b", "compressed with gzip"),
+        (b"\x1f\x8b", "a gzip archive"),
         (
             b"version https://git-lfs",
-            "a Git LFS pointer and not the mesh itself (run `git lfs pull`)",
+            "a Git LFS pointer instead of the mesh (run `git lfs pull`)",
         ),
         (b"OFF\n", "OFF"),
     ];

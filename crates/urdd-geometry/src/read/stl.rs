@@ -18,7 +18,7 @@ const RECORD: usize = 50;
 pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
     let (Some(count), Some(data)) = (bytes.get(80..HEADER), bytes.get(HEADER..)) else {
         return Err(Fault::Truncated(format!(
-            "a binary STL has {HEADER} bytes before its triangles, this file {}",
+            "a binary STL has {HEADER} bytes before its triangles, but this file has {}",
             bytes.len()
         ))
         .into());
@@ -34,18 +34,18 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
         Err(_) => whole,
     };
     if used == 0 && count > 0 {
-        let text = format!("the header counts {count} triangles, and not one is whole");
+        let text = format!("the header states {count} triangles, but none is complete");
         return Err(Failure::from(Fault::Truncated(text)).at(|| Place::Byte(bytes.len())));
     }
     if count > whole as u64 {
         let text = format!(
-            "the file is cut off: {whole} of the {count} triangles that its header counts are there"
+            "the file is cut off: it contains {whole} of the {count} triangles that its header states"
         );
         assembly.notes.add(NoteCode::CutOff, text);
     } else if used as u64 != count {
         assembly.notes.add(
             NoteCode::WrongCount,
-            format!("the header counts no triangles, but there are {used}"),
+            format!("the header states 0 triangles, but the file contains {used}"),
         );
     } else if data.len() != used * RECORD {
         let text = format!(
@@ -95,8 +95,7 @@ pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Fa
         }
     }
     if open {
-        let text =
-            "the file is cut off: it has no `endsolid`, and what came before its end was read";
+        let text = "the file is cut off: `endsolid` is missing; everything before its end was read";
         assembly.notes.add(NoteCode::CutOff, text);
     }
     assembly.add(&mesh, &Matrix4::identity(), &Material::default())

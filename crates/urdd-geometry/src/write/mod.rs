@@ -33,7 +33,7 @@ pub enum WriteError {
         vertex: usize,
     },
     /// A triangle references a missing vertex.
-    #[error("triangle {triangle} of part {part} names a vertex that is not there")]
+    #[error("triangle {triangle} of part {part} has a vertex index that is out of range")]
     IndexOutOfRange {
         /// Index of the part.
         part: usize,

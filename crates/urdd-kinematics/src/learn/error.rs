@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ModelError {
     /// A list has the wrong length.
-    #[error("{pointer}: there are {found} entries, where {what} asks for {expected}")]
+    #[error("{pointer}: found {found} entries, but {what} requires {expected}")]
     Length {
         /// JSON Pointer to the value.
         pointer: String,
@@ -18,7 +18,7 @@ pub enum ModelError {
         what: &'static str,
     },
     /// A DOF index is out of range.
-    #[error("{pointer}: DOF {index} is not one of the robot's {count}")]
+    #[error("{pointer}: DOF {index} is out of range: the robot has {count} DOFs")]
     Dof {
         /// JSON Pointer to the value.
         pointer: String,
@@ -34,12 +34,12 @@ pub enum ModelError {
         pointer: String,
     },
     /// A list is empty, but the network needs at least one value.
-    #[error("{pointer}: there is none; the network needs at least one")]
+    #[error("{pointer}: empty; the network needs at least one entry")]
     NoValues {
         /// JSON Pointer to the value.
         pointer: String,
     },
     /// The network has no layers.
-    #[error("/layers: there is none; the network needs at least one")]
+    #[error("/layers: empty; the network needs at least one layer")]
     NoLayer,
 }

@@ -64,7 +64,7 @@ impl Network {
             fits(layer.biases.len(), rows, at("biases".to_owned()), "weights")?;
             for (row, weights) in layer.weights.iter().enumerate() {
                 let pointer = at(format!("weights/{row}"));
-                fits(weights.len(), width, pointer, "the layer before")?;
+                fits(weights.len(), width, pointer, "the previous layer")?;
             }
             let is_last = place + 1 == layers.len();
             if is_last {

@@ -33,27 +33,27 @@ fn fault(change: impl FnOnce(&mut ChainModule, &mut DofModule), expected: &str) 
 fn indices_out_of_range() {
     fault(
         |chain, _| chain.root_idx = LinkIdx(4),
-        "chain_module/root_idx: there is no link 4: the number of them is 4",
+        "chain_module/root_idx: link 4 is out of range: there are 4",
     );
     fault(
         |chain, _| chain.joints_in_chain[1].parent_link_idx = LinkIdx(u32::MAX),
-        "chain_module/joints_in_chain/1/parent_link_idx: there is no link 4294967295: the number of them is 4",
+        "chain_module/joints_in_chain/1/parent_link_idx: link 4294967295 is out of range: there are 4",
     );
     fault(
         |chain, _| chain.joints_in_chain[2].child_link_idx = LinkIdx(9),
-        "chain_module/joints_in_chain/2/child_link_idx: there is no link 9: the number of them is 4",
+        "chain_module/joints_in_chain/2/child_link_idx: link 9 is out of range: there are 4",
     );
     fault(
         |_, dof| dof.joint_idx_to_dof_idxs_mapping[1][2] = DofIdx(4),
-        "dof_module/joint_idx_to_dof_idxs_mapping/1/2: there is no DOF 4: the number of them is 4",
+        "dof_module/joint_idx_to_dof_idxs_mapping/1/2: DOF 4 is out of range: there are 4",
     );
     fault(
         |_, dof| dof.num_dofs = Count(0),
-        "dof_module/joint_idx_to_dof_idxs_mapping/0/0: there is no DOF 0: the number of them is 0",
+        "dof_module/joint_idx_to_dof_idxs_mapping/0/0: DOF 0 is out of range: there are 0",
     );
     fault(
         |_, dof| mimic(dof).dof_idx = Some(DofIdx(4)),
-        "dof_module/joint_idx_to_mimic_mapping/2/dof_idx: there is no DOF 4: the number of them is 4",
+        "dof_module/joint_idx_to_mimic_mapping/2/dof_idx: DOF 4 is out of range: there are 4",
     );
 }
 
@@ -73,7 +73,7 @@ fn a_chain_without_links() {
         .to_string();
     assert_eq!(
         error,
-        "chain_module/root_idx: there is no link 0: the number of them is 0"
+        "chain_module/root_idx: link 0 is out of range: there are 0"
     );
 }
 
@@ -91,11 +91,11 @@ fn chains_that_are_no_tree() {
     );
     fault(
         |chain, _| chain.joints_in_chain[2].child_link_idx = LinkIdx(0),
-        "chain_module/joints_in_chain/2/child_link_idx: this joint moves link 0, the root",
+        "chain_module/joints_in_chain/2/child_link_idx: this joint's child is the root link, 0",
     );
     fault(
         |chain, _| chain.joints_in_chain[2].child_link_idx = LinkIdx(1),
-        "chain_module/joints_in_chain/2/child_link_idx: link 1 is moved by joint 0 already",
+        "chain_module/joints_in_chain/2/child_link_idx: link 1 is already the child of joint 0",
     );
     fault(
         |chain, _| chain.links_in_chain.push(chain.links_in_chain[0].clone()),

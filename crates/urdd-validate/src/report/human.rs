@@ -76,7 +76,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     for check in urdd.checks.iter().filter(crashed) {
         writeln!(
             out,
-            "  {} {} ran into a fault of its own and checked nothing: {}. Please report this.",
+            "  {} {} crashed and checked nothing: {}. Please report this.",
             style.paint(RED, "crash"),
             check.code,
             safe(check.reason.as_deref().unwrap_or_default())

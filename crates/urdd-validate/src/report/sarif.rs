@@ -288,7 +288,7 @@ fn notifications(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
     let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
     for check in urdd.checks.iter().filter(crashed) {
         let text = format!(
-            "{} ran into a fault of its own and checked nothing: {}. Please report this.",
+            "{} crashed and checked nothing: {}. Please report this.",
             check.code,
             check.reason.as_deref().unwrap_or_default()
         );

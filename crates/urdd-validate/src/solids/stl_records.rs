@@ -27,7 +27,7 @@ pub fn fault(stl: &[u8]) -> Option<String> {
             .fold(0.0, |most: f64, x| most.max(x.abs()));
         if record[48..] != [0, 0] {
             return Some(format!(
-                "triangle {at} has {:?} in the two bytes that are for nothing; write zeros",
+                "triangle {at} has {:?} in the two unused bytes; write zeros",
                 &record[48..]
             ));
         }

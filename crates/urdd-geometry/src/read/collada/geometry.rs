@@ -35,7 +35,7 @@ pub(super) fn read<'a>(
         notes.add(
             NoteCode::LeftOut,
             format!(
-                "the geometry '{}' is no mesh and was left out",
+                "the geometry '{}' is not a mesh and was left out",
                 geometry.attribute("id").unwrap_or("")
             ),
         );
@@ -75,7 +75,7 @@ pub(super) fn read<'a>(
             notes,
         );
         let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
-        let text = "a triangle was dropped: it names a vertex that is not there, or holds something that is not an index";
+        let text = "a triangle was dropped: a vertex index is out of range, or is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
         primitives.push(Primitive {
             symbol: element.attribute("material"),
@@ -120,8 +120,9 @@ impl<'a> Layout<'a> {
                 .parse::<usize>()
                 .ok()
                 .filter(|offset| *offset < MOST_INPUTS);
-            let offset = offset
-                .ok_or_else(|| Fault::malformed("an `input` whose offset is no small number"))?;
+            let offset = offset.ok_or_else(|| {
+                Fault::malformed("an `input` whose offset is not a small whole number")
+            })?;
             stride = stride.max(offset + 1);
             if matches!(input.attribute("semantic"), Some("VERTEX" | "POSITION"))
                 && vertex.is_none()
@@ -137,7 +138,7 @@ impl<'a> Layout<'a> {
             })),
             None if child(element, "p").is_none() => Ok(None),
             None => Err(Fault::malformed(format!(
-                "a `{}` without an input VERTEX",
+                "a `{}` without a VERTEX input",
                 element.tag_name().name()
             ))),
         }

@@ -91,7 +91,7 @@ fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
         _ => {
             assembly.notes.add(
                 NoteCode::Assumed,
-                format!("the unit '{meter}' is no positive number; metres were assumed"),
+                format!("the unit '{meter}' is not a positive number; metres were assumed"),
             );
             1.0
         }
@@ -105,7 +105,7 @@ fn note_up_axis(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) {
     if let Some(up) = up.map(str::trim).filter(|up| *up != "Z_UP") {
         assembly.notes.add(
             NoteCode::UpAxisIgnored,
-            format!("`up_axis` {up} was not applied; RViz and Pinocchio do not either"),
+            format!("`up_axis` {up} was not applied, as in RViz and Pinocchio"),
         );
     }
 }

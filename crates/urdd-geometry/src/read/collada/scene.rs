@@ -51,13 +51,13 @@ pub(super) fn walk(
     if let Some(scene) = first() {
         walker.assembly.notes.add(
             NoteCode::Assumed,
-            "the file names no scene to show; its first was taken",
+            "the file does not say which scene to show; the first one was used",
         );
         return walker.nodes(scene, &root);
     }
     walker.assembly.notes.add(
         NoteCode::Assumed,
-        "the file has no scene; every geometry was taken where it stands",
+        "the file has no scene; every geometry was read without a transform",
     );
     for library in children(document.root, "library_geometries") {
         for geometry in children(library, "geometry") {
@@ -108,7 +108,7 @@ impl<'a> Walker<'a, '_> {
         }
         if self.path.len() >= DEEPEST {
             return Err(Fault::TooLarge {
-                what: "nodes inside one another",
+                what: "levels of nested nodes",
                 limit: DEEPEST,
             }
             .into());
@@ -120,7 +120,7 @@ impl<'a> Walker<'a, '_> {
             .sum::<usize>();
         if self.text > MOST_TEXT {
             return Err(Fault::TooLarge {
-                what: "bytes of nodes, counted as often as they are placed",
+                what: "bytes of nodes, counted once per instance",
                 limit: MOST_TEXT,
             }
             .into());
@@ -221,7 +221,7 @@ impl<'a> Walker<'a, '_> {
     fn missing(&mut self, kind: &str, url: &str) {
         self.assembly.notes.add(
             NoteCode::LeftOut,
-            format!("the {kind} '{url}' is placed by a node, but is not there"),
+            format!("the {kind} '{url}' is placed by a node, but does not exist"),
         );
     }
 }

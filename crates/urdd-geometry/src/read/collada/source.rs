@@ -53,7 +53,7 @@ impl<'a, 'd> Positions<'a, 'd> {
             None => self.find("source", url),
         };
         let source = source
-            .ok_or_else(|| Fault::malformed(format!("the positions '{url}' are not there")))?;
+            .ok_or_else(|| Fault::malformed(format!("the positions '{url}' do not exist")))?;
         if !self.read.contains_key(&source.id()) {
             let positions = self.read_source(source)?;
             self.read.insert(source.id(), positions);
@@ -97,7 +97,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         let offset = number("offset").unwrap_or(0);
         let axes = axes(accessor).filter(|axes| axes.iter().all(|axis| *axis < stride));
         let axes = axes.ok_or_else(|| {
-            Fault::malformed(format!("positions have {stride} numbers and not 3"))
+            Fault::malformed(format!("positions have {stride} numbers instead of 3"))
                 .within("source", name)
         })?;
         let text = text(array);

@@ -55,7 +55,7 @@ pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N],
 
 fn wrong(element: Node<'_, '_>, count: usize) -> Failure {
     Fault::malformed(format!(
-        "a `{}` is not {count} numbers",
+        "a `{}` does not have {count} numbers",
         element.tag_name().name()
     ))
 }

@@ -25,7 +25,7 @@ pub(super) fn positions(
     let accessor = get(root, index)?;
     if accessor.shape != "VEC3" {
         return Err(Fault::malformed(format!(
-            "positions are {} and not VEC3",
+            "positions are {} instead of VEC3",
             accessor.shape
         )));
     }
@@ -83,9 +83,8 @@ pub(super) fn positions(
         }
     }
     if accessor.component_type == FLOAT && !bounds_are(accessor, &positions) {
-        let text = format!(
-            "`min` and `max` of accessor {index} are not the least and greatest of its positions"
-        );
+        let text =
+            format!("`min` and `max` of accessor {index} are not the bounds of its positions");
         assembly.notes.add(NoteCode::WrongBounds, text);
     }
     Ok(positions)
@@ -199,7 +198,7 @@ fn indices_of(
 fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
     root.accessors
         .get(index)
-        .ok_or_else(|| Fault::malformed("there is no such accessor"))
+        .ok_or_else(|| Fault::malformed("it does not exist"))
 }
 
 /// `count` elements of `size` bytes, `stride` bytes apart. Fails unless all are inside `bytes`.
@@ -213,7 +212,7 @@ fn elements(
     let stride = stride.unwrap_or(size);
     if stride < size {
         return Err(Fault::malformed(format!(
-            "elements of {size} bytes lie {stride} bytes apart"
+            "elements of {size} bytes have a stride of {stride} bytes"
         )));
     }
     let length = match count {
@@ -224,8 +223,9 @@ fn elements(
     };
     let end = length.and_then(|length| length.checked_add(offset));
     let bytes = end.and_then(|end| bytes.get(offset..end));
-    let bytes = bytes
-        .ok_or_else(|| Fault::Truncated(format!("{count} elements do not fit the buffer view")))?;
+    let bytes = bytes.ok_or_else(|| {
+        Fault::Truncated(format!("{count} elements do not fit into the buffer view"))
+    })?;
     // The last chunk may lack the padding between elements, but contains a whole element.
     Ok(bytes.chunks(stride))
 }

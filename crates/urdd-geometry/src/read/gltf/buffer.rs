@@ -48,12 +48,12 @@ impl<'r, 'f> Buffers<'r, 'f> {
             .root
             .buffer_views
             .get(view)
-            .ok_or_else(|| Fault::malformed(format!("there is no buffer view {view}")))?;
+            .ok_or_else(|| Fault::malformed(format!("buffer view {view} does not exist")))?;
         let bytes = self.buffer(found.buffer, assembly)?;
         let end = found.byte_offset.checked_add(found.byte_length);
         let slice = end.and_then(|end| bytes.get(found.byte_offset..end));
         let slice = slice.ok_or_else(|| {
-            Fault::Truncated(format!("buffer view {view} reaches beyond its buffer"))
+            Fault::Truncated(format!("buffer view {view} extends beyond its buffer"))
         })?;
         Ok((slice, found.byte_stride.filter(|stride| *stride > 0)))
     }
@@ -63,7 +63,7 @@ impl<'r, 'f> Buffers<'r, 'f> {
             .root
             .buffers
             .get(index)
-            .ok_or_else(|| Fault::malformed(format!("there is no buffer {index}")))?;
+            .ok_or_else(|| Fault::malformed(format!("buffer {index} does not exist")))?;
         let Some(uri) = &buffer.uri else {
             // Only the first buffer may be the GLB chunk.
             let data = self.data.filter(|_| index == 0);
@@ -74,8 +74,9 @@ impl<'r, 'f> Buffers<'r, 'f> {
         let slot = &mut self.loaded[index];
         if slot.is_none() {
             let bytes = if is_data(uri) {
-                decode(uri)
-                    .ok_or_else(|| Fault::malformed(format!("buffer {index} is no base64")))?
+                decode(uri).ok_or_else(|| {
+                    Fault::malformed(format!("buffer {index} is not valid base64"))
+                })?
             } else {
                 let path = path_of_url(uri);
                 assembly.add_side_file(&path);

@@ -43,14 +43,14 @@ pub(super) fn read_binary(
     let version = word(4).ok_or_else(cut)?;
     if version != 2 {
         return Err(Fault::NotSupported(format!(
-            "this is GLB of version {version}, only version 2 is read"
+            "GLB version {version} is not supported, only version 2"
         ))
         .into());
     }
     let length = word(8).ok_or_else(cut)? as usize;
     if length != bytes.len() {
         let text = format!(
-            "the header gives {length} bytes, the file has {}",
+            "the header states {length} bytes, but the file has {}",
             bytes.len()
         );
         assembly.notes.add(
@@ -94,7 +94,7 @@ fn read_document(
     if !root.asset.version.starts_with("2.") {
         let version = &root.asset.version;
         return Err(Fault::NotSupported(format!(
-            "this is glTF of version '{version}', only 2.x is read"
+            "glTF version '{version}' is not supported, only 2.x"
         ))
         .into());
     }
@@ -116,7 +116,7 @@ fn read_document(
             other if other.starts_with("KHR_materials_") => {}
             other => assembly.notes.add(
                 NoteCode::LeftOut,
-                format!("the extension {other} is required, but not read"),
+                format!("the extension {other} is required, but not supported"),
             ),
         }
     }

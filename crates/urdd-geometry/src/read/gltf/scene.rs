@@ -33,7 +33,7 @@ pub(super) fn walk<'r>(
         GltfUp::Turn => {
             assembly.notes.add(
                 NoteCode::TurnedToZUp,
-                "the y-up axes of glTF were turned to z-up, as RViz 2 does",
+                "the y-up axes of glTF were converted to z-up, as in RViz 2",
             );
             // This matrix is exact; a computed rotation by 90 degrees would have rounding errors.
             Matrix4::new(
@@ -44,7 +44,7 @@ pub(super) fn walk<'r>(
     let nodes = if root.scenes.is_empty() {
         assembly.notes.add(
             NoteCode::Assumed,
-            "the file has no scene; all its nodes were taken",
+            "the file has no scene; all its nodes were used",
         );
         let mut is_child = vec![false; root.nodes.len()];
         for child in root.nodes.iter().flat_map(|node| &node.children) {
@@ -59,14 +59,14 @@ pub(super) fn walk<'r>(
         if root.scene.is_none() && root.scenes.len() > 1 {
             assembly.notes.add(
                 NoteCode::Assumed,
-                "the file names no scene to show; its first was taken",
+                "the file does not say which scene to show; the first one was used",
             );
         }
         let index = root.scene.unwrap_or(0);
         let scene = root
             .scenes
             .get(index)
-            .ok_or_else(|| Fault::malformed(format!("there is no scene {index}")))?;
+            .ok_or_else(|| Fault::malformed(format!("scene {index} does not exist")))?;
         scene.nodes.clone()
     };
     let mut walker = Walker {
@@ -121,7 +121,7 @@ impl Walker<'_, '_, '_, '_> {
             .root
             .nodes
             .get(index)
-            .ok_or_else(|| Fault::malformed(format!("there is no node {index}")))?;
+            .ok_or_else(|| Fault::malformed(format!("node {index} does not exist")))?;
         self.visited += 1;
         if self.visited > MOST_NODES {
             return Err(Fault::TooLarge {
@@ -135,7 +135,7 @@ impl Walker<'_, '_, '_, '_> {
         }
         if self.path.len() >= DEEPEST {
             return Err(Fault::TooLarge {
-                what: "nodes inside one another",
+                what: "levels of nested nodes",
                 limit: DEEPEST,
             }
             .into());
@@ -153,7 +153,7 @@ impl Walker<'_, '_, '_, '_> {
         if node.skin.is_some() {
             self.assembly.notes.add(
                 NoteCode::SkinAsShape,
-                "a skinned mesh was read as it stands",
+                "a skinned mesh was read without its skin",
             );
         }
         if let Some(mesh) = node.mesh {
@@ -174,7 +174,7 @@ impl Walker<'_, '_, '_, '_> {
                 .root
                 .meshes
                 .get(index)
-                .ok_or_else(|| Fault::malformed("there is no such mesh"))?;
+                .ok_or_else(|| Fault::malformed("it does not exist"))?;
             let mut parts = Vec::new();
             for primitive in &mesh.primitives {
                 if let Some(mesh) = self.primitive(primitive)? {
@@ -265,7 +265,7 @@ impl Walker<'_, '_, '_, '_> {
             }
         }
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
-        let text = "a triangle was dropped: it names a vertex that is not there";
+        let text = "a triangle was dropped: a vertex index is out of range";
         self.assembly
             .notes
             .add_many(NoteCode::IndexOutOfRange, text, left_out);

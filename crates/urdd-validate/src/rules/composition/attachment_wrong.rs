@@ -51,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = "the link is not of the part that is named, or not the base";
             report(at("link_idx"), message);
         } else if parent != link {
-            report(at("link_idx"), "the joint does not sit on this link");
+            report(at("link_idx"), "the joint is not attached to this link");
         }
         if !has(part, child) {
             let message = "the joint does not move a link of the part";
@@ -64,7 +64,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         .count();
     let expected = usize::from(composition.base.is_none());
     if roots != expected {
-        let message = "one part hangs on nothing, or none where there is a base";
+        let message = "exactly one part without `attach`, or none if there is a base";
         let finding = Finding::of(module, "/parts", message);
         findings.report(finding.expected(expected).actual(roots));
     }

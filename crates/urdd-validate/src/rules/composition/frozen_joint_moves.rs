@@ -27,7 +27,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = match (is_own, joint.joint_type, ascends) {
                 (true, JointType::Fixed, true) => None,
                 (false, _, _) => Some("the joint is not one of the part's"),
-                (true, JointType::Fixed, false) => Some("the frozen joints do not ascend"),
+                (true, JointType::Fixed, false) => {
+                    Some("the frozen joints are not in ascending order")
+                }
                 (true, _, _) => Some("the joint moves"),
             };
             let at = |key: &str| format!("/parts/{place}/frozen_joints/{idx}/{key}");

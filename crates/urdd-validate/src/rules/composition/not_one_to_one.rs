@@ -45,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ] {
             if let Some(at) = order.windows(2).position(|two| two[0] > two[1]) {
                 let pointer = format!("/parts/{place}/{key}/{}", at + 1);
-                report(pointer, format!("the {key} do not ascend"));
+                report(pointer, format!("the {key} are not in ascending order"));
             }
         }
         for (key, kept, dropped) in [
@@ -55,7 +55,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let mut seen = BTreeSet::new();
             let mut all = kept.into_iter().chain(dropped);
             if let Some(name) = all.find(|name| !seen.insert(*name)) {
-                let message = format!("the part's name `{name}` stands here, and is listed before");
+                let message =
+                    format!("the part's name `{name}` is here, but also in an earlier entry");
                 report(format!("/parts/{place}/{key}"), message);
             }
         }

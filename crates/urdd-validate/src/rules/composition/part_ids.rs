@@ -19,7 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let is_taken = parts[..place].iter().any(|before| before.id == part.id);
         let message = match () {
             () if part.id.is_empty() => "the id is empty",
-            () if part.id.contains('/') => "the id holds a `/`",
+            () if part.id.contains('/') => "the id contains a `/`",
             () if is_taken => "another part has this id",
             () => continue,
         };

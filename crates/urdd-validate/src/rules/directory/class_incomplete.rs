@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         _ => ("modules", "are"),
     };
     let all = missing.join(", ");
-    let message = format!("the class {class} asks for {what} that {are} not there: {all}");
+    let message = format!("the class {class} requires {what} that {are} missing: {all}");
     let metadata = context.metadata();
     let claimed = metadata.is_some_and(|metadata| metadata.conformance_class == class);
     let finding = match (claimed, context.profile()) {

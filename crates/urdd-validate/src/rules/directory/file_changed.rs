@@ -78,7 +78,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let pointer = format!("{}/{key}", listed.pointer);
         let message = format!(
-            "{} does not have the size and SHA-256 that are stated here: restore the file; if it is the right one, write again what follows from it and run `urdd rehash`",
+            "{} does not have the size and SHA-256 that are stated here: restore the file; if it is the right one, generate again what depends on it and run `urdd rehash`",
             listed.file.path
         );
         Finding::at(ROOT_METADATA, pointer, message)

@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             true => format!(
                 "version {version} is from before the specification: in a URDD with urdd.json, write the module in a version that the specification lists"
             ),
-            false => format!("there is no version {version} of {}", kind.name()),
+            false => format!("unknown version {version} of {}", kind.name()),
         };
         Finding::in_file(module.file("VERSION"), message)
             .expected(known_versions(kind, context.profile()))

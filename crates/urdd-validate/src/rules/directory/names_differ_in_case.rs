@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             && paths.iter().any(|path| is_of_urdd(path))
         {
             let message = format!(
-                "this name differs from that of {first} in letter case alone, and many file systems take the two for one: rename one"
+                "this name differs from that of {first} only in letter case, and many file systems treat the two as one: rename one"
             );
             let finding = Finding::in_file(*second, message);
             findings.report(finding.count(paths.len() - 1));

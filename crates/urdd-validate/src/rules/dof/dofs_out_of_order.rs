@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let mut right = written.clone();
             right.sort_unstable();
             let pointer = format!("/joint_idx_to_dof_idxs_mapping/{joint}");
-            let message = format!("the DOFs of joint {joint} do not ascend");
+            let message = format!("the DOFs of joint {joint} are not in ascending order");
             Finding::of(module, pointer, message)
                 .expected(format!("{right:?}"))
                 .actual(format!("{written:?}"))

@@ -34,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         for (pointer, message) in violations.found {
             let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
-            let message = format!("the value does not fit schema.json: {message}{more}");
+            let message = format!("the value does not match schema.json: {message}{more}");
             let mut finding = Finding::of(module, pointer, message);
             finding.place.actual = actual;
             findings.report(finding);

@@ -55,7 +55,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] {
         let tolerance = among.div_ceil(PER_TOLERANCE);
         if found.0.abs_diff(stated.0) > tolerance {
-            let message = "counting these configurations again gives another number";
+            let message = "counting these configurations again gives a different number";
             Finding::of(module, format!("/evaluation/{key}"), message)
                 .expected(found)
                 .actual(stated)

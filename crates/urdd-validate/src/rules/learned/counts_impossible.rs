@@ -54,11 +54,11 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if range.is_empty() {
             report(key, "it has no configuration");
         } else if range.end > u64::from(EVALUATION_FIRST) {
-            report(key, "configurations from 2^31 on are kept for counting");
+            report(key, "configurations from 2^31 on are reserved for counting");
         }
     }
     if training.start < calibration.end && calibration.start < training.end {
-        let message = "some of these configurations are in `training` too";
+        let message = "some of these configurations are also in `training`";
         report("calibration", message);
     }
     Some(())

@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let disordered = pairs.windows(2).position(|two| two[0] >= two[1]);
         let fault = match (turned, disordered) {
             (Some(place), _) => Some((place, "the lower link comes first")),
-            (_, Some(place)) => Some((place + 1, "pairs ascend, each once")),
+            (_, Some(place)) => Some((place + 1, "ascending pairs, each once")),
             _ => None,
         };
         if let Some((place, expected)) = fault {
@@ -73,7 +73,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
     }
     if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
-        let message = "this pair stands in `pairs` too";
+        let message = "this pair is also in `pairs`";
         let finding = Finding::of(module, format!("/other_pairs/{place}"), message);
         findings.report(finding);
     }

@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             ModelInput::Angle(of) => {
                 let at = of.dof_idx.get();
                 let fits = is(at, Quantity::Angle) && !vectors.iter().any(|of| of.contains(&at));
-                let expected = "an angle that is no part of a rotation vector";
+                let expected = "an angle that is not part of a rotation vector";
                 ("Angle", vec![at], fits, expected)
             }
             ModelInput::Length(of) => {
@@ -59,8 +59,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
         };
         let message = match fits {
-            false => "this input is not of DOFs of its kind",
-            true if dofs.iter().any(|dof| seen.contains(dof)) => "this DOF is an input already",
+            false => "the DOFs of this input are not of its kind",
+            true if dofs.iter().any(|dof| seen.contains(dof)) => "this DOF is already an input",
             true => {
                 seen.extend(dofs);
                 continue;

@@ -20,7 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     };
     let folder = context.root().folder_name();
     if folder != robot.name {
-        let message = "the robot has another name than its folder, which is what mesh paths go by";
+        let message = "the robot's name differs from that of its folder, which mesh paths use";
         Finding::of(module, "/name", message)
             .expected(format!("{folder:?} (the folder)"))
             .actual(format!("{:?}", robot.name))

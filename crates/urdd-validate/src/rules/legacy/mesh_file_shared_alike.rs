@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let links: BTreeSet<usize> = pairs.collect();
     if let Some(first) = shared.first() {
         let message = format!(
-            "{} links share derived mesh files with others that place the same mesh in the same way: right as it stands, and wrong once one of them is placed otherwise",
+            "{} links share derived mesh files with others that place the same mesh in the same way: correct as it is, but wrong once one of them is placed differently",
             links.len()
         );
         let (a, b) = (first.first.0, first.other.0);

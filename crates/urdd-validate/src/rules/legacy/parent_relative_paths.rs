@@ -35,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             names.push("and others");
         }
         format!(
-            "of {count} mesh paths some lead into other folders beside this one: keep it beside {}, under these names",
+            "some of {count} mesh paths lead into other folders beside this one: keep it beside {}, under these names",
             names.join(", ")
         )
     };

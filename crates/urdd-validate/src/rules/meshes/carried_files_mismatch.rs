@@ -56,7 +56,7 @@ fn listed(
                 && !named.contains(path)
                 && entries::look(context, path).is_ok()
             {
-                let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or take it out";
+                let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or remove it";
                 Finding::of(module, "/files", message)
                     .expected(format!("`{path}` as `path` or in `side_files`"))
                     .actual("neither")

@@ -35,7 +35,7 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
                 "the edge at {} is not shared by two faces that are wound alike",
                 point(at)
             ),
-            NotConvex::Inward => "its faces look inward".to_owned(),
+            NotConvex::Inward => "its faces are oriented inward".to_owned(),
             NotConvex::Vertex(at, _) => match dents {
                 Some(dents) => in_words(&dents, depth),
                 None => format!("the vertex at {} is outside of a face", point(at)),
@@ -64,8 +64,8 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
 fn in_words(dents: &Dents, depth: Option<f64>) -> String {
     let faces = match dents.inward {
         0 => "vertices lie outside of its faces".to_owned(),
-        1 => format!("1 of {} faces looks inward", dents.faces),
-        inward => format!("{inward} of {} faces look inward", dents.faces),
+        1 => format!("1 of {} faces is oriented inward", dents.faces),
+        inward => format!("{inward} of {} faces are oriented inward", dents.faces),
     };
     match depth {
         None => faces,

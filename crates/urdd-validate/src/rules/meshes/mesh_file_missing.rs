@@ -84,9 +84,7 @@ fn no_sibling(context: &Context, name: &str) -> String {
     let own = context.root().folder_name();
     let within = context.listing().has_folder("mesh_modules");
     let renamed = if within {
-        format!(
-            "; or, if this URDD's folder was `{name}` before it was named `{own}`, name it so again"
-        )
+        format!("; or, if this URDD's folder `{own}` was `{name}` before, rename it back")
     } else {
         String::new()
     };

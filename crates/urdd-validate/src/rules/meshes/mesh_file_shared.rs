@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = match first == link {
             true => format!("{label} names one file twice"),
             false => format!(
-                "{} and {label} name the same file, and it can be right for one of them only: write each link's own",
+                "{} and {label} name the same file, which can be right for only one of them: write one for each link",
                 context.link_label(first)
             ),
         };

@@ -43,7 +43,7 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
         Some(MeshFault::Absent(_)) => return None,
         Some(MeshFault::TooLarge(size)) => {
             return Some(format!(
-                "it is {size} bytes long, and at most {MAX_DOCUMENT_BYTES} are read"
+                "it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"
             ));
         }
         Some(MeshFault::Broken(why)) => return Some(why.clone()),
@@ -58,8 +58,8 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
     };
     (!right).then(|| match file.content {
         Some(Content::StlAscii) => "it is STL as text; write binary STL".to_owned(),
-        Some(content) => format!("it holds what a .{} file holds", content.extension()),
-        None => "it is no mesh".to_owned(),
+        Some(content) => format!("it has the content of a .{} file", content.extension()),
+        None => "it is not a mesh".to_owned(),
     })
 }
 

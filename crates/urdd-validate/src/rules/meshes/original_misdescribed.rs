@@ -45,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     pointer += &format!("/{odd}");
                     format!("`{path}` does not name `{side}`")
                 }
-                None => format!("`{path}` names other files besides"),
+                None => format!("`{path}` also names other files"),
             };
             Finding::of(module, pointer, message)
                 .expected(format!("{named:?}"))

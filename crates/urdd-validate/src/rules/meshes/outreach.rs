@@ -62,7 +62,7 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
             100.0 * out.distance / out.diagonal
         );
         let message = format!(
-            "piece {} of {} reaches out of its hull: the vertex at {} is {distance}",
+            "piece {} of {} extends beyond its hull: the vertex at {} is {distance}",
             piece.piece,
             context.link_label(piece.link),
             point(out.place),

@@ -43,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     let (here, there) = (elements.text(i, j), elements.text(j, i));
                     if edited.is_some() {
                         let message = format!(
-                            "shapes {a} and {b} are skipped one way round only: this half is an edit, \
+                            "shapes {a} and {b} are skipped in one half of the matrix only: this half is an edit, \
                              {mirror} is what the simple skips give; set both to the edit, or both back"
                         );
                         return Finding::of(module, pointer, message)
@@ -51,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                             .actual(format!("{here}, and {there} there"));
                     }
                     let message = format!(
-                        "shapes {a} and {b} have one value one way round and another the other way: set both"
+                        "shapes {a} and {b} have different values in the two halves of the matrix: make them equal"
                     );
                     let finding = Finding::of(module, pointer, message)
                         .expected(format!("{there}, as at {mirror}"))

@@ -52,10 +52,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
                 let pointer = format!("/{}/{key}/{i}/{j}", kind.key());
                 let message = format!(
-                    "in sampled configuration {sample} the distance of shapes {a} and {b} is not within what is stated"
+                    "in sampled configuration {sample} the distance of shapes {a} and {b} is outside of the stated range"
                 );
                 Finding::of(module, pointer, message)
-                    .expected(format!("a range that has {distance} in it"))
+                    .expected(format!("a range that contains {distance}"))
                     .actual(format!("from {} to {}", pair.min, pair.max))
                     .tolerance(tolerance)
                     .off_by((pair.min - distance).max(distance - pair.max), "m")

@@ -20,7 +20,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (link, piece, volume) in list.entries() {
             if let Some((field, expected, actual)) = fault(&volume) {
                 let pointer = format!("{}/{field}", list.pointer(link, piece));
-                let message = format!("this cannot hold a shape of {}", context.link_label(link));
+                let message = format!(
+                    "this cannot enclose a shape of {}",
+                    context.link_label(link)
+                );
                 let finding = Finding::of(module, pointer, message);
                 findings.report(finding.expected(expected).actual(actual));
             }

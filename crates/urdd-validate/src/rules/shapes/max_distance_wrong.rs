@@ -108,7 +108,7 @@ impl Checker<'_> {
             let message = if value < 0.0 {
                 format!("a distance cannot be negative ({label})")
             } else if value > most + tolerance {
-                format!("{label} reaches farther here than the box and the sphere that hold it")
+                format!("{label} reaches farther here than the box and the sphere that enclose it")
             } else {
                 continue;
             };

@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
                 let pointer = format!("/{}/{min_key}/{i}/{j}", kind.key());
                 let message = format!(
-                    "shapes {a} and {b} do not move against each other, and have more than one distance"
+                    "shapes {a} and {b} do not move relative to each other, but have more than one distance"
                 );
                 Finding::of(module, pointer, message)
                     .expected("smallest = mean = largest")

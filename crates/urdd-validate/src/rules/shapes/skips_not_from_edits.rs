@@ -60,7 +60,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let why = match (edit, reason) {
                     (Some((place, skip)), _) => format!("/edits/{place} says {skip}"),
                     (None, reason) => format!(
-                        "no edit is about it, and its reason, {}, is {}one of `skipped_reasons`",
+                        "no edit concerns it, and its reason, {}, is {}one of `skipped_reasons`",
                         reason.map_or("unknown", |reason| reason.as_str()),
                         if skip { "not " } else { "" }
                     ),

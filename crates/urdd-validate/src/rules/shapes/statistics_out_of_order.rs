@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if let Some(pair) = pair {
                 fold.add(|| {
                     let pointer = format!("/{}/{mean_key}/{i}/{j}", kind.key());
-                    let message = "the mean distance lies outside the smallest and the largest";
+                    let message = "the mean distance is not between the smallest and the largest";
                     Finding::of(module, pointer, message)
                         .expected(format!("from {} to {}", pair.min, pair.max))
                         .actual(pair.mean)

@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             None => "no `limit`",
             Some(_) => "a `limit` with neither `lower` nor `upper`",
         };
-        let message = format!("joint `{name}` ({kind}) has no limits; it counts as not limited");
+        let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
         Finding::at(&file, format!("/joints/{index}/limit"), message)
             .expected("`lower` and `upper`")
             .actual(format!("joint `{name}`: {actual}"))

@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         );
         Finding::in_file(&carried.path, message)
             .position(Some(lines.position(again.offset)))
-            .actual(format!("the first is in line {}", first.line))
+            .actual(format!("the first is on line {}", first.line))
             .report(findings);
     }
     Some(())

@@ -21,12 +21,12 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let links = circle.iter().filter_map(|link| robot.links.get(*link));
         let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
         let message = format!(
-            "{} are in a circle, each the child of the next: remove one of their joints, or swap its parent and child",
+            "{} form a cycle, each the child of the next: remove one of their joints, or swap its parent and child",
             first_names(&names)
         );
         Finding::at(&file, format!("/links/{}", circle.first()?), message)
-            .expected("a way from every link to the root")
-            .actual(format!("a circle of {} links", circle.len()))
+            .expected("a path from every link to the root")
+            .actual(format!("a cycle of {} links", circle.len()))
             .report(findings);
     }
     Some(())

@@ -18,7 +18,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let names = robot.joints.iter().map(|joint| joint.name.as_str());
     for (index, first, name) in repeated(names) {
         let pointer = format!("/joints/{index}/name");
-        let message = format!("there is a joint `{name}` already; give this one a name of its own");
+        let message =
+            format!("another joint is already named `{name}`; give this one a name of its own");
         Finding::at(&file, pointer, message)
             .expected("a name that no other joint has")
             .actual(format!("`{name}`, the name of /joints/{first} too"))

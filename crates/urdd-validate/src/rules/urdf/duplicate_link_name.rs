@@ -19,7 +19,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let names = robot.links.iter().map(|link| link.name.as_str());
     for (index, first, name) in repeated(names) {
         let pointer = format!("/links/{index}/name");
-        let message = format!("there is a link `{name}` already; give this one a name of its own");
+        let message =
+            format!("another link is already named `{name}`; give this one a name of its own");
         Finding::at(&file, pointer, message)
             .expected("a name that no other link has")
             .actual(format!("`{name}`, the name of /links/{first} too"))

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = match names.as_slice() {
             [name] => format!("joint `{name}` follows itself"),
             _ => format!(
-                "joints {} follow each other in a circle, each the next",
+                "joints {} follow each other in a cycle, each the next",
                 first_names(&names)
             ),
         };
