@@ -58,7 +58,8 @@ pub fn of_generate(error: &GenerateError) -> String {
             format!("{}\n{file}: {words}", shown(each))
         }
         GenerateError::Strict { notes } => {
-            let words = "nothing was written: strict=True rejects assumptions that change the robot";
+            let words =
+                "nothing was written: strict=True rejects assumptions that change the robot";
             format!("{}\n{words}", shown(notes.iter().map(ToString::to_string)))
         }
         GenerateError::Edits { file, at, fault } => {
@@ -67,9 +68,9 @@ pub fn of_generate(error: &GenerateError) -> String {
                 drop_edits=True";
             format!("{}{at}: {}; {words}", file.display(), of_edits(fault))
         }
-        GenerateError::Geometry { file, reason } => format!(
-            "{file}: {reason}; fix the mesh, or omit the distances: modules=[\"geometry\"]"
-        ),
+        GenerateError::Geometry { file, reason } => {
+            format!("{file}: {reason}; fix the mesh, or omit the distances: modules=[\"geometry\"]")
+        }
         GenerateError::Write(StagingError::Occupied { path }) => format!(
             "{}: this folder is not empty, and not a URDD of urdd.generate; choose another one, or force=True to \
              write there (files with other names stay)",
