@@ -52,7 +52,7 @@ def batched(q: ArrayLike, dof_names: tuple[str, ...], ask: Callable[[Floats], _A
     without axes is a NumPy scalar, which prints and compares as a number."""
     rows, batch = configurations(q, dof_names)
     found = ask(rows)
-    return scalar(found.reshape(*batch, *found.shape[1:]))
+    return scalar(found.reshape(batch + found.shape[1:]))
 
 
 def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple[int, ...]]:
