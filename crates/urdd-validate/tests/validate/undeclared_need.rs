@@ -36,7 +36,7 @@ fn a_forgotten_need_is_caught() {
     let mut urdd = Fixture::core(&toy_robot());
     urdd.seal();
     let path = folder.put(&urdd);
-    let urdd = Urdd::read(&path).unwrap();
+    let urdd = Urdd::read(path).unwrap();
     let examined = urdd_validate::examine(urdd, "toy", &Settings::default(), &[&FORGETFUL]);
     match &examined.checks[0].outcome {
         Outcome::Crashed(message) if cfg!(debug_assertions) => {
