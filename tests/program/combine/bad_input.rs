@@ -115,7 +115,10 @@ fn keys_that_must_be_there_are_named() {
 fn ids_tell_parts_apart() {
     let (fault_of, _, words) = fault(&[("id = \"gripper\"", "id = \"Arm\"")]);
     assert!(matches!(fault_of, RecipeFault::IdTwice { .. }));
-    assert!(words.contains("another part has the id `Arm`:4:6"), "{words}");
+    assert!(
+        words.contains("another part has the id `Arm`:4:6"),
+        "{words}"
+    );
     assert!(matches!(
         fault(&[("id = \"arm\"", "id = \"a/b\"")]).0,
         RecipeFault::BadId(_)
