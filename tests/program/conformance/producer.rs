@@ -128,7 +128,7 @@ fn what_a_producer_does_wrong_is_told() {
     assert_eq!(robot["stderr"], "no idea\n");
     assert!(robot["unreadable"].is_null());
     let text = |robot: &serde_json::Value| robot["unreadable"].as_str().unwrap_or("").to_owned();
-    assert!(text(&run("true")).contains("made no folder"));
+    assert!(text(&run("true")).contains("created no folder"));
     assert!(text(&run("mkdir \"$2\"")).contains("no URDD here"));
     let nested = format!("'{URDD}' generate --modules core \"$1\" -o \"$2/inside\"");
     assert!(text(&run(&nested)).contains("itself must be the URDD"));

@@ -190,7 +190,7 @@ fn a_batch_goes_on_and_the_status_says_so() {
         .unwrap();
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let words = String::from_utf8(output.stderr).unwrap();
-    assert!(words.contains("mesh `/etc/passwd` lies outside"), "{words}");
+    assert!(words.contains("mesh `/etc/passwd` is outside"), "{words}");
     let names = fs::read_dir(machine.path().join("out")).unwrap();
     let names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names, ["good"]);

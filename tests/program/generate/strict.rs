@@ -194,7 +194,7 @@ fn a_robot_beyond_the_limits_is_refused() {
             star(2_001),
             "the robot has 2001 links, but a URDD has at most 2000",
         ),
-        (unknown, "up to 100000"),
+        (unknown, "at most 100000"),
     ] {
         let folder = workshop(&text);
         let (status, _, said) = run(folder.path(), &["r.urdf"]);
