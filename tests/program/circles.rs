@@ -12,18 +12,6 @@ use testkit::repository;
 use modules::Crate;
 use names::{Ties, ties};
 
-/// Folders with a circle that is known. Remove those that are untied; add none.
-const KNOWN: &[&str] = &[
-    "crates/urdd-validate/src/rules/bounds",
-    "crates/urdd-validate/src/rules/chain",
-    "crates/urdd-validate/src/rules/composition",
-    "crates/urdd-validate/src/rules/directory",
-    "crates/urdd-validate/src/rules/extensions",
-    "crates/urdd-validate/src/rules/learned",
-    "crates/urdd-validate/src/rules/meshes",
-    "crates/urdd-validate/src/rules/source",
-];
-
 /// Files that all reach each other.
 type Circle<'a> = BTreeSet<&'a Path>;
 
@@ -78,35 +66,19 @@ fn packages() -> Vec<PathBuf> {
 
 #[test]
 fn no_circle_between_files() {
-    let mut known: BTreeSet<&str> = BTreeSet::new();
-    let mut unknown = String::new();
+    let mut found = String::new();
     for package in packages() {
         let read = Crate::read(&package);
         let ties = ties(&read);
         for circle in circles(&ties) {
-            let is_in = |folder: &&&str| {
-                let folder = repository().join(folder);
-                circle.iter().all(|file| file.starts_with(&folder))
-            };
-            match KNOWN.iter().find(is_in) {
-                Some(folder) => _ = known.insert(folder),
-                None => {
-                    unknown += &format!("a circle of {} files:\n", circle.len());
-                    unknown += &ties_of(&circle, &ties, repository());
-                }
-            }
+            found += &format!("a circle of {} files:\n", circle.len());
+            found += &ties_of(&circle, &ties, repository());
         }
     }
     assert!(
-        unknown.is_empty(),
-        "{unknown}Move what both need into the file where it belongs, or join the files."
+        found.is_empty(),
+        "{found}Move what both need into the file where it belongs, or join the files."
     );
-    for folder in KNOWN {
-        assert!(
-            known.contains(folder),
-            "{folder}: no circle any more; remove it from KNOWN"
-        );
-    }
 }
 
 /// What ties the files of a crate in circles.

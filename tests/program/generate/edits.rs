@@ -231,7 +231,10 @@ fn edits_of_which_only_the_yaml_file_is_left_stop_the_run() {
     let before = bytes_below(&target);
     let error = generate(&source, &target, &settings(), &()).unwrap_err();
     assert_eq!(error.code(), "edits");
-    assert!(error.to_string().contains("no module.json"), "{error}");
+    assert!(
+        error.to_string().contains("module.json is missing"),
+        "{error}"
+    );
     assert!(bytes_below(&target) == before);
 }
 

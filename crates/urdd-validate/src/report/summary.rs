@@ -23,7 +23,7 @@ const COLUMNS: &[(&str, &[&str])] = &[
     ("CON", &["CON"]),
     ("BND", &["BND"]),
     ("MSH", &["MSH"]),
-    ("SHP", &["SHP"]),
+    ("SHP", &["SHP", "LRN"]),
     ("KIN", &["KIN"]),
     ("LEG", &["LEG"]),
 ];
@@ -304,5 +304,21 @@ fn short(number: usize) -> String {
         0..1_000 => number.to_string(),
         1_000..1_000_000 => format!("{}k", number / 1_000),
         _ => format!("{}M", number / 1_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::COLUMNS;
+
+    #[test]
+    fn each_family_of_rules_has_one_column() {
+        for rule in crate::rules::all() {
+            let family = rule.code.family();
+            let columns = COLUMNS
+                .iter()
+                .filter(|(_, families)| families.contains(&family));
+            assert_eq!(columns.count(), 1, "{family}");
+        }
     }
 }

@@ -82,7 +82,7 @@ fn what_has_no_meaning_is_refused_with_its_place() {
     assert_eq!(error.place, Some(Place::Element("node 'n'".to_owned())));
     assert_eq!(
         error.to_string(),
-        "a.dae: node 'n': a `matrix` is not 16 numbers; repair the file or export it again"
+        "a.dae: node 'n': a `matrix` does not have 16 numbers; repair the file or export it again"
     );
     let error = File {
         faces: "<triangles><input semantic='VERTEX' source='#nowhere'/><p>0 1 2</p></triangles>",

@@ -4,63 +4,14 @@ mod bound_count_wrong;
 mod bound_differs_from_limit;
 mod bounds_columns_differ;
 mod limited_flag_wrong;
+pub(super) mod limits;
 mod speed_or_effort_differs;
 mod unlimited_bounds_wrong;
 
-use crate::context::Context;
 use crate::rule::rules;
-use crate::tolerance::numbers_agree;
-use urdd_document::bounds::Bounds;
-use urdd_document::robot::Joint;
+use limits::{LEGACY_WIDENING, columns_agree, dofs, limited_dofs};
 
 rules! {
     bound_count_wrong, bound_differs_from_limit, bounds_columns_differ, limited_flag_wrong,
     speed_or_effort_differs, unlimited_bounds_wrong
 }
-
-/// A DOF of a joint with position limits, and the bounds that the module gives it.
-pub struct LimitedDof<'a> {
-    /// Its index.
-    pub dof: usize,
-    /// Its joint.
-    pub joint: &'a Joint,
-    /// Lower and upper limit.
-    pub limits: [f64; 2],
-    /// Lower and upper bound.
-    pub bounds: [f64; 2],
-}
-
-/// Every DOF whose joint has position limits.
-pub fn limited_dofs(context: &Context) -> Option<Vec<LimitedDof<'_>>> {
-    let bounds = context.bounds()?.bounds.iter();
-    let dofs = bounds
-        .zip(dofs(context)?)
-        .filter_map(|(bounds, (dof, joint))| {
-            let (lower, upper) = joint.position_limits()?;
-            Some(LimitedDof {
-                dof,
-                joint,
-                limits: [lower, upper],
-                bounds: *bounds,
-            })
-        });
-    Some(dofs.collect())
-}
-
-/// Every DOF of the robot with its joint.
-fn dofs(context: &Context) -> Option<impl Iterator<Item = (usize, &Joint)>> {
-    let robot = context.robot()?;
-    let joints = context.dof_layout()?.joint_of_dof.iter().enumerate();
-    Some(joints.filter_map(|(dof, joint)| Some((dof, robot.joints.get(*joint)?))))
-}
-
-/// Whether `bounds` and the list of that end agree on a DOF; otherwise BND002 reports it.
-fn columns_agree(bounds: Bounds<'_>, dof: usize, end: usize) -> bool {
-    let list = [bounds.lower, bounds.upper][end];
-    let pair = bounds.bounds.get(dof);
-    pair.zip(list.get(dof))
-        .is_none_or(|(pair, value)| numbers_agree(pair[end], *value))
-}
-
-/// By how much legacy modules raised an upper bound equal to the lower one (SPEC 10.3).
-pub const LEGACY_WIDENING: f64 = 1e-7;

@@ -10,23 +10,15 @@ mod hierarchy_wrong;
 mod joint_axis_wrong;
 mod joint_origin_differs;
 mod joint_type_differs;
+mod list;
 mod parent_wrong;
 mod quaternion_not_canonical;
 mod root_wrong;
 
 use crate::rule::rules;
+use list::list;
 
 rules! {
     chain_joint_wrong, chain_link_wrong, children_wrong, hierarchy_wrong, joint_axis_wrong,
     joint_origin_differs, joint_type_differs, parent_wrong, quaternion_not_canonical, root_wrong
-}
-
-/// A list of indices, as a report has it: cut where it is long.
-fn list(indices: &[usize]) -> String {
-    const LONGEST: usize = 12;
-    let shown: Vec<String> = indices.iter().take(LONGEST).map(usize::to_string).collect();
-    match indices.len() {
-        0..=LONGEST => format!("[{}]", shown.join(", ")),
-        all => format!("[{}, … {all} in all]", shown.join(", ")),
-    }
 }

@@ -6,20 +6,12 @@ mod index_out_of_range;
 mod not_one_to_one;
 mod part_ids;
 mod renamed_otherwise;
+mod subject;
 
 use crate::rule::rules;
-use crate::rules::prelude::*;
-use urdd_document::robot::Robot;
-use urdd_format::composition::CompositionModule;
+use subject::subject;
 
 rules! {
     attachment_wrong, frozen_joint_moves, index_out_of_range, not_one_to_one, part_ids,
     renamed_otherwise
-}
-
-/// The module, its document and the robot.
-fn subject(context: &Context) -> Option<(&Module, &CompositionModule, &Robot)> {
-    let kind = ModuleKind::Composition;
-    let composition = document!(context, Composition)?;
-    Some((context.module(kind)?, composition, context.robot()?))
 }

@@ -9,6 +9,7 @@ mod file_list_incomplete;
 mod link_leaves_root;
 mod list_out_of_order;
 mod listed_file_missing;
+pub(super) mod listed_files;
 mod listed_module_missing;
 mod module_entry_wrong;
 mod module_json_missing;
@@ -31,16 +32,8 @@ mod version_malformed;
 mod version_missing;
 mod wrong_dependencies;
 
-use std::collections::HashSet;
-
 use crate::rule::rules;
-use urdd_format::root_metadata::RootMetadata;
-
-/// The files that `urdd.json` lists as those of modules.
-pub fn listed_files(metadata: &RootMetadata) -> HashSet<&str> {
-    let files = metadata.modules.iter().flat_map(|module| &module.files);
-    files.map(|file| file.path.as_str()).collect()
-}
+use listed_files::listed_files;
 
 rules! {
     bad_path, class_incomplete, dependency_missing, draft_format, file_changed,

@@ -1,17 +1,11 @@
 //! EXT: extension modules.
 
 mod document_invalid;
+mod folders;
 mod schema_unusable;
 
-use crate::context::Context;
 use crate::rule::rules;
-use urdd_document::module::{Module, is_extension};
-
-/// The folders of extensions.
-fn extensions(context: &Context) -> impl Iterator<Item = &Module> {
-    let modules = context.modules().iter();
-    modules.filter(|module| module.kind.is_none() && is_extension(&module.folder))
-}
+use folders::extensions;
 
 rules! {
     document_invalid, schema_unusable

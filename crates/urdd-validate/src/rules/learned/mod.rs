@@ -10,21 +10,15 @@ mod output_differs;
 mod overflow;
 mod pairs_differ;
 mod rates_not_met;
+mod subject;
 mod too_large;
 mod wrong_shape;
 
 use crate::rule::rules;
-use crate::rules::prelude::*;
-use urdd_format::self_collision_model::SelfCollisionModelModule;
+use subject::subject;
 
 rules! {
     counts_differ, counts_few, counts_impossible, index_out_of_range, input_wrong,
     other_geometry, output_differs, overflow, pairs_differ, rates_not_met, too_large,
     wrong_shape
-}
-
-/// The module and its document.
-fn subject(context: &Context) -> Option<(&Module, &SelfCollisionModelModule)> {
-    let model = document!(context, SelfCollisionModel)?;
-    Some((context.module(ModuleKind::SelfCollisionModel)?, model))
 }

@@ -1,4 +1,4 @@
-use crate::rules::bounds::{LEGACY_WIDENING, limited_dofs};
+use crate::rules::bounds::limits::{LEGACY_WIDENING, limited_dofs};
 use crate::rules::prelude::*;
 
 declare_rule! {

@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::MODULES;
-use crate::rules::directory::listed_files;
+use crate::rules::directory::listed_files::listed_files;
 use crate::rules::prelude::*;
 use urdd_document::mesh_files::{Absence, MeshFiles};
 

@@ -2,6 +2,7 @@
 
 mod carried_files_mismatch;
 mod convexity;
+mod farthest;
 mod glb_not_binary;
 mod hull_and_mesh;
 mod hull_leaves_out_mesh;
@@ -18,6 +19,7 @@ mod mesh_misplaced;
 mod mesh_presence_differs;
 mod mesh_references_differ;
 mod mesh_unsound;
+mod modules;
 mod original_misdescribed;
 mod outreach;
 mod piece_barely_leaves_hull;
@@ -28,20 +30,8 @@ mod pieces_leave_surface;
 mod wrong_geometry_used;
 
 use crate::rule::rules;
-use urdd_format::registry::ModuleKind;
-
-/// Every mesh module.
-const MODULES: &[ModuleKind] = &[
-    ModuleKind::OriginalMeshes,
-    ModuleKind::PlainMeshes,
-    ModuleKind::ConvexHullMeshes,
-    ModuleKind::ConvexDecompositionMeshes,
-];
-
-/// The first of the farthest points, with its distance.
-fn farthest(points: impl Iterator<Item = ([f64; 3], f64)>) -> Option<([f64; 3], f64)> {
-    points.reduce(|a, b| if b.1 > a.1 { b } else { a })
-}
+use farthest::farthest;
+use modules::MODULES;
 
 rules! {
     carried_files_mismatch, glb_not_binary, hull_leaves_out_mesh, hull_not_convex,

@@ -3,6 +3,7 @@
 mod crossed_limits;
 mod inertia_breaks_triangle;
 mod inertia_not_positive_definite;
+mod links;
 mod mass_not_positive;
 mod mesh_not_carried;
 mod mimic_leaves_limits;
@@ -12,17 +13,7 @@ mod no_limits;
 mod repeated_element;
 
 use crate::rule::rules;
-use urdd_document::rigid_groups::RigidGroup;
-use urdd_document::robot::{Link, Robot};
-
-/// The links of a rigid group, with their indices.
-fn links_of<'a>(
-    robot: &'a Robot,
-    group: &'a RigidGroup,
-) -> impl Iterator<Item = (usize, &'a Link)> + Clone {
-    let links = group.links.iter();
-    links.filter_map(|index| Some((*index, robot.links.get(*index)?)))
-}
+use links::links_of;
 
 rules! {
     crossed_limits, inertia_breaks_triangle, inertia_not_positive_definite, mass_not_positive,
