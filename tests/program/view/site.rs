@@ -1,4 +1,4 @@
-//! The static site, and what a person adds to it.
+//! The static site, and what a user adds to it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -48,7 +48,7 @@ fn named(site: &Path) -> BTreeMap<String, String> {
     pairs.collect()
 }
 
-/// The files of the first robot of a site, by path, each of which is what its name says.
+/// The files of the first robot of a site, by path. Each has the content that its name implies.
 fn robot_files(site: &Path) -> BTreeMap<String, Vec<u8>> {
     let robots = json(&site.join(&named(site)["robots.json"]));
     let files = json(&site.join(robots[0]["files"].as_str().expect("a list")));

@@ -39,7 +39,7 @@ const STRIDE: usize = 3;
 /// Links that are farther apart in a free configuration than this have no part in it, in units of lengths.
 const NEAR: f64 = 1.0;
 
-/// After so many steps it is looked again which configurations matter.
+/// Number of steps after which the relevant configurations are selected again.
 const LOOK_AGAIN: usize = 10;
 /// Number of steps at the end of a round over which blame is summed.
 const BLAMED: usize = 5;
@@ -47,8 +47,8 @@ const BLAMED: usize = 5;
 /// Step sizes at the beginning and at the end, in units of `Goal::size`.
 const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
-/// In rounds of splitting by contacts. Where a fit ends hangs on them: the second is tried where the first is not within
-/// the goals.
+/// Step sizes in rounds of splitting by contacts. The result of a fit depends on them: the second is tried if the first
+/// does not reach the goals.
 pub(super) const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
 
 /// Minimum radius, in units of `Goal::size`.
