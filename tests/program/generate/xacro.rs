@@ -163,7 +163,7 @@ fn arguments_that_no_file_takes_are_wrong_usage() {
         "{said}"
     );
     assert!(!folder.path().join("out").exists());
-    // Where the file may have macros, it is read as if it had none.
+    // With `--xacro`, a file without macros is accepted too.
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_", "--xacro"]);
     assert_eq!(status, Some(0), "{said}");
 }

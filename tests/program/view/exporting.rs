@@ -119,7 +119,7 @@ fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
         };
         let (part, whole) = (distances(&part), distances(&whole));
         assert!(!part.is_empty() && part.len() == whole.len());
-        // Of another format, so that corners are in another order.
+        // In another format, so the corners are in another order.
         for (a, b) in part.iter().zip(&whole) {
             assert!((a.distance - b.distance).abs() < 1e-9, "{a:?} {b:?}");
         }

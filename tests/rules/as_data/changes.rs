@@ -236,7 +236,7 @@ impl Work {
     }
 }
 
-/// The highest folder at or above `path` that is empty in `new`.
+/// The highest folder above `path`, or `path` itself, in which `new` has nothing.
 fn widest_folder_without(path: &FilePath, new: &Tree) -> FilePath {
     let text = path.as_str().expect("bases have names in UTF-8");
     let ends = text.match_indices('/').map(|(end, _)| end);

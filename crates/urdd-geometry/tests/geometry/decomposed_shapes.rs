@@ -93,7 +93,7 @@ fn a_cup_is_a_floor_and_four_walls() {
                 (volume(&cup).abs() / solid - 1.0).abs() < 1e-9,
                 "the test's own mesh"
             );
-            // Triangles either way round.
+            // Triangles in either winding.
             for _ in 0..2 {
                 let pieces = check(&cup, &within(7));
                 let fullness = fullness(&pieces, solid);
