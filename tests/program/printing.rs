@@ -45,7 +45,7 @@ fn clean(folder: &Path, arguments: &[&str]) -> String {
     all
 }
 
-/// Makes every string of a document hostile, one after the other: the pointers.
+/// The JSON Pointers of the strings of a document.
 fn strings(value: &Value, at: String, out: &mut Vec<String>) {
     match value {
         Value::String(_) => out.push(at),

@@ -217,8 +217,8 @@ mod tests {
 
     #[test]
     fn radii_grow_until_the_rates_are_in_balance() {
-        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs as much relative to its
-        // goal.
+        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs both rates equally, relative
+        // to their goals.
         let mut collide = vec![false];
         let mut gaps = vec![0.009];
         for k in 0..100 {
