@@ -122,7 +122,7 @@ fn chains_may_be_as_long_as_the_file() {
     let reference = reference(&(urdf + "</robot>"));
     assert_eq!(reference.num_dofs(), 1);
     let poses = reference.link_poses(&[0.5]).expect("one DOF");
-    // Every other joint goes the other way.
+    // Every other joint moves in the opposite direction.
     assert_eq!(poses[JOINTS].translation.vector, Vector3::zeros());
     assert_eq!(poses[JOINTS - 1].translation.vector.x, -0.5);
 }

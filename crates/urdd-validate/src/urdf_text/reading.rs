@@ -14,7 +14,7 @@ pub struct Reading {
     pub robot: Option<UrdfModule>,
     /// What cannot be read, in the order of the file.
     pub problems: Vec<Problem>,
-    /// Elements that are there again though once is all that counts.
+    /// Repeated elements, of which only one counts.
     pub repeated: Vec<Repeated>,
     /// The positions of the values of `robot` in the text, by JSON Pointer.
     pub(super) places: HashMap<String, usize>,

@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn a_box_about_a_pyramid() {
-        // Turned by an eighth the square is sqrt(2) wide.
+        // Rotated by an eighth of a turn, the square is sqrt(2) wide.
         let half = 0.5_f64.sqrt();
         let tight = turned_box([half, half, 1.0]);
         assert!(tight.outside.1 < 1e-15 && tight.off.1 < 1e-15, "{tight:?}");
