@@ -1,9 +1,9 @@
-//! How long `generate` takes and how much it writes, for chains of growing length, and for the robots
-//! of the paper's timing table where they are in `../shared/robots` (or `URDD_ROBOTS`).
+//! Time and output size of `generate`, for chains of growing length, and for the robots of the paper's timing table if
+//! they are in `../shared/robots` (or `URDD_ROBOTS`).
 //!
-//! `cargo bench --bench generate` prints for each: the time (least of several runs), the bytes of the
-//! URDD, both per link, and how much memory the program has taken at most so far (Linux): within a table,
-//! rows grow. The paths of pairs stop at 300 links, or 2,000,000 links in them: in a line after 180 (SPEC 6.4.6).
+//! `cargo bench --bench generate` prints for each: the time (minimum of several runs), the bytes of the URDD, both per
+//! link, and the peak memory of the program so far (Linux): within a table, it never decreases. The paths of pairs stop
+//! at 300 links, or at 2,000,000 links in paths: in a line after 180 (SPEC 6.4.6).
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
@@ -64,7 +64,7 @@ fn titles() {
     );
 }
 
-/// Makes a URDD several times, and prints a row.
+/// Generates a URDD several times, and prints a row.
 fn measure(name: &str, source: &Path, settings: &Settings, runs: usize) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (mut least, mut bytes, mut links) = (Duration::MAX, 0, 0);
@@ -87,7 +87,7 @@ fn measure(name: &str, source: &Path, settings: &Settings, runs: usize) {
     );
 }
 
-/// Links in a line, each on a hinge, each a box.
+/// Links in a line, each a box on a hinge.
 fn chain(links: usize) -> String {
     let mut xml = "<robot name=\"chain\">\n".to_owned();
     for i in 0..links {
@@ -115,7 +115,7 @@ fn size(folder: &Path) -> u64 {
     sizes.sum()
 }
 
-/// The most memory that this program has had, MB; `?` where the system does not tell.
+/// Peak memory of this program, MB; `?` if the system does not report it.
 fn peak_mb() -> String {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

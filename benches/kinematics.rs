@@ -1,13 +1,13 @@
-//! How long poses, Jacobians and inverse kinematics take, one thread.
+//! Time for poses, Jacobians and inverse kinematics, on one thread.
 //!
 //! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over 10,000
-//! random configurations, microseconds: the poses of all links, and the Jacobian of the last link by
-//! `Robot::jacobian_batch`. Then, for 1,000 poses of all links in turn in configurations that nobody started from, how
-//! many `Robot::inverse_kinematics` reaches, and in what time.
+//! random configurations, in microseconds: the poses of all links, and the Jacobian of the last link by
+//! `Robot::jacobian_batch`. Then it takes 1,000 target poses, of all links in turn, in configurations that are not
+//! starting points. It prints how many `Robot::inverse_kinematics` reaches, and the time.
 //!
-//! With `--json` it measures nothing: it prints for each URDD and each of 20 configurations one line with the values, and
-//! for each link its pose (position, then quaternion x, y, z, w) and its Jacobian, column after column.
-//! `tests/figures/kinematics_pinocchio.py` holds these to Pinocchio.
+//! With `--json` it measures nothing: for each URDD and each of 20 configurations, it prints one line with the values,
+//! and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in column-major order.
+//! `tests/figures/kinematics_pinocchio.py` compares these with Pinocchio.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

@@ -1,9 +1,9 @@
-//! How often a self-collision model is wrong, near contact too, and what it saves: its own time beside exact answers.
+//! Error rates of a self-collision model, overall and near contact, and its time compared with exact queries.
 //!
-//! `cargo bench --bench learned -- URDD...` prints a JSON object for each URDD with a model, as `docs/learned.md` has it.
-//! Counts are of 200,000 sampled configurations that had no part in making it. Times are microseconds a configuration on
-//! one thread, the least of nine rounds. Without arguments it makes a model of `conformance/robots/welding_arm.urdf`.
-//! `benches/evaluation/learned.py` makes the models and runs it.
+//! `cargo bench --bench learned -- URDD...` prints a JSON object for each URDD with a model, as in `docs/learned.md`.
+//! Counts are over 200,000 sampled configurations that were not used for training. Times are microseconds per
+//! configuration on one thread, the minimum of nine rounds. Without arguments, it trains a model of
+//! `conformance/robots/welding_arm.urdf`. `benches/evaluation/learned.py` trains the models and runs it.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
@@ -24,15 +24,15 @@ use urdd_robot::{
     CollisionModel, Configurations, Obstacle, Proximity, Robot, ShapeKind, Solid, World,
 };
 
-/// The first of the configurations that are counted, and their number.
+/// The first counted configuration, and their number.
 const FIRST: u64 = 10_000_000;
 const COUNT: u64 = 200_000;
-/// The configurations of which times are taken.
+/// The timed configurations.
 const TIMED: usize = 10_000;
 const ROUNDS: usize = 9;
-/// How far a DOF moves at most between a configuration in collision and its free neighbour, rad or m.
+/// Maximum motion of a DOF between a colliding configuration and its free neighbour, rad or m.
 const NEAR: f64 = 0.05;
-/// Bisection ends where no DOF moves farther, rad or m.
+/// Bisection ends when no DOF moves farther than this, rad or m.
 const AT_CONTACT: f64 = 1e-4;
 
 fn main() {
@@ -70,7 +70,7 @@ struct Subject {
     pieces: Proximity,
 }
 
-/// A configuration in collision, whether the model clears it.
+/// A colliding configuration, and whether the model clears it.
 struct Collision {
     q: Vec<f64>,
     missed: bool,
@@ -111,7 +111,7 @@ impl Subject {
         !self.model.may_collide(q).expect("an answer")
     }
 
-    /// Rates on all configurations, near contact, and at contact; how deep the misses are.
+    /// Rates over all configurations, near contact, and at contact; penetration depths of the misses.
     fn count(&self) -> Value {
         let sampled = |k: u64| self.space.random(FIRST + k);
         let all: Vec<(bool, bool)> = (0..COUNT)
@@ -140,7 +140,7 @@ impl Subject {
             let depths: Vec<f64> = depths.collect();
             json!({ "misses": rate(near.iter().map(|of| of.missed)), "depth": spread(depths) })
         };
-        // As SPEC 8.8.10 has it, and by noise in each DOF.
+        // As SPEC 8.8.10 defines it, and by noise in each DOF.
         let next = |k: u64, q: &[f64]| stepped(q, &sampled(k + 1));
         let noise = |k: u64, q: &[f64]| {
             let drawn = self.space.random(FIRST + COUNT + k);
@@ -177,7 +177,7 @@ impl Subject {
         })
     }
 
-    /// The end in collision of a line to a free configuration, cut until it is short.
+    /// The colliding end of a line to a free configuration, bisected until it is short.
     fn bisect(&self, colliding: &[f64], free: &[f64]) -> Vec<f64> {
         let (mut colliding, mut free) = (colliding.to_vec(), free.to_vec());
         loop {
@@ -194,7 +194,7 @@ impl Subject {
         }
     }
 
-    /// How deep the two pieces that overlap most are in each other, by parry: the shortest way apart, metres.
+    /// The greatest penetration depth of two pieces, by parry: the shortest way apart, metres.
     fn depth(&self, q: &[f64]) -> f64 {
         thread_local! {
             static SHAPES: std::cell::RefCell<HashMap<String, Shapes>> = Default::default();
@@ -233,7 +233,7 @@ impl Subject {
         shape.collect()
     }
 
-    /// Microseconds a configuration, in batches of several sizes.
+    /// Microseconds per configuration, in batches of several sizes.
     fn times(&self) -> Value {
         let all: Vec<f64> = (0..TIMED as u64)
             .flat_map(|k| self.space.random(FIRST + k))
@@ -293,7 +293,8 @@ impl Subject {
         (0..ROUNDS).map(|_| round()).fold(f64::INFINITY, f64::min)
     }
 
-    /// A table below the robot and a pillar beside it: what the model does not know, and what it saves there.
+    /// A table below the robot and a pillar beside it, which the model does not know, and the time that the model saves
+    /// there.
     fn among_obstacles(&self) -> Value {
         let table = Isometry3::translation(0.0, 0.0, -0.06);
         let pillar = Isometry3::translation(0.4, 0.0, 0.4);
@@ -332,7 +333,7 @@ fn placed(pose: &Isometry3<f64>) -> Pose {
     )
 }
 
-/// A step towards another configuration, as SPEC 8.8.10 has it.
+/// A step towards another configuration, as SPEC 8.8.10 defines it.
 fn stepped(from: &[f64], to: &[f64]) -> Vec<f64> {
     let apart = from.iter().zip(to).map(|(a, b)| (b - a).abs());
     let part = (NEAR / apart.fold(f64::MIN_POSITIVE, f64::max)).min(1.0);

@@ -1,9 +1,9 @@
-//! How long a question about a robot takes: poses, Jacobians, distances of all pairs, collision.
+//! Time per query on a robot: poses, Jacobians, distances of all pairs, collision.
 //!
 //! `cargo bench --bench proximity -- URDD...` prints for each URDD and for hulls and pieces the median over five rounds
 //! of the mean over 200 random configurations, in microseconds, on one thread and on two; and for parry the distances
-//! of the same pairs. `benches/proximity_coal.py` does the same by Pinocchio with coal. Without arguments it takes
-//! `target/bench/welding_arm`, which it makes.
+//! of the same pairs. `benches/proximity_coal.py` does the same with Pinocchio and Coal. Without arguments it uses
+//! `target/bench/welding_arm`, which it generates.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

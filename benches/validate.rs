@@ -1,9 +1,8 @@
-//! How fast `validate` is, beside what plain parsing of the same bytes takes in the same run.
+//! Speed of `validate`, compared with plain parsing of the same bytes in the same run.
 //!
-//! `cargo bench` prints, for each set of URDDs: the size of its module text (JSON and YAML), the time
-//! that serde_json and serde_yaml need to parse it on one thread, the time of `validate` on one and
-//! on two threads, both as ratios to that, and MB/s. Times are the least of several runs; read the
-//! ratios, the machine's speed cancels in them.
+//! `cargo bench` prints, for each set of URDDs: the size of its module text (JSON and YAML), the time that serde_json
+//! and serde_yaml need to parse it on one thread, the time of `validate` on one and on two threads, both as ratios to
+//! that, and MB/s. Times are the minimum of several runs. Compare the ratios: the machine's speed cancels out.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

@@ -1,7 +1,7 @@
-//! Where the links of a robot are.
+//! Positions of the links of a robot.
 //!
-//! `cargo run --example forward_kinematics -- URDD` says which values it takes: one for each DOF, rad or m. With them it
-//! prints the position of every link in the frame of the root link.
+//! `cargo run --example forward_kinematics -- URDD` prints the values that it takes: one for each DOF, rad or m. With
+//! them, it prints the position of every link in the frame of the root link.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 

@@ -1,4 +1,4 @@
-//! How much memory inputs take: the multiples that docs/security.md states, held by the system's limit.
+//! Memory use by input size: the multiples that docs/security.md states, enforced by a system limit.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
@@ -9,10 +9,10 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// What the program takes for itself, and its threads, bytes.
+/// Bytes that the program and its threads use without an input.
 const OWN: usize = 64 << 20;
 
-/// Runs the program with so many bytes of data, and no more.
+/// Runs the program with its data limited to this many bytes.
 fn urdd(limit: usize, arguments: &[&str], folder: &Path) -> Output {
     let kibibytes = limit / 1024;
     Command::new("sh")
@@ -24,7 +24,7 @@ fn urdd(limit: usize, arguments: &[&str], folder: &Path) -> Output {
         .unwrap()
 }
 
-/// Asserts that a run ends with this status, with memory of this multiple of the input.
+/// Asserts that a run exits with this status when its memory is limited to this multiple of the input.
 fn assert_within(multiple: usize, size: usize, status: i32, arguments: &[&str], folder: &Path) {
     let output = urdd(OWN + multiple * size, arguments, folder);
     assert_eq!(
@@ -95,7 +95,7 @@ fn a_mesh_takes_a_stated_multiple_of_memory() {
     for at in 1..side * (side - 1) {
         writeln!(field, "f {at} {} {}", at + side, at + 1).unwrap();
     }
-    // A polygon that is said as one face again and again: a triangle in four bytes.
+    // A polygon that repeats one face: a triangle in four bytes.
     let corners = "1 2 3 ".repeat(60_000);
     let fan = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf {corners}\n");
     for (text, triangles) in [(field, 0), (fan, 180_000)] {
@@ -112,7 +112,7 @@ fn a_mesh_takes_a_stated_multiple_of_memory() {
     }
 }
 
-/// An archive's names are stored once, however many folders they name; and an archive is in memory once.
+/// An archive's names are stored once, however many folders they name. An archive is in memory once.
 #[test]
 fn many_levels_take_no_memory() {
     use std::io::Write as _;
@@ -135,7 +135,7 @@ fn many_levels_take_no_memory() {
     // One name of 32,000 levels in 551 kB: refused.
     let size = pack(&[(["a"; 32_000].join("/"), 420_000)]);
     assert_within(2, size, 2, &["info", "a.zip"], folder.path());
-    // Many of as many as are allowed.
+    // Many names at the limit.
     let deep = |k: usize| (format!("{k:04}/{}", ["a"; 2040].join("/")), 1);
     let size = pack(&(0..2_000).map(deep).collect::<Vec<_>>());
     assert_within(3, size, 0, &["info", "a.zip"], folder.path());

@@ -1,5 +1,5 @@
-//! The measure of the rules measures: it finds a blind spot, says the same for any number of threads, and leaves what it
-//! measures with as it was.
+//! Tests of the kill rate measurement: it finds a blind spot, gives the same result for any number of threads, and
+//! leaves its inputs unchanged.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -158,7 +158,7 @@ fn hashes_follow_the_change() {
     );
 }
 
-/// A warning is a finding: only what nothing at all is said of has survived.
+/// A warning is a finding: only a mutation without any finding has survived.
 #[test]
 fn a_warning_counts() {
     let folder = core();
@@ -201,7 +201,7 @@ fn what_lies_beside_the_triangles_of_a_mesh_is_changed_too() {
     );
     let nodes = of("its node");
     assert!(nodes.len() > 2, "{}", nodes.len());
-    // Poses of nodes are read: a hull elsewhere is another hull.
+    // Poses of nodes are read: a hull in another place is another hull.
     assert!(
         nodes.iter().all(|trial| trial.plain.is_noticed()),
         "{nodes:#?}"

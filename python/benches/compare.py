@@ -1,4 +1,4 @@
-"""Measures this package beside others, on the same robots, in one run.
+"""Measures this package and others, on the same robots, in one run.
 
     pip install ./python pin mujoco pybullet yourdfpy
     python python/benches/compare.py --readme
@@ -46,15 +46,15 @@ import urdd
 REPOSITORY = Path(__file__).resolve().parents[2]
 README = REPOSITORY / "python" / "README.md"
 USUAL = [REPOSITORY.parent / "shared" / "robots" / name / "robot.urdf" for name in ("ur5", "h1")]
-#: Between these lines README.md has the tables.
+#: Between these lines, README.md has the tables.
 BEGIN, END = "<!-- benches/compare.py -->", "<!-- end of benches/compare.py -->"
 
 
 class Effort:
-    """How much is measured."""
+    """The amount of work to measure."""
 
     configurations = 10_000
-    #: Of those that take long.
+    #: For slow operations.
     fewer = 500
     rounds = 5
     fresh = 9
@@ -83,7 +83,7 @@ LOADING = {
 
 
 def has(name: str) -> bool:
-    """Whether a peer is installed."""
+    """Whether another package is installed."""
     try:
         import_module(name)
     except ImportError:
@@ -102,7 +102,7 @@ def clock(work: Callable[[], object], rounds: int | None = None) -> float:
 
 
 def quiet(work: Callable[[], dict[str, float]]) -> dict[str, float]:
-    """What work gives, without what C prints."""
+    """The result of a function, without the output of C code."""
     sys.stdout.flush()
     kept = os.dup(1)
     nothing = os.open(os.devnull, os.O_WRONLY)
@@ -116,7 +116,7 @@ def quiet(work: Callable[[], dict[str, float]]) -> dict[str, float]:
 
 
 def loading(code: str) -> tuple[float, float] | None:
-    """The wall time and the processor time of a fresh process, seconds: medians. None where it fails."""
+    """The wall time and the processor time of a fresh process, seconds: medians. None if it fails."""
     walls, processors = [], []
     for _ in range(Effort.fresh):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -155,7 +155,7 @@ def of_us(robot: urdd.Robot, q: Any) -> dict[str, float]:
 
 
 def of_pinocchio(robot: urdd.Robot, q: Any) -> dict[str, float]:
-    """The same; collisions by the faster of its two ways."""
+    """The same; collisions by the faster of its two methods."""
     pin: Any = import_module("pinocchio")
     peer = robot.to_pinocchio()
     model, data, own = peer.model, peer.model.createData(), list(peer.q(q))
@@ -188,7 +188,7 @@ def of_pinocchio(robot: urdd.Robot, q: Any) -> dict[str, float]:
 
 
 def of_yourdfpy(urdf: Path, robot: urdd.Robot, q: Any) -> dict[str, float]:
-    """Poses alone: it has no Jacobians, and no collisions without python-fcl."""
+    """Only poses: it has no Jacobians, and no collisions without python-fcl."""
     yourdfpy: Any = import_module("yourdfpy")
     model = yourdfpy.URDF.load(str(urdf), load_meshes=False, build_scene_graph=True)
     order = [robot.dof_names.index(name) for name in model.actuated_joint_names]
@@ -268,7 +268,7 @@ def of_pybullet(robot: urdd.Robot, q: Any) -> dict[str, float]:
     return {name: seconds / Effort.fewer * len(q) for name, seconds in found.items()}
 
 
-#: The package of each peer, and the words that its row has besides.
+#: The distribution of each compared package, and further text for its row.
 PEERS = {
     "Pinocchio": ("pinocchio", ["pin", "coal"]),
     "MuJoCo": ("mujoco", ["mujoco"]),
@@ -278,7 +278,7 @@ PEERS = {
 
 
 def title(name: str) -> str:
-    """A peer with its versions."""
+    """A compared package with its versions."""
     if name not in PEERS:
         return name
     first, *others = PEERS[name][1]
@@ -290,7 +290,7 @@ def short_version(package: str) -> str:
     try:
         full = importlib.metadata.version(package)
     except importlib.metadata.PackageNotFoundError:
-        # Parts of others come without metadata of their own name.
+        # Parts of other packages have no metadata under their own names.
         full = str(getattr(import_module(package), "__version__", ""))
     parts = full.split(".")
     return full if parts[0] == "0" else ".".join(parts[:2])
@@ -348,7 +348,7 @@ def three_digits(number: float) -> str:
 
 
 def main() -> None:
-    """Compares on every URDF that is given."""
+    """Compares on every given URDF."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("urdfs", nargs="*", type=Path, default=USUAL, metavar="URDF")
     parser.add_argument("--readme", action="store_true", help="writes the tables into README.md")

@@ -42,7 +42,7 @@ POSES = {
     ),
 }
 
-#: Damped least squares within limits; one restart less than `robot.ik` has.
+#: Damped least squares within limits; one restart fewer than `robot.ik`.
 INVERSE = {
     "urdd": "found = robot.inverse_kinematics(tool, target).q",
     "Pinocchio": """frame = model.getFrameId(tool)

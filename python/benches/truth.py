@@ -1,4 +1,4 @@
-"""Holds our numbers to Pinocchio's, on robots that are not ours.
+"""Compares our numbers with Pinocchio's, on other people's robots.
 
     python python/benches/truth.py [COUNT]
 
@@ -22,7 +22,7 @@ import urdd
 from urdd._joints import joints_of
 
 CONFIGURATIONS = 100
-#: Of distances, which take longer.
+#: For distances, which take longer.
 FEWER = 20
 
 
@@ -34,7 +34,7 @@ def urdfs() -> list[Path]:
 
 
 def motion(pin: Any, robot: urdd.Robot, path: Path) -> tuple[float, float] | None:
-    """The worst differences of poses and Jacobians; None where Pinocchio's reader makes another robot of it."""
+    """The worst differences of poses and Jacobians; None if Pinocchio reads a different robot from the URDF."""
     model = pin.buildModelFromUrdf(str(path))
     data = model.createData()
     joints = {joint.name: joint for joint in joints_of(robot.modules)}
@@ -80,7 +80,7 @@ def distances(pin: Any, robot: urdd.Robot) -> tuple[int, float]:
 
 
 def main() -> int:
-    """Prints a row a robot, and the worst."""
+    """Prints a row per robot, and the worst."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     pin: Any = import_module("pinocchio")
     worst, done = np.zeros(3), 0

@@ -12,7 +12,7 @@ import urdd
 
 
 def solve(robot, link, target, q, damping=1e-2, steps=500):
-    """A configuration in which `link` is at `target` (4, 4), from `q` on."""
+    """A configuration in which `link` is at `target` (4, 4), searched from `q`."""
     for _ in range(steps):
         pose = robot.link_pose(q, link)
         turn = target[:3, :3] @ pose[:3, :3].T

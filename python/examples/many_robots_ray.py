@@ -17,7 +17,7 @@ import urdd
 
 @ray.remote(num_cpus=1)
 def make(source, target):
-    """One robot, on the one processor that Ray counts for it."""
+    """Generates one URDD, on the one processor that Ray reserves for it."""
     urdd.set_num_threads(1)
     try:
         made = urdd.generate(source, target)

@@ -1,4 +1,4 @@
-"""Distances to obstacles: what is near a robot, and configurations that are free of them and of itself.
+"""Distances to obstacles: what is near a robot, and configurations without collisions with obstacles or with itself.
 
 python obstacles.py URDD [COUNT]
 """
@@ -13,7 +13,7 @@ robot = urdd.load(sys.argv[1])
 count = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
 
 world = urdd.World()
-# The root link stands on the table.
+# The root link is mounted on the table.
 world.add_box("table", size=[2.0, 2.0, 0.1], pose=[0.0, 0.0, -0.05], ignore=[robot.root_link])
 world.add_capsule("lamp", radius=0.05, length=1.0, pose=[0.5, 0.5, 0.5])
 world.add_sphere("ball", radius=0.1, centre=[0.6, 0.0, 0.4])
@@ -28,6 +28,6 @@ q = robot.random(count)
 hit, folded = around.in_collision(q), robot.in_collision(q)
 print(f"{np.mean(hit):.1%} of {count} touch an obstacle, {np.mean(folded):.1%} the robot itself")
 free = q[~(hit | folded)]
-# The least distance that is kept to obstacles and to itself.
+# Minimum distance to obstacles, and between the robot's own links.
 clearance = np.minimum(around.min_distance(free), robot.self_distance(free))
 print(f"{len(free)} are free; the one with most room has {clearance.max(initial=0.0):.3f} m")

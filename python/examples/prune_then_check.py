@@ -13,9 +13,9 @@ import urdd
 robot = urdd.load(sys.argv[1])
 model = robot.collision_model()
 print(model)
-# Another seed than 0: the model was trained on configurations of that one.
+# Not seed 0: the model was trained on configurations of that seed.
 q = robot.random(int(sys.argv[2]) if len(sys.argv) > 2 else 10_000, seed=1)
-robot.in_collision(q[0])  # reads the meshes, before time is taken
+robot.in_collision(q[0])  # reads the meshes before the timing starts
 
 begin = time.process_time()
 found = model.may_collide(q)

@@ -17,7 +17,7 @@ WANTED = re.search(r'^rust-version = "(\d+)\.(\d+)"$', "\n".join(MANIFESTS), re.
 
 
 def check_rust() -> None:
-    """Ends with what to do where there is no Rust, or one too old."""
+    """Exits with instructions if Rust is missing or too old."""
     assert WANTED is not None
     wanted = (int(WANTED[1]), int(WANTED[2]))
     try:

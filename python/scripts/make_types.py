@@ -19,7 +19,7 @@ PACKAGE = HERE.parent / "lib" / "urdd"
 VERSION = "1.0.0"
 WIDTH = 116
 
-#: In the order of the specification's table of modules; others come after them.
+#: In the order of the specification's table of modules; others follow.
 MODULES = [
     "urdf_module",
     "dof_module",
@@ -78,7 +78,7 @@ def read_report(text: str) -> Report:
 
 
 class Types:
-    """The types that some schemas define, and what reads them."""
+    """The types that several schemas define, and their readers."""
 
     def __init__(self) -> None:
         self.known: dict[str, dict[str, Any]] = {}
@@ -100,7 +100,7 @@ class Types:
         return reference.removeprefix("#/$defs/")
 
     def is_tag(self, name: str) -> bool:
-        """Whether it is an object of one key, which says what its value is."""
+        """Whether it is an object with one key, which determines the type of its value."""
         reference = {"$ref": f"#/$defs/{name}"}
         return any(reference in other.get("oneOf", []) for other in self.known.values())
 
@@ -124,7 +124,7 @@ class Types:
         return " | ".join(found)
 
     def expression(self, schema: dict[str, Any], value: str, depth: int = 0) -> str:
-        """What reads a value."""
+        """The reader of a value."""
         if "$ref" in schema:
             name = self.target(schema["$ref"])
             is_read = self.known[name].get("type") == "object" or "oneOf" in self.known[name]
@@ -207,7 +207,7 @@ def declaration(types: Types, name: str) -> str:
 
 
 def is_ambiguous(types: Types, definition: dict[str, Any]) -> bool:
-    """Whether the value alone does not tell which of several it is."""
+    """Whether the value alone does not determine the alternative."""
     values = [types.annotation(types.tagged(types.target(part["$ref"]))[1]) for part in definition["oneOf"]]
     return len(set(values)) < len(values)
 
@@ -231,7 +231,7 @@ def reader(types: Types, name: str) -> str:
         value = f'v["{key}"]'
         line = f"        {attribute(key)}={types.expression(schema, value)},\n"
         if len(line) > 121:
-            # As the formatter breaks it.
+            # As the formatter wraps it.
             line = line.replace("=None if ", "=None\n        if ", 1).replace(" else ", "\n        else ", 1)
         lines.append(line)
     return head + "".join([*lines, "    )\n"])
@@ -245,7 +245,7 @@ def body(types: Types) -> str:
     read = [name for name in order if name not in words]
     parts = ["\n" + declaration(types, name) for name in words]
     parts += ["\n\n" + declaration(types, name) for name in classes]
-    # What they are made of has to be there; annotations of fields are not evaluated.
+    # The types that they refer to must be defined earlier; annotations of fields are not evaluated.
     parts += [("\n\n" if k == 0 else "\n") + declaration(types, name) for k, name in enumerate(unions)]
     parts += ["\n\n" + reader(types, name) for name in read]
     return "".join(parts)

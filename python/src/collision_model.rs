@@ -84,7 +84,7 @@ impl CollisionModel {
         self.0.clip_distance()
     }
 
-    /// How many configurations collide, are missed, are near contact, are missed of these, are free, and are cleared.
+    /// Numbers of configurations: colliding, missed, near contact, missed of these, free, and cleared.
     #[getter]
     fn evaluation(&self) -> [u32; 6] {
         let of = self.0.evaluation();

@@ -14,8 +14,8 @@ use crate::generate::{Options, summary, with_progress};
 /// combined robot.
 type Attached = (String, [[f64; 3]; 2], Option<String>);
 
-/// Puts robots together: those of a recipe, or with `attached` two, of which the first is `source`. Gives what there is
-/// to say of the URDD, and of the parts, each a kind and a message.
+/// Combines robots: those of a recipe, or with `attached` two, of which the first is `source`. Returns the notes on the
+/// URDD, and those on the parts, each a kind and a message.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub fn combine<'py>(

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use pyo3::prelude::*;
 
-/// Runs the command line, and gives the exit status. The first word is the program's name.
+/// Runs the command line, and returns the exit status. The first word is the program's name.
 #[pyfunction]
 pub fn main(py: Python<'_>, words: Vec<OsString>, closed: bool) -> u8 {
     let status = py.detach(|| urdd::cli::run(words, closed));

@@ -228,7 +228,8 @@ pub fn summary<'py>(py: Python<'py>, generated: &Generated) -> PyResult<Bound<'p
     Ok(found)
 }
 
-/// Makes a URDD of a file; with `text` of that text, whose relative names of meshes begin in the folder `source`.
+/// Generates a URDD from a file, or from `text` if given, whose relative mesh names are resolved from the folder
+/// `source`.
 #[pyfunction]
 pub fn generate<'py>(
     py: Python<'py>,

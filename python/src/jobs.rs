@@ -8,7 +8,7 @@ use urdd_generate::batch;
 use crate::errors::raise;
 use crate::work;
 
-/// The robots below these paths: for each its file, and a name unlike all others.
+/// The robots below these paths: for each its file, and a unique name.
 #[pyfunction]
 pub fn find_urdfs(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<Vec<(PathBuf, String)>> {
     let jobs = work::run(py, move |_| batch::jobs(&paths))?;

@@ -48,7 +48,7 @@ impl Page {
         })
     }
 
-    /// The address to open. It carries the token without which nothing is answered.
+    /// The address to open. It contains the token that every request needs.
     #[getter]
     fn address(&self) -> &str {
         &self.address
@@ -73,7 +73,7 @@ impl Drop for Page {
     }
 }
 
-/// The page with one robot in it, as HTML.
+/// The page with one embedded robot, as HTML.
 #[pyfunction]
 pub fn page_html(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let robots = collection(py, &path)?;

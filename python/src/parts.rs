@@ -30,7 +30,7 @@ enum Read {
 
 #[pymethods]
 impl Robot {
-    /// The names of the modules that are there, in the order of the specification.
+    /// The names of the modules that exist, in the order of the specification.
     fn module_names(&self, py: Python<'_>) -> PyResult<Vec<&'static str>> {
         let listing = py.detach(|| self.root.list());
         let listing = listing.map_err(|error| raise(py, "OpenError", error, &[]))?;
@@ -39,7 +39,7 @@ impl Robot {
         Ok(there.map(|kind| kind.name()).collect())
     }
 
-    /// A module's version, whether it is a legacy one, and its JSON, which fits its schema.
+    /// A module's version, whether it is a legacy one, and its JSON, which matches its schema.
     fn module(&self, py: Python<'_>, name: &str) -> PyResult<(String, bool, String)> {
         let kind = ModuleKind::ALL.iter().find(|kind| kind.name() == name);
         let Some(kind) = kind.copied() else {
@@ -92,7 +92,7 @@ impl Robot {
         }
     }
 
-    /// The text of `urdd.json`; None where there is none.
+    /// The text of `urdd.json`; None if it does not exist.
     fn metadata(&self, py: Python<'_>) -> PyResult<Option<String>> {
         match py.detach(|| self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES)) {
             Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),

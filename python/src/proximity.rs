@@ -74,7 +74,7 @@ impl Proximity {
         self.0.num_pairs()
     }
 
-    /// (pairs, 2, 2): of each pair and each of its two shapes the link and the piece.
+    /// (pairs, 2, 2): the link and the piece of both shapes of each pair.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<usize>>> {
         let numbers = self
             .0

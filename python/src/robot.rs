@@ -190,7 +190,7 @@ impl Robot {
         })
     }
 
-    /// Each value at the nearest bound where it is out of bounds.
+    /// Clamps each value to its bounds.
     fn clamp<'py>(
         &self,
         py: Python<'py>,
@@ -213,7 +213,7 @@ impl Robot {
         })
     }
 
-    /// (count, links, 4, 4); of one link (count, 1, 4, 4).
+    /// (count, links, 4, 4); for one link (count, 1, 4, 4).
     #[pyo3(signature = (configurations, link=None))]
     fn link_poses<'py>(
         &self,
@@ -250,8 +250,8 @@ impl Robot {
         columns.permute(Some([0, 2, 1]))
     }
 
-    /// For targets (count, 4, 4) of poses or (count, 1, 3) of positions, each a row (dofs + 5): the configuration,
-    /// whether it is reached (0 or 1), the position's and the rotation's error, restarts and iterations.
+    /// For targets (count, 4, 4) of poses or (count, 1, 3) of positions, a row (dofs + 5) each: the configuration,
+    /// whether it reaches the target (0 or 1), the position error and the rotation error, restarts and iterations.
     fn inverse_kinematics<'py>(
         &self,
         py: Python<'py>,

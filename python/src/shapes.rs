@@ -59,7 +59,7 @@ impl Robot {
     }
 
     /// The link and the piece of each shape (shapes, 2), which pairs are skipped (shapes, shapes), and the reason of
-    /// each pair, as a place in `urdd.SKIP_REASONS` (shapes, shapes) or None.
+    /// each pair, as an index into `urdd.SKIP_REASONS` (shapes, shapes) or None.
     #[allow(clippy::type_complexity)]
     fn skips<'py>(
         &self,

@@ -53,7 +53,7 @@ pub fn pool() -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Sets how many threads work; `None`: one for each processor, or as `RAYON_NUM_THREADS` says.
+/// Sets the number of threads. `None`: one for each processor, or the value of `RAYON_NUM_THREADS`.
 #[pyfunction]
 #[pyo3(signature = (count=None))]
 pub fn set_num_threads(count: Option<isize>) -> PyResult<()> {
@@ -73,7 +73,7 @@ pub fn set_num_threads(count: Option<isize>) -> PyResult<()> {
     made.map(drop)
 }
 
-/// How many threads work.
+/// The number of threads.
 #[pyfunction]
 pub fn num_threads() -> PyResult<usize> {
     Ok(pool()?.current_num_threads())

@@ -83,7 +83,7 @@ pub fn validate(py: Python<'_>, paths: Vec<PathBuf>, options: Options) -> PyResu
     }
 }
 
-/// What a rule means: its name, severity, clause and explanation.
+/// The description of a rule: its name, severity, clause and explanation.
 #[pyfunction]
 pub fn explain(
     py: Python<'_>,

@@ -40,7 +40,7 @@ pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send)
     )
 }
 
-/// As [`run`]; calls `hear` on the caller's thread with the job's messages. An error of `hear` cancels the job too.
+/// Like [`run`]; calls `hear` on the caller's thread with the job's messages. An error of `hear` cancels the job too.
 pub fn run_and_tell<T: Send, M: Send>(
     py: Python<'_>,
     mut hear: impl FnMut(M) -> PyResult<()>,
@@ -93,7 +93,7 @@ fn crash(panic: &(dyn Any + Send)) -> PyErr {
     ))
 }
 
-/// Takes a lock, and lets other Python threads run while it is not free.
+/// Takes a lock, and lets other Python threads run while waiting for it.
 pub fn lock<'a, T>(py: Python<'_>, mutex: &'a Mutex<T>) -> PyResult<MutexGuard<'a, T>> {
     loop {
         match mutex.try_lock() {

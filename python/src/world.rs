@@ -103,7 +103,7 @@ impl Obstacle {
         obstacle(py, &pose, make)
     }
 
-    /// Vertices (n, 3) and triangles (m, 3), of which convex pieces are made.
+    /// Vertices (n, 3) and triangles (m, 3), to be decomposed into convex pieces.
     #[staticmethod]
     fn mesh(
         py: Python<'_>,
@@ -124,7 +124,7 @@ impl Obstacle {
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }
 
-    /// Number of convex shapes that stand for it.
+    /// Number of convex shapes that represent it.
     #[getter]
     fn num_parts(&self) -> usize {
         self.0.num_parts()
@@ -204,7 +204,7 @@ impl WorldProximity {
         })
     }
 
-    /// (pairs, 3): of each pair the link, the piece and the obstacle.
+    /// (pairs, 3): the link, the piece and the obstacle of each pair.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<usize>>> {
         let array = zeros(py, [self.proximity.pairs().count(), 3])?;
         let mut guard = array.readwrite();

@@ -1,4 +1,4 @@
-"""The robots of the repository as URDDs, made once."""
+"""The robots of the repository as URDDs, generated once."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def urdds(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def arm(urdds: Path) -> urdd.Robot:
-    """A robot with meshes, one DOF a joint."""
+    """A robot with meshes, with one DOF per joint."""
     return urdd.load(urdds / "welding_arm")
 
 
@@ -52,7 +52,7 @@ def toy(urdds: Path) -> urdd.Robot:
 
 @pytest.fixture(scope="session")
 def training(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[tuple[str, int, int]]]:
-    """A URDD with a learned self-collision model, and what its making told of its progress."""
+    """A URDD with a learned self-collision model, and the progress reported while it was generated."""
     told: list[tuple[str, int, int]] = []
     path = tmp_path_factory.mktemp("learned") / "welding_arm_with_a_model"
     made = urdd.generate(

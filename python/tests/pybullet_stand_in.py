@@ -25,7 +25,7 @@ MIXED = """<robot name="mixed">
 
 
 class StandIn:
-    """One body. What it was told is in `filters` and `positions`."""
+    """One body. It records what it received in `filters` and `positions`."""
 
     URDF_USE_SELF_COLLISION = 8
     URDF_USE_INERTIA_FROM_FILE = 2
@@ -44,7 +44,7 @@ class StandIn:
         while waiting:
             link = waiting.pop(0)
             below = [(name, child) for name, parent, child in ends if parent == link]
-            # As there: a link's first child, and all below it, before the second.
+            # As in PyBullet: a link's first child, and all below it, before the second.
             waiting = [child for _, child in below] + waiting
             self.joints += [(name, child) for name, _, child in ends if child == link]
         return 5

@@ -1,4 +1,4 @@
-"""What people get wrong: each is an error that says what, where and what to do."""
+"""Common mistakes: each raises an error that says what, where and what to do."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def test_a_urdd_that_fails_validation(urdds: Path, tmp_path: Path) -> None:
 
 
 def test_advice_is_for_python(urdds: Path, tmp_path: Path) -> None:
-    """No error sends people to the command line: neither its commands nor its flags."""
+    """No error refers users to the command line: neither its commands nor its flags."""
     core = urdd.generate(ROBOTS / "gripper.urdf", tmp_path / "core", modules=["core"]).load()
     (tmp_path / "away.stl").write_bytes((ROBOTS / "meshes" / "welding_arm" / "flange.stl").read_bytes())
     folder = tmp_path / "a" / "b"
@@ -249,7 +249,7 @@ def test_a_number_of_threads_that_cannot_be(arm: urdd.Robot) -> None:
 
 
 def test_names_that_are_nearly_right_bring_the_right_one() -> None:
-    """What Python's interpreter looks for a suggestion in."""
+    """The names in which Python's interpreter searches for a suggestion."""
     for name in urdd.__all__:
         assert name in dir(urdd)
     with pytest.raises(AttributeError) as caught:

@@ -1,4 +1,4 @@
-"""Other programs get the same robot: their numbers are held to ours."""
+"""Other programs receive the same robot: their numbers are compared with ours."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_pinocchio_reads_the_same_masses_and_limits(name: str, urdds: Path, pin:
     pin.crba(ours.model, a, ours.q(robot.clamp(np.zeros(robot.num_dofs))))
     assert pin.computeTotalMass(ours.model) == pytest.approx(pin.computeTotalMass(theirs))
     if name == "six_axis_arm":
-        # One DOF a joint, in one order: the whole mass matrix.
+        # One DOF per joint, in one order: the whole mass matrix.
         zero = np.zeros(robot.num_dofs)
         np.testing.assert_allclose(pin.crba(ours.model, a, ours.q(zero)), pin.crba(theirs, b, still), atol=1e-9)
         np.testing.assert_allclose(ours.model.lowerPositionLimit, theirs.lowerPositionLimit)
@@ -122,7 +122,7 @@ def test_trimesh_has_the_meshes(kind: urdd.MeshKind, arm: urdd.Robot) -> None:
     ends: list[np.ndarray[Any, Any]] = []
     for hull in arm.hulls():
         mesh = arm.link_mesh(hull.link, kind)
-        # The hull of what a link looks like is the hull; pieces stay within it.
+        # The hull of a link's appearance is the hull; pieces are inside it.
         low, high = hull.vertices.min(axis=0), hull.vertices.max(axis=0)
         np.testing.assert_allclose(mesh.bounds, [low, high], atol=1e-3 if kind == "pieces" else 1e-6)
         ends.append(mesh.vertices @ poses[hull.link][:3, :3].T + poses[hull.link][:3, 3])
@@ -162,7 +162,7 @@ def test_a_notebook_gets_the_page_in_a_frame(arm: urdd.Robot) -> None:
 
 
 def test_viser_is_told_to_listen_to_this_machine_alone(arm: urdd.Robot, monkeypatch: pytest.MonkeyPatch) -> None:
-    """By a stand-in; `peers/test_viser.py` looks at the socket of viser itself."""
+    """With a stand-in; `peers/test_viser.py` checks the socket of viser itself."""
     told: list[dict[str, Any]] = []
 
     class Server:

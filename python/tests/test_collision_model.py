@@ -1,4 +1,4 @@
-"""The learned self-collision model, against its consumer in numpy, exact distances, and what its module says."""
+"""The learned self-collision model, compared with its consumer in numpy, with exact distances, and with its module."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CONSUMER = runpy.run_path(str(REPOSITORY / "examples" / "self_collision_model.py
 
 
 def by_numpy(robot: urdd.Robot, q: Floats) -> Floats:
-    """The clearances of SPEC 8.8.4, of one configuration."""
+    """The clearances of SPEC 8.8.4 for one configuration."""
     found: Floats = CONSUMER["clearances"](robot.modules.json(MODULE), q)
     return found
 
@@ -110,7 +110,7 @@ def test_it_says_what_its_module_says(learned: urdd.Robot) -> None:
 
 
 def test_rates_have_the_intervals_of_scipy(learned: urdd.Robot) -> None:
-    """``conformance/vectors`` holds scipy's."""
+    """``conformance/vectors`` has scipy's values."""
     vectors = json.loads((REPOSITORY / "conformance/vectors/self_collision_model.json").read_text("utf-8"))
     known = {(of["count"], of["of"]): of for of in vectors["intervals"]}
     assert f"{urdd.Rate(**known[9, 903])}" == "1.00 % (0.53 to 1.88 %) of 903"
@@ -159,7 +159,7 @@ def test_the_counts_are_what_exact_checks_give(learned: urdd.Robot) -> None:
 
 
 def test_what_is_not_known_is_not_clear(learned: urdd.Robot) -> None:
-    """The sine of what is beyond binary64 is no number."""
+    """The sine of a number beyond binary64 is NaN."""
     model = learned.collision_model()
     for q in (np.full(learned.num_dofs, 1.7e308), np.full((40, learned.num_dofs), 1.7e308)):
         assert np.all(model.may_collide(q))

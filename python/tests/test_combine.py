@@ -1,4 +1,4 @@
-"""Robots that are put together: poses by closed forms, and what people get wrong."""
+"""Combined robots: poses by closed forms, and common mistakes."""
 
 from __future__ import annotations
 

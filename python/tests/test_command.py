@@ -1,4 +1,4 @@
-"""The command line, as a person runs it."""
+"""The command line, as a user runs it."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_control_c_stops_the_page(urdds: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
 def test_control_c_stops_what_listens_to_no_signals() -> None:
-    """Python's own handler would only take note of it."""
+    """Python's own handler would only record it."""
     words: list[str | Path] = ["conformance", "validator", "--", "sh", "-c", "sleep 9", "{dir}"]
     with subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         time.sleep(2)

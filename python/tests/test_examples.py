@@ -1,4 +1,4 @@
-"""What people copy runs, and gives what it says."""
+"""Code that users copy runs, and gives the documented result."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_forward_kinematics(arm: urdd.Robot) -> None:
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in ROBOTS.glob("*.urdf")))
 def test_forward_kinematics_by_json_and_numpy(name: str, tmp_path: Path) -> None:
-    """Joints of every kind: its poses are those that each URDD states."""
+    """Joints of every kind: its poses are those in each URDD."""
     urdd.generate(ROBOTS / f"{name}.urdf", tmp_path / name, modules=["kinematics_samples"])
     script = REPOSITORY / "examples" / "forward_kinematics.py"
     command: list[str | Path] = [sys.executable, script, tmp_path / name, "--check"]
@@ -77,7 +77,7 @@ def test_obstacles(arm: urdd.Robot) -> None:
 
 
 def found_share(robot: urdd.Robot, q: Any) -> str:
-    """How many configurations touch the obstacles of the example, with each distance worked out."""
+    """How many configurations touch the obstacles of the example, with every distance computed."""
     world = urdd.World()
     world.add_box("table", [2.0, 2.0, 0.1], [0.0, 0.0, -0.05], ignore=[robot.root_link])
     world.add_capsule("lamp", 0.05, 1.0, [0.5, 0.5, 0.5])

@@ -1,4 +1,4 @@
-"""More than there is memory for is a `MemoryError`, as numpy raises, and the robot answers after it."""
+"""A request for too much memory raises `MemoryError`, as in numpy, and the robot still answers afterwards."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 
 import urdd
 
-#: Each asks for more than the 700 MB that are left, or than any memory: in one process, one after the other.
+#: Each asks for more than the 700 MB that are left, or than any memory: in one process, one after another.
 TOO_MUCH = [
     "robot.random(10**13)",
     "robot.random(2**62)",
@@ -92,7 +92,7 @@ def test_more_than_there_is_memory_for(learned: urdd.Robot, urdds: object) -> No
 
 
 def test_numbers_of_numbers(arm: urdd.Robot) -> None:
-    """Where a number is no size, the largest is as good as any."""
+    """If a number is not a size, the largest one works like any other."""
     pairs = arm.proximity().num_pairs
     assert len(arm.nearest(arm.zero, 2**70)) == pairs
     world = urdd.World()

@@ -1,4 +1,4 @@
-"""The package itself: what it says of itself, its types, its documentation."""
+"""The package itself: its metadata, its types, its documentation."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch:
 
 
 def test_the_readme(learned: urdd.Robot, urdds: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each block of Python is run as it stands, one after the other, as in a clone in which its robots were made."""
+    """Runs each block of Python unchanged, one after another, as in a clone in which its robots were generated."""
     (tmp_path / "welding_arm").symlink_to(urdds / "welding_arm")
     (tmp_path / learned.path.name).symlink_to(learned.path)
     (tmp_path / "conformance").symlink_to(REPOSITORY / "conformance")
@@ -120,14 +120,14 @@ def test_pip_says_that_it_needs_rust(rustc: str | None, words: str | None, tmp_p
         assert found.returncode == 0, found.stderr
     else:
         assert found.returncode == 1
-        # No trace: one sentence.
+        # Not a traceback: one sentence.
         assert found.stderr.strip().count("\n") == 0
         needed = version_of(REPOSITORY / "Cargo.toml", "rust-version").removesuffix(".0")
         assert found.stderr.strip().startswith(f"urdd is compiled here, which needs Rust {needed} or later: {words}")
 
 
 def test_options_are_as_usual() -> None:
-    """What `generate` shows as usual, and what the others take where nothing is said, is one and the same."""
+    """The defaults that `generate` shows are those that the others use."""
     shown = inspect.signature(urdd.generate).parameters
     usual = options_of({}, "generate")
     for name in MakingOptions.__annotations__:

@@ -1,4 +1,4 @@
-"""PyBullet's body of a robot, by a stand-in; `peers/test_pybullet.py` is with PyBullet itself."""
+"""PyBullet's body of a robot, with a stand-in; `peers/test_pybullet.py` uses PyBullet itself."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pybullet_stand_in import MIXED, StandIn
 
 @pytest.fixture(scope="module")
 def mixed(tmp_path_factory: pytest.TempPathFactory) -> urdd.Robot:
-    """A robot with a pair of links of which some pieces are always in contact, and others sometimes."""
+    """A robot with a pair of links some of whose pieces are always in contact, and others sometimes."""
     return urdd.generate_text(MIXED, tmp_path_factory.mktemp("mixed") / "mixed").load()
 
 
@@ -57,7 +57,7 @@ def test_links_of_which_some_pieces_are_skipped(mixed: urdd.Robot, bullet: Stand
     (note,) = peer.notes
     q = mixed.random(1000)
     lost = int(mixed.in_collision(q).sum())
-    # By a closed form: the far boxes overlap where the tool is turned back by less than some 10 degrees of 355.
+    # By a closed form: the far boxes overlap if the tool is turned back by less than some 10 degrees of 355.
     assert 30 < lost < 100
     assert note == (
         f"links `base` and `tool` do not collide: 1 of 4 pairs of their pieces are skipped, and PyBullet knows links "

@@ -1,4 +1,4 @@
-"""A repository of robots, by Ray with two workers on this machine."""
+"""A repository of robots, with Ray and two workers on this machine."""
 
 from __future__ import annotations
 

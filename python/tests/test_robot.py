@@ -1,4 +1,4 @@
-"""What a robot is: names, modules, files, and the habits of Python."""
+"""The parts of a robot: names, modules, files, and Python protocols."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_a_fork_works_on(arm: urdd.Robot) -> None:
     assert queue.get(timeout=60) == expected
     process.join(60)
     assert process.exitcode == 0
-    # The robot that the child got from its parent works too.
+    # The robot that the child inherited from its parent works too.
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,4 +1,4 @@
-"""Obstacles: distances by closed forms and by coal, and what people get wrong."""
+"""Obstacles: distances by closed forms and by Coal, and common mistakes."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_coal_finds_the_same_distances(kind: urdd.ShapeKind, urdds: Any) -> None
             body = bodies[world.names.index(pair.obstacle)]
             shape = peer.collision_model.geometryObjects[number].geometry
             apart = coal.distance(shape, coal.Transform3s(at.rotation, at.translation), body, place, request, result)
-            # The cylinder is a prism about it, which is larger by 0.13 % of the radius.
+            # The cylinder is represented by a prism around it, which is larger by 0.13 % of the radius.
             larger = 0.2 * (1 / np.cos(np.pi / 64) - 1) if pair.obstacle == "drum" else 0.0
             assert max(apart, 0.0) - larger - 1e-6 <= found <= max(apart, 0.0) + 1e-6, pair
 
@@ -161,7 +161,7 @@ def test_points_are_on_the_bodies(arm: urdd.Robot) -> None:
 
 def test_a_mesh_keeps_its_notch(arm: urdd.Robot) -> None:
     trimesh: Any = import_module("trimesh")
-    # A right angle of two walls, as one mesh: what is between them is free.
+    # Two walls at a right angle, as one mesh: the space between them is free.
     floor = trimesh.creation.box([2.0, 1.0, 0.1])
     floor.apply_translation([0.0, 0.0, 0.05])
     wall = trimesh.creation.box([0.1, 1.0, 2.0])
@@ -224,7 +224,7 @@ def test_a_world_is_a_collection(arm: urdd.Robot) -> None:
     assert arm.world_proximity(again).pairs == before.pairs
     world.remove("a")
     assert world.names == ("b",)
-    # What was prepared stays as it was, also when it is pickled.
+    # Prepared data remains unchanged, also when it is pickled.
     assert before.obstacle_names == ("a", "b")
     same: urdd.WorldProximity = pickle.loads(pickle.dumps(before))
     assert (same.kind, same.obstacle_names, same.pairs) == (before.kind, before.obstacle_names, before.pairs)
@@ -302,7 +302,7 @@ def test_every_kind_of_array_makes_an_obstacle(arm: urdd.Robot) -> None:
         found = arm.world_proximity(world).distances(q)
         expected = found if expected is None else expected
         np.testing.assert_array_equal(found, expected)
-    # It is copied: what happens to the array afterwards does not count.
+    # It is copied: later changes of the array have no effect.
     mine = points.astype(float)
     world = urdd.World()
     world.add_hull("rock", mine, TILTED)

@@ -1,4 +1,4 @@
-//! Our SARIF against its schema, and read by its Rust types by others.
+//! Our SARIF checked against its schema, and read by third-party Rust types.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Robots: one that is right; one that is wrong, and whose names must be escaped; one with a warning.
+/// Robots: a valid one; an invalid one, whose names must be escaped; one with a warning.
 fn robots() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let arm = repository().join("examples/urdds/arm");
@@ -67,8 +67,8 @@ fn robots() -> tempfile::TempDir {
     folder
 }
 
-/// The schema of SARIF 2.1.0, as OASIS published it. It is not ours to keep here: the package of
-/// serde-sarif brings it.
+/// The schema of SARIF 2.1.0, as OASIS published it. It is not part of this repository: the package of serde-sarif
+/// contains it.
 fn sarif_schema() -> Value {
     let metadata = ["metadata", "--format-version=1", "--locked"];
     let metadata = cargo(&metadata, Path::new(env!("CARGO_MANIFEST_DIR")));
@@ -82,7 +82,7 @@ fn sarif_schema() -> Value {
     let file = manifest.with_file_name("src").join("schema.json");
     let mut schema: Value = serde_json::from_str(&fs::read_to_string(file).expect("the schema"))
         .expect("the schema is JSON");
-    // The pattern for a language, as published, is no regular expression.
+    // The published pattern for a language is not a valid regular expression.
     for place in ["run", "toolComponent"] {
         let language = schema.pointer_mut(&format!("/definitions/{place}/properties/language"));
         let language = language.and_then(Value::as_object_mut).expect("an object");
@@ -117,7 +117,7 @@ fn sarif_fits_its_schema() {
         assert_eq!(errors, [""; 0], "{arguments:?}");
         let results = log["runs"][0]["results"].as_array().expect("a list");
         assert_eq!(!results.is_empty(), findings, "{arguments:?}");
-        // And other people's types take it.
+        // And third-party types accept it.
         let _: serde_sarif::sarif::Sarif = serde_json::from_value(log).expect("SARIF");
     }
 }

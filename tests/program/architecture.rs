@@ -1,5 +1,5 @@
-//! What Cargo does not keep of the house: the wall between generator and validator, how large a file may grow, and that
-//! every rule on disk is registered.
+//! Rules about the source that Cargo does not enforce: the wall between generator and validator, the size of files, and
+//! the registration of every rule on disk.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,11 +9,11 @@ use testkit::repository;
 use urdd_validate::code::Code;
 use urdd_validate::rules;
 
-/// Files under about 400 lines, rules under about 200: what "about" lets pass.
+/// Files have at most about 400 lines, rules about 200: the tolerance of "about".
 const LONGEST_FILE: usize = 420;
 const LONGEST_RULE: usize = 210;
 
-/// The folders of the program's source and of each crate's.
+/// The source folders of the program and of each crate.
 fn sources() -> Vec<PathBuf> {
     let mut folders = vec![repository().join("src")];
     for entry in fs::read_dir(repository().join("crates")).expect("the crates") {

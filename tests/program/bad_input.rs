@@ -1,5 +1,5 @@
-//! Whatever lies in a folder, the program says what is wrong with it: a finding or one clear error,
-//! the right exit status, no panic, and soon.
+//! Whatever a folder contains, the program reports what is wrong with it: a finding or one clear error, the right exit
+//! status, no panic, and soon.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ impl Outcome {
 /// Runs `urdd validate --format json PATH`.
 fn validate(path: &Path) -> Outcome {
     let started = Instant::now();
-    // Into files: a pipe that nobody reads would stop the program.
+    // Into files: a pipe that nobody reads would block the program.
     let folder = tempfile::tempdir().expect("a folder");
     let (out, err) = (folder.path().join("out"), folder.path().join("err"));
     let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
@@ -80,7 +80,7 @@ fn examine_toy(change: impl FnOnce(&Path)) -> Outcome {
     })
 }
 
-/// What is wrong is told as findings of these codes, all of them and nothing but them.
+/// The findings have these codes, all of them and no others.
 fn assert_findings(outcome: &Outcome, codes: &[&str]) {
     assert_eq!(outcome.codes(), codes, "{}", outcome.stderr);
     assert_eq!(outcome.status, 1);
@@ -123,7 +123,7 @@ fn a_folder_that_may_not_be_read() {
     let closed = folder.path().join("closed");
     fs::create_dir(&closed).expect("a folder");
     fs::set_permissions(&closed, fs::Permissions::from_mode(0o000)).expect("closed");
-    // Root may read everything: then there is nothing in it.
+    // Root can read the folder, and finds nothing in it.
     let part = match fs::read_dir(&closed) {
         Ok(_) => "no URDD here",
         Err(_) => "cannot be listed",
@@ -134,7 +134,7 @@ fn a_folder_that_may_not_be_read() {
         let file = root.join("dof_module/module.json");
         fs::set_permissions(&file, fs::Permissions::from_mode(0o000)).expect("closed");
         if fs::read(&file).is_ok() {
-            // As root: in another way that reading fails.
+            // For root, reading fails in another way.
             fs::remove_file(&file).expect("removed");
             fs::create_dir(&file).expect("a folder");
         }
@@ -142,7 +142,7 @@ fn a_folder_that_may_not_be_read() {
     assert_findings(&outcome, &["DIR023"]);
 }
 
-/// The program as a user who may not read everything: as root, another user's number.
+/// Runs the program as a user who may not read everything: if this is root, with another user id.
 #[cfg(unix)]
 fn as_plain_user(command: &mut Command) -> &mut Command {
     use std::os::unix::process::CommandExt;
@@ -159,8 +159,7 @@ fn as_plain_user(command: &mut Command) -> &mut Command {
     }
 }
 
-/// A folder among URDDs that cannot be listed may hold URDDs: passing it over would be a pass that
-/// means nothing.
+/// A folder among URDDs that cannot be listed may contain URDDs: skipping it would make a pass meaningless.
 #[cfg(unix)]
 #[test]
 fn a_closed_folder_among_urdds() {
@@ -280,7 +279,7 @@ fn files_of_a_tebibyte_are_not_read() {
         let outcome = examine_toy(|root| {
             let file = root.join("kinematics_samples_module").join(file);
             let file = fs::OpenOptions::new().write(true).open(file).expect("open");
-            // Where the file system has no files of that size, one beyond the limit does.
+            // If the file system does not allow files of that size, one just beyond the limit is used.
             file.set_len(1 << 40)
                 .or_else(|_| file.set_len(1 << 33))
                 .expect("a sparse file");
@@ -326,7 +325,7 @@ mod unix {
         );
         assert_eq!(outcome.status, 1);
 
-        // A collection whose folders lead back to it.
+        // A collection whose folders link back to it.
         let outcome = examine(|root| {
             fs::create_dir(root.join("a")).expect("a folder");
             symlink("..", root.join("a/back")).expect("a link");
@@ -449,7 +448,7 @@ fn hostile_schemas_of_extensions() {
     }
 }
 
-/// `rehash` vouches for no document: what it brings up to date may still be broken.
+/// `rehash` does not vouch for documents: one that it updates may still be broken.
 #[test]
 fn rehash_says_which_document_is_broken() {
     let folder = tempfile::tempdir().unwrap();
@@ -480,7 +479,7 @@ fn rehash_says_which_document_is_broken() {
     assert!(words.contains("module.json:1:2: not JSON"), "{words}");
 }
 
-/// A folder for a URDD that is being written is none, under a name of this version or of 0.1.0.
+/// A folder for a URDD that is still being written is not a URDD, under a name of this version or of 0.1.0.
 #[test]
 fn staging_folders_are_not_examined() {
     let folder = tempfile::tempdir().unwrap();

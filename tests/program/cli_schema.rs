@@ -141,7 +141,7 @@ fn the_bundle_holds_every_module_of_version_1() {
         assert_eq!(errors, [""; 0]);
         let properties = bundle["properties"].as_object().expect("properties");
         assert!(properties.len() >= 16, "{}", properties.len());
-        // And it refuses what they refuse.
+        // It also rejects what they reject.
         urdd["dof_module"]["num_dofs"] = serde_json::json!("six");
         assert!(!validator.is_valid(&urdd));
     }

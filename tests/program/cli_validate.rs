@@ -1,5 +1,4 @@
-//! `urdd validate` as people and scripts meet it: exit status, reports, settings, and the same bytes
-//! for the same input.
+//! `urdd validate` as people and scripts use it: exit status, reports, settings, and the same bytes for the same input.
 
 use std::fs;
 use std::path::Path;
@@ -207,7 +206,7 @@ fn devices_are_no_settings_and_no_urdds() {
     let folder = collection();
     for arguments in [
         ["good", "--config", "/dev/zero"].as_slice(),
-        // The kernel's log waits for its next line.
+        // Reading the kernel's log blocks until its next line.
         &["/proc/kmsg"],
     ] {
         let output = validate(folder.path(), arguments);
@@ -276,7 +275,7 @@ fn settings() {
         .find(|check| check["code"] == "DIR020")
         .expect("a check");
     assert_eq!(check["reason"], "ignored by the settings: renamed soon");
-    // Of another URDD: it matches nothing, and that is told.
+    // For another URDD: it matches nothing, and a message says so.
     let output = with(&ignore.replace("bad/", "ba/"), &["."]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stdout(&output).contains("`ba/*`"), "{}", stdout(&output));
@@ -360,7 +359,7 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
     assert_eq!(stdout(&rehash()), "robot: up to date\n");
     assert_eq!(metadata(), before);
 
-    // White space changes no document, but every size and hash.
+    // White space does not change documents, but it changes every size and hash.
     let module = root.join("dof_module/module.json");
     let text = fs::read_to_string(&module).expect("module.json");
     fs::write(&module, text + "\n").expect("written");
@@ -396,7 +395,7 @@ fn findings(folder: &Path, arguments: &[&str]) -> Vec<Value> {
 fn machines_get_every_place_and_people_the_worst() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut toy = Fixture::toy();
-    // Each DOF's bounds are off by another amount, the third by most.
+    // Each DOF's bounds are off by a different amount, the third by most.
     let dofs = toy
         .get("bounds_module", "/bounds")
         .as_array()
@@ -519,7 +518,7 @@ fn many_urdds_are_summed_up() {
         "{text}"
     );
     let row = |name: &str| text.lines().find(|line| line.starts_with(name));
-    // What could not be checked is not shown as sound.
+    // What could not be checked is not shown as valid.
     let broken = row("robot05").expect("a row");
     assert!(broken.contains('?') && broken.contains(" ok"), "{broken}");
     let warned = row("robot03").expect("a row");
@@ -530,7 +529,7 @@ fn many_urdds_are_summed_up() {
         text.contains(&format!("{sound} URDDs more without findings")),
         "{text}"
     );
-    // One cause, however many URDDs, and motion before format.
+    // One cause for all URDDs, and motion before format.
     let cause = text
         .lines()
         .filter(|line| line.contains("6 times in 6 URDDs"))
@@ -580,7 +579,7 @@ fn a_urdf_by_itself_is_judged_as_a_source() {
     assert_eq!(status(root, &["two.urdf"]), 1);
     let text = stdout(&validate(root, &["good.urdf"]));
     assert!(text.contains("urdd generate"), "{text}");
-    // Its place in other reports is the file itself.
+    // Other reports give the file itself as its location.
     let log = validate(root, &["two.urdf", "--format", "github"]);
     assert!(
         stdout(&log).contains("::error file=two.urdf,line=1"),
@@ -732,7 +731,7 @@ fn workflow_commands_hold_no_others() {
     }
     let unescaped = |command: &&str| command.contains("a%0A");
     assert!(!commands.iter().any(unescaped), "a percent sign is escaped");
-    // Nor does the report for people, which is printed in workflows too.
+    // Nor does the human-readable report, which is printed in workflows too.
     let text = stdout(&validate(folder.path(), &["."]));
     assert!(
         !text.lines().any(|line| line.trim_start().starts_with("::")),

@@ -1,5 +1,5 @@
-//! A URDD in a folder, in memory and in a zip archive is one URDD; and a hostile archive is refused
-//! with a clear message, in little memory.
+//! A URDD in a folder, in memory and in a zip archive is read alike. A hostile archive is rejected with a clear
+//! message, in little memory.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -164,7 +164,7 @@ fn sources_list_and_read_alike() {
     }
 }
 
-/// Other URDDs' reports are kept, and the archive's own says why there is none.
+/// Other URDDs' reports are kept, and the archive's own report says why there is none.
 #[test]
 fn an_archive_that_cannot_be_read_is_unreadable() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -205,7 +205,7 @@ fn entry_fault(bytes: Vec<u8>) -> EntryFault {
     }
 }
 
-/// As [`pack`], of one entry beside `urdd.json`, whose name is then changed byte by byte.
+/// Like [`pack`], with one entry beside `urdd.json`, whose name is then changed byte by byte.
 fn renamed(from: &str, to: &str) -> Vec<u8> {
     assert_eq!(from.len(), to.len());
     let two = [("urdd.json", "{}"), (from, "text")];
@@ -252,7 +252,8 @@ fn names_that_are_there_twice_are_refused() {
     assert_eq!(entry_fault(pack(&files.into(), "")), EntryFault::Duplicate);
 }
 
-/// Where the archive's own list, and the entry's header, state something of an entry: offset from the list's signature.
+/// Where the central directory and the entry's header state a property of an entry: offset from the directory's
+/// signature.
 fn set_in_both(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
     set_in_list(bytes, name, offset, value);
     let at = (0..bytes.len()).find(|at| bytes[*at..].starts_with(name.as_bytes()));
@@ -262,7 +263,7 @@ fn set_in_both(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
     bytes[place..place + value.len()].copy_from_slice(value);
 }
 
-/// As [`set_in_both`], in the list alone.
+/// Like [`set_in_both`], only in the central directory.
 fn set_in_list(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
     let at = (0..bytes.len())
         .rfind(|at| bytes[*at..].starts_with(name.as_bytes()))
@@ -299,7 +300,7 @@ fn entries_that_are_not_what_is_stated_are_refused() {
     );
 }
 
-/// Some programs believe the list, and others the headers.
+/// Some programs trust the central directory, others the headers.
 #[test]
 fn an_entry_that_is_described_in_two_ways_is_refused() {
     let whole = pack(&arm(), "");
@@ -320,7 +321,7 @@ fn an_entry_that_is_described_in_two_ways_is_refused() {
     assert_eq!(entry_fault(bytes), EntryFault::Header, "the name");
 }
 
-/// Of a record at the end of an archive: where the list begins.
+/// The start of the central directory, from the record at the end of an archive.
 fn move_list(archive: &mut [u8], by: usize) {
     let end = archive.len() - 22;
     assert!(archive[end..].starts_with(b"PK\x05\x06"));
@@ -414,7 +415,7 @@ fn names_that_no_file_system_takes_are_refused() {
 
 #[test]
 fn bombs_are_refused_before_they_are_inflated() {
-    // 400 MB of zeros in 400 kB, and what states to be as much.
+    // 400 MB of zeros in 400 kB, and an entry that states this size.
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default();
     zip.start_file("urdd.json", options).expect("an entry");
@@ -442,7 +443,7 @@ fn an_archive_of_too_many_entries_is_refused() {
     }
     let mut bytes = zip.finish().expect("an archive").into_inner();
     assert_eq!(refused(bytes.clone()), ArchiveFault::Zip64);
-    // Without the record that says so, the count is that modulo 65,536.
+    // Without the zip64 record, the count is taken modulo 65,536.
     let locator = (0..bytes.len()).rfind(|at| bytes[*at..].starts_with(b"PK\x06\x07"));
     bytes[locator.expect("a locator")] = 0;
     let end = bytes.len() - 22;

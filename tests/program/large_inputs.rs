@@ -1,7 +1,7 @@
 //! Files that are larger than any real one in one respect: time and memory stay in proportion.
 //!
-//! Each takes a second or so on an idle machine. Each took minutes, or more memory than there is,
-//! before what it is about was bounded.
+//! Each takes a second or so on an idle machine. Each took minutes, or more memory than available, before its limit
+//! existed.
 
 use std::time::{Duration, Instant};
 
@@ -10,10 +10,10 @@ use urdd_geometry::read::{Fault, MeshError, Scene, read};
 use urdd_validate::settings::Settings;
 use urdd_validate::urdf_text;
 
-/// Long enough for a machine that does ten other things.
+/// Long enough for a machine that is busy with other work.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Runs both readers of URDF, and gives what the generator says.
+/// Runs both readers of URDF, and returns the generator's messages.
 fn read_robot(elements: impl Iterator<Item = String>) -> String {
     let text = format!("<robot name=\"r\">{}</robot>", elements.collect::<String>());
     let start = Instant::now();

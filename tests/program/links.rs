@@ -1,4 +1,4 @@
-//! Relative links of the pages lead to files and headings that are there.
+//! Relative links of the pages lead to existing files and headings.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ fn anchors(text: &str) -> Vec<String> {
     headings.map(anchor).collect()
 }
 
-/// What is wrong with the links of a page in a folder.
+/// The faults in the links of a page in a folder.
 fn faults(folder: &Path, text: &str) -> Vec<String> {
     let mut faults = Vec::new();
     for link in links(text) {

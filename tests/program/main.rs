@@ -1,4 +1,4 @@
-//! The program from outside, and what holds the repository together: SPEC.md, the suite, the page, figures.
+//! The program from outside, and consistency of the repository: SPEC.md, the suite, the page, figures.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

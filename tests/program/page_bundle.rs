@@ -1,5 +1,5 @@
-//! `page/dist` is what `page/` and `wasm/` make: `page/build.mjs` leaves a hash of all that it was made from. Built again
-//! with `.ci/page`.
+//! `page/dist` is built from `page/` and `wasm/`: `page/build.mjs` leaves a hash of all its inputs. Rebuild it with
+//! `.ci/page`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 use urdd_format::hexadecimal::hexadecimal;
 
-/// As in `page/build.mjs`: folders, single files, and what the module is not made of.
+/// As in `page/build.mjs`: folders, single files, and what the module does not depend on.
 const FOLDERS: &[&str] = &["page/src", "wasm/src", "crates"];
 const FILES: &[&str] = &[
     "Cargo.lock",
@@ -18,7 +18,7 @@ const FILES: &[&str] = &[
     "page/tsconfig.json",
     "wasm/Cargo.toml",
 ];
-/// Crates that the module does not stand on.
+/// Crates that the module does not depend on.
 const WITHOUT: &[&str] = &["crates/urdd-generate/", "crates/urdd-export/"];
 
 fn is_in_it(name: &str) -> bool {

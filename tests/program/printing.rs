@@ -1,5 +1,5 @@
-//! What reaches standard output and standard error: nothing that a terminal would act upon, whatever
-//! a file says or is named; and a report that cannot be written is an error.
+//! What reaches standard output and standard error: nothing that a terminal would act upon, whatever a file contains or
+//! is named. A report that cannot be written is an error.
 #![cfg(unix)]
 
 use std::fs;
@@ -10,17 +10,16 @@ use std::process::{Command, Output, Stdio};
 use serde_json::{Value, json};
 use testkit::fixture::{Fixture, ROOT, URDF};
 
-/// What a hostile name holds: it clears the screen, paints, turns text around, hides, and adds a line.
+/// The content of a hostile name: it clears the screen, colours, reverses and hides text, and adds a line.
 const HOSTILE: &str = "a\u{1b}[2J\u{1b}[32m\u{9b}2J\u{202e}\u{2066}\u{200b}\u{feff}\u{2028}\u{85}\u{7f}\u{8}\u{e0041}\r\nFORGED pass";
-/// The same without what no file name and no argument can hold, and without what XML cannot.
+/// The same without what file names and arguments cannot contain, and without what XML cannot.
 const HOSTILE_IN_XML: &str = "a\u{9b}2J\u{202e}\u{2066}\u{200b}\u{2028}\u{85}&#10;FORGED pass";
 
 fn urdd(folder: &Path, arguments: &[&str]) -> Output {
     crate::program::output(arguments, folder)
 }
 
-/// Whether a terminal would act upon a character, or show nothing: by Unicode's own lists, not by the
-/// code under test.
+/// Whether a terminal would act upon a character, or show nothing: by Unicode's own lists, not by the code under test.
 fn acts(c: char) -> bool {
     matches!(c,
         '\0'..='\u{9}' | '\u{b}'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{ad}' | '\u{61c}'
@@ -28,7 +27,7 @@ fn acts(c: char) -> bool {
         | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// Runs the program, and holds what it prints to the rule.
+/// Runs the program, and checks its output against the rule.
 fn clean(folder: &Path, arguments: &[&str]) -> String {
     let output = urdd(folder, arguments);
     let mut all = String::new();
@@ -46,7 +45,7 @@ fn clean(folder: &Path, arguments: &[&str]) -> String {
     all
 }
 
-/// Every string of a document made hostile, one after the other: the pointers.
+/// The JSON Pointers of the strings of a document.
 fn strings(value: &Value, at: String, out: &mut Vec<String>) {
     match value {
         Value::String(_) => out.push(at),
@@ -83,7 +82,7 @@ fn hostile_urdds(folder: &Path) -> usize {
     for name in &names {
         let mut pointers = Vec::new();
         strings(&toy.documents[name], String::new(), &mut pointers);
-        // All at once, and each kind of field alone: a document that fits no schema is not read on.
+        // All at once, and each kind of field alone: a document that does not match its schema is not read further.
         let mut kinds = std::collections::BTreeSet::new();
         for pointer in &pointers {
             let kind: String = pointer
@@ -112,7 +111,7 @@ fn hostile_urdds(folder: &Path) -> usize {
         },
         true,
     );
-    // glTF: a version that is words.
+    // glTF: a version that is text.
     let glb = toy
         .files
         .keys()
@@ -127,7 +126,7 @@ fn hostile_urdds(folder: &Path) -> usize {
     bytes.extend(b"JSON");
     bytes.extend(json);
     write(&|f| f.put_file(&glb, bytes.clone()), true);
-    // Names of files and folders, and where a link leads.
+    // Names of files and folders, and targets of links.
     let odd = folder.join("0");
     fs::write(odd.join(HOSTILE), "x").expect("written");
     fs::create_dir(odd.join(format!("x_{}_module", HOSTILE))).expect("a folder");
@@ -163,7 +162,7 @@ fn nothing_that_a_terminal_would_act_upon() {
             "{file}"
         );
     }
-    // JSON says the names as they are.
+    // JSON contains the names unchanged.
     let report = fs::read_to_string(root.join("a")).expect("a report");
     let report: Value = serde_json::from_str(&report).expect("JSON");
     let paths = report["urdds"].as_array().expect("a list").iter();
@@ -266,7 +265,7 @@ fn nothing_from_a_urdf() {
     clean(root, &["generate", "a.urdf", "-o", HOSTILE]);
 }
 
-/// A folder with a URDD that is right.
+/// A folder with a valid URDD.
 fn good() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let mut toy = Fixture::toy();
@@ -293,7 +292,7 @@ const PRINTING: &[&[&str]] = &[
     &["--version"],
 ];
 
-/// A folder with something to do for each of these.
+/// A folder with work for each of these.
 fn with_robot() -> tempfile::TempDir {
     let folder = good();
     let robot = "<robot name=\"r\"><link name=\"a\"/></robot>";
@@ -336,7 +335,7 @@ fn a_closed_standard_output_is_an_error() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(said.contains("it is closed"), "{arguments:?}: {said}");
     }
-    // Thrown away on purpose: not closed.
+    // Dropped on purpose, without closing.
     for arguments in [&["validate", "good"] as &[&str], &["explain"]] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
         command.args(arguments).current_dir(folder.path());
@@ -379,7 +378,7 @@ fn a_report_file_is_whole_or_what_it_was() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("kept.json: cannot be written"), "{said}");
-    // The report for people is there all the same.
+    // The human-readable report is still there.
     assert!(String::from_utf8_lossy(&output.stdout).contains("good pass"));
     let names = || {
         let entries = fs::read_dir(root).expect("a folder");
@@ -398,7 +397,7 @@ fn a_report_file_is_whole_or_what_it_was() {
     assert_eq!(names(), ["good", "kept.json"]);
     let text = fs::read_to_string(root.join("kept.json")).expect("a file");
     assert_eq!(text, "what was there");
-    // With room it is replaced, its permissions kept, and a link stays one.
+    // If there is room, it is replaced; its permissions are kept, and a link remains a link.
     fs::set_permissions(root.join("kept.json"), fs::Permissions::from_mode(0o640)).expect("set");
     symlink("kept.json", root.join("link.json")).expect("a link");
     assert_eq!(

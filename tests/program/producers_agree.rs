@@ -1,5 +1,5 @@
-//! Two producers, written apart from SPEC.md alone, must say the same of a robot: the Python example
-//! and `tests/support`. Needs `python3`.
+//! Two producers, written independently from SPEC.md alone, must produce the same for a robot: the Python example and
+//! `tests/support`. Needs `python3`.
 
 use std::fs;
 use std::path::Path;
@@ -60,7 +60,7 @@ fn compare(robot: &Robot) -> Result<(), String> {
         let modules = root["modules"].as_array_mut().expect("modules");
         for file in modules.iter_mut().flat_map(|m| m["files"].as_array_mut()) {
             for entry in file {
-                *entry = entry["path"].clone(); // Text and so hashes are each producer's own.
+                *entry = entry["path"].clone(); // The text, and therefore the hashes, may differ between producers.
             }
         }
     }
@@ -86,7 +86,7 @@ fn read_json(path: &Path) -> Value {
     serde_json::from_slice(&bytes).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// Sizes and hashes that the other producer states, against those that our fixture would write.
+/// Sizes and hashes that the other producer states, compared with those that our fixture would write.
 fn check_hashes(out: &Path, root: &Value) -> Result<(), String> {
     let modules = root["modules"].as_array().into_iter().flatten();
     let listed = modules.flat_map(|m| m["files"].as_array().into_iter().flatten());

@@ -12,7 +12,7 @@ pub fn output(arguments: &[&str], folder: &Path) -> Output {
         .expect("the program")
 }
 
-/// Runs it in a folder: its status, and what it says on standard output and standard error.
+/// Runs it in a folder: its status, and its standard output and standard error.
 pub fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
     let output = output(arguments, folder);
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");

@@ -53,7 +53,7 @@ fn reads_every_published_module() {
     assert!(files.len() > 60, "only {} documents", files.len());
 }
 
-/// The numbers of a legacy robot are those of a URDD that is made of the same URDF.
+/// The numbers of a legacy robot are those of a URDD generated from the same URDF.
 #[test]
 #[ignore = "needs the published URDDs"]
 fn legacy_robots_move_as_their_urdfs_do() {

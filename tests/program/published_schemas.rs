@@ -1,4 +1,4 @@
-//! The published schemas: the committed folder is what the types write, and what is released stays.
+//! The published schemas: the committed folder matches the types, and released schemas do not change.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! The reports for other programs, by what their readers count. (`.ci/run` holds SARIF to its schema and to its Rust types by
-//! others in `sarif_check/`, JUnit to the schema that Jenkins has.)
+//! The reports for other programs: the properties that these programs rely on. (`.ci/run` checks SARIF against its
+//! schema and third-party Rust types in `sarif_check/`, and JUnit against the schema of Jenkins.)
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,8 +32,8 @@ fn uri(result: &Value) -> &str {
         .expect("a URI")
 }
 
-/// A repository with robots in it: one that is right; one that is wrong, and whose name every format
-/// must escape; and one with a warning.
+/// A repository with robots in it: a valid one; an invalid one, whose name every format must escape; and one with a
+/// warning.
 fn repository() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let write = |path: &str, change: &dyn Fn(&mut Fixture)| {
@@ -68,7 +68,7 @@ fn sarif_finds_the_files_in_the_repository() {
     for result in results(&expected) {
         let path = percent_encoding::percent_decode_str(uri(result));
         let path = path.decode_utf8().expect("UTF-8").into_owned();
-        // The folder of a mirror that is not there is; the file of a value is.
+        // The folder of a missing mirror exists; the file of a value exists.
         let region = &result["locations"][0]["physicalLocation"]["region"];
         let on_disk = root.join(&path);
         assert!(on_disk.exists() || region.is_null(), "{path}");
@@ -78,7 +78,7 @@ fn sarif_finds_the_files_in_the_repository() {
             "%SRCROOT%"
         );
     }
-    // From within a URDD, and from beside the repository.
+    // From inside a URDD, and from beside the repository.
     let within = root.join("robots/arms/odd");
     assert!(uri(&results(&sarif(&within, &["."]))[0]).starts_with("dof_module"));
     let beside = root.join("robots/good");

@@ -1,4 +1,4 @@
-//! What the reports say of many URDDs, and of geometry that could not be verified.
+//! Reports on many URDDs, and on geometry that could not be verified.
 
 use std::path::Path;
 

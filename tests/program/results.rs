@@ -1,6 +1,6 @@
 //! The pages show the results: each table, text and origin between the markers of a page is the one in
-//! `benches/results/<part>.json`, which a script wrote (`benches/results.py` says how). The
-//! pages that state measurements have no figure outside of markers, and facts of a robot (links, triangles, pairs) are the same in every table.
+//! `benches/results/<part>.json`, which a script wrote (see `benches/results.py`). The pages that state measurements
+//! have no figures outside markers, and facts of a robot (links, triangles, pairs) are the same in every table.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use serde_json::Value;
 const WRITE_IT: &str = "run `python3 benches/results.py`, or the script that measures it";
 const BEGIN: &str = "<!-- results: ";
 const END: &str = "<!-- end of results -->";
-/// What does not depend on the machine: columns of tables whose first column is the robot.
+/// Values that do not depend on the machine: columns of tables whose first column is the robot.
 const FACTS: [&str; 5] = ["links", "DOFs", "triangles", "pieces", "pairs"];
 /// Pages that state measurements.
 const MEASURED: [&str; 2] = ["README.md", "docs/evaluation.md"];
@@ -70,10 +70,10 @@ fn markdown_in(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// What is between markers, by the name of the item.
+/// The content between markers, by the name of the item.
 type Shown<'a> = Vec<(&'a str, &'a str)>;
 
-/// What is between markers, and the page without it.
+/// The content between markers, and the page without it.
 fn marked(text: &str) -> Result<(Shown<'_>, String), String> {
     let (mut found, mut rest, mut without) = (Vec::new(), text, String::new());
     while let Some((before, after)) = rest.split_once(BEGIN) {
@@ -155,7 +155,7 @@ fn markdown(table: &Value) -> String {
     lines.join("\n")
 }
 
-/// What a page has to show for a name.
+/// The required content of a page for a name.
 fn expected(parts: &BTreeMap<String, Value>, name: &str) -> Result<String, String> {
     let (part, item) = name.split_once('/').ok_or("a marker names part/item")?;
     let results = parts
@@ -173,7 +173,7 @@ fn expected(parts: &BTreeMap<String, Value>, name: &str) -> Result<String, Strin
     })
 }
 
-/// What is wrong with a page.
+/// The faults of a page.
 fn faults(parts: &BTreeMap<String, Value>, text: &str) -> Vec<String> {
     let shown = match marked(text) {
         Ok((shown, _)) => shown,
@@ -273,7 +273,7 @@ fn facts_of_a_robot_are_the_same_in_every_table() {
     );
 }
 
-/// A number with a unit of measurement beside it, outside of code.
+/// A number with a unit of measurement beside it, outside code.
 fn measured_number(line: &str) -> Option<String> {
     const UNITS: [&str; 12] = [
         "s",

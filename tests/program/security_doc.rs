@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// Names of all tests in a folder: functions under `#[test]`, also in macros that make them, and those of pytest.
+/// Names of all tests in a folder: functions under `#[test]`, including those in macros, and those of pytest.
 fn tests_below(folder: &Path, names: &mut BTreeSet<String>) {
     for (path, bytes) in testkit::files::below(folder) {
         let text = String::from_utf8_lossy(&bytes);

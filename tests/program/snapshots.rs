@@ -1,5 +1,5 @@
-//! What people see, kept as it was read and approved: the list of rules, and the report on the
-//! examples, which docs/validate.md shows too.
+//! What users see, as it was reviewed and approved: the list of rules, and the report on the examples, which
+//! docs/validate.md shows too.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ fn urdd(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
-/// Codes are never used again, names and severities do not change by accident.
+/// Codes are never reused; names and severities do not change by accident.
 #[test]
 fn the_list_of_rules() {
     let lines: String = rules::all()

@@ -1,5 +1,5 @@
-//! SPEC.md and the rules agree, both ways: every code in SPEC.md is a rule of that clause, and every
-//! rule stands in the clause that it names.
+//! SPEC.md and the rules agree, both ways: every code in SPEC.md is a rule of that clause, and every rule is in the
+//! clause that it names.
 
 mod annex;
 mod values;
@@ -16,7 +16,7 @@ fn spec() -> String {
     fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md")).expect("SPEC.md")
 }
 
-/// For each `[CODE]` of the text, the clauses in which it stands and the sentence before it.
+/// For each `[CODE]` of the text, the clauses that contain it and the sentence before it.
 fn codes_by_clause(text: &str) -> BTreeMap<String, Vec<(String, String)>> {
     let mut codes: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     let mut clause = String::new();

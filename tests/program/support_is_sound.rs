@@ -1,5 +1,5 @@
-//! What every test relies on: `tests/support` makes documents that the format accepts, and text that
-//! reads back to them.
+//! What every test relies on: `tests/support` produces documents that the format accepts, and text that reads back to
+//! them.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ fn toy_holds_what_it_promises() {
     let toy = Fixture::toy();
     let kinds = ModuleKind::ALL
         .iter()
-        // What a class requires, and what is recommended to all.
+        // What a class requires, and what is recommended for all.
         .filter(|kind| kind.class().is_some() || **kind == ModuleKind::KinematicsSamples)
         .filter(|kind| find(**kind, SPEC_VERSION).is_some());
     // And `urdd.json`.
@@ -138,8 +138,8 @@ fn any_box() -> impl Strategy<Value = [Point; 8]> {
     })
 }
 
-/// Bounds of the distance of two convex hulls, by another way: Frank and Wolfe's descent to the point
-/// of the difference of the two that is nearest to 0, and the plane behind that point.
+/// Bounds of the distance of two convex hulls, by another method: the Frank-Wolfe descent to the point of their
+/// difference that is nearest to 0, and the plane behind that point.
 fn distance_bounds(a: &[Point; 8], b: &[Point; 8]) -> (f64, f64) {
     let corners: Vec<Point> = a
         .iter()

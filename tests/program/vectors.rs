@@ -1,5 +1,5 @@
-//! Holds urdd to `conformance/vectors`: numbers that others computed, or that closed forms give. (Those
-//! two of forward kinematics and sampled configurations: `tests/kinematics_figures.rs`.)
+//! Compares urdd with `conformance/vectors`: numbers from other implementations or from closed forms. (The two about
+//! forward kinematics and sampled configurations are in `tests/kinematics_figures.rs`.)
 
 mod conventions;
 mod core_modules;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-/// The files, each with the tests that hold us to it.
+/// The files, each with the tests that check it.
 const FILES: &[(&str, &str)] = &[
     ("boxes_and_spheres.json", "tests/program/vectors/solids.rs"),
     ("distances.json", "tests/program/vectors/solids.rs"),
@@ -47,7 +47,7 @@ fn vectors<T: for<'de> Deserialize<'de>>(name: &str) -> T {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Whether numbers are as near as two ways to compute them in doubles bring them.
+/// Whether numbers agree as closely as two computations in doubles can.
 #[track_caller]
 fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, place: &str) {
     assert_eq!(found.len(), expected.len(), "{place}");

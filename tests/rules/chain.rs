@@ -28,7 +28,7 @@ fn negate(fixture: &mut Fixture, pointer: &str) {
     fixture.set(CHAIN, pointer, json!(numbers));
 }
 
-/// A robot of two links that a joint with this rotation connects.
+/// A robot of two links, connected by a joint with this rotation.
 fn turned(rpy: [f64; 3]) -> Fixture {
     let mut robot = star(&[("j", JointType::Continuous)]);
     robot.joint_mut("j").origin = Some(Origin {
@@ -51,7 +51,7 @@ fn turned_by(version: &'static str, xyzw: [f64; 4]) -> Fixture {
     Fixture::core(&robot)
 }
 
-/// A chain, and so the samples, that say this of a joint with `quat_xyzw`.
+/// A chain, and thus samples, with `quat_xyzw` for a joint.
 fn quaternion(
     name: &'static str,
     caught: bool,

@@ -64,7 +64,7 @@ fn base() -> Fixture {
     Fixture::core_with(&robot(), ModuleKind::Composition, composition())
 }
 
-/// A case with some values that are others.
+/// A case with some values changed.
 fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, Value)]) -> Case {
     let changes = changes.to_vec();
     changed(code, name, caught, base, move |fixture| {
@@ -74,7 +74,7 @@ fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, 
     })
 }
 
-/// The gripper put together of two parts itself; nothing of it is in this URDD.
+/// The gripper was itself composed of two parts; this URDD contains nothing of it.
 fn nested() -> Value {
     let mut nested = composition();
     nested["parts"][1]["links"][1]["link_idx"] = json!(400);
@@ -145,7 +145,7 @@ pub fn cases() -> Vec<Case> {
             true,
             &[("/parts/0/dropped_links", json!(["tip"]))],
         ),
-        // The names of another part are its own affair.
+        // Another part may use any names.
         case(
             CMP003,
             "dropped-of-another-part",
@@ -187,7 +187,7 @@ pub fn cases() -> Vec<Case> {
             true,
             base,
             |fixture| {
-                // One to one, and well named, but the arm has the hand.
+                // One to one, with correct names, but the hand is assigned to the arm.
                 let name = |name: &str, idx: u32| json!({ "name": name, "link_idx": idx });
                 fixture.set(COMPOSITION, "/parts/0/prefix", json!(""));
                 fixture.set(COMPOSITION, "/parts/1/prefix", json!(""));
@@ -205,7 +205,7 @@ pub fn cases() -> Vec<Case> {
                 fixture.set(COMPOSITION, "/parts/1/joints/0/name", json!("g_slide"));
             },
         ),
-        // A part of one link, and the base's link a part of its own.
+        // A part of one link; the base's link is a part too.
         changed(CMP005, "no-base", false, base, |fixture| {
             let mut world = composition()["parts"][0].clone();
             world["id"] = json!("floor");
@@ -255,7 +255,7 @@ pub fn cases() -> Vec<Case> {
             true,
             &[("/parts/1/frozen_joints/0/position", json!([0.01, 0.02]))],
         ),
-        // Where it was is not known any more.
+        // Its original position is no longer known.
         case(
             CMP006,
             "frozen-elsewhere",

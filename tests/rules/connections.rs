@@ -1,5 +1,5 @@
-//! CON. In the toy, link 1 is the root, 2 sits on it by joint 1, 3 on 2 by joint 2, 4 on 3 by joint 3;
-//! link 5 sits on 1 by joint 11.
+//! CON. In the toy, link 1 is the root. Joint 1 attaches link 2 to link 1, joint 2 link 3 to 2, joint 3 link 4 to 3,
+//! and joint 11 link 5 to 1.
 
 use serde_json::{Value, json};
 use urdd_format::urdf::JointType;
@@ -12,7 +12,7 @@ use testkit::robot::{Robot, joint, link, solid_box};
 
 const CONNECTIONS: &str = "connections_module";
 
-/// A base with so many links on it that explicit paths may be left out.
+/// A base with so many links attached that explicit paths may be omitted.
 fn large() -> Fixture {
     let names: Vec<String> = (0..300).map(|i| format!("j{i}")).collect();
     let joints: Vec<(&str, JointType)> = names
@@ -120,7 +120,7 @@ pub fn cases() -> Vec<Case> {
             f.set(CONNECTIONS, "/link_connection_paths", Value::Null);
         }),
         changed(CON006, "301-links", false, large, leave_out),
-        // Of a line of 180 links, the paths hold less than 2,000,000 links.
+        // In a line of 180 links, the paths contain less than 2,000,000 links.
         changed(
             CON006,
             "a-line-of-181-links",

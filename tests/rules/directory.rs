@@ -18,7 +18,7 @@ pub fn add_extension(f: &mut Fixture) {
 
 const SKIPS: &str = "link_shapes_skips_module";
 
-/// As the draft of the format had them.
+/// As in the draft of the format.
 fn set_simple_skips_dependencies(f: &mut Fixture) {
     let modules = f.get(ROOT, "/modules").as_array().expect("a list");
     let name = json!("link_shapes_simple_skips_module");
@@ -28,7 +28,7 @@ fn set_simple_skips_dependencies(f: &mut Fixture) {
     set_root(f, &pointer, names);
 }
 
-/// Matrices that skip the diagonal alone, without edits.
+/// Matrices that skip only the diagonal, without edits.
 fn unskip_all(f: &mut Fixture) {
     f.set(SKIPS, "/edits", json!([]));
     let document = f.doc_mut(SKIPS).as_object_mut().expect("an object");
@@ -53,7 +53,7 @@ fn mesh(f: &Fixture) -> String {
     found.expect("a mesh").clone()
 }
 
-/// Index in `modules`, and in `files` of that.
+/// Index in `modules`, and in its `files`.
 fn place(f: &Fixture, path: &str) -> (usize, usize) {
     let modules = f.get(ROOT, "/modules").as_array().expect("a list");
     let find = |m: usize| {

@@ -12,7 +12,7 @@ use testkit::robot::{Robot, joint, limit, link, solid_box};
 
 const DOF: &str = "dof_module";
 
-/// A robot of a base and these joints, each with a link of its own on the base.
+/// A robot of a base and these joints; each attaches its own link to the base.
 pub fn star(joints: &[(&str, JointType)]) -> Robot {
     let mut robot = Robot::new("star");
     let mut base = link("base");

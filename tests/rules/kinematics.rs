@@ -32,7 +32,7 @@ fn line(step: f64) -> Robot {
     robot
 }
 
-/// The URDD of a line whose modules, but for `urdf_module`, have steps that are longer by `by`.
+/// The URDD of a line in which all modules except `urdf_module` have steps that are longer by `by`.
 fn off(by: f64) -> Fixture {
     let mut fixture = Fixture::core(&line(0.1 + by));
     let right = Fixture::core(&line(0.1));
@@ -43,7 +43,7 @@ fn off(by: f64) -> Fixture {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        // The reach is 1.1 m: each origin is within tolerance, the last link is not.
+        // The reach is 1.1 m: each origin is within tolerance, but the last link is not.
         changed(KIN001, "many-small-differences", true, || off(1e-9), |_| {}),
         changed(
             KIN001,
@@ -79,7 +79,7 @@ pub fn cases() -> Vec<Case> {
         near_miss(KIN002, "sampled-value-rounded", |f| {
             nudge(f, "/samples/4/configuration/0", 1e-12)
         }),
-        // The same rotation as (pi, 0, 0), but not the vector that SPEC 9.4 has.
+        // The same rotation as (pi, 0, 0), but not the vector that SPEC 9.4 requires.
         invalid(KIN002, "upper-rotation-vector-is-lower", |f| {
             let dofs = f.get("dof_module", "/dofs").as_array().expect("a list");
             let first = dofs.iter().position(|dof| dof["name"] == "air/rot_x");
@@ -100,7 +100,7 @@ pub fn cases() -> Vec<Case> {
                 json!([2.0, 0.0, 0.0, 0.0]),
             );
         }),
-        // Longer by more than SPEC 9.2 lets pass; what is read of it is the same rotation.
+        // Longer than SPEC 9.2 allows; it is read as the same rotation.
         invalid(KIN003, "quaternion-too-long", |f| {
             f.set(
                 SAMPLES,

@@ -15,7 +15,7 @@ use crate::{Case, changed, findings};
 use testkit::fixture::Fixture;
 use testkit::model::{MODEL, Said, fixture, fixture_with, trained_on};
 
-/// A case with some values that are others.
+/// A case with some values changed.
 fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, Value)]) -> Case {
     let changes = changes.to_vec();
     changed(code, name, caught, fixture, move |fixture| {
@@ -25,7 +25,7 @@ fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, 
     })
 }
 
-/// A case in which another module changes, and the model says that it was trained on it.
+/// A case in which another module changes, and the model states that it was trained on the change.
 fn trained_again(
     code: Code,
     name: &'static str,
@@ -43,18 +43,18 @@ fn trained_again(
     })
 }
 
-/// A count of the evaluation, and some more.
+/// A count of the evaluation, increased.
 fn count(key: &str, by: i64) -> Value {
     let count = fixture().get(MODEL, key).as_i64().expect("a count");
     json!(count + by)
 }
 
-/// A model of which both rows and columns that nothing depends on make so many weights and biases, with 18 inputs, 4
-/// hidden values and 5 outputs before.
+/// A model padded with rows and columns that nothing depends on, up to this many weights and biases. It starts with 18
+/// inputs, 4 hidden values and 5 outputs.
 fn padded(numbers: usize) -> impl Fn(&mut Fixture) + Clone {
     move |fixture: &mut Fixture| {
         let before = 18 * 4 + 4 + 4 * 5 + 5;
-        // A value more in the middle takes 18 weights, a bias, and 5 weights.
+        // One more hidden value takes 18 weights, a bias, and 5 weights.
         let more = (numbers - before) / 24;
         let layers = fixture.get(MODEL, "/layers").clone();
         let mut layers: Vec<Value> = layers.as_array().expect("layers").clone();
@@ -75,12 +75,12 @@ fn padded(numbers: usize) -> impl Fn(&mut Fixture) + Clone {
     }
 }
 
-/// So many test vectors, all alike.
+/// This many test vectors, all alike.
 fn vectors(count: usize) -> Value {
     json!(vec![fixture().get(MODEL, "/test_vectors/1"); count])
 }
 
-/// The model with the counts that the draft of 0.2.0 had, of configurations of the producer's choice.
+/// The model with the counts of the draft of 0.2.0, over configurations that the producer chose.
 fn as_drafted(fixture: &mut Fixture) {
     fixture.remove(MODEL, "/evaluation");
     fixture.set(
@@ -93,17 +93,17 @@ fn as_drafted(fixture: &mut Fixture) {
     );
 }
 
-/// The codes that are found in a model, besides informations.
+/// The codes found in a model, except infos.
 fn codes(fixture: &Fixture) -> Vec<String> {
     let found = findings(&|folder| fixture.write_to(folder));
     found.into_keys().collect()
 }
 
-/// Models that flatter themselves, each in a way of its own. All of them passed in 0.2.0.
+/// Models that overstate their accuracy, each in a different way. All of them passed in 0.2.0.
 mod flattering {
     use super::*;
 
-    /// Weights that nothing depends on made the validator count a part of the configurations.
+    /// Weights that nothing depends on made the validator count only some of the configurations.
     #[test]
     fn padded_with_dead_weights() {
         let mut small = fixture();
@@ -114,7 +114,7 @@ mod flattering {
         padded(65_560)(&mut large);
         large.seal();
         assert_eq!(codes(&large), ["LRN005"]);
-        // And what it says of its rates is not taken for verified.
+        // Its stated rates do not count as verified.
         large.set(MODEL, "/evaluation/num_missed", json!(0));
         large.set(MODEL, "/evaluation/num_near_contact_missed", json!(0));
         large.seal();
@@ -129,7 +129,7 @@ mod flattering {
         assert_eq!(open.reasons, ["LRN005 found a fault"]);
     }
 
-    /// A model that has learned by heart what it would miss states that it misses nothing, which is so where it counted.
+    /// A model that has memorised what it would miss states that it misses nothing, which is true where it counted.
     #[test]
     fn overfitted_to_the_evaluation() {
         let said = Said {
@@ -155,7 +155,7 @@ mod flattering {
         assert!(found["LRN011"].contains("misses more collisions on sampled configurations"));
         assert_eq!(codes(&honest), [""; 0]);
 
-        // Weights that nothing depends on move the second confirmation, and not the first.
+        // Weights that nothing depends on change the second confirmation, but not the first.
         for dead in 1..=3 {
             model.set(MODEL, "/layers/0/weights/3/0", json!(dead));
             model.seal();
@@ -163,7 +163,7 @@ mod flattering {
         }
     }
 
-    /// Where hardly any configuration collides, a model that clears all of them is right nearly always.
+    /// Where hardly any configuration collides, a model that clears all of them is nearly always right.
     #[test]
     fn rare_collisions() {
         let rare = fixture_with(Said {
@@ -191,7 +191,7 @@ mod flattering {
         assert_eq!(codes(&window), ["LRN009"]);
     }
 
-    /// The counts of another place in the sequence, which is 0.2.0's way to choose: no key says where it is.
+    /// The counts from another position in the sequence, as 0.2.0 chose it: no key states the position.
     #[test]
     fn a_start_of_its_own() {
         let mut draft = fixture();
@@ -204,7 +204,7 @@ mod flattering {
         assert_eq!(codes(&both), ["SCH001"]);
     }
 
-    /// A network beyond all limits, on ten configurations: the work decides, and neither the clock nor the threads.
+    /// A network beyond all limits, on ten configurations: the amount of work decides, not the clock or the threads.
     #[test]
     fn too_much_work() {
         let mut large = fixture();
@@ -228,7 +228,8 @@ mod flattering {
         }
     }
 
-    /// Misses that are fewer by what a tolerance by configurations, and not by collisions, would let pass.
+    /// Misses understated by an amount that a tolerance relative to configurations, rather than to collisions, would
+    /// accept.
     #[test]
     fn off_by_the_tolerance_of_a_count() {
         for (by, expected) in [(-3, vec!["LRN010"]), (-2, vec![])] {
@@ -244,8 +245,8 @@ mod flattering {
     }
 }
 
-/// A robot that hardly moves: 130 of its 50,000 configurations collide, and 203 where the slider goes a centimetre higher,
-/// as numpy counts too.
+/// A robot that hardly moves: 130 of its 50,000 configurations collide, and 203 if the slider goes a centimetre higher.
+/// A count with numpy agrees.
 const RARE: [f64; 2] = [0.3, -0.02];
 const ENOUGH: [f64; 2] = [0.3, -0.01];
 

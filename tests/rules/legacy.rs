@@ -9,7 +9,7 @@ use crate::{Case, in_folder};
 
 const MESH: &str = "mesh_modules/original_meshes_module/meshes/a.stl";
 
-/// Writes a module as the first producers did: minified JSON, and the same as YAML.
+/// Writes a module as the first producers did: minified JSON, and the same in YAML.
 pub fn write_module(root: &Path, folder: &str, version: Option<&str>, document: &Value) {
     let folder = root.join(folder);
     std::fs::create_dir_all(&folder).expect("made");
@@ -35,8 +35,7 @@ fn link(name: &str, visual: Value) -> Value {
     })
 }
 
-/// A URDD from before version 1, whose robot is named as its folder is: two links, one joint, no
-/// meshes.
+/// A URDD from before version 1, whose robot has the name of its folder: two links, one joint, no meshes.
 pub fn write_legacy(root: &Path) {
     let urdf = json!({
         "name": "robot",

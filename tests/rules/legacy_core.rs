@@ -1,5 +1,5 @@
-//! LEG004 and LEG006, and the rules of the core modules on legacy URDDs: a small one, whose documents
-//! are as the published converter writes them.
+//! LEG004 and LEG006, and the rules of the core modules on legacy URDDs: a small one, whose documents are like those of
+//! the published converter.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -117,7 +117,7 @@ impl Legacy {
         ]))
     }
 
-    /// The same, cut out of a robot with one more link and joint, both the second of theirs.
+    /// The same, cut out of a robot that has one more link and joint, each second in its list.
     fn adjusted() -> Legacy {
         let mut legacy = Legacy::new();
         let module = json!({
@@ -207,7 +207,7 @@ pub fn cases() -> Vec<Case> {
             l.bound(1, 0.3, 0.3 + 1e-7)
         }),
         near_miss(LEG006, "locked-and-equal", |_| {}),
-        // What is a defect now was one then.
+        // What is a defect now was a defect then.
         invalid(BND001, "legacy-stale", |l| {
             l.set("bounds_module", "/bounds", json!([[-1.0, 1.0], [0.3, 0.3]]));
         }),

@@ -7,7 +7,7 @@ use urdd_directory::canonical;
 
 use testkit::meshes::{Point, TRIANGLES, glb, obj, stl};
 
-/// The corners of the mesh that both links show: a box as far out as half a metre.
+/// The corners of the mesh that both links show: a box that extends half a metre from its centre.
 pub fn corners() -> [Point; 8] {
     let half = [0.3, 0.24, 0.32].map(|x: f64| f64::from(x as f32));
     std::array::from_fn(|corner| {
@@ -101,14 +101,14 @@ impl LegacyRobot {
         }
     }
 
-    /// Without the meshes that the URDF names.
+    /// Removes the meshes that the URDF names.
     pub fn without_originals(mut self) -> Self {
         let is_original = |folder: &str| folder.ends_with("original_meshes_module");
         self.modules.retain(|(folder, ..)| !is_original(folder));
         self
     }
 
-    /// With a joint that slides along x within these limits, and the core modules that say so.
+    /// Adds a joint that slides along x within these limits, and the core modules that describe it.
     pub fn sliding(mut self, lower: f64, upper: f64) -> Self {
         let joint = &mut self.doc("urdf_module")["joints"][0];
         joint["joint_type"] = json!("Prismatic");
@@ -154,8 +154,8 @@ impl LegacyRobot {
         self
     }
 
-    /// With boxes and spheres of half a metre about both links, and how far they reach: the spheres as
-    /// far as `sphere`.
+    /// Adds boxes and spheres of half a metre around both links, and their maximum distances from the origin: `sphere`
+    /// for the spheres.
     pub fn with_shapes(mut self, sphere: f64) -> Self {
         let zero = [0.0; 3];
         let cuboid =
@@ -190,7 +190,7 @@ impl LegacyRobot {
         self
     }
 
-    /// With statistics of two links at this distance, and skips edited to these.
+    /// Adds statistics of two links at this distance, and skips edited to these.
     pub fn with_matrices(mut self, max: f64, simple: bool, skips: [[bool; 2]; 2]) -> Self {
         let kinds = ["convex_hulls", "obbs", "bounding_spheres"];
         let names = ["full", "decomposition"].into_iter();
@@ -233,7 +233,7 @@ impl LegacyRobot {
         &mut found.expect("a module").2
     }
 
-    /// Writes the URDD to `root`, and every mesh file to where its path leads; the `.glb` are binary, so
+    /// Writes the URDD to `root`, and every mesh file to the place that its path names. The `.glb` files are binary, so
     /// that nothing else is found.
     pub fn write(&self, root: &Path) {
         for (folder, version, document) in &self.modules {

@@ -1,7 +1,7 @@
-//! Every rule has an invalid case that only it catches, and a near miss that it lets pass.
+//! Every rule has an invalid case that only it catches, and a near miss that it accepts.
 //!
-//! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that
-//! shares nothing with the validator.
+//! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that shares no code
+//! with the validator.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
@@ -41,7 +41,7 @@ use urdd_validate::code::Code;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate};
 
-/// How a URDD comes about.
+/// How a URDD is built.
 pub enum Make {
     /// In memory.
     Fixture(Box<dyn Fn() -> Fixture>),
@@ -59,13 +59,13 @@ impl Make {
     }
 }
 
-/// A URDD with one change, and what the validator should say of it. Cases are written here as code,
-/// and become the data in `conformance/` (see [`as_data`]), from which they are judged.
+/// A URDD with one change, and the validator's expected findings. Cases are written here as code, and become the data
+/// in `conformance/` (see [`as_data`]), on which they are judged.
 pub struct Case {
     code: Code,
     name: &'static str,
     make: Make,
-    /// The URDD before the change, where that is known.
+    /// The URDD before the change, if known.
     base: Option<Make>,
     caught: bool,
 }
@@ -75,7 +75,7 @@ pub fn toy() -> Fixture {
     canonical(Fixture::toy())
 }
 
-/// The same fixture, in the canonical emission: the suite seals in it.
+/// The same fixture, in the canonical emission, in which the suite seals.
 pub fn canonical(mut fixture: Fixture) -> Fixture {
     fixture.canonical = true;
     fixture.seal();
@@ -87,12 +87,12 @@ pub fn invalid(code: Code, name: &'static str, change: impl Fn(&mut Fixture) + '
     changed(code, name, true, Fixture::toy, change)
 }
 
-/// A change that comes near what the rule catches, and is right: nothing at all is found.
+/// A change that is close to what the rule catches, but valid: nothing is found.
 pub fn near_miss(code: Code, name: &'static str, change: impl Fn(&mut Fixture) + 'static) -> Case {
     changed(code, name, false, Fixture::toy, change)
 }
 
-/// A change of another valid URDD than the toy; `caught` says whether it is an invalid case.
+/// A change of a valid URDD other than the toy; `caught`: whether it is an invalid case.
 pub fn changed(
     code: Code,
     name: &'static str,
@@ -115,8 +115,8 @@ pub fn changed(
     }
 }
 
-/// A URDD that `write` writes as it likes (a legacy one, say) into a folder named `robot`, which
-/// stands alone in its parent folder. What is found besides infos is compared.
+/// A URDD (a legacy one, say) that `write` writes into a folder named `robot`, the only one in its parent folder. All
+/// findings except infos are compared.
 pub fn in_folder(
     code: Code,
     name: &'static str,
@@ -159,7 +159,7 @@ fn cases() -> Vec<Case> {
     .collect()
 }
 
-/// Codes that were found besides informations, with a message for each.
+/// Codes that were found, except infos, with a message for each.
 fn findings(write: &dyn Fn(&Path)) -> BTreeMap<String, String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");

@@ -1,4 +1,4 @@
-//! MSH013 to MSH023: what mesh files hold.
+//! MSH013 to MSH023: the content of mesh files.
 
 use serde_json::{Value, json};
 use urdd_geometry::Mesh;
@@ -13,10 +13,10 @@ use crate::{Case, changed, in_folder, invalid, near_miss};
 use testkit::fixture::{Fixture, ROOT};
 use testkit::robot::*;
 
-/// The base: a box of 0.4 by 0.4 by 0.1 m about its link's origin, which is its own only piece.
+/// The base: a box of 0.4 by 0.4 by 0.1 m around its link's origin, which is also its only piece.
 const BASE: usize = 1;
 
-/// Where the entry of a link stands, or of its first piece.
+/// The path of the entry of a link, or of its first piece.
 fn entry(module: &str, link: usize) -> String {
     match module {
         PLAIN => format!("/link_meshes/{link}/files"),
@@ -29,7 +29,7 @@ fn path(f: &Fixture, module: &str, link: usize, format: &str) -> String {
     text(f, module, &format!("{}/{format}", entry(module, link)))
 }
 
-/// A mesh, as its OBJ file has it.
+/// A mesh, as read from its OBJ file.
 fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
     let obj = String::from_utf8(f.file(&path(f, module, link, "obj")).to_vec()).expect("text");
     let mut mesh = Mesh::default();
@@ -80,7 +80,7 @@ fn up(x: f64) -> f64 {
     f64::from((x as f32).next_up())
 }
 
-/// Two boxes, the second of which names a file without a surface.
+/// Two boxes; the second names a file without a surface.
 pub fn bare() -> Fixture {
     let mut bare = link("b");
     bare.visual
@@ -250,12 +250,12 @@ fn files() -> Vec<Case> {
         }),
         invalid(MSH013, "node-with-a-transform", |f| {
             change_gltf(f, HULLS, |gltf| {
-                // As far as the resolution goes all is where it was.
+                // Within the resolution, nothing has moved.
                 gltf["nodes"][0]["translation"] = json!([1e-9, 0, 0]);
             });
         }),
         invalid(MSH013, "normals-of-no-length", |f| {
-            // The positions, for normals.
+            // The positions in place of the normals.
             change_gltf(f, PLAIN, |gltf| {
                 gltf["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(0);
             });
@@ -332,7 +332,7 @@ fn sources() -> Vec<Case> {
             }
         }),
         invalid(MSH015, "another-links-mesh", |f| {
-            // The turret's, which is a mesh too, in place of the tool's.
+            // The turret's mesh in place of the tool's.
             let mesh = read(f, PLAIN, 2);
             for format in ALL {
                 put(f, PLAIN, 6, format, &mesh);

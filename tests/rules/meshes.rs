@@ -72,7 +72,7 @@ fn rename(fixture: &mut Fixture, module: &str, pointer: &str, new: &str) {
     fixture.set(module, pointer, json!(new));
 }
 
-/// Adds a chunk that readers of GLB pass over.
+/// Adds a chunk that GLB readers ignore.
 fn with_chunk(glb: &[u8]) -> Vec<u8> {
     let mut glb = glb.to_vec();
     glb.extend([4, 0, 0, 0]);
@@ -168,11 +168,11 @@ fn files() -> Vec<Case> {
         invalid(MSH004, "box-missing", |f| {
             f.remove(APPROXIMATIONS, "/decomposition_obbs/0/1");
         }),
-        // The last piece of a link is gone from the mesh module alone: five lists have it still.
+        // The last piece of a link is missing only from the mesh module: five lists still have it.
         invalid(MSH004, "piece-missing", |f| {
             f.remove(PIECES, "/link_pieces/0/1");
         }),
-        // The names of those that are left are wrong by the same mistake.
+        // The same mistake makes the names of the remaining ones wrong.
         invalid(MSH004, "first-piece-missing", |f| {
             f.remove(PIECES, "/link_pieces/0/0");
         }),
@@ -246,7 +246,7 @@ fn files() -> Vec<Case> {
     ]
 }
 
-/// MSH007 to MSH012 but MSH010.
+/// MSH007 to MSH012, except MSH010.
 fn links() -> Vec<Case> {
     let collision_only = || {
         let mut links = vec![link("a"), link("b")];
@@ -256,7 +256,7 @@ fn links() -> Vec<Case> {
         }
         Fixture::full(&robot_of(links))
     };
-    // A link "b" that has this geometry, in a URDD that has no mesh of it.
+    // A link "b" that has this geometry, in a URDD without a mesh of it.
     let unseen = |geometry: Geometry| {
         let shown = Link {
             visual: vec![visual(None, geometry)],
@@ -275,7 +275,7 @@ fn links() -> Vec<Case> {
         invalid(MSH007, "plain-mesh-missing", |f| {
             f.set(PLAIN, "/link_meshes/1", Value::Null);
         }),
-        // Names, and the geometry that was used, are then another link's too.
+        // The names and the geometry are then another link's too.
         invalid(MSH007, "mesh-at-another-link", |f| {
             let mesh = f.get(PLAIN, "/link_meshes/2").clone();
             f.set(PLAIN, "/link_meshes/14", mesh);
@@ -384,7 +384,7 @@ fn links() -> Vec<Case> {
     ]
 }
 
-/// Takes the STL and OBJ files of a module away.
+/// Removes the STL and OBJ files of a module.
 fn without_formats(f: &mut Fixture, module: &str) {
     fn clear(value: &mut Value, paths: &mut Vec<String>) {
         match value {

@@ -1,4 +1,4 @@
-//! What a finding says: where, what is wrong, what was expected and found, in words that a reader can act on.
+//! The text of findings: where, what is wrong, what was expected and found, in words that a reader can act on.
 
 use serde_json::json;
 use urdd_validate::settings::Settings;
@@ -6,7 +6,7 @@ use urdd_validate::validate;
 
 use testkit::fixture::Fixture;
 
-/// A code, a change, and what the finding has to say: its pointer or line, message, expected and found.
+/// A code, a change, and the expected finding: its pointer or line, message, expected and found values.
 type Case = (&'static str, fn(&mut Fixture), [&'static str; 4]);
 
 const BOUNDS: &str = "bounds_module";

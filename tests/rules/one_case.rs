@@ -1,8 +1,8 @@
-//! `URDD_CASE=SRC009 cargo test --test rules` judges these cases at once, as the closures say them, before any of them
-//! is data. A code or the start of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
+//! `URDD_CASE=SRC009 cargo test --test rules` judges these cases at once, from the closures, before any of them is
+//! data. The value is a code or a prefix of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
 //!
-//! `URDD_RULE=mute` does so with a rule that finds nothing, in which every invalid case must fail; `URDD_RULE=alarm` with
-//! one that always finds something, in which every near miss must.
+//! `URDD_RULE=mute` runs them with a rule that finds nothing: every invalid case must fail. `URDD_RULE=alarm` runs them
+//! with a rule that always finds something: every near miss must fail.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -16,7 +16,7 @@ use urdd_validate::validate_with;
 
 use crate::{Case, cases};
 
-/// What stands in for the rule of a case.
+/// The substitute for the rule of a case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Stand {
     /// The rule itself.
@@ -42,7 +42,7 @@ fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
     Box::leak(Box::new(Rule { check, ..*rule }))
 }
 
-/// What is wrong with how a case is judged, in words; `None` where nothing is.
+/// What is wrong with the judgement of a case; `None` if nothing is.
 fn fault(case: &Case, stand: Stand) -> Option<String> {
     let rules: Vec<&'static Rule> = rules::all()
         .into_iter()
@@ -91,7 +91,7 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
             finding.code, finding.message
         );
     }
-    // Why the rule found nothing: it may not have looked.
+    // Why the rule found nothing: it may not have run.
     let mut checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
     if let (false, Some(check)) = (own, checks.find(|check| check.code == code)) {
         let reason = check.reason.as_deref().unwrap_or_default();
@@ -100,7 +100,7 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
     Some(text)
 }
 
-/// The cases that `URDD_CASE` asks for, and what stands in for their rule.
+/// The cases that `URDD_CASE` selects, and the substitute for their rule.
 fn asked() -> Option<(String, Stand)> {
     let start = std::env::var("URDD_CASE").ok()?;
     let stand = match std::env::var("URDD_RULE").as_deref() {
@@ -112,12 +112,12 @@ fn asked() -> Option<(String, Stand)> {
     Some((start, stand))
 }
 
-/// The beginning of the cases that somebody works at, so that tests of all others are not wanted.
+/// The prefix of the selected cases. If set, tests of all other cases are skipped.
 pub fn asked_for() -> Option<String> {
     asked().map(|(start, _)| start)
 }
 
-/// The cases whose code/name begins so.
+/// The cases whose code/name has this prefix.
 pub fn beginning_with(start: &str) -> Vec<Case> {
     let mut cases = cases();
     cases.retain(|case| format!("{}/{}", case.code, case.name).starts_with(start));
@@ -126,7 +126,7 @@ pub fn beginning_with(start: &str) -> Vec<Case> {
 
 #[test]
 fn a_case_that_is_asked_for_is_judged() {
-    // Without a question, a few: that the cases of all rules are right, tests/conformance says.
+    // Without a selection, a few: tests/conformance checks the cases of all rules.
     let (start, stand) = asked().unwrap_or(("DOF001".to_owned(), Stand::Itself));
     let cases = beginning_with(&start);
     assert!(
@@ -144,7 +144,8 @@ fn a_case_that_is_asked_for_is_judged() {
     println!("{} cases are judged right", cases.len());
 }
 
-/// Both failures can be seen: of the invalid case without the rule, of the near miss with one that always finds something.
+/// Both failures are visible: that of the invalid case without the rule, and that of the near miss with a rule that
+/// always finds something.
 #[test]
 fn cases_fail_with_another_rule() {
     for case in beginning_with("DOF001") {

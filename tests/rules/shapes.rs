@@ -43,7 +43,7 @@ fn exchange_rows(fixture: &mut Fixture, module: &str, matrix: &str, i: usize, j:
     rows.swap(i, j);
 }
 
-/// The first pair of hulls that is never, sometimes or always in contact, as `reason` says.
+/// The first pair of hulls whose contact is never, sometimes or always, according to `reason`.
 fn pair_that_is(fixture: &Fixture, reason: &str) -> (usize, usize) {
     let rows = fixture.get(SIMPLE, "/reasons/full_convex_hulls").as_array();
     let rows = rows.expect("a matrix");
@@ -58,8 +58,8 @@ fn two_boxes() -> Fixture {
     Fixture::full(&robot_of(vec![boxy("a"), boxy("b")]))
 }
 
-/// Two boxes of 0.1 m, of which one slides towards the other: their middles are `apart` at 0. A link
-/// without a shape is between them.
+/// Two boxes of 0.1 m; one slides towards the other. Their centres are `apart` at 0. A link without a shape is between
+/// them.
 fn sliding(apart: f64, lower: f64, upper: f64) -> Fixture {
     let mut robot = robot_of(vec![boxy("a"), link("b"), boxy("c")]);
     robot.urdf.joints[1] = Joint {
@@ -189,7 +189,7 @@ fn matrices() -> Vec<Case> {
             let pointer = format!("/reasons/full_convex_hulls/{j}/{i}");
             f.set(SIMPLE, &pointer, json!("None"));
         }),
-        // Rows in another order also make the diagonal wrong, and pairs of them: one mistake.
+        // Rows in another order also make the diagonal and pairs of entries wrong: one mistake.
         invalid(SHP006, "rows-of-skips-exchanged", |f| {
             exchange_rows(f, SKIPS, "/full_obbs_skips", 0, 1);
         }),
@@ -213,7 +213,7 @@ fn matrices() -> Vec<Case> {
         invalid(SHP007, "not-skipped-against-itself", |f| {
             f.set(SKIPS, "/full_obbs_skips/2/2", json!(false));
         }),
-        // These two shapes are alike against all others, and not skipped against each other.
+        // These two shapes are alike with respect to all others, and not skipped with respect to each other.
         invalid(SHP007, "rows-exchanged-and-symmetric", |f| {
             exchange_rows(f, SIMPLE, "/full_convex_hulls_simple_skips", 6, 7);
         }),
@@ -289,7 +289,7 @@ fn matrices() -> Vec<Case> {
         invalid(SHP016, "none", |f| {
             f.set(STATISTICS, "/num_samples", json!(0));
         }),
-        // Two boxes that do not move have the same distance in one sample as in eight.
+        // Two boxes that do not move are equally far apart in one sample and in eight.
         changed(SHP016, "one", false, two_boxes, |f| {
             f.set(STATISTICS, "/num_samples", json!(1));
         }),
@@ -405,7 +405,7 @@ fn skips() -> Vec<Case> {
                 set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(true));
             },
         ),
-        // 0 is out of bounds: at the bound nearest to it the boxes are in contact.
+        // 0 is out of bounds: at the nearest bound, the boxes are in contact.
         changed(
             SHP026,
             "touching-at-the-nearest-bound",

@@ -5,7 +5,7 @@ use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::robot::{Robot, cuboid, joint, limit, link, mesh, visual};
 
-/// A faithful URDD, of class Core, of the toy with a change. All of its modules follow the change.
+/// A faithful URDD of class Core of a changed toy. All its modules follow the change.
 fn robot(code: Code, name: &'static str, odd: bool, change: impl Fn(&mut Robot) + 'static) -> Case {
     let base = move || {
         let mut robot = toy_robot();
@@ -72,7 +72,7 @@ fn limits() -> Vec<Case> {
         fine(SRC001, "lower-equals-upper", |robot| {
             robot.joint_mut("turn").limit = limit(-0.5, -0.5);
             robot.joint_mut("slide").limit = limit_from(Some(-0.5));
-            // Of a continuous joint they have no meaning.
+            // They have no meaning for a continuous joint.
             robot.joint_mut("spin").limit = limit(1.0, -1.0);
         }),
         odd(SRC002, "beyond-its-lower-limit", |robot| {
@@ -150,7 +150,7 @@ fn masses() -> Vec<Case> {
             robot.link_mut("frame").inertial = of(0.0, [1.0; 3]);
         }),
         fine(SRC003, "frames-without-mass", |robot| {
-            // Fixed to a body with mass; fixed to the root; moved, and nothing said.
+            // Fixed to a body with mass; fixed to the root; moved, without a note.
             robot.link_mut("frame").inertial = of(0.0, [0.0; 3]);
             robot.link_mut("base").inertial = of(0.0, [0.0; 3]);
             robot.link_mut("arm").inertial = None;

@@ -1,6 +1,6 @@
-//! One fault is one message, and a second fault does not hide behind it. The URDD describes its
-//! robot twice, in `urdf_module` and in the carried URDF: where these differ, other modules are at
-//! fault only where they follow from neither.
+//! One fault gives one message, and a second fault does not hide behind it. The URDD describes its robot twice, in
+//! `urdf_module` and in the carried URDF. Where these differ, other modules are wrong only where they follow from
+//! neither.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -13,12 +13,12 @@ use testkit::fixture::Fixture;
 /// A name, a change, and every code that should be found.
 type Case = (&'static str, fn(&mut Fixture), &'static [&'static str]);
 
-/// The URDF was changed, and the URDD was not made again.
+/// The URDF was changed, and the URDD was not generated again.
 fn stale_limit(urdd: &mut Fixture) {
     urdd.urdf_replace("upper=\"0.2\"", "upper=\"0.21\"");
 }
 
-/// Somebody changed `urdf_module`.
+/// A user changed `urdf_module`.
 fn damaged_limit(urdd: &mut Fixture) {
     urdd.set("urdf_module", &limit_of("slide"), json!(0.21));
 }
@@ -108,7 +108,7 @@ const CASES: &[Case] = &[
             stale_limit(urdd);
             upper_bound(urdd, 2, 0.21);
         },
-        // The samples and the statistics are of the old bounds.
+        // The samples and the statistics use the old bounds.
         &["KIN002", "SHP024", "URD001"],
     ),
     (

@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-/// The toy, where both its URDF and its `urdf_module` have this fault: it is faithful, and wrong.
+/// The toy with this fault in both its URDF and its `urdf_module`: it is faithful, and wrong.
 fn faulty(
     code: urdd_validate::code::Code,
     name: &'static str,
@@ -32,7 +32,7 @@ fn faulty(
     })
 }
 
-/// A URDD of another robot than the toy, in which nothing is wrong.
+/// A valid URDD of a robot other than the toy.
 fn sound(
     code: urdd_validate::code::Code,
     name: &'static str,
@@ -74,7 +74,7 @@ fn set_link(urdd: &mut Fixture, name: &str, rest: &str, new: Value) {
 
 fn against_the_urdf() -> Vec<Case> {
     vec![
-        // The URDF changed, and the URDD was not made again.
+        // The URDF was changed, and the URDD was not generated again.
         invalid(URD001, "origin-changed", |urdd| {
             urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz=\"0.05 0 0.2000001\"");
         }),
@@ -390,12 +390,12 @@ fn readable() -> Vec<Case> {
         near_miss(URD011, "utf-8-declared-otherwise", |urdd| {
             urdd.urdf_replace("encoding=\"utf-8\"", "encoding='UTF8'");
         }),
-        // 13,000 levels once ended the whole run.
+        // 13,000 levels once aborted the whole run.
         invalid(URD011, "elements-too-deep", |urdd| {
             let deep = format!("{}{}", "<a>".repeat(20_000), "</a>".repeat(20_000));
             urdd.urdf_replace("<gazebo/>", &deep);
         }),
-        // A version is two numbers, of digits.
+        // A version is two decimal numbers.
         changed(
             URD011,
             "two-rotations-in-a-version-with-a-sign",

@@ -18,7 +18,7 @@ fn same(code: Code, name: &'static str, from: &'static str, to: &'static str) ->
     })
 }
 
-/// A value of the document, whose scalar stands otherwise in the YAML.
+/// A value of the document whose scalar is written differently in the YAML.
 fn written(
     code: Code,
     name: &'static str,

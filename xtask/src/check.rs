@@ -1,10 +1,10 @@
-//! `cargo xtask check`: what a newcomer forgets after adding a rule, a module or a message, each with its remedy.
+//! `cargo xtask check`: common omissions after adding a rule, a module or a message, each with its remedy.
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// The tests that are run, by the beginning of their path, and what to do where one fails.
+/// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
     ("spec_agrees::the_tables_of_fields", UPDATE),
     (
@@ -76,7 +76,7 @@ const TESTS: &[(&str, &str)] = &[
 ];
 
 const UPDATE: &str = "cargo xtask update, and read what it wrote";
-/// A maintainer may mend it: its failure is only noted.
+/// If it fails, a maintainer can fix it: the failure is only noted.
 const PAGE: &str = "page_bundle::";
 
 /// Folders and files in which a scaffold leaves a TODO.
@@ -146,7 +146,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
     Ok(faults == 0)
 }
 
-/// Cargo, as it was started for us, in the repository.
+/// The cargo that started this program, in the repository.
 pub fn cargo(root: &Path) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
     command.current_dir(root);
@@ -163,7 +163,7 @@ pub fn python_types(root: &Path, arguments: &[&str]) -> Option<bool> {
     script.ok().map(|output| output.status.success())
 }
 
-/// The places of what a scaffold left to a person: `SPEC.md:341`.
+/// The TODOs that a scaffold left to the user: `SPEC.md:341`.
 fn left_to_write(root: &Path) -> Vec<String> {
     let mut places = Vec::new();
     let mut paths: Vec<_> = SCAFFOLDED.iter().map(|path| root.join(path)).collect();

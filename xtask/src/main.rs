@@ -41,7 +41,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Runs a command; returns whether everything is right.
+/// Runs a command; returns whether it succeeded.
 fn run(command: &str, words: &[String]) -> Result<bool, String> {
     // For tests: the root of another copy of the source.
     let (plain, mut options) = arguments(words)?;
@@ -72,7 +72,7 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
 
 type Options = std::collections::BTreeMap<String, String>;
 
-/// The words without options, and the options with their values.
+/// The arguments that are not options, and the options with their values.
 fn arguments(words: &[String]) -> Result<(Vec<String>, Options), String> {
     let mut plain = Vec::new();
     let mut options = Options::new();

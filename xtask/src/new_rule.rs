@@ -20,11 +20,11 @@ pub struct NewRule<'a> {
     pub code: &'a str,
     /// Its name.
     pub name: &'a str,
-    /// The clause of SPEC.md, where it is known.
+    /// The clause of SPEC.md, if known.
     pub clause: Option<&'a str>,
     /// `error`, `warning` or `info`.
     pub severity: &'a str,
-    /// The folder of its family, where that is new.
+    /// The folder of its family, if the family is new.
     pub family: Option<&'a str>,
 }
 
@@ -64,7 +64,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     edits.set(CODES, add_code(&edits.read(CODES)?, code)?);
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
-    // Of a module as it was scaffolded, the rule can already read the values.
+    // If the module is as scaffolded, the rule can already read the values.
     let types = edits.read(&format!("crates/urdd-format/src/{room}.rs"));
     let has_values = types.is_ok_and(|text| text.contains("pub values: Vec<f64>,"));
     let about = has_values.then_some(room.as_str());
@@ -350,7 +350,8 @@ fn two_cases(code: &str, base: &str, cases: &str) -> String {
     )
 }
 
-/// Adds the rule's cases to the list of all cases: after those of the family, or, where it is new, before the legacy ones.
+/// Adds the rule's cases to the list of all cases: after those of the family, or before the legacy ones if the family
+/// is new.
 fn list_cases(text: &str, room: &str, cases: &str) -> Result<String, String> {
     let new = format!("        {room}::{cases}(),\n");
     let own = format!("        {room}::cases(),\n");

@@ -11,7 +11,7 @@ pub struct Edits<'a> {
 }
 
 impl<'a> Edits<'a> {
-    /// No edits yet of the source in `root`.
+    /// An empty set of edits of the source in `root`.
     pub fn new(root: &'a Path) -> Self {
         let texts = BTreeMap::new();
         Edits { root, texts }
@@ -26,12 +26,12 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// Gives a file a new text.
+    /// Replaces the text of a file.
     pub fn set(&mut self, path: &str, text: String) {
         self.texts.insert(path.to_owned(), text);
     }
 
-    /// Gives a new file its text.
+    /// Adds a new file with this text.
     pub fn create(&mut self, path: &str, text: String) -> Result<(), String> {
         match self.root.join(path).exists() {
             true => Err(format!("{path} is there already")),
@@ -84,7 +84,7 @@ pub fn with_module(text: &str, line: &str, path: &str) -> Result<String, String>
     match (before, modules.first()) {
         (Some(before), _) => Ok(text.replacen(before, &format!("{before}\n{line}"), 1)),
         (None, Some(first)) => {
-            // With its attribute, where it has one.
+            // With its attribute, if it has one.
             let place = text.find(first).unwrap_or_default();
             let lines = text[..place].lines().rev();
             let attribute = lines.take_while(|line| line.starts_with("#["));
@@ -104,7 +104,7 @@ pub fn with_module(text: &str, line: &str, path: &str) -> Result<String, String>
     }
 }
 
-/// A name in small letters, digits and underscores, with capitals at its words: `BatteryPack`.
+/// Converts a name in lower case with underscores to camel case: `BatteryPack`.
 pub fn camel(name: &str) -> String {
     let word = |word: &str| {
         let mut letters = word.chars();

@@ -1,4 +1,4 @@
-//! `cargo xtask update`: writes again what is generated from the source, and says which files it changed.
+//! `cargo xtask update`: regenerates everything that is generated from the source, and lists the changed files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::check::{cargo, python_types};
 
-/// Where generated text is.
+/// The places of generated text.
 const GENERATED: &[&str] = &[
     "README.md",
     "SPEC.md",
@@ -26,7 +26,7 @@ const WRITERS: &[&str] = &[
     "spec_agrees::the_tables_of_fields",
 ];
 
-/// Writes everything that is generated; returns whether that worked.
+/// Regenerates everything; returns whether that succeeded.
 ///
 /// # Errors
 /// If cargo cannot be run.
@@ -47,7 +47,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
         Some(written) => right &= written,
         None => println!("left out: types for Python (python3 is not installed)"),
     }
-    // First the cases, whose number is on the pages.
+    // The cases first: their number appears on the pages.
     for (target, tests) in [("rules", &WRITERS[..1]), ("program", &WRITERS[1..])] {
         let tests = cargo(root)
             .args([

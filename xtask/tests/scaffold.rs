@@ -19,7 +19,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// What the scaffolds read and write.
+/// The files that the scaffolds read and write.
 fn source() -> TempDir {
     let folder = TempDir::new().expect("a folder");
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -129,7 +129,7 @@ fn a_rule_gets_all_of_its_files() {
     );
     assert!(text(root, "tests/rules/main.rs").contains(&format!("source::{cases}(),")));
 
-    // Again, it is taken.
+    // The second time, it is taken.
     let again = new_rule(root, &[&code, "made-of-cheese"]);
     assert_eq!(again.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&again.stderr).contains("next free code"));

@@ -30,10 +30,10 @@ pub struct Finding {
     pub message: String,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
-    /// The meshes that are at fault, where it is about meshes of single links. Those of findings that
-    /// were folded into this one are not among them.
+    /// The faulty meshes, if the finding is about meshes of single links. Does not include those of findings that were
+    /// folded into this one.
     pub parts: Vec<Part>,
-    /// Number of findings that it stands for.
+    /// Number of findings that it represents.
     pub count: usize,
     /// The next few of these, after this one.
     pub more: Vec<Place>,
@@ -128,7 +128,7 @@ impl Finding {
         self
     }
 
-    /// Sets the number of findings that it stands for.
+    /// Sets the number of findings that it represents.
     pub fn count(mut self, count: usize) -> Self {
         self.count = count;
         self
@@ -142,7 +142,7 @@ impl Finding {
 
 /// A document that findings are about.
 pub trait Document {
-    /// The file that holds it, and the pointer of a value in that file.
+    /// The file, and the pointer of a value in that file.
     fn locate(&self, pointer: String) -> (String, String);
 }
 

@@ -180,8 +180,8 @@ pub fn validate_source(
     })
 }
 
-/// Examines a URDD. Where it cannot be read, or where the program crashes outside of a rule, its report says so; the
-/// other URDDs have their reports regardless.
+/// Examines a URDD. If it cannot be read, or if the program crashes outside a rule, its report says so; the other URDDs
+/// still have their reports.
 fn caught(
     kind: Kind,
     name: &str,

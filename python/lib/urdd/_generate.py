@@ -131,7 +131,7 @@ def generate(
         xacro_arguments: arguments of the xacro file, by name.
         xacro_timeout: time limit of the program xacro, seconds.
         drop_edits: discards the edits of skips in the URDD that is replaced.
-        force: writes to a folder that holds something else than a URDD of this program.
+        force: writes to a folder that contains something other than a URDD of this program.
         progress: called with the name of each module before it is generated, the number of finished modules, and the
             number of all modules; at the end with all finished. Slow modules also report ``"MODULE: step"``, with the
             number of finished steps and of all steps.

@@ -124,7 +124,7 @@ class RobotKinematics(RobotDescription):
         """Inverse kinematics: a configuration within the bounds in which a link reaches a target.
 
         Searches by damped least squares from ``start``, then from random configurations. Supports mimic joints. Does
-        not check for self-collision. The same question has the same answer. Many targets run on all threads.
+        not check for self-collision. The same arguments give the same result. Many targets run on all threads.
 
         Args:
             link: the link.

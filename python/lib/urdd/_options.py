@@ -46,7 +46,7 @@ class MakingOptions(TypedDict, total=False):
     drop_edits: bool
     """Discards the edits of skips in the URDD that is replaced."""
     force: bool
-    """Writes to a folder that holds something else."""
+    """Writes to a folder that contains something else."""
 
 
 @dataclass(frozen=True)

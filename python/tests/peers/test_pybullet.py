@@ -37,7 +37,7 @@ def test_it_moves_alike(name: str, urdds: Path, client: int) -> None:
             state = pybullet.getLinkState(
                 peer.body, peer.links[link], computeForwardKinematics=1, physicsClientId=client
             )
-            # Single precision is what PyBullet keeps of a URDF.
+            # PyBullet keeps single precision of a URDF.
             np.testing.assert_allclose(state[4], pose[:3, 3], atol=1e-5)
             matrix = np.reshape(pybullet.getMatrixFromQuaternion(state[5]), (3, 3))
             np.testing.assert_allclose(matrix, pose[:3, :3], atol=1e-5)
@@ -50,7 +50,7 @@ def test_joints_that_it_does_not_read(name: str, urdds: Path, client: int) -> No
 
 
 def contacts(body: int, client: int) -> set[tuple[int, int]]:
-    """The pairs of links in contact, by number."""
+    """The pairs of links in contact, by index."""
     pybullet.performCollisionDetection(physicsClientId=client)
     found = pybullet.getContactPoints(body, body, physicsClientId=client)
     return {(min(one[3], one[4]), max(one[3], one[4])) for one in found if one[8] < -1e-3}
@@ -76,6 +76,6 @@ def test_it_collides_where_we_do(arm: urdd.Robot, client: int) -> None:
     assert 0 < told.sum() < 300
     for one, distance in zip(q, distances, strict=True):
         peer.set(one)
-        # Hulls have a margin there; contacts are counted from 1 mm of depth on.
+        # Hulls have a margin in PyBullet; contacts count from a depth of 1 mm.
         if distance > 1e-3:
             assert contacts(peer.body, client) == set()

@@ -1,4 +1,4 @@
-//! The modules of a crate, and the paths in them. Reads tokens, those of macro calls too. Tests are left out.
+//! The modules of a crate, and the paths in them. Reads tokens, including those of macro calls. Tests are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -20,7 +20,7 @@ pub struct Module {
     pub children: BTreeMap<String, usize>,
     pub imports: BTreeMap<String, Names>,
     pub globs: Vec<Names>,
-    /// The items that it defines, in macro calls too.
+    /// The items that it defines, including those in macro calls.
     pub defined: BTreeSet<String>,
     /// The paths in its code and in its private imports.
     pub used: BTreeSet<Names>,
@@ -32,7 +32,7 @@ pub struct Module {
 #[derive(Default)]
 pub struct Crate {
     pub modules: Vec<Module>,
-    /// Where the macros are that can be called without a path, by name.
+    /// Where macros that can be called without a path are defined, by name.
     pub macros: BTreeMap<String, usize>,
 }
 
@@ -69,7 +69,7 @@ impl Crate {
         index
     }
 
-    /// Reads tokens of a module: its items, or what is between two brackets.
+    /// Reads tokens of a module: its items, or the content of brackets.
     fn scan(&mut self, module: usize, code: TokenStream, are_items: bool) {
         let tokens: Vec<TokenTree> = code.into_iter().collect();
         let word = |at: usize| match tokens.get(at) {
@@ -160,7 +160,7 @@ impl Crate {
         }
     }
 
-    /// Attributes name functions in quotes too: `#[serde(with = "super::hexadecimal")]`.
+    /// Attributes also name functions in quotes: `#[serde(with = "super::hexadecimal")]`.
     fn scan_attribute(&mut self, module: usize, content: TokenStream) {
         for token in content.clone() {
             match token {
@@ -214,7 +214,7 @@ impl Crate {
         if !is_public {
             module.used.insert(names.clone());
         }
-        // Otherwise a macro's name, made visible: `pub(crate) use object;`.
+        // Otherwise the name of a macro, made visible: `pub(crate) use object;`.
         if names != [name.as_str()] {
             module.imports.insert(name, names);
         }

@@ -1,12 +1,12 @@
-//! Which file takes which names from which other: a path is followed through modules and imports to the file that defines
-//! the name, not to one that hands it on. Methods do not count.
+//! Which names each file uses from each other file. A path is followed through modules and imports to the file that
+//! defines the name, not to one that re-exports it. Methods do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::modules::Crate;
 
-/// The names that a file takes from others.
+/// The names that a file uses from others.
 pub type Ties<'a> = BTreeMap<&'a Path, BTreeMap<&'a Path, BTreeSet<String>>>;
 
 /// Where a path leads.
@@ -44,7 +44,7 @@ impl<'a> Resolver<'a> {
         opened.collect()
     }
 
-    /// Where a path in a module leads; `None` for another crate's.
+    /// Where a path in a module leads; `None` if to another crate.
     fn resolve(&self, module: usize, path: &[String]) -> Option<Place> {
         self.follow(module, path, &mut Seen::new())
     }
@@ -74,7 +74,7 @@ impl<'a> Resolver<'a> {
         Some(Place::Module(at))
     }
 
-    /// What a name in a module stands for; `None` if the module itself defines it, or nothing in this crate does.
+    /// What a name in a module refers to; `None` if the module itself defines it, or nothing in this crate does.
     fn inside(&self, module: usize, name: &str, is_last: bool, seen: &mut Seen) -> Option<Place> {
         let known = &self.read.modules[module];
         let child = known.children.get(name).copied().map(Place::Module);
@@ -106,7 +106,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// What each file takes from each other one.
+    /// The names that each file uses from each other file.
     fn ties(&self) -> Ties<'a> {
         let mut ties = Ties::new();
         for (index, module) in self.read.modules.iter().enumerate() {
@@ -145,7 +145,7 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// What each file of a crate takes from each other one.
+/// The names that each file of a crate uses from each other file.
 pub fn ties(read: &Crate) -> Ties<'_> {
     Resolver::new(read).ties()
 }

@@ -1,11 +1,11 @@
-//! Recipes that cannot be followed: one typed error each, with its place and what to do.
+//! Recipes that cannot be applied: one typed error each, with its location and what to do.
 
 use urdd_generate::combine::{CombineError, Note, PartFault, RecipeFault};
 use urdd_generate::{Selection, Settings, generate};
 
 use crate::combine::support::{core, findings, ours, put_together, with_ours};
 
-/// A recipe with an arm and a gripper, some of whose lines are others.
+/// A recipe with an arm and a gripper, with some lines replaced.
 fn recipe(changes: &[(&str, &str)]) -> String {
     let text = format!(
         r#"name = "cell"
@@ -31,7 +31,7 @@ attach = {{ to = "arm/tool0", xyz = [0, 0, 0.1] }}
     })
 }
 
-/// What is wrong with a recipe, at which line and column, and in which words.
+/// The fault of a recipe: what, at which line and column, and the message.
 fn fault(changes: &[(&str, &str)]) -> (RecipeFault, Option<(u32, u32)>, String) {
     let folder = tempfile::tempdir().expect("a folder");
     let made = put_together(&recipe(changes), folder.path(), &core());
@@ -352,7 +352,7 @@ fn parts_of_unequal_modules_are_said() {
         lacks: vec!["original_meshes_module".to_owned()],
     };
     assert_eq!(made.notes, [unequal]);
-    // What one of them lacks is there of the whole.
+    // The whole has what one of them lacks.
     let meshes = "mesh_modules/original_meshes_module/module.json";
     assert!(target.join(meshes).is_file());
     assert_eq!(findings(&target), [] as [String; 0]);
@@ -372,7 +372,7 @@ fn no_path_is_recorded_of_parts_from_elsewhere() {
         .map(|part| part.name.as_str())
         .collect();
     assert_eq!(names, ["six_axis_arm", "gripper"]);
-    // Neither where the recipe's parts lie, nor where the arm does.
+    // Neither in the folder of the recipe's parts, nor in that of the arm.
     let own = folder.path().to_str().expect("a path");
     for path in [own, env!("CARGO_MANIFEST_DIR"), "../gripper"] {
         for file in ["cell.urdf", "urdd.json", "composition_module/module.json"] {

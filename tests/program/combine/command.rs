@@ -57,7 +57,7 @@ fn a_part_that_does_not_pass_is_refused_unless_asked() {
         folder,
     );
     assert_eq!(status, 0, "{said}");
-    // A bound that is not the joint's.
+    // A bound that differs from the joint's.
     let bounds = folder.join("g/bounds_module/module.json");
     let text = std::fs::read_to_string(&bounds).expect("a file");
     std::fs::write(

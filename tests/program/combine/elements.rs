@@ -81,7 +81,7 @@ fn names_get_the_prefix_wherever_they_are_known_to_stand() {
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
-    // What is left alone is said, with what to write.
+    // A message names what is left unchanged, and what to write.
     assert_eq!(
         left_alone(&notes),
         [("handName", "hand"), ("topic@on", "tip")]
@@ -184,7 +184,7 @@ fn materials_of_one_name_look_alike() {
         ),
         "{words}"
     );
-    // Alike, it stands there once.
+    // Equal elements appear once.
     let alike = other
         .replace("0 0 0 1", "0.5 0.5 0.5 1")
         .replace("name=\"drive\"", "name=\"d2\"");
@@ -219,7 +219,7 @@ fn textures_of_materials_are_not_carried_and_that_is_said() {
         part: "t".to_owned(),
         name: name.to_owned(),
     };
-    // Each by its name, but for that of the link that is dropped.
+    // Each by its name, except that of the dropped link.
     assert_eq!(
         made.notes,
         [texture("package://t/own.png"), texture("textures/wood.png")]

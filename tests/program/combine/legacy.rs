@@ -1,4 +1,4 @@
-//! Legacy modules that say how a robot was put together, as recipes.
+//! Recipes from legacy modules that describe how a robot was composed.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn of(folder: &Path, module: &str, document: Value) -> Result<(String, Vec<Strin
     let (recipe, notes) = Recipe::of_legacy(&robot)?;
     let folder = folder.canonicalize().expect("a folder");
     let text = recipe.to_toml(&folder);
-    // It says the same when it is read.
+    // Reading it back gives the same recipe.
     let again = Recipe::from_toml(&text, "x.toml", &folder).expect("a recipe");
     assert_eq!(again.to_toml(&folder), text);
     Ok((text, notes.iter().map(ToString::to_string).collect()))

@@ -1,4 +1,4 @@
-//! What is made of robots that are put together.
+//! URDDs of composed robots.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,7 +14,7 @@ use testkit::files;
 
 use crate::combine::support::{core, findings, ours, put_together, with_ours};
 
-/// Few samples: these tests are not about distances.
+/// Few samples: these tests do not check distances.
 fn quick() -> Settings {
     Settings {
         num_samples: 20,
@@ -29,7 +29,7 @@ fn edits_of(urdd: &Path) -> Vec<SkipEdit> {
     skips.edits().to_vec()
 }
 
-/// A quadruped with a welding arm on it, and a gripper on that, all as URDDs, in `folder`.
+/// A quadruped with a welding arm, and a gripper on the arm, all as URDDs, in `folder`.
 fn parts(folder: &Path) {
     for name in ["quadruped", "welding_arm", "gripper"] {
         generate(&ours(name), &folder.join(name), &quick(), &()).expect("a URDD");
@@ -63,7 +63,7 @@ attach = { to = "dog/trunk", xyz = [-0.1, 0, 0.1] }
 
 const STATISTICS: &str = "link_shapes_distance_statistics_module";
 
-/// Whether documents are the same but for 1e-15 m.
+/// Whether documents are equal to within 1e-15 m.
 fn are_near(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => match (a.as_f64(), b.as_f64()) {
@@ -91,14 +91,14 @@ fn the_urdd_of_a_composed_robot_is_the_one_that_is_made_of_its_urdf() {
     let (made, target) = put_together(DOG, folder, &quick()).expect("a robot");
     assert_eq!(findings(&target), [] as [String; 0]);
     assert_eq!(made.generated.num_links, 1 + 19 + 7 + 8 + 8);
-    // What it names is found from the URDD's own folder.
+    // Its references are resolved from the URDD's own folder.
     let text = std::fs::read(target.join("dog.urdf")).expect("the URDF");
     let again = folder.join("again");
     let from_nothing = generate_text(text, "dog", &target, &again, &quick(), &());
     assert_eq!(from_nothing.expect("a URDD").robot_name, "dog");
     let (mut ours, mut theirs) = (files::below(&target), files::below(&again));
-    // Meshes that are read have their vertices in another order than those that are made: where faces touch, the last bit
-    // of a distance may differ.
+    // The vertices of meshes read from files are in another order than those of generated meshes: where faces touch,
+    // the last bit of a distance may differ.
     let distances = |files: &BTreeMap<String, Vec<u8>>| -> Value {
         let module = format!("link_shapes_modules/{STATISTICS}/module.json");
         serde_json::from_slice(&files[&module]).expect("JSON")
@@ -107,7 +107,7 @@ fn the_urdd_of_a_composed_robot_is_the_one_that_is_made_of_its_urdf() {
     let known = |path: &String| {
         !path.starts_with("composition_module/")
             && !path.contains(STATISTICS)
-            // Edits come with the recipe alone.
+            // Only the recipe supplies edits.
             && !path.contains("link_shapes_skips_module")
             && !path.ends_with(".urdf")
             && path != "urdd.json"
@@ -175,7 +175,7 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
         edit("left_gripper_base", "trunk", true, "the recipe skips it"),
     ];
     assert_eq!(edits_of(&target), of_parts);
-    // A person edits what was put together; another run keeps that, after those of the parts.
+    // A user edits the composed URDD; another run keeps these edits, after those of the parts.
     let own = edit("odom", "trunk", false, "mine");
     write(&target, [of_parts.clone(), vec![own.clone()]].concat());
     put_together(DOG, folder, &quick()).expect("a robot");

@@ -1,4 +1,4 @@
-//! `urdd_generate::combine`: robots that are put together, held to their parts.
+//! `urdd_generate::combine`: composed robots, compared with their parts.
 
 mod bad_input;
 mod command;

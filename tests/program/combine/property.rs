@@ -1,4 +1,4 @@
-//! Thirty robots put together at random of our nine: each is valid, and each part moves as by itself.
+//! Thirty random compositions of our nine robots: each is valid, and each part moves as it does alone.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -23,7 +23,7 @@ const TYPES: [&str; 7] = [
     "spherical",
 ];
 
-/// A robot that can be a part: its URDD, and what it says.
+/// A robot that can be a part: its URDD and its content.
 struct Known {
     path: PathBuf,
     robot: Robot,
@@ -55,7 +55,7 @@ impl Known {
             .name
     }
 
-    /// The links that hang on one, and itself.
+    /// The links attached to a link, and the link itself.
     fn below(&self, link: &str) -> Vec<String> {
         let mut found = vec![link.to_owned()];
         let mut next = 0;
@@ -70,25 +70,25 @@ impl Known {
     }
 }
 
-/// How one part came along.
+/// How one part was included.
 struct Member<'a> {
     of: &'a Known,
     prefix: String,
     dropped: Vec<String>,
-    /// The DOFs, by name, that do not move, and where they stay.
+    /// The DOFs, by name, that do not move, and their fixed values.
     frozen: Vec<(String, f64)>,
-    /// The part and link that carries it, and the joint's pose on that.
+    /// The part and link that carries it, and the joint's pose relative to that link.
     on: Option<(usize, String, Isometry3<f64>)>,
-    /// The type of the joint by which it hangs on that.
+    /// The type of the joint that attaches it.
     attached: Option<&'static str>,
 }
 
 fn number(dice: &mut Dice, size: f64) -> f64 {
-    // Three digits, so that it is said in the recipe to the last one.
+    // Three digits, so that the recipe gives the exact value.
     (f64::from(dice.word()) / 65536.0 * 2000.0 - 1000.0).round() / 1000.0 * size
 }
 
-/// A recipe of some robots, and what it should come to.
+/// A recipe of some robots, and its expected result.
 fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String, Vec<Member<'a>>) {
     let mut text = format!("name = \"robot_{number_of}\"\n");
     let has_base = dice.below(2) == 0;
@@ -100,7 +100,7 @@ fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String,
     for idx in 0..2 + dice.below(3) {
         let of = &known[dice.below(known.len())];
         let prefix = match dice.below(3) {
-            // Without prefix, where there is no other part to clash with.
+            // Without a prefix if no other part can clash.
             0 if idx == 0 => String::new(),
             1 => format!("p{idx}/"),
             _ => format!("p{idx}_"),
@@ -157,7 +157,7 @@ fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String,
     (text, members)
 }
 
-/// Drops a subtree that no joint outside of it follows.
+/// Drops a subtree that no joint outside it mimics.
 fn drop_some(dice: &mut Dice, member: &mut Member, text: &mut String) {
     let of = member.of;
     if dice.below(2) == 0 || of.described.links.len() < 2 {
@@ -217,7 +217,7 @@ fn freeze_some(dice: &mut Dice, member: &mut Member, text: &mut String) {
     member.frozen = names.into_iter().zip(values).collect();
 }
 
-/// The poses of a part's own links, moved by what it hangs on, beside those in the whole robot.
+/// The poses of a part's own links, transformed by its attachment, next to those in the whole robot.
 fn compare(whole: &Robot, members: &[Member], k: u64) {
     let q = whole.configurations().expect("configurations").random(k);
     let poses = whole.link_poses(&q).expect("poses");
@@ -231,7 +231,7 @@ fn compare(whole: &Robot, members: &[Member], k: u64) {
                 let frozen = member.frozen.iter().find(|(of, _)| of == name);
                 match frozen {
                     Some((_, value)) => *value,
-                    // What is dropped moves nothing that is there.
+                    // Dropped joints move none of the remaining links.
                     None => dof(&format!("{}{name}", member.prefix)).unwrap_or(0.0),
                 }
             })

@@ -1,5 +1,4 @@
-//! Published URDDs that were put together, read into recipes. They are not in this repository: `URDD_CORPUS` names their
-//! folder.
+//! Published composed URDDs, read into recipes. They are not in this repository: `URDD_CORPUS` names their folder.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -27,7 +26,7 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
     };
     let made = combine(&recipe, &target, &settings, &BTreeSet::new(), &()).expect("a URDD");
     assert_eq!(findings(&target), [] as [String; 0]);
-    // The file of one mesh is missing from our copy: the plain mesh stands for it.
+    // The file of one mesh is missing from our copy: the plain mesh replaces it.
     let plain = |note: &&Note| matches!(note, Note::PlainMesh { .. });
     let plain: Vec<&Note> = made.notes.iter().filter(plain).collect();
     let [Note::PlainMesh { part, link }] = plain.as_slice() else {
@@ -59,7 +58,7 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
             assert!((own - theirs).abs() < 1e-5, "{name}: {own} {theirs}");
         }
     }
-    // The names are those that the published robot has.
+    // The names are those of the published robot.
     let names = |file: PathBuf, key: &str| {
         let text = std::fs::read_to_string(file).expect("a module");
         let module: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -74,7 +73,7 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
             names(legacy.join(module), key)
         );
     }
-    // What was not put together is none.
+    // A robot that was not composed is not a composition.
     let error = Recipe::of_legacy(&corpus.join("ur5")).expect_err("no recipe");
     assert!(matches!(
         error,

@@ -1,4 +1,4 @@
-//! Recipes and legacy URDDs that come from a stranger: what they may open, run and use up.
+//! Recipes and legacy URDDs from untrusted sources: what they may open, run and consume.
 
 use std::fs;
 use std::path::Path;
@@ -22,7 +22,7 @@ fn one(source: &str) -> String {
     format!("name = \"cell\"\n[[part]]\nid = \"p\"\nsource = \"{source}\"\n")
 }
 
-/// Recipes whose folder is `repository` take no part from outside of it, by whatever name.
+/// Recipes in the folder `repository` take no part from outside it, by any name.
 #[test]
 #[cfg(unix)]
 fn a_recipe_takes_parts_from_its_own_folder() {
@@ -54,7 +54,7 @@ fn a_recipe_takes_parts_from_its_own_folder() {
             panic!("{source}: {error:?}");
         };
         assert_eq!(Path::new(allow), outside);
-        // Nor does anybody look into it.
+        // Nothing in it is read either.
         let recipe = Recipe::from_toml(&one(source), "cell.toml", &repository).expect("a recipe");
         let look = |path: &Path| -> Result<Vec<String>, _> { panic!("{} is read", path.display()) };
         assert!(check_parts(&recipe, &core(), look).is_err());
@@ -73,7 +73,7 @@ fn a_recipe_takes_parts_from_its_own_folder() {
     }
 }
 
-/// A program that says that it ran.
+/// A program that leaves a trace when it runs.
 #[cfg(unix)]
 fn with_xacro(folder: &Path, arguments: &[&str]) -> (i32, String, bool) {
     use std::os::unix::fs::PermissionsExt;
@@ -104,7 +104,7 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
         fs::write(folder.join(file), LINK).expect("a file");
     }
     std::os::unix::fs::symlink("evil.xacro", folder.join("arm.urdf")).expect("a link");
-    // A recipe, by the file itself and by a link that looks harmless.
+    // A recipe, directly and through a harmless-looking link.
     for source in ["evil.xacro", "arm.urdf"] {
         fs::write(folder.join("cell.toml"), one(source)).expect("a file");
         let (status, said, ran) = with_xacro(folder, &["combine", "cell.toml", "-o", "out"]);
@@ -194,7 +194,7 @@ fn the_urdf_of_a_legacy_part_is_inside_of_it() {
     assert!(put_together(&one("part"), folder, &core()).is_err());
 }
 
-/// Parts in a line, each on the one before.
+/// Parts in a line, each attached to the one before.
 fn chain(parts: usize) -> String {
     let part = |idx: usize| {
         let attach = match idx {
@@ -220,7 +220,7 @@ fn very_many_parts_are_refused_before_they_are_read() {
         matches!(*fault, RecipeFault::TooManyLinks { limit: 2_000, .. }),
         "{fault}"
     );
-    // Few parts with too many links: none is read after the one with which they are too many.
+    // Few parts with too many links: none is read after the one that exceeds the limit.
     fs::write(folder.join("two.urdf"), TWO).expect("a file");
     let error = put_together(&chain(1_001), folder, &core()).expect_err("too many");
     let CombineError::Recipe { fault, .. } = error else {
@@ -230,7 +230,7 @@ fn very_many_parts_are_refused_before_they_are_read() {
         matches!(*fault, RecipeFault::TooManyLinks { found: 2_002, .. }),
         "{fault}"
     );
-    // Minutes once; checks went with the cube of the parts.
+    // This once took minutes: the checks took time cubic in the number of parts.
     assert!(
         start.elapsed() < Duration::from_secs(20),
         "{:?}",
@@ -279,13 +279,13 @@ fn words_that_no_urdf_can_hold_are_refused_with_their_place() {
     }
 }
 
-/// A signal ends it within a second, at any moment.
+/// A signal ends the run within a second, at any moment.
 #[test]
 #[cfg(unix)]
 fn a_signal_ends_combining_at_any_moment() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    // Different files, so that each is read by itself.
+    // Different files, so that each is read separately.
     fs::write(folder.join("two.urdf"), TWO).expect("a file");
     let mut recipe = chain(900);
     for idx in 0..900 {
@@ -310,7 +310,7 @@ fn a_signal_ends_combining_at_any_moment() {
         assert!(kill.expect("kill").success());
         let status = child.wait().expect("a status");
         assert_eq!(status.code(), Some(143), "after {wait} ms");
-        // One second is the aim; tests run beside each other.
+        // The aim is one second; tests run concurrently.
         assert!(
             asked.elapsed() < Duration::from_secs(4),
             "{:?}",
@@ -320,7 +320,7 @@ fn a_signal_ends_combining_at_any_moment() {
     }
 }
 
-/// A word of a megabyte brings no suggestion: comparing it with each link took gigabytes.
+/// A word of a megabyte gets no suggestion: comparing it with each link took gigabytes.
 #[test]
 fn very_long_names_are_not_compared() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! Putting robots together in a test.
+//! Composing robots in tests.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ pub fn ours(name: &str) -> PathBuf {
     folder.join(format!("{name}.urdf"))
 }
 
-/// Settings that make kinematics alone: no geometry, and so no time.
+/// Settings that generate only kinematics: no geometry, so it takes no time.
 pub fn core() -> Settings {
     Settings {
         selection: Selection::parse(["core", "kinematics_samples"]).expect("modules"),
@@ -20,7 +20,7 @@ pub fn core() -> Settings {
     }
 }
 
-/// The usual settings, with which a recipe may take our robots as parts.
+/// The usual settings, with which a recipe may use our robots as parts.
 pub fn with_ours() -> Settings {
     Settings {
         allowed_folders: vec![ours("gripper").parent().expect("a folder").to_owned()],
@@ -28,7 +28,7 @@ pub fn with_ours() -> Settings {
     }
 }
 
-/// Reads a recipe and follows it, in a folder of its own.
+/// Reads and applies a recipe, in a folder of its own.
 pub fn put_together(
     recipe: &str,
     folder: &Path,
@@ -40,7 +40,7 @@ pub fn put_together(
     Ok((made, target))
 }
 
-/// What the validator finds, as `CODE message`; warnings of the source are of the parts.
+/// The validator's findings as `CODE message`; warnings about the source concern the parts.
 pub fn findings(urdd: &Path) -> Vec<String> {
     let settings = urdd_validate::settings::Settings::default();
     let run = urdd_validate::validate(&[urdd], &settings).expect("a URDD");

@@ -1,4 +1,4 @@
-//! Every case, as the data say it.
+//! Every case, from the data.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ fn suite() -> Suite {
     Suite::carried().expect("the suite reads")
 }
 
-/// What the validator says of a case; `None` where this system cannot have it on disk.
+/// The validator's findings in a case; `None` if this system cannot store it on disk.
 fn report(case: &Case, suite: &Suite) -> Option<Report> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");

@@ -38,7 +38,7 @@ fn everything_that_is_listed_is_there() {
     assert!(out.join("robots/gripper.urdf").is_file());
     assert!(out.join("README.md").is_file());
 
-    // Nothing of somebody else's is written over.
+    // Other people's files are never overwritten.
     let again = conformance(&["export", shown]);
     assert_eq!(again.status.code(), Some(2));
     assert!(stderr(&again).contains("not empty"), "{}", stderr(&again));

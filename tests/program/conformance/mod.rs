@@ -1,4 +1,4 @@
-//! The conformance suite: what its data say, and the commands that run it.
+//! The conformance suite: its data, and the commands that run it.
 
 mod cases;
 mod export;

@@ -1,4 +1,4 @@
-//! `urdd conformance producer`, with the reference generator as somebody's.
+//! `urdd conformance producer`, with the reference generator as the producer under test.
 
 use std::fs;
 
@@ -33,7 +33,7 @@ fn the_reference_generator_passes() {
     assert_eq!(result["classes"].as_array().map(Vec::len), Some(3));
 }
 
-/// Core modules only, and asked for more.
+/// Core modules only, although more are requested.
 #[test]
 fn what_is_missing_is_told_by_class_and_module() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -82,7 +82,7 @@ fn what_is_missing_is_told_by_class_and_module() {
         found["stale_skips"],
         serde_json::json!(["gripper dof_module"])
     );
-    // A robot that was not run is neither right nor wrong.
+    // A robot that was not run is neither passed nor failed.
     fs::write(&skips, lines.concat() + "hand # slow\n").expect("written");
     assert_eq!(result(&arguments).0, 0);
 
@@ -155,7 +155,7 @@ fn usage() {
     }
 }
 
-/// The worked example of README: a producer in Python, scored.
+/// The worked example of the README: a producer in Python, scored.
 #[test]
 #[ignore = "needs python3; .ci/run runs it"]
 fn the_python_example_passes() {
@@ -200,7 +200,7 @@ fn robots_are_run_at_a_time_and_can_be_kept() {
     ];
     let (status, result) = result(&[&start[..], &more, &command].concat());
     assert_eq!(status, 0, "{result:#}");
-    // In the order of the robots, however they ended.
+    // In the order of the robots, regardless of when they finished.
     let names: Vec<&serde_json::Value> = result["robots"]
         .as_array()
         .expect("a list")

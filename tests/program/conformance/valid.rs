@@ -1,4 +1,4 @@
-//! The valid URDDs: what `urdd generate` makes of our robots, and what the validator says of it.
+//! The valid URDDs: what `urdd generate` produces from our robots, and the validator's findings.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,4 +1,4 @@
-//! `urdd conformance validator`, with ours as somebody's, and with some that are no good.
+//! `urdd conformance validator`, with our validator as the one under test, and with some faulty ones.
 
 use std::fs;
 
@@ -52,7 +52,7 @@ fn verdicts_are_told_apart() {
     assert_eq!(all_rejected["totals"]["false_alarms"], json!(of - missed));
     assert_eq!(all_rejected["totals"]["missed"], 0);
     assert_eq!(all_rejected["sound"]["false_alarms"], json!(of - missed));
-    // Neither another status, nor a signal, nor a program that is not there is a verdict.
+    // Another status, a signal, or a missing program is not a verdict.
     for script in ["exit 2", "exit 101", "kill -9 $$"] {
         let (status, none) = shell(&cases, script);
         assert_eq!(
@@ -175,7 +175,7 @@ fn legacy_is_counted_apart() {
     let (status, without) = run(&cases, &["--no-legacy"], &command);
     assert_eq!((status, of(&without, "legacy")), (0, 0));
     assert_eq!(of(&without, "totals"), of(&with, "totals"));
-    // What is wrong with legacy URDDs does not touch the score of version 1, but is not passed over.
+    // Faults with legacy URDDs do not change the score of version 1, but are reported.
     let script = "test -f \"$1/urdd.json\" || exit 2; exec \"$0\" validate \"$1\"";
     let (status, wrong) = run(&cases, &[], &["sh", "-c", script, URDD, "{dir}"]);
     assert_eq!((status, &wrong["totals"]), (1, &with["totals"]));
@@ -188,7 +188,7 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
     let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
     let more = ["--log", log.to_str().expect("UTF-8"), "--jobs", "1"];
     let keep = ["--keep", kept.to_str().expect("UTF-8")];
-    // The second command to run ends the whole program, as a person does who has seen enough.
+    // The second command to run kills the whole program, as a user would who has seen enough.
     let script = format!(
         "test -f '{0}' && kill -9 $PPID; touch '{0}'; exit 1",
         folder.path().join("ran").display()
@@ -233,7 +233,7 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
                 .is_file()
         );
     }
-    // Never into a folder that holds something.
+    // Never into a folder that is not empty.
     let again = conformance(&[&start[..], &keep, &["--", URDD, "validate", "{dir}"]].concat());
     assert_eq!(again.status.code(), Some(2));
     assert!(stderr(&again).contains("not empty"), "{}", stderr(&again));
@@ -249,7 +249,7 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
     }
 }
 
-/// Processes whose numbers a script wrote into a folder, and that still run.
+/// Processes whose ids a script wrote into a folder, and that still run.
 fn alive(folder: &std::path::Path) -> Vec<String> {
     let files = fs::read_dir(folder).expect("a folder");
     let pids =
@@ -262,8 +262,8 @@ fn alive(folder: &std::path::Path) -> Vec<String> {
     pids.filter(runs).collect()
 }
 
-/// A command whose children go different ways: in its group, in sessions of their own, without a parent, and without an
-/// environment. Each writes its number into the folder.
+/// A command whose children differ: in its group, in sessions of their own, without a parent, and without an
+/// environment. Each writes its process id into the folder.
 fn family(folder: &std::path::Path, last: &str) -> String {
     let child = |name: &str| {
         format!(
@@ -364,7 +364,7 @@ fn a_log_replaces_no_other_file() {
     assert_ne!(run(&["--force"]).status.code(), Some(2));
     let logged = fs::read_to_string(&file).expect("a log");
     assert!(logged.starts_with("{\"id\":\"DOF001/"), "{logged}");
-    // Its own log it writes again, and an empty file too.
+    // It overwrites its own log, and an empty file too.
     assert_ne!(run(&[]).status.code(), Some(2));
     fs::write(&file, "").expect("written");
     assert_ne!(run(&[]).status.code(), Some(2));

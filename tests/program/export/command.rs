@@ -50,14 +50,14 @@ fn nothing_is_written_over_unless_asked() {
         before
     );
 
-    // Its own output is no reason to refuse, and a person's files beside it stay.
+    // Its own output does not block a run, and a user's files beside it are kept.
     std::fs::write(folder.join("arm_meshes/notes.txt"), "mine").expect("written");
     let again = ["urdf", urdd_folder, "-o", "arm.urdf", "--shapes", "boxes"];
     assert_eq!(export(&again), (0, String::new(), String::new()));
     let mine = std::fs::read_to_string(folder.join("arm_meshes/notes.txt"));
     assert_eq!(mine.expect("a file"), "mine");
 
-    // A mesh in the way alone is not written over either, unless it is the same.
+    // An existing mesh is not overwritten either, unless it is the same.
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
     assert_eq!(export(&["urdf", urdd_folder, "-o", "arm.urdf"]).0, 0);
     std::fs::remove_file(folder.join("arm.urdf")).expect("removed");
@@ -157,7 +157,7 @@ fn walk(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     found
 }
 
-/// A disk that is full, as a file that may not grow.
+/// A full disk, simulated by a limit on file size.
 #[test]
 #[cfg(target_os = "linux")]
 fn an_export_that_cannot_be_written_leaves_nothing() {
@@ -184,7 +184,7 @@ fn an_export_that_cannot_be_written_leaves_nothing() {
         assert!(said.contains("cannot be written"), "{said}");
         assert_eq!(entries(), 0, "{said}");
     }
-    // Neither file nor meshes of an export that is there change.
+    // Neither the file nor the meshes of an existing export change.
     assert_eq!(export("arm.xml", "unlimited").0, Some(0));
     let files = || {
         let meshes = out.join("arm_meshes").read_dir().expect("meshes");
@@ -248,7 +248,7 @@ fn update_keeps_what_a_person_wrote_and_says_so() {
         assert!(run == 0 || text == last);
         last = text;
     }
-    // A file that is written anew, and brought up to date: the same.
+    // A new file and an updated one are the same.
     assert_eq!(
         urdd(&["export", "srdf", path, "-o", "new.srdf"], folder).0,
         0

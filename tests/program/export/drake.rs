@@ -8,7 +8,7 @@ use urdd_robot::Robot;
 
 use testkit::robots::{made, made_of, our_robots};
 
-/// What Drake 1.51 stops at, tried in the program itself.
+/// What Drake 1.51 rejects, found with the program itself.
 fn refused(document: &Document) -> Vec<String> {
     let robot = document.root_element();
     let joints: Vec<Node> = robot
@@ -147,7 +147,7 @@ fn joints_are_as_drake_has_them_and_what_is_left_out_is_said() {
         assert_eq!(said.len(), notes, "{kind} {inner}: {said:?}");
         assert_eq!(refused(&document), Vec::<String>::new());
     }
-    // A body that floats in the world is what Drake's floating joint is.
+    // A body that floats in the world corresponds to Drake's floating joint.
     let (text, notes) = exported(&joint("floating", "").replace("'a'", "'world'"));
     assert!(
         text.contains("<joint name=\"j\" type=\"floating\">") && notes.is_empty(),

@@ -1,5 +1,5 @@
-//! Fitted spheres, read back from what is written and judged by distances of spheres that are written here. Poses are
-//! those of `urdd_robot`, exact contacts those of its pieces; each has its own tests against peers.
+//! Fitted spheres, read back from the output and judged by sphere distances computed here. Poses come from
+//! `urdd_robot`, exact contacts from its pieces; each has its own tests against other implementations.
 
 use std::collections::BTreeSet;
 
@@ -9,13 +9,13 @@ use urdd_robot::{Robot, ShapeKind};
 
 use testkit::robots::{made, made_of, our_robots};
 
-/// What a planner takes from the file.
+/// What a planner reads from the file.
 struct Model {
     links: Vec<String>,
-    /// Of each link the spheres: centres and radii.
+    /// The spheres of each link: centres and radii.
     spheres: Vec<Vec<([f64; 3], f64)>>,
     ignored: BTreeSet<[usize; 2]>,
-    /// What is added to the radii of a link.
+    /// The amount added to the radii of a link.
     buffers: Vec<f64>,
 }
 
@@ -145,16 +145,17 @@ fn fitted_spheres_answer_as_the_pieces_do() {
     let zero = robot.configurations().expect("bounds").zero();
     assert!(!model.touches(&robot.link_poses(&zero).expect("poses")));
     assert!(made.text.contains("Default configuration: free."));
-    // What the file says of itself, counted again in the same configurations.
+    // The file's own figures, counted again in the same configurations.
     let counts = model.counts(&robot, &configurations(&robot, 3_000_000, 10_000));
     assert_eq!(counts, stated(&made.text));
-    // In other configurations, as far as these can tell.
+    // In other configurations, within statistical error.
     let others = configurations(&robot, 50_000_000, 5_000);
     let counts = model.counts(&robot, &others);
     assert!(interval(counts[0], counts[1])[0] <= 0.01, "{counts:?}");
     assert!(interval(counts[2], counts[3])[0] <= 0.05, "{counts:?}");
     assert!(counts[1] > 500 && counts[3] > 500, "{counts:?}");
-    // Larger spheres touch where nothing is, smaller ones miss, and neighbours that are not ignored always touch.
+    // Larger spheres report false contacts, smaller ones miss contacts, and neighbours that are not ignored always
+    // touch.
     for (factor, rate, above) in [(1.3, 1, 0.05), (0.7, 0, 0.01)] {
         let spheres = model.spheres.clone();
         for (_, radius) in model.spheres.iter_mut().flatten() {
@@ -168,7 +169,7 @@ fn fitted_spheres_answer_as_the_pieces_do() {
     assert_eq!(rates(model.counts(&robot, &others[..1000]))[1], 1.0);
 }
 
-/// Both files hold the same spheres and pairs; Foam's has its own keys for each link.
+/// Both files contain the same spheres and pairs; Foam has its own keys for each link.
 #[test]
 fn foams_file_says_the_same_in_its_own_form() {
     let (_folder, path) = made(&our_robots()[0].1);
@@ -212,7 +213,7 @@ fn foams_file_says_the_same_in_its_own_form() {
     assert_eq!(number("colliding") + number("free"), 300);
 }
 
-/// Two plates whose gap is far less than spheres can follow: the pair is named, in the file and in a note.
+/// Two plates with a gap far smaller than spheres can follow: the file and a note name the pair.
 #[test]
 fn pairs_that_spheres_cannot_tell_apart_are_named() {
     let plate = |name: &str| {

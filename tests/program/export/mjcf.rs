@@ -24,7 +24,7 @@ fn pose(node: Node) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::new(p[0], p[1], p[2]), rotation)
 }
 
-/// What MuJoCo's documentation says of bodies and joints: the body's pose in its parent, then its joints in order.
+/// MuJoCo's documentation on bodies and joints: the body's pose in its parent, then its joints in order.
 fn walk(
     body: Node,
     parent: Isometry3<f64>,
@@ -84,7 +84,7 @@ fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<
         .filter(|n| n.has_tag_name("equality"))
         .flat_map(|n| n.children().filter(Node::is_element))
         .collect();
-    // Drivers may be mimics themselves.
+    // Mimicked joints may be mimics themselves.
     for _ in 0..equality.len() {
         for one in &equality {
             let factors = numbers(*one, "polycoef").expect("five numbers");
@@ -200,7 +200,7 @@ fn every_mesh_that_is_named_is_there() {
     }
 }
 
-/// The masses of the URDF are the file's, whatever the inertias, and what is assumed is said.
+/// The file has the masses of the URDF, whatever the inertias, and a note names what is assumed.
 #[test]
 fn masses_stay_whatever_the_inertia() {
     let total = |text: &str| -> f64 {
@@ -240,7 +240,7 @@ fn masses_stay_whatever_the_inertia() {
     };
     let zero = r#"<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>"#;
     let full = r#"<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>"#;
-    // A group that moves: its own inertia is 0, that of what is fixed to it is not.
+    // A group that moves: its own inertia is 0, but not that of the links fixed to it.
     for (own, fixed, noted) in [
         (zero, full, 0),
         (zero, zero, 1),

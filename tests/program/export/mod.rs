@@ -1,5 +1,5 @@
-//! `urdd_export`: each format read again by a second reader written here, and held to the URDD. What the programs
-//! themselves make of the files is held by `tests/figures/exports`.
+//! `urdd_export`: each format is read by a second reader written here, and compared with the URDD.
+//! `tests/figures/exports` tests what the target programs read from the files.
 
 mod command;
 mod drake;

@@ -1,5 +1,5 @@
-//! Names from anybody, through every format and back by a strict parser: each comes out as it went in, or the export is
-//! refused and says which name cannot be held.
+//! Arbitrary names, through every format and back by a strict parser. Each comes back unchanged, or the export is
+//! refused and names what the format cannot express.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use urdd_robot::Robot;
 
 use testkit::robots::made_of;
 
-/// What the names of a test stand for until it has put its own there.
+/// Placeholders that a test replaces by its own names.
 const STANDINS: [&str; 5] = ["ROBOT_", "LINK_0", "LINK_1", "JOINT_0", "MATERIAL_"];
 
 /// Two boxes that touch, a joint and a material, with names to be replaced.
@@ -21,7 +21,7 @@ const URDF: &str = r#"<robot name="ROBOT_">
 <joint name="JOINT_0" type="revolute"><parent link="LINK_0"/><child link="LINK_1"/><axis xyz="0 0 1"/>
 <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"#;
 
-/// A URDD of [`URDF`], whose documents then have other names.
+/// A URDD of [`URDF`] with other names in its documents.
 struct Neutral {
     _folder: tempfile::TempDir,
     path: PathBuf,
@@ -45,7 +45,7 @@ impl Neutral {
         for (path, text) in &self.documents {
             let mut text = text.clone();
             for (standin, name) in STANDINS.iter().zip(names) {
-                // Paths of meshes hold the stand-ins too, and stay.
+                // Paths of meshes contain the placeholders too, and are kept.
                 let json = serde_json::to_string(name).expect("JSON");
                 text = text.replace(&format!("\"{standin}\""), &json);
             }
@@ -69,8 +69,8 @@ fn collect(folder: &Path, documents: &mut Vec<(PathBuf, String)>) {
     }
 }
 
-/// The names in a file, by a reader of the format: of the robot where it has one, of links, and of joints where it has
-/// them.
+/// The names in a file, by a reader of the format: of the robot if the format has one, of links, and of joints if it
+/// has them.
 #[derive(Debug, PartialEq)]
 struct Names {
     robot: Option<String>,
@@ -78,7 +78,7 @@ struct Names {
     joints: Option<BTreeSet<String>>,
 }
 
-/// A new format joins by one line.
+/// A new format takes one line.
 fn read(format: Format, text: &str) -> Names {
     match format {
         Format::Srdf => srdf(text),
@@ -92,7 +92,7 @@ fn read(format: Format, text: &str) -> Names {
     }
 }
 
-/// By two parsers: one of the two alone would let some faults pass.
+/// By two parsers: either alone would miss some faults.
 fn parsed(text: &str) -> Document<'_> {
     let mut reader = quick_xml::Reader::from_str(text);
     reader.config_mut().check_comments = true;
@@ -159,7 +159,8 @@ fn keys(document: serde_json::Value, key: &str) -> Names {
     }
 }
 
-/// Whether a format may refuse a name: because XML has no character for what is in it, or because of the program.
+/// Whether a format may refuse a name: because XML cannot represent a character in it, or because of the target
+/// program.
 fn may_refuse(format: Format, name: &str) -> bool {
     let unheld =
         |c: char| (c < ' ' && !"\t\n\r".contains(c)) || ['\u{fffe}', '\u{ffff}'].contains(&c);
@@ -307,7 +308,7 @@ fn every_name_comes_out_of_every_format_as_it_went_in() {
             held += 1;
             let names = read(format, &made.text);
             let expected = BTreeSet::from([name.clone(), other.clone()]);
-            // The root of an MJCF that is called so is MuJoCo's own body.
+            // In an MJCF, a root with this name is MuJoCo's own body.
             assert_eq!(names.links, expected, "{format:?}");
             if let Some(found) = names.robot {
                 assert_eq!(found, name, "{format:?}");
@@ -324,7 +325,7 @@ fn every_name_comes_out_of_every_format_as_it_went_in() {
     assert!(held > 500 && refused > 20, "{held} {refused}");
 }
 
-/// The files of meshes have names that every file system holds, whatever the links are called.
+/// Mesh files have names that every file system allows, whatever the links are called.
 fn files_are_safe(made: &Export, name: &str) {
     for (path, _) in &made.files {
         let file = path.strip_prefix("meshes/").expect("in the folder");
@@ -337,7 +338,7 @@ fn files_are_safe(made: &Export, name: &str) {
     }
 }
 
-/// An SRDF of a person's own, with this name in its comments too, and its pairs brought up to date.
+/// A user's own SRDF, with this name in its comments too, and with its pairs updated.
 fn updated(new: &str, name: &str, expected: &BTreeSet<String>) {
     let mut old = String::from("<?xml version=\"1.0\"?>\n<!-- mine - - -->\n");
     let attribute = new
@@ -388,7 +389,7 @@ fn names_that_collide_stay_apart() {
             .text;
         assert_eq!(of_tag(&text, "geom", "name").len(), 2);
     }
-    // Two of a name are one too many.
+    // Two elements with one name are one too many.
     let robot = neutral.robot(["r", "a", "a", "j", "m"]);
     for &format in Format::ALL {
         assert!(
@@ -423,7 +424,7 @@ fn a_name_that_a_part_of_a_joint_needs_is_refused() {
     }
 }
 
-/// Elements that a URDD calls unknown to URDF, and that would be a second robot, or no XML, where they stand.
+/// Elements that URDF does not define, and that would be a second robot, or not well-formed XML, if copied.
 #[test]
 fn unknown_elements_add_nothing_that_urdf_defines() {
     let neutral = Neutral::new();

@@ -19,7 +19,7 @@ fn pairs_in(text: &str, element: &str, keys: [&str; 2]) -> BTreeSet<Pair> {
         .collect()
 }
 
-/// For each pair of links the reasons of their shapes.
+/// The reasons of the shapes of each pair of links.
 fn reasons(robot: &Robot, kind: ShapeKind) -> BTreeMap<Pair, BTreeSet<String>> {
     let skips = robot.skips(kind).expect("skips");
     let links = robot.link_names().expect("links");
@@ -43,7 +43,7 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for kind in [ShapeKind::Pieces, ShapeKind::Hulls] {
-            // Two links touch where two of their shapes do.
+            // Two links touch if two of their shapes do.
             let touches = ["Always", "Adjacent", "Default"];
             let expected: BTreeSet<Pair> = reasons(&robot, kind)
                 .into_iter()
@@ -75,8 +75,8 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
 
 type Shapes = BTreeSet<[(String, String); 2]>;
 
-/// The pairs of shapes that MuJoCo checks, by its documentation: of all bodies but those without a joint between them and
-/// those that are excluded, and besides them the pairs that are named.
+/// The pairs of shapes that MuJoCo checks, by its documentation: those of all bodies, except bodies without a joint
+/// between them and excluded bodies, plus the explicitly named pairs.
 fn mjcf_checked(text: &str) -> Shapes {
     let document = Document::parse(text).expect("well-formed");
     let mut rigid = BTreeMap::new();
@@ -135,7 +135,7 @@ fn sorted(one: &str, other: &str) -> [(String, String); 2] {
     pair
 }
 
-/// The pairs of shapes that the URDD checks, of links that move against each other.
+/// The pairs of shapes that the URDD checks, of links that move relative to each other.
 fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
     let skips = robot.skips(kind).expect("skips");
     let description = robot.description().expect("a description");
@@ -163,8 +163,8 @@ fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
     found
 }
 
-/// A base with a tower away from it, and an arm on a hub without shapes: its pieces near the hub always touch the base,
-/// and it hits the tower when it turns.
+/// A base with a separate tower, and an arm on a hub without shapes. The arm's pieces near the hub always touch the
+/// base, and the arm hits the tower when it turns.
 const TOWER: &str = r#"<robot name="tower">
 <link name="base"><visual><geometry><box size="0.4 0.4 0.2"/></geometry></visual>
 <visual><origin xyz="0 1 0.1"/><geometry><box size="0.1 0.1 0.4"/></geometry></visual></link>
@@ -190,7 +190,7 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
         }
     }
     assert!(0 < expected && expected < all, "{expected} of {all}");
-    // What is lost, by the distances of all pairs.
+    // The lost pairs, from the distances of all pairs.
     let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
     let configurations = robot.configurations().expect("bounds");
     let touches = |k: &u64| {
@@ -230,7 +230,7 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
                 (*disabled, *checked, *of),
                 (!keep_pairs, expected, all - expected)
             );
-            // The arm's foot stands in the base.
+            // The arm's foot is inside the base.
             assert_eq!(
                 (contacts.checked, contacts.skipped, contacts.samples),
                 (lost, 1000, 1000)
@@ -251,7 +251,7 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
                 !keep_pairs
             );
         }
-        // MuJoCo is told of pieces, whatever is asked for.
+        // The MJCF contains pieces, whatever shapes are requested.
         let made = export(&robot, Format::Mjcf, &options).expect("an export");
         assert!(
             made.notes
@@ -338,7 +338,7 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
     assert_eq!(of(&robot, Some(vec![SkippedReason::Never])), never);
     assert_eq!(of(&robot, Some(Vec::new())), BTreeSet::new());
 
-    // A person skips the first pair of these, and checks one that is adjacent.
+    // A user skips the first pair of these, and checks one that is adjacent.
     let skipped = never.iter().next().expect("a pair").clone();
     let adjacent = by_reason
         .iter()

@@ -8,7 +8,7 @@ use testkit::robots::{made, our_robots};
 
 type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 
-/// Spheres that cover, measured in few configurations.
+/// Covering spheres, measured in few configurations.
 fn covering(spheres: SphereBudget) -> Options {
     Options {
         spheres,
@@ -201,7 +201,7 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
         last = now;
     }
     assert!(sums[3] < 0.5 * sums[0], "{sums:?}");
-    // One sphere of a link is the smallest about its pieces: no larger than that about its hull, and not smaller.
+    // A link's only sphere is the smallest around its pieces: no larger than that around its hull, and not smaller.
     let one = foam(&robot, covering(SphereBudget::PerLink(1)));
     let links = robot.link_names().expect("links");
     for shape in robot.shapes(ShapeKind::Spheres).expect("spheres") {

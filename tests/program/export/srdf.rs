@@ -22,7 +22,7 @@ fn a_name_cannot_leave_its_attribute() {
         .expect("a pair");
     assert_eq!(pair.attribute("link1"), Some("a\"<&"));
     assert_eq!(pair.attribute("link2"), Some("b'>"));
-    // Its own output takes the place of its own output.
+    // Its own output replaces its own output.
     let again = merge_srdf(&made.text, &made.text).expect("merged");
     assert_eq!(again.text, made.text);
 }

@@ -1,4 +1,4 @@
-//! SRDFs read into edits.
+//! Import of SRDFs as edits.
 
 use std::path::Path;
 
@@ -74,7 +74,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
         skipped(&urdd),
         [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]
     );
-    // Whoever reads it finds hashes and matrices as they should be.
+    // Readers find correct hashes and matrices.
     let validated = urdd_validate::validate(&[&urdd], &Default::default()).expect("a URDD");
     let found: Vec<_> = validated.report.urdds[0]
         .findings
@@ -83,7 +83,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
         .filter(|code| !code.starts_with("SRC"))
         .collect();
     assert_eq!(found, [] as [&String; 0]);
-    // Another SRDF that says the contrary of what was decided.
+    // Another SRDF that contradicts an earlier decision.
     let contrary = srdf("<enable_collisions link1=\"l3\" link2=\"l0\"/>");
     let (status, _, said) = run(&contrary, &[]);
     assert_eq!(status, 2);
@@ -145,7 +145,7 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
     );
 }
 
-/// As many pairs as a file may hold, on one line: counting lines and looking for links and edits went with the square.
+/// The maximum number of pairs, on one line: counting lines and searching links and edits took quadratic time.
 #[test]
 fn very_many_pairs_on_one_line_take_a_moment() {
     let (folder, urdd) = made_of(&line());
@@ -163,7 +163,7 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());
-    // Minutes once.
+    // This once took minutes.
     assert!(
         start.elapsed() < std::time::Duration::from_secs(30),
         "{:?}",
@@ -189,7 +189,7 @@ fn an_srdf_is_counted_before_it_is_parsed() {
     }
 }
 
-/// Two imports at a time: none loses what the other wrote.
+/// Two concurrent imports: neither loses the changes of the other.
 #[test]
 fn an_import_waits_for_others_and_sees_what_they_wrote() {
     let (folder, urdd) = made_of(&line());
@@ -200,7 +200,7 @@ fn an_import_waits_for_others_and_sees_what_they_wrote() {
             std::fs::write(folder.path().join(&file), srdf(&pair(*a, *b))).expect("a file");
             let folder = folder.path();
             scope.spawn(move || {
-                // Others may write again and again; then it says so, and nothing was written.
+                // If others keep writing, it reports that, and writes nothing.
                 let import =
                     || crate::program::urdd(&["skips", "import", &file, "robot"], folder).0;
                 assert!((0..20).any(|_| import() == 0));

@@ -18,7 +18,7 @@ fn write(folder: &Path, made: &Export) -> std::path::PathBuf {
     file
 }
 
-/// A URDD of the exported URDF says of joints and masses what that of the source says, and its collision geometry is the
+/// A URDD of the exported URDF has the same joints and masses as that of the source, and its collision geometry is the
 /// shapes.
 #[test]
 fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
@@ -60,7 +60,7 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
     }
 }
 
-/// The joints are the source's, but for mimics: what follows a chain of joints follows its end.
+/// The joints are the source's, except that a mimic of a mimic follows the end of the chain.
 fn assert_same_motion(again: &[Joint], source: &[Joint], name: &str) {
     let find = |joints: &'_ [Joint], wanted: &str| {
         joints.iter().find(|joint| joint.name == wanted).cloned()
@@ -176,7 +176,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
     assert_eq!(foam["links"], serde_json::json!({}));
 }
 
-/// Boxes come back where they were: corners of one are corners of the other.
+/// Boxes come back in place: their corners are the same.
 #[test]
 fn boxes_stand_where_the_module_has_them() {
     let (_folder, path) = made(&our_robots()[8].1);

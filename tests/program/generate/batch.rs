@@ -13,7 +13,7 @@ use crate::generate::{findings_of, urdd};
 
 const GOOD: &str = "<robot name=\"r\"><link name=\"a\"/></robot>\n";
 
-/// Folders with good robots, bad ones, and files of one name.
+/// Folders with good robots, bad ones, and files with equal names.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (path, text) in [
@@ -68,7 +68,7 @@ fn a_bad_robot_stops_nothing() {
     assert_eq!(loose["error"]["faults"][0]["line"], 1);
     assert!(!folder.path().join("out/loose").exists());
     assert_eq!(findings_of(&folder.path().join("out/arm")), []);
-    // Again: the same lines, but for what is unchanged; the output folder is not searched.
+    // Again: the same lines, except for unchanged robots; the output folder is not searched.
     let (_, again) = run(folder.path(), &["--threads", "1"]);
     assert_eq!(again[7]["summary"]["unchanged"], 5);
     let outputs = |lines: &[Value]| {
@@ -80,7 +80,7 @@ fn a_bad_robot_stops_nothing() {
     assert_eq!(outputs(&lines), outputs(&again));
 }
 
-/// Stands for a fault of the program.
+/// Simulates a fault of the program.
 struct Crashing(bool);
 
 impl Progress for Crashing {
@@ -91,7 +91,7 @@ impl Progress for Crashing {
 
 struct Watcher {
     told: Mutex<Vec<(String, Result<(), String>)>>,
-    /// The first robot waits until this is there: what comes later must be told later all the same.
+    /// The first robot waits until this file exists. Later robots must still be reported later.
     last: PathBuf,
 }
 
@@ -182,12 +182,12 @@ fn names_tell_robots_apart() {
             ("leg/robot.urdf", "leg-robot"),
         ]
     );
-    // The same file twice is once; order is that of the arguments.
+    // Duplicate files count once; the order is that of the arguments.
     let arm = folder.path().join("arm/arm.urdf");
     assert_eq!(names(&[arm.clone(), folder.path().join("arm")]).len(), 1);
 }
 
-/// The parts of a path, as names are made of them.
+/// The parts of a path, as used in names.
 fn plain_parts(path: &Path) -> String {
     let parts = path.components().skip(1);
     let parts = parts.map(|part| part.as_os_str().to_string_lossy().into_owned());

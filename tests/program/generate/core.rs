@@ -1,4 +1,4 @@
-//! What the modules say: as the validator and `tests/support`, a producer of its own, have it.
+//! The content of modules, compared with the validator and with `tests/support`, an independent producer.
 
 use std::fs;
 use std::path::Path;

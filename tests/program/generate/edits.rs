@@ -1,4 +1,4 @@
-//! A person's edits of the skips: a new run keeps them, or stops.
+//! A user's edits of the skips: a new run keeps them, or stops.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ fn edit() -> Value {
     json!({"link_a": "a", "link_b": "b", "skip": true, "reason": "a cable"})
 }
 
-/// A URDD with an edit in its JSON and YAML, as a person leaves them: not canonical.
+/// A URDD with an edit in its JSON and YAML, as a user would write it: not canonical.
 fn edited() -> (tempfile::TempDir, PathBuf, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let source = folder.path().join("r.urdf");
@@ -55,7 +55,7 @@ fn edits_are_kept() {
     let module = read_json(&target.join(SKIPS).join("module.json"));
     assert_eq!(module["edits"], json!([edit()]));
     assert_eq!(findings_of(&target), []);
-    // Also where the rest of the URDD is gone, or broken.
+    // Also if the rest of the URDD is missing or broken.
     for text in [None, Some("{"), Some("{}")] {
         let metadata = target.join("urdd.json");
         match text {
@@ -71,7 +71,7 @@ fn edits_are_kept() {
         assert_eq!(module["edits"], json!([edit()]), "{text:?}");
         assert_eq!(findings_of(&target), []);
     }
-    // And where the module is of an earlier draft, with other keys.
+    // And if the module has the keys of an earlier draft.
     let file = target.join(SKIPS).join("module.json");
     fs::write(
         &file,
@@ -95,7 +95,7 @@ fn edits_that_cannot_be_read_stop_the_run() {
         edit[key] = value;
         edit
     };
-    // What is wrong, the text, and what the message says, with the place.
+    // The fault, the text, and the message with its location.
     let whole = |edits: Value| json!({"edits": edits}).to_string();
     let cases: Vec<(&str, String, &str)> = vec![
         (
@@ -200,7 +200,7 @@ fn an_edit_of_the_yaml_file_alone_stops_the_run() {
         let line = 1 + text[..text.find(reason).unwrap()].matches('\n').count();
         assert!(words.contains(&format!("module.yaml:{line}:")), "{words}");
     }
-    // Other layout says the same.
+    // Another layout has the same meaning.
     fs::write(&file, format!("# mine\n{text}")).unwrap();
     generate(&source, &target, &settings(), &()).unwrap();
 }
@@ -217,7 +217,7 @@ fn modules_without_the_edits_do_not_replace_them() {
     assert_eq!(error.code(), "edits");
     assert!(error.to_string().contains("holds 1 edit"), "{error}");
     assert!(bytes_below(&target) == before);
-    // Where there are none, nothing is lost.
+    // If there are none, nothing is lost.
     write_edits(&target, &json!([]));
     generate(&source, &target, &core, &()).unwrap();
     assert!(!target.join(SKIPS).exists());
@@ -249,7 +249,7 @@ fn an_edit_of_a_link_that_never_was_stops_the_run() {
     assert_eq!(error.code(), "edits");
     assert!(error.to_string().contains("names the link `B`"), "{error}");
     assert!(bytes_below(&target) == before);
-    // A link that the robot no longer has is another matter: that is said in a note.
+    // A link that the robot no longer has only leads to a note.
     write_edits(&target, &json!([edit()]));
     fs::write(&source, ROBOT.replace("\"b\"", "\"c\"")).unwrap();
     let made = generate(&source, &target, &settings(), &()).unwrap();

@@ -1,4 +1,4 @@
-//! URDFs as they are in the wild, and worse: what is made of each, and what is said.
+//! URDFs as found in the wild, and worse: the result for each, and the messages.
 
 use std::fmt::Write;
 use std::fs;
@@ -7,7 +7,7 @@ use urdd_generate::{Settings, generate};
 
 use crate::generate::{findings_of, read_json};
 
-/// Two links and what is between them.
+/// Two links with this text between them.
 fn two_links(between: &str) -> Vec<u8> {
     format!("<robot name=\"r\">\n  <link name=\"a\"/>\n  <link name=\"b\"/>\n{between}\n</robot>\n")
         .into_bytes()
@@ -35,12 +35,12 @@ fn utf16(text: &str) -> Vec<u8> {
 
 const LIMITS: &str = "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
 
-/// What each is called, and its bytes.
+/// The name of each, and its bytes.
 fn cases() -> Vec<(&'static str, Vec<u8>)> {
     let with_limits = |more: &str| joint("revolute", &format!("{LIMITS}{more}"));
     let shape = |shape: &str| link(&format!("<visual><geometry>{shape}</geometry></visual>"));
     vec![
-        // What is no robot.
+        // Not a robot.
         ("empty file", Vec::new()),
         ("white space only", text(" \n\n")),
         ("no XML", text("this is not a robot\n")),
@@ -76,7 +76,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
         ("deeply nested", text(&format!("<robot name=\"r\">{}{}</robot>", "<a>".repeat(100_000), "</a>".repeat(100_000)))),
         ("only macros", text("<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n  <xacro:include filename=\"$(find r)/arm.xacro\"/>\n</robot>\n")),
         ("two rotations", text("<robot name=\"r\" version=\"1.1\">\n  <link name=\"a\"><visual><origin rpy=\"0 0 0\" quat_xyzw=\"0 0 0 1\"/></visual></link>\n</robot>\n")),
-        // What is a robot all the same.
+        // Still a robot.
         ("byte order mark", text("\u{feff}<?xml version=\"1.0\"?><robot name=\"r\"><link name=\"a\"/></robot>")),
         ("UTF-16", utf16("<?xml version=\"1.0\" encoding=\"UTF-16\"?><robot name=\"é\"><link name=\"a\"/></robot>")),
         ("Latin-1, declared", b"<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<robot name=\"\xe9\"><link name=\"a\"/></robot>".to_vec()),
@@ -126,8 +126,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// Each is a robot that validates, with notes, or refused with a message; the messages are read by a
-/// person, here.
+/// Each is a robot that validates, with notes, or is rejected with a message. People review the messages here.
 #[test]
 fn each_has_its_message() {
     let mut told = String::new();
@@ -143,7 +142,7 @@ fn each_has_its_message() {
                 let odd: Vec<_> = findings_of(&target)
                     .into_iter()
                     .filter(|(code, severity, _)| severity == "error" || !code.starts_with("SRC"))
-                    // Told by a note, and recommended only.
+                    // A note reports it, and it is only a recommendation.
                     .filter(|(code, _, _)| code != "KIN005")
                     .collect();
                 assert_eq!(odd, [], "{name}: findings on what was made");

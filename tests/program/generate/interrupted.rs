@@ -1,5 +1,4 @@
-//! Runs that are killed, asked to stop, or at work in one place at once; and what people put into the
-//! folder of a URDD.
+//! Runs that are killed, cancelled, or concurrent in one place; and what users put into the folder of a URDD.
 #![cfg(unix)]
 
 use std::collections::BTreeMap;
@@ -49,7 +48,7 @@ fn hidden(folder: &Path) -> Vec<String> {
     names.filter(|name| name.starts_with('.')).collect()
 }
 
-/// Waits until a folder holds something hidden: the run is at work.
+/// Waits until a folder contains a hidden entry: the run has begun.
 fn wait_for_work(folder: &Path) {
     let begun = Instant::now();
     while !hidden(folder).iter().any(|name| !name.contains('.')) && hidden(folder).len() < 2 {
@@ -72,7 +71,7 @@ fn a_killed_run_leaves_the_old_and_the_next_one_tidies_up() {
     let target = folder.path().join("out");
     let make = || generate(&source, &target, &Settings::default(), &()).unwrap();
     make();
-    // What is there, and what the next run makes: never the same, so that every run has all of its work before it.
+    // The existing result, and that of the next run: never the same, so that every run has all of its work to do.
     let mut now = ("r", bytes_below(&target));
     fs::write(&source, robot("other", 12)).unwrap();
     let begun = Instant::now();
@@ -91,7 +90,7 @@ fn a_killed_run_leaves_the_old_and_the_next_one_tidies_up() {
         if found == next.1 {
             std::mem::swap(&mut now, &mut next);
         }
-        // Nobody takes what is left for a URDD.
+        // Nobody mistakes what is left for a URDD.
         let found = urdd_directory::discover::discover(folder.path()).unwrap();
         let found: Vec<&str> = found.iter().map(|urdd| urdd.name.as_str()).collect();
         assert_eq!(found, ["out"]);
@@ -157,7 +156,7 @@ fn a_batch_that_is_asked_to_stop_leaves_whole_urdds_and_nothing_else() {
     }
 }
 
-/// Two robots, many runs: in the end there is one of the two, to the byte.
+/// Two robots, many runs: the result is one of the two, byte for byte.
 #[test]
 fn runs_at_once_into_one_place_wait_for_each_other() {
     let (folder, source) = workshop(3);
@@ -219,7 +218,7 @@ fn files_of_a_person_in_the_folders_of_modules_stay() {
             assert_eq!(mode(path), 0o700, "run {run}: {path:?}");
         }
     }
-    // What the run before made, and this one does not, goes.
+    // Results of the previous run that this run does not produce are deleted.
     assert!(target.join("dof_module/module.json").exists());
     assert!(target.join("mesh_modules/plain_meshes_module").exists());
     let core = Settings {
@@ -270,7 +269,7 @@ fn rehash_that_fails_leaves_nothing_and_keeps_the_mode() {
     fs::set_permissions(&metadata, Permissions::from_mode(0o640)).unwrap();
     let version = target.join("dof_module/VERSION");
     fs::write(&version, "1.0.0").unwrap();
-    // What a run that died left goes, too.
+    // What a crashed run left is deleted too.
     fs::write(target.join(".urdd.json.died"), "{").unwrap();
     let rehash = |before: &str| {
         let script = format!("{before} exec \"$@\"");

@@ -1,4 +1,4 @@
-//! `self_collision_model_module`: trained, the same by any number of threads, refused where it is of no use.
+//! `self_collision_model_module`: trained, the same with any number of threads, and refused where it is useless.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use urdd_robot::Robot;
 
 use super::{findings_of, read_json};
 
-/// Enough for a model that says something, soon.
+/// Enough training for a useful model, in a short time.
 const LITTLE: Effort = Effort {
     training: 4_000,
     calibration: 3_000,
@@ -32,7 +32,7 @@ fn robot(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// A robot with two long boxes on joints, which meet half of the time; written where it is wanted.
+/// A robot with two long boxes on joints, which meet half of the time; written to a given path.
 fn pair(folder: &Path, joint: &str) -> PathBuf {
     let link = |name: &str| {
         format!(
@@ -80,15 +80,15 @@ fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
         "num_cleared",
     ]
     .map(|key| count(&model, key));
-    // Better by far than a coin.
+    // Far better than chance.
     assert!(colliding > free / 60, "{colliding}");
     assert!(missed * 5 < colliding, "{missed} of {colliding}");
     assert!(cleared * 10 > free * 8, "{cleared}");
-    // Near contact is where misses are.
+    // Misses are close to contact.
     assert!(near > 50 && near * 5 < colliding, "{near}");
     assert!(near_missed * colliding > missed * near, "{near_missed}");
 
-    // Fewer cleared than were: found out.
+    // A number of cleared configurations below the true one is detected.
     let text = std::fs::read_to_string(made.join(MODULE)).unwrap();
     let (from, to) = (
         format!("\"num_cleared\": {cleared}"),
@@ -131,7 +131,7 @@ fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
     );
 }
 
-/// What is kept is read back from its files.
+/// A kept module is read back from its files.
 #[test]
 fn the_same_bytes_whether_the_rest_is_made_or_kept() {
     let folder = tempfile::tempdir().unwrap();
@@ -179,7 +179,7 @@ fn robots_for_which_it_is_of_no_use_go_without() {
     }
 }
 
-/// Links of one box each; `parent` says what each hangs on, and `at` where. All of them turn about z.
+/// Links of one box each; `parent` gives each link's parent, and `at` its position. All of them turn about z.
 fn boxes(count: usize, parent: impl Fn(usize) -> String, at: impl Fn(usize) -> String) -> String {
     let link = |k: usize| {
         let (parent, at) = (parent(k), at(k));

@@ -6,7 +6,7 @@ use tempfile::tempdir;
 
 use crate::generate::{bytes_below, findings_of, read_json, urdd};
 
-/// The extensions of the files of derived meshes, with how many there are of each.
+/// The extensions of the files of derived meshes, with the number of each.
 fn extensions(urdd: &Path) -> [usize; 3] {
     let files = bytes_below(urdd);
     ["glb", "stl", "obj"].map(|extension| {
@@ -38,7 +38,7 @@ fn those_asked_for_are_made_and_a_glb_always() {
     let [glb, stl, obj] = extensions(&target);
     assert!(glb > 3 && stl == glb && obj == glb, "{glb} {stl} {obj}");
 
-    // In place of the other: no file of a format that is not asked for stays.
+    // Replaced: no file of a format that is not requested remains.
     generate(&target, &["--mesh-formats", "glb"]);
     assert_eq!(extensions(&target), [glb, 0, 0]);
     assert_eq!(findings_of(&target), []);

@@ -1,4 +1,4 @@
-//! The generator, held to the validator and to the other producers.
+//! The generator, compared with the validator and with the other producers.
 
 mod batch;
 mod core;
@@ -25,7 +25,7 @@ pub use testkit::robots::our_robots;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate_with};
 
-/// An STL file as text: one triangle, whose third corner says whether it has an area.
+/// An STL file as text: one triangle, whose third corner determines whether it has an area.
 pub fn ascii_stl(name: &str, third: &str) -> String {
     format!(
         "solid {name}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex {third}\nendloop\nendfacet\nendsolid {name}\n"

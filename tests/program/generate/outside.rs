@@ -1,4 +1,4 @@
-//! What a URDF must not make us publish: files that are not the robot's, by whatever name.
+//! What a URDF must not make us publish: files that do not belong to the robot, by any name.
 
 #![cfg(unix)]
 
@@ -14,8 +14,7 @@ use crate::generate::{ascii_stl, bytes_below, findings_of, read_json, urdd};
 
 const SECRET: &str = "sesame-7431";
 
-/// A folder of the machine: a robot in a package, beside it other packages, a user's secrets, and
-/// meshes that are nobody's business.
+/// A folder of the machine: a robot in a package, other packages beside it, a user's secrets, and private meshes.
 fn machine() -> tempfile::TempDir {
     let machine = tempfile::tempdir().unwrap();
     let png = png();
@@ -79,7 +78,7 @@ fn made(
     (target, made)
 }
 
-/// The files that are carried, by their path below `meshes/`.
+/// The carried files, by their path below `meshes/`.
 fn carried(target: &Path) -> BTreeMap<String, Vec<u8>> {
     let folder = "mesh_modules/original_meshes_module/meshes/";
     let files = bytes_below(target).into_iter();
@@ -88,7 +87,7 @@ fn carried(target: &Path) -> BTreeMap<String, Vec<u8>> {
     files.collect()
 }
 
-/// What is wrong with a URDD; a mesh that is not carried is a warning.
+/// The faults of a URDD; a mesh that is not carried is a warning.
 fn errors_of(target: &Path) -> Vec<String> {
     let findings = findings_of(target).into_iter();
     let errors = findings.filter(|(_, severity, _)| severity == "error");
@@ -214,7 +213,7 @@ fn what_is_no_mesh_is_not_carried_wherever_it_lies() {
         ("../secret.obj", &[]),
         ("../token.obj", &[]),
         ("../token.gltf", &[]),
-        // Allowed, and still no mesh.
+        // Allowed, but still not a mesh.
         ("../../../secret/id_rsa", &["secret"]),
         ("/proc/self/environ", &["/"]),
         ("/proc/version", &["/proc"]),
@@ -232,7 +231,7 @@ fn what_is_no_mesh_is_not_carried_wherever_it_lies() {
     }
 }
 
-/// `/proc/self/pagemap` is gigabytes long and says that it is empty; `/proc/kmsg` waits for ever.
+/// `/proc/self/pagemap` is gigabytes long and claims to be empty; `/proc/kmsg` blocks forever.
 #[cfg(target_os = "linux")]
 #[test]
 fn files_without_end_are_not_read_without_end() {
@@ -295,7 +294,7 @@ fn pipes_and_devices_are_no_meshes() {
     }
 }
 
-/// Side files of each format that are links to secrets, or lie elsewhere, or are not what they say.
+/// Side files of each format that are links to secrets, are elsewhere, or have other content than they claim.
 #[test]
 fn side_files_are_carried_only_as_what_they_are() {
     let machine = machine();
@@ -332,7 +331,7 @@ fn side_files_are_carried_only_as_what_they_are() {
     };
     let obj =
         |library: &str| format!("mtllib {library}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
-    // The mesh, and the files that are carried besides it.
+    // The mesh, and the other carried files.
     let cases: &[(&str, String, &[&str])] = &[
         ("a.obj", obj("link.mtl"), &[]),
         ("a.obj", obj("../../../secret/key.mtl"), &[]),
@@ -421,7 +420,7 @@ fn what_is_taken_from_elsewhere_is_named_and_no_path_of_the_machine_is_carried()
     {
         assert!(said.ends_with(file) && said.contains(&here), "{said}");
     }
-    // What the URDF itself says is carried as it is; nothing else says where the machine has it.
+    // The URDF is carried unchanged; nothing else reveals paths of the machine.
     let folder = machine.path().file_name().unwrap().to_str().unwrap();
     for (path, bytes) in bytes_below(&target) {
         let text = String::from_utf8_lossy(&bytes)
@@ -474,7 +473,7 @@ fn links_of_an_installed_package_to_its_sources_are_followed() {
     assert_eq!(files, ["other/meshes/b.stl", "robot/meshes/a.stl"]);
 }
 
-/// Many robots lie in no package: `urdf/` and `meshes/` in a folder.
+/// Many robots are not in a package: `urdf/` and `meshes/` in a folder.
 #[test]
 fn meshes_beside_a_folder_of_urdfs_are_the_robots_own() {
     let machine = machine();
@@ -500,7 +499,7 @@ fn meshes_beside_a_folder_of_urdfs_are_the_robots_own() {
             .len(),
         1
     );
-    // A folder of another name holds one robot's URDF, and what lies beside it is not that robot's.
+    // A folder of another name contains one robot's URDF, and the files beside it do not belong to that robot.
     let other = machine.path().join("ws/plain/downloads");
     fs::create_dir(&other).unwrap();
     let source = other.join("r.urdf");

@@ -34,7 +34,7 @@ fn workspace() -> tempfile::TempDir {
     folder
 }
 
-/// Where the mesh of a name was found, relative to the workspace; or what was said.
+/// Where the mesh of a name was found, relative to the workspace; otherwise the message.
 fn found(folder: &Path, filename: &str) -> Result<String, String> {
     let urdf = folder.join("ws/own_description/urdf/robot.urdf");
     let xml = format!(
@@ -149,7 +149,7 @@ fn what_is_not_found_says_where_it_was_looked_for() {
 #[test]
 fn a_package_that_is_given_is_looked_for_nowhere_else() {
     let folder = workspace();
-    // There is one of the same name above the URDF.
+    // There is one with the same name above the URDF.
     fs::create_dir_all(folder.path().join("ws/given/meshes")).unwrap();
     fs::write(
         folder.path().join("ws/given/meshes/b.stl"),

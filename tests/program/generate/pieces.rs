@@ -35,7 +35,7 @@ fn a_urdd_is_made_again_with_as_many_pieces_as_asked_for() {
     let most = *usual.iter().max().unwrap();
     assert!(2 < most && most <= 7, "{usual:?}");
 
-    // In place of the other: what is asked for is in the stage's text.
+    // Replaced: the stage's key contains the requested settings.
     let at_most = |n: usize| {
         usual
             .iter()
@@ -44,7 +44,7 @@ fn a_urdd_is_made_again_with_as_many_pieces_as_asked_for() {
     };
     assert_eq!(counts(&target, &["--pieces", "1"]), at_most(1));
     assert!(counts(&target, &["--pieces", "2"]).iter().all(|&n| n <= 2));
-    // 10 m is no distance for a hand.
+    // 10 m is not a plausible tolerance for a hand.
     assert_eq!(counts(&target, &["--piece-tolerance", "10"]), at_most(1));
     assert_eq!(counts(&target, &["--pieces", "7"]), usual);
 }

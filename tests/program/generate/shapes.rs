@@ -1,4 +1,4 @@
-//! Meshes and shapes of generated URDDs, held to closed forms.
+//! Meshes and shapes of generated URDDs, compared with closed forms.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -251,8 +251,8 @@ fn unit(k: u64, i: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Two cubes on a rail, 0.1 m wide: hulls and boxes are 0.1 m less apart than their centres, spheres
-/// by the cubes' diagonal.
+/// Two cubes on a rail, 0.1 m wide: the distance of hulls and boxes is that of their centres less 0.1 m, that of
+/// spheres less the cubes' diagonal.
 #[test]
 fn statistics_of_two_cubes_on_a_rail() {
     let cube = |name: &str| {
@@ -312,7 +312,7 @@ fn statistics_of_two_cubes_on_a_rail() {
     }
 }
 
-/// A person's edits of the skips stay when the URDD is made again, those of lost links go, with a note.
+/// A user's edits of the skips are kept when the URDD is generated again; those of lost links are dropped, with a note.
 #[test]
 fn edits_of_skips_outlive_a_new_run() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -362,7 +362,7 @@ fn edits_of_skips_outlive_a_new_run() {
     assert_eq!(findings_of(&target), Vec::new());
 }
 
-/// A mesh whose coordinates no robot has is told with its link, and nothing is written.
+/// A mesh with implausible coordinates is reported with its link, and nothing is written.
 #[test]
 fn a_mesh_beyond_all_measure_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! A stage that makes something else of the same must say so, or URDDs keep what it made before.
+//! A stage whose result changes for the same inputs must change its version; otherwise URDDs keep the earlier result.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -13,7 +13,7 @@ use crate::generate::{our_robots, read_json};
 const RECORD: &str = "tests/program/generate/stage_versions.json";
 const ROBOTS: &[&str] = &["gripper", "scaled_parts", "toy_all_joints"];
 
-/// For each module that may be kept: the hash of all that it was made of, and of what was made.
+/// For each module that may be kept: the hash of all its inputs, and that of the result.
 fn made() -> BTreeMap<String, Value> {
     let mut record = BTreeMap::new();
     for (name, source) in our_robots() {

@@ -1,5 +1,4 @@
-//! What a run says of meshes that are not there, and `--strict`; URDFs through a pipe, and files that
-//! are none.
+//! Messages about missing meshes, and `--strict`; URDFs through a pipe, and files that are not URDFs.
 
 use std::fs;
 use std::io::Write;
@@ -85,12 +84,12 @@ fn strict_makes_nothing_of_what_has_to_be_assumed() {
         assert!(said.contains(words), "{said}");
     }
     assert!(!folder.path().join("out").exists());
-    // One that needs nothing of that.
+    // A robot that needs none of these.
     let robot = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"here.stl\"/></geometry></visual></link></robot>";
     fs::write(folder.path().join("r.urdf"), robot).unwrap();
     let (status, _, said) = run(folder.path(), &["--strict", "r.urdf"]);
     assert_eq!((status, said.as_str()), (Some(0), ""));
-    // A number that is none.
+    // An invalid number.
     let folder = workshop(
         "<robot name=\"r\"><link name=\"a\"><visual><origin xyz=\"0 nan 0\"/><geometry><sphere radius=\"1\"/></geometry></visual></link></robot>",
     );
@@ -107,7 +106,7 @@ fn piped(folder: &Path, text: &[u8], more: &[&str]) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // A program that ends before it has read all is no fault here.
+    // A program that exits before it has read all input is not a fault here.
     let _ = child.stdin.take().unwrap().write_all(text);
     child.wait_with_output().unwrap()
 }
@@ -120,7 +119,7 @@ fn a_urdf_may_come_through_a_pipe() {
     let out = folder.path().join("out");
     assert_eq!(fs::read_to_string(out.join("robot.urdf")).unwrap(), ROBOT);
     let module = read_json(&out.join("mesh_modules/original_meshes_module/module.json"));
-    // Names begin in the current folder.
+    // Names are relative to the current folder.
     assert!(module["references"][0]["path"].is_string(), "{module}");
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("standard input:3:"), "{said}");
@@ -131,7 +130,7 @@ fn a_urdf_may_come_through_a_pipe() {
     assert_eq!(batch.status.code(), Some(2), "{batch:?}");
 }
 
-/// What is given for a URDF and is none: a message, the status, and no waiting.
+/// Inputs that are not URDFs: a message, the status, and no waiting.
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_is_said() {
@@ -164,7 +163,7 @@ fn what_is_no_file_is_said() {
         assert!(said.contains(words), "{source}: {said}");
         assert!(!path.join("out").exists(), "{source}");
     }
-    // In a batch each has its line, and the good one is made.
+    // In a batch each has its line, and the good one is generated.
     let (status, lines, _) = run(
         path,
         &["--format", "json", "pipe.urdf", "huge.urdf", "r.urdf"],
@@ -174,7 +173,7 @@ fn what_is_no_file_is_said() {
     assert!(path.join("out/r/urdd.json").exists());
 }
 
-/// A URDD grows with the square of the links: what is too large is refused, and says the limit.
+/// A URDD grows with the square of the links: one that is too large is refused, with a message that states the limit.
 #[test]
 fn a_robot_beyond_the_limits_is_refused() {
     let star = |links: usize| {

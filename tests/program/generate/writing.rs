@@ -1,4 +1,4 @@
-//! What stands on disk: the same bytes always, the whole or nothing, and nothing of the user's lost.
+//! What is on disk: always the same bytes, all or nothing, and none of the user's files lost.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,7 @@ use urdd_generate::{Generated, Settings, generate};
 
 use crate::generate::{ascii_stl, bytes_below, findings_of, our_robots, read_json, urdd};
 
-/// A folder with a robot in it: links, a joint and two meshes of one name.
+/// A folder with a robot in it: links, a joint and two meshes with the same name.
 fn workshop() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     for (path, text) in [
@@ -22,7 +22,7 @@ fn workshop() -> (tempfile::TempDir, PathBuf) {
         let is_mesh = path != "robot.urdf";
         let path = folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
-        // Meshes without surface: what follows from them takes no time.
+        // Meshes without a surface: the shapes derived from them take no time.
         let text = if is_mesh {
             ascii_stl(text, "0 0 0")
         } else {
@@ -56,7 +56,7 @@ fn bytes_are_the_same_for_any_threads_and_folder() {
         let folder = tempfile::tempdir().unwrap();
         let mut seen: Option<BTreeMap<String, Vec<u8>>> = None;
         for (place, threads) in [("one", "1"), ("two/deeper", "2"), ("eight", "8")] {
-            // Another folder for the source too: our robots' meshes lie beside them.
+            // The source gets another folder too: our robots' meshes are beside them.
             let target = folder.path().join(place).join("out");
             let output = urdd(&["generate", "--threads", threads, "-o"])
                 .arg(&target)
@@ -130,11 +130,11 @@ fn a_second_run_changes_nothing() {
             .unwrap(),
         when
     );
-    // A file that someone damaged is made again.
+    // A damaged file is generated again.
     fs::write(target.join("dof_module/module.json"), "{}").unwrap();
     assert!(make(&source, &target).changed);
     assert!(bytes_below(&target) == before);
-    // So is one that is gone; and what does not belong in a module's folder goes.
+    // So is a missing one; and files that do not belong in a module's folder are deleted.
     fs::remove_file(target.join("chain_module/VERSION")).unwrap();
     assert!(make(&source, &target).changed);
     assert!(bytes_below(&target) == before);
@@ -167,18 +167,18 @@ fn modules_are_kept_while_what_they_are_made_of_is_the_same() {
     let all = [&[Connections, PlainMeshes], &shapes[..], &distances].concat();
     assert_eq!(kept(&make(&source, &target)), []);
     assert_eq!(kept(&make(&source, &target)), all);
-    // With other limits of effort the chain is the same, and so are the meshes once they are made
-    // again: what follows from them alone is kept. Distances depend on the bounds too, reasons of
-    // skips on the default configuration, edits of skips on the names of links.
+    // With other effort limits, the chain is the same, and so are the meshes once they are generated again: stages that
+    // depend only on these are kept. Distances also depend on the bounds, reasons of skips on the default
+    // configuration, and edits of skips on the names of links.
     let limited = "<limit effort=\"1\" velocity=\"1\"/></joint>";
     fs::write(&source, ROBOT.replace("</joint>", limited)).unwrap();
     let made = make(&source, &target);
     let same = [&[Connections], &shapes[..]].concat();
     assert_eq!((kept(&made), made.changed), (same, true));
-    // With another name the chain is not.
+    // With another name, the chain differs.
     fs::write(&source, ROBOT.replace("\"j\"", "\"k\"")).unwrap();
     assert_eq!(kept(&make(&source, &target)), shapes);
-    // A file that is not as it was is not kept, nor is one whose inputs are not told.
+    // A changed file is not kept, nor is one whose inputs are not recorded.
     let file = target.join("connections_module/module.yaml");
     let right = fs::read(&file).unwrap();
     fs::write(&file, "changed").unwrap();
@@ -219,7 +219,7 @@ fn files_of_the_users_outlive_a_new_run() {
         "0"
     );
     assert_eq!(findings_of(&target), []);
-    // The source that was carried before goes when another comes.
+    // The previously carried source is deleted when another replaces it.
     let other = folder.path().join("other.urdf");
     fs::write(&other, changed).unwrap();
     make(&other, &target);
@@ -261,7 +261,7 @@ fn another_folder_is_not_written_to_unless_forced() {
     let (folder, source) = workshop();
     let target = folder.path().join("mine");
     fs::create_dir(&target).unwrap();
-    make(&source, &target); // Empty: free to take.
+    make(&source, &target); // Empty: may be used.
     let target = folder.path().join("thesis");
     fs::create_dir(&target).unwrap();
     fs::write(target.join("chapter.tex"), "text").unwrap();
@@ -287,8 +287,8 @@ fn another_folder_is_not_written_to_unless_forced() {
     assert_eq!(error.code(), "not-written");
 }
 
-/// Files of more than so many blocks cannot be written: the system ends the program, or tells it, as
-/// with a full disk.
+/// Files larger than this many blocks cannot be written: the system kills the program, or returns an error, as with a
+/// full disk.
 #[cfg(unix)]
 fn with_small_files(source: &Path, target: &Path, before: &str) -> std::process::Output {
     let script = format!("{before} ulimit -f 3; exec \"$@\"");
@@ -313,18 +313,18 @@ fn an_ended_or_failed_run_leaves_the_old_or_nothing() {
             .filter(|name| name.contains("out") || name.starts_with('.'))
             .collect::<Vec<_>>()
     };
-    // Told: it says so, and tidies up.
+    // With an error: the program reports it, and cleans up.
     let output = with_small_files(&source, &target, "trap '' XFSZ;");
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(message.contains("cannot be written: "), "{message}");
     assert_eq!(names(), [""; 0]);
-    // Ended: what it began stays, hidden, and the file that it held locked.
+    // Killed: its unfinished output remains, hidden, and so does its lock file.
     let output = with_small_files(&source, &target, "");
     assert_eq!(output.status.code(), None, "{output:?}");
     assert_eq!(names().len(), 2);
     assert!(!target.exists());
-    // The next run takes that away.
+    // The next run deletes it.
     make(&source, &target);
     assert_eq!(names(), ["out"]);
     let before = bytes_below(&target);

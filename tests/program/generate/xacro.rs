@@ -1,4 +1,4 @@
-//! Xacro files, by a program of that name that stands on the PATH.
+//! Xacro files, expanded by a program of that name on the PATH.
 
 #![cfg(unix)]
 
@@ -47,7 +47,7 @@ fn is_expanded_by_the_program() {
     let source = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:arm/></robot>";
     fs::write(folder.path().join("arm.urdf.xacro"), source).unwrap();
     fs::write(folder.path().join("expanded"), EXPANDED).unwrap();
-    // It is given the file, and writes the URDF.
+    // It receives the file, and writes the URDF.
     let script = "case \"$1\" in *arm.urdf.xacro) while read -r line; do echo \"$line\"; done < \"${1%/*}/expanded\";; *) exit 3;; esac";
     let (status, said) = run(folder.path(), "arm.urdf.xacro", Some(script));
     assert_eq!(status, Some(0), "{said}");
@@ -84,7 +84,7 @@ fn what_the_program_says_is_passed_on() {
     assert!(said.contains("no such package: arm"), "{said}");
 }
 
-/// A URDF that holds the word runs nothing, unless the user says so.
+/// A URDF that contains the word runs nothing, unless the user asks for it.
 #[test]
 fn a_urdf_is_expanded_only_where_the_user_asks_for_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -163,12 +163,12 @@ fn arguments_that_no_file_takes_are_wrong_usage() {
         "{said}"
     );
     assert!(!folder.path().join("out").exists());
-    // Where macros may be in the file, it is as if it had none.
+    // With `--xacro`, a file without macros is accepted too.
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_", "--xacro"]);
     assert_eq!(status, Some(0), "{said}");
 }
 
-/// A child that made a session of its own ends at the time limit, and with a signal.
+/// A child that created its own session ends at the time limit, and on a signal.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_left_its_session_ends_too() {

@@ -4,8 +4,8 @@ use urdd_directory::listing::EntryKind;
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 
-/// What is accepted can be listed, every file in it is as long as it says, and all of them are
-/// within what an archive of this size may hold.
+/// An accepted archive can be listed, every file in it has its stated length, and all of them are within the limits for
+/// an archive of this size.
 pub fn archive(bytes: &[u8]) {
     let Ok(archive) = Archive::new("robot", bytes.to_vec()) else {
         return;
@@ -25,7 +25,7 @@ pub fn archive(bytes: &[u8]) {
             total += entry.size;
         }
     }
-    // Links are counted with what they lead to.
+    // Links are counted with their targets.
     let links = listing.entries.len() as u64;
     assert!(total <= ((64 << 20) + 250 * bytes.len() as u64) * links.max(1));
 }

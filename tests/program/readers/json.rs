@@ -9,8 +9,8 @@ use super::text::{check_faults, leaves};
 /// How many values of a document are looked up by their pointers: each costs a walk over the text.
 const LOOKED_UP: usize = 20;
 
-/// What is accepted is accepted by `serde_json` with the same value, and the reverse; the canonical
-/// emission reads back; each value is found where it stands.
+/// `serde_json` accepts the same documents with the same values; the canonical emission reads back; each value is found
+/// at its location.
 pub fn json(bytes: &[u8]) {
     // A byte order mark is a fault here, and unreadable there.
     let unmarked = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);

@@ -1,4 +1,4 @@
-//! The readers of meshes, against what is written from what they read.
+//! The readers of meshes, compared with output written from what they read.
 
 use urdd_geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
 use urdd_geometry::write;
@@ -23,16 +23,16 @@ pub fn dae(bytes: &[u8]) {
     check(bytes, "mesh.dae");
 }
 
-/// Fewer than by default: an input may ask for far more than it holds.
+/// Fewer than by default: an input may ask for far more than it contains.
 const OPTIONS: Options = Options {
     gltf_up: GltfUp::Keep,
     max_triangles: 100_000,
 };
 
-/// A mesh that was read has finite vertices, indices in range and colours from 0 to 1; it is read
-/// the same a second time; written in any format and read again it has the same triangles.
+/// A mesh that was read has finite vertices, indices in range and colours from 0 to 1. Reading it again gives the same.
+/// Written in any format and read again, it has the same triangles.
 fn check(bytes: &[u8], name: &str) {
-    // A side file of any name holds what the mesh holds: a .mtl in the .obj, a buffer in the .gltf.
+    // Every side file has the content of the mesh: a .mtl in the .obj, a buffer in the .gltf.
     let mut fetch = |_: &str| Some(bytes.to_owned());
     let scene = match read_with(bytes, name, &mut fetch, &OPTIONS) {
         Ok(scene) => scene,

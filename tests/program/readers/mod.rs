@@ -1,5 +1,5 @@
-//! What must hold of each reader, whatever the bytes: the bodies of the fuzz targets in `fuzz/`, and
-//! of `tests/fuzz_findings.rs`, which replays their seeds and findings.
+//! What must be true of each reader, for any bytes: the bodies of the fuzz targets in `fuzz/`, and of
+//! `tests/fuzz_findings.rs`, which replays their seeds and findings.
 
 mod archive;
 mod json;

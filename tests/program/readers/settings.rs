@@ -2,7 +2,7 @@
 
 use urdd_validate::settings::Settings;
 
-/// What is accepted can be applied; what is not is told in words.
+/// Accepted settings can be applied; rejected ones have a message.
 pub fn settings(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else {
         return;

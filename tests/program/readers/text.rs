@@ -1,9 +1,9 @@
-//! What holds of the faults of every text.
+//! Properties of the faults of every text.
 
 use serde_json::Value;
 use urdd_directory::text_fault::TextFaults;
 
-/// Every fault has words, and a place within the text.
+/// Every fault has a message, and a location within the text.
 pub fn check_faults(faults: &TextFaults, bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let lines = text.split(['\n', '\r']).count();
@@ -17,7 +17,7 @@ pub fn check_faults(faults: &TextFaults, bytes: &[u8]) {
     }
 }
 
-/// Whether two documents say the same: 1 and 1.0 are the same number, and members have no order.
+/// Whether two documents are equal: 1 and 1.0 are the same number, and members have no order.
 pub fn same(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => a == b || a.as_f64() == b.as_f64(),

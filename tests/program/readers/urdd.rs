@@ -11,8 +11,8 @@ use urdd_validate::report;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
-/// Two moving joints, one of them a mimic, and a shape for each link: every rule has something to
-/// look at, in little time.
+/// Two moving joints, one of them a mimic, and a shape for each link: every rule has something to check, in little
+/// time.
 const ROBOT: &str = r#"<robot name="r">
 <link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
 <link name="b"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
@@ -24,9 +24,8 @@ const ROBOT: &str = r#"<robot name="r">
 <mimic joint="j" multiplier="0.5"/></joint>
 </robot>"#;
 
-/// The files that are changed; the first byte of an input says which, and whether as a whole.
-/// A file is put in its place, or a piece of it: then two bytes say where it begins, and one how
-/// long it is.
+/// The files that are changed. The first byte of an input selects the file, and whether all of it is replaced or a
+/// piece. For a piece, two bytes give its start, and one its length.
 const FILES: &[&str] = &[
     "urdd.json",
     "robot.urdf",
@@ -54,12 +53,12 @@ const FILES: &[&str] = &[
     "x_fuzz_extension_module/module.json",
 ];
 
-/// The bit of the first byte that says that a piece is replaced.
+/// The bit of the first byte that selects replacing a piece.
 const PIECE: u8 = 0x80;
 
 struct Small {
     folder: TempDir,
-    /// What is in the files, where they are there.
+    /// The content of the files that exist.
     contents: Vec<Option<Vec<u8>>>,
 }
 
@@ -99,7 +98,7 @@ static SMALL: LazyLock<Small> = LazyLock::new(|| {
 /// No rule crashes, and the report can be written.
 ///
 /// # Panics
-/// Where that does not hold; also where two threads try at once, since there is one URDD.
+/// If that is not so; also if two threads try at once, since there is one URDD.
 pub fn urdd(bytes: &[u8]) {
     let Some((choice, content)) = bytes.split_first() else {
         return;

@@ -6,9 +6,9 @@ use urdd_generate::fault::Fault;
 use urdd_generate::{GenerateError, read_urdf};
 use urdd_validate::urdf_text::{self, Reading, compare};
 
-/// What the generator accepts and carries, the validator reads without a problem, and as the same
-/// robot; what is carried needs no further repair. What the generator refuses, it refuses for the
-/// robot, or the validator has a problem with it too.
+/// What the generator accepts and carries, the validator reads without a problem, and as the same robot; it needs no
+/// further repair. What the generator rejects, it rejects because of the robot, or the validator also has a problem
+/// with it.
 pub fn urdf(bytes: &[u8]) {
     let unmarked = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let text = String::from_utf8_lossy(unmarked);
@@ -53,7 +53,7 @@ pub fn urdf(bytes: &[u8]) {
     let _ = urdf_text::as_legacy(&source.robot);
 }
 
-/// Every place is in the text, and at the start of a character.
+/// Every location is in the text, and at the start of a character.
 fn check(reading: &Reading, text: &str) {
     let lines = LineIndex::new(text);
     for problem in &reading.problems {
@@ -70,7 +70,7 @@ fn check(reading: &Reading, text: &str) {
     }
 }
 
-/// Whether it is the robot that is refused, and not how it is written.
+/// Whether the error is about the robot rather than about its notation.
 fn is_the_robots(error: &GenerateError) -> bool {
     let GenerateError::Refused { faults, .. } = error else {
         return false;

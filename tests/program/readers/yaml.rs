@@ -12,9 +12,9 @@ const BETWEEN: u8 = 0xFF;
 
 /// The input is YAML, or JSON and YAML with a byte 0xFF between them.
 ///
-/// A YAML file that is judged the same as a JSON document is read as that document by another
-/// reader; one that another reader reads has no difference from what that one read, unless it has
-/// something else that is reported; a leaf that is changed in the JSON is a difference.
+/// If we find that a YAML file agrees with a JSON document, another reader reads the same document from it. If another
+/// reader can read the file, it does not differ from what that reader read, unless something else is reported. Changing
+/// a leaf of the JSON makes a difference.
 pub fn yaml(bytes: &[u8]) {
     let Some(at) = bytes.iter().position(|byte| *byte == BETWEEN) else {
         return alone(bytes);
@@ -34,7 +34,7 @@ pub fn yaml(bytes: &[u8]) {
 
 fn alone(yaml: &[u8]) {
     let peer = serde_yaml::from_slice::<Value>(yaml);
-    // A file with nothing in it is null to some readers.
+    // Some readers take an empty file as null.
     let Ok(value @ (Value::Array(_) | Value::Object(_))) = peer else {
         check_faults(&check_mirror(yaml, &Value::Null), yaml);
         return;
@@ -74,8 +74,8 @@ fn mirrors_itself(value: &Value) {
     assert!(same(&peer, value), "another reader has {peer}");
 }
 
-/// Whether there is a number that is not finite, which the other reader takes for null, or for a
-/// string where it is too large.
+/// Whether there is a number that is not finite, which the other reader takes for null, or for a string if it is too
+/// large.
 fn has_not_finite(yaml: &[u8], value: &Value) -> bool {
     let text = String::from_utf8_lossy(yaml).to_ascii_lowercase();
     let is_too_large = |value: &Value| {

@@ -1,4 +1,4 @@
-//! What is stopped in the middle says so, and leaves nothing behind.
+//! Cancelled work returns a cancellation error, and leaves nothing behind.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,7 +16,7 @@ use testkit::files::below;
 
 use crate::robot::{made, our_robots};
 
-/// Stops when the module of this number is begun.
+/// Cancels when the module with this number begins.
 struct StopsAt(usize, Cancellation);
 
 impl Progress for StopsAt {
@@ -49,7 +49,7 @@ fn generate_leaves_what_was_there() {
         assert_eq!(stopped.code(), "cancelled");
         assert_eq!(below(folder.path()), BTreeMap::new(), "{stop}");
     }
-    // Over a URDD that is there.
+    // Over an existing URDD.
     let (folder, target) = made(&urdf);
     let before = below(folder.path());
     let cancellation = Cancellation::default();
@@ -64,7 +64,7 @@ fn generate_leaves_what_was_there() {
     assert_eq!(below(folder.path()), before);
 }
 
-/// A folder that asks to stop when a file is opened for the n-th time.
+/// A folder that cancels when a file is opened for the n-th time.
 #[derive(Debug)]
 struct StopsWhenRead {
     disk: Disk,
@@ -163,7 +163,7 @@ fn batches_of_distances_stop() {
     ] {
         assert!(matches!(found, Err(RobotError::Cancelled(_))), "{found:?}");
     }
-    // One that nobody cancels is as without.
+    // Without a cancellation, the result is the same.
     let few = &batch[..q.len() * 3];
     let token = Cancellation::default();
     let until = proximity.cancellable(&token);

@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 
 use crate::robot::{made, our_robots};
 
-/// What `urdd check-collisions` says: exit status, standard output, standard error.
+/// The result of `urdd check-collisions`: exit status, standard output, standard error.
 fn check(urdd: &Path, arguments: &[&str], input: &str) -> (i32, String, String) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
         .arg("check-collisions")
@@ -116,7 +116,7 @@ fn very_many_random_configurations_are_not_held_in_memory() {
         assert_eq!(status, 2, "{said}");
         assert!(said.contains("--random"), "{said}");
     }
-    // The first line is there before the last one is asked about, and who closes the pipe ends it.
+    // The first line appears before the last configuration is checked, and closing the pipe ends the program.
     let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
         .arg("check-collisions")
         .arg(&path)
@@ -138,7 +138,7 @@ fn very_many_random_configurations_are_not_held_in_memory() {
     let value: serde_json::Value = serde_json::from_str(&first).unwrap();
     assert_eq!(value["configuration"], 0);
     assert!(child.wait().unwrap().code().is_some_and(|code| code < 2));
-    // The same answers, however many are asked about at a time.
+    // The same answers for any batch size.
     let (_, text, _) = check(&path, &["--random", "5000"], "");
     let (_, lines, _) = check(
         &path,

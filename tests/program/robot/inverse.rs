@@ -65,7 +65,7 @@ fn what_is_out_of_reach_is_approached() {
     let there = robot.link_poses(&nearest.configuration).unwrap()[tip];
     let off = (there.translation.vector - Vector3::new(0.0, 2.0, 0.0)).norm();
     assert!((off - nearest.position_error).abs() < 1e-12);
-    // The rotation about x is one that the arm does not have: a quarter of a turn is left.
+    // The arm cannot rotate about x: a quarter turn remains.
     let turned = Isometry3::from_parts(
         Translation3::new(0.5, 0.3, 0.0),
         UnitQuaternion::from_euler_angles(std::f64::consts::FRAC_PI_2, 0.0, 0.0),
@@ -75,7 +75,7 @@ fn what_is_out_of_reach_is_approached() {
         !found.is_reached() && found.nearest().rotation_error > 1.5,
         "{found:?}"
     );
-    // A link that nothing moves is where it is.
+    // A link that no DOF moves stays in place.
     let base = robot.link("base").unwrap();
     assert!(ask(&robot, Target::position(base, [0.0; 3]), &[0.0; 3]).is_reached());
     let found = ask(&robot, Target::position(base, [0.0, 0.0, 1.0]), &[0.0; 3]);
@@ -101,7 +101,7 @@ fn bounds_hold_and_may_be_others() {
     // The elbow bent the other way, which the robot's own bounds forbid.
     let q = elbow([-2.5, 0.0]).reached().unwrap().configuration;
     assert!((-2.5..-1.0).contains(&q[1]), "{q:?}");
-    // Held too straight: 0.3 m and 0.5 m bent by 0.5 rad reach farther than to 0.5 m.
+    // Bounded too straight: 0.3 m and 0.5 m bent by 0.5 rad reach farther than 0.5 m.
     let found = elbow([0.0, 0.5]);
     let reach = f64::sqrt(0.34 + 0.3 * f64::cos(0.5));
     assert!(!found.is_reached());
@@ -199,7 +199,7 @@ fn questions_that_are_none() {
             Err(RobotError::Target(_))
         ));
     }
-    // Numbers at the end of what there is: no answer, and no panic.
+    // Numbers at the end of the range: no answer, and no panic.
     let far = Target::position(3, [1e308, -1e308, 1e308]);
     assert!(!ask(far, &[0.0; 3], &settings).unwrap().is_reached());
     let none = InverseSettings {

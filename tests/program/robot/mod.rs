@@ -1,4 +1,4 @@
-//! `urdd_robot`: a robot asked about itself, against closed forms, differences and other ways to the same number.
+//! `urdd_robot`: queries of a robot, compared with closed forms, finite differences and other methods.
 
 mod cancelled;
 mod command;

@@ -3,7 +3,7 @@ use urdd_robot::{Robot, RobotError};
 
 use crate::robot::{made, made_of, our_robots};
 
-/// Of a planar arm with two links of 0.5 m and 0.3 m, and a mimic finger.
+/// A planar arm with two links of 0.5 m and 0.3 m, and a mimic finger.
 const PLANAR: &str = r#"<robot name="planar">
   <link name="base"/><link name="upper"/><link name="fore"/><link name="tip"/><link name="finger"/>
   <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
@@ -48,7 +48,7 @@ fn a_planar_arm_as_the_textbook_has_it() {
     assert!((jacobian[(1, 1)] - elbow[1]).abs() < 1e-15);
 }
 
-/// By how much a pose moves and turns, per unit of `h`, from the one at `-h` to that at `h`.
+/// The translation and rotation of a pose per unit of `h`, between `-h` and `h`.
 fn difference(
     below: &Isometry3<f64>,
     above: &Isometry3<f64>,
@@ -174,7 +174,7 @@ fn configurations_are_within_bounds_where_they_are_said_to_be() {
     );
     let mut beyond = [9.0, -0.5];
     assert!(!space.is_within_bounds(&beyond));
-    // It has a pose all the same.
+    // It still has a pose.
     assert!(robot.link_poses(&beyond).is_ok());
     space.clamp(&mut beyond);
     assert_eq!(beyond, [3.0, -0.5]);

@@ -50,7 +50,7 @@ fn blocks_as_their_sizes_have_them() {
             assert!(on_cube[1].abs() <= 0.5 + 1e-7 && on_block[1].abs() <= 0.1 + 1e-7);
             assert!((on_cube[1] - on_block[1]).abs() < 1e-7, "{pair:?}");
         }
-        // The block in the cube, right in its middle and through its side.
+        // The block in the cube: exactly at its centre, and through its side.
         for q in [-2.0, -1.5] {
             let pairs = proximity.closest_points(&[q, 1.0]).unwrap();
             let pair = pair(&pairs, "cube", "block");
@@ -70,7 +70,7 @@ fn blocks_as_their_sizes_have_them() {
     }
     let spheres = robot.proximity(ShapeKind::Spheres).unwrap();
     let pairs = spheres.closest_points(&[0.5, 0.5]).unwrap();
-    // Spheres about a box reach to its corners; that about the ball is the ball.
+    // The sphere around a box reaches its corners; that around the ball is the ball.
     let found = pair(&pairs, "cube", "block").distance;
     assert!(
         (found - (2.5 - 0.6 * f64::sqrt(3.0))).abs() < 1e-6,
@@ -118,7 +118,7 @@ fn edits_of_skips_decide() {
     }
     std::fs::write(&file, module.to_string()).unwrap();
     assert_eq!(count(&path), 2);
-    // Of pieces whose matrices are left out the links decide.
+    // If the matrices of pieces are omitted, the links decide.
     module["decomposition_convex_hulls_skips"] = serde_json::Value::Null;
     std::fs::write(&file, module.to_string()).unwrap();
     assert_eq!(count(&path), 3);
@@ -129,7 +129,7 @@ fn edits_of_skips_decide() {
     assert_eq!(count(&path), 1);
 }
 
-/// The distances of all pairs that are not skipped, one by one, without anything that is passed over.
+/// The distances of all pairs that are not skipped, one by one, without culling.
 fn one_by_one(robot: &Robot, kind: ShapeKind, q: &[f64]) -> Vec<f64> {
     use urdd_geometry::convex::{ConvexShape, distance};
     use urdd_robot::Solid;

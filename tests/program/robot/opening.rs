@@ -46,7 +46,7 @@ fn folder_zip_and_memory_are_the_same_robot() {
     assert_eq!(asked[0], asked[2]);
 }
 
-/// A folder that remembers what was opened in it.
+/// A folder that records which files were opened.
 #[derive(Debug)]
 struct Watched {
     disk: Disk,

@@ -51,7 +51,7 @@ fn bodies_as_their_sizes_have_them() {
         assert!((wall.distance - (2.4 - q)).abs() < 1e-7, "{wall:?}");
         assert!((wall.points[0][0] - (q + 0.1)).abs() < 1e-7, "{wall:?}");
         assert!((wall.points[1][0] - 2.5).abs() < 1e-7, "{wall:?}");
-        // The bar lies along x, over the block.
+        // The bar is along x, over the block.
         let bar = of(&all, "block", "bar");
         assert!((bar.distance - (1.9 - 0.25)).abs() < 1e-7, "{bar:?}");
         assert!((bar.points[1][2] - 1.75).abs() < 1e-7, "{bar:?}");
@@ -59,7 +59,7 @@ fn bodies_as_their_sizes_have_them() {
         let beside = (q.abs() - 0.1).max(0.0);
         let expected = (2.9_f64.powi(2) + beside * beside).sqrt() - 0.5;
         assert!((sun.distance - expected).abs() < 1e-7, "{sun:?}");
-        // A prism about a cylinder: nearer by 0.13 % of its radius at most.
+        // A prism around a cylinder: nearer by at most 0.13 % of its radius.
         let mast = of(&all, "block", "mast");
         let exact = (2.9_f64.powi(2) + beside * beside).sqrt() - 0.5;
         let short = exact - mast.distance;
@@ -84,7 +84,7 @@ fn spheres_reach_as_far_as_their_radii() {
         .unwrap()[1];
     assert!((ball.distance - 1.4).abs() < 1e-6, "{ball:?}");
     assert!((ball.points[0][1] - 1.1).abs() < 1e-6 && (ball.points[1][1] - 2.5).abs() < 1e-6);
-    // Deep in one another: one point of both.
+    // Deep penetration: one point common to both.
     let world = World::new([Obstacle::sphere("sun", [0.9, 0.0, 0.0], 0.5).unwrap()]);
     let among = proximity.world_proximity(&world).unwrap();
     let ball = &among.closest_points(&[-3.0, 0.0]).unwrap()[1];
@@ -97,7 +97,7 @@ fn spheres_reach_as_far_as_their_radii() {
     assert!(among.in_collision(&[-3.0, 0.0]).unwrap());
 }
 
-/// A cup of walls 0.1 m thick, open at the top, about the origin: 1 m wide and high.
+/// A cup with walls 0.1 m thick, open at the top, around the origin: 1 m wide and high.
 fn cup() -> Mesh {
     let mut mesh = Mesh::default();
     for (centre, half) in [
@@ -139,7 +139,7 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
     let hull = Obstacle::hull("cup", at(0.0, 0.0, 0.0), &cup.vertices).unwrap();
     assert!(pieces.num_parts() >= 5, "{}", pieces.num_parts());
     assert_eq!(hull.num_parts(), 1);
-    // The block stands in the middle of the cup, the ball outside.
+    // The block is in the middle of the cup, the ball outside.
     let q = [0.0, 0.0];
     let world = World::new([pieces]);
     let all = proximity

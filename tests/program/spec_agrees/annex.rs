@@ -1,4 +1,4 @@
-//! The field tables of SPEC.md, made from the published schemas, so that the two cannot differ.
+//! The field tables of SPEC.md, generated from the published schemas, so that the two cannot differ.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub fn tables() -> String {
         let _ = writeln!(text, "### `{title}` {}\n", subject.version());
         object(&schema, &schema, &mut text);
         for (name, definition) in definitions(&schema) {
-            // What several modules share stands with the first.
+            // What several modules share appears with the first.
             if is_kind(name, &schema) {
                 continue;
             }
@@ -80,7 +80,7 @@ fn description(schema: &Value) -> String {
         .get("description")
         .and_then(Value::as_str)
         .unwrap_or_default();
-    // Of an enumeration the words follow as a list, which `type_of` tells.
+    // The values of an enumeration follow as a list, which `type_of` describes.
     let text = text.split("\n- ").next().unwrap_or_default();
     text.replace('\n', " ").replace('|', "\\|")
 }
@@ -145,7 +145,7 @@ fn word_for(word: &str, schema: &Value, root: &Value) -> String {
     }
 }
 
-/// Whether a definition is one kind of a choice, told of with the choice.
+/// Whether a definition is one alternative of a choice, described with the choice.
 fn is_kind(name: &str, root: &Value) -> bool {
     let reference = format!("#/$defs/{name}");
     definitions(root).any(|(_, definition)| {

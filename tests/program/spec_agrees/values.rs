@@ -37,7 +37,7 @@ fn flat(value: &Value) -> Vec<f64> {
     list.iter().map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// Whether one of the cases has in these keys what the cells say.
+/// Whether one of the cases has the values of the cells in these keys.
 fn assert_known(cases: &Value, keys: &[&[&str]], row: &[Vec<f64>]) {
     let known = cases.as_array().expect("a list").iter().any(|case| {
         let cells = keys.iter().map(|keys| {

@@ -54,7 +54,7 @@ fn wxyz(q: &UnitQuaternion<f64>) -> [f64; 4] {
     [q.w, q.i, q.j, q.k]
 }
 
-/// As rotations; and as quaternions, where w is clear of 0 and so the sign no noise.
+/// As rotations; and as quaternions if w is clear of 0, so that its sign is not noise.
 #[track_caller]
 fn assert_rotation(found: &UnitQuaternion<f64>, expected: [f64; 4], place: &str) {
     let distance = rotation_distance(found, &quaternion(expected));

@@ -43,7 +43,7 @@ struct Mimic {
     offset: f64,
 }
 
-/// Each joint on the root, about or along z.
+/// Each joint attached to the root, about or along z.
 fn urdf(robot: &Robot) -> String {
     let joints = robot.joints.iter().map(|joint| {
         let mimic = joint.mimic.as_ref().map(|mimic| {
@@ -123,7 +123,7 @@ fn mimics() {
             let turn: Vector3<f64> = to_rotation_vector(&pose.rotation).into();
             let found = match joint.joint_type.as_str() {
                 "revolute" | "continuous" => {
-                    // A turn by more than pi is seen as the other way round.
+                    // A turn by more than pi appears as a turn in the other direction.
                     let turns = ((expected[0] - turn.z) / std::f64::consts::TAU).round();
                     vec![turn.z + turns * std::f64::consts::TAU]
                 }
@@ -132,7 +132,7 @@ fn mimics() {
                     assert_eq!((pose.translation.vector.norm(), turn.norm()), (0.0, 0.0));
                     vec![]
                 }
-                // Joints with several DOFs are no mimics; forward_kinematics.json has their motion.
+                // Joints with several DOFs cannot be mimics; forward_kinematics.json has their motion.
                 _ => continue,
             };
             let place = format!("{}, joint {}", robot.name, joint.name);

@@ -1,4 +1,4 @@
-//! SPEC 8.8: what a network gives, by numpy.
+//! SPEC 8.8: the output of a network, by numpy.
 
 use serde_json::json;
 use urdd_format::rate::Rate;
@@ -85,7 +85,7 @@ fn clearances() {
         );
         all.extend(found);
     }
-    // Many at once are the same bits.
+    // In a batch, the bits are the same.
     let configurations: Vec<f64> = vectors
         .iter()
         .flat_map(|of| of.configuration.clone())

@@ -69,7 +69,7 @@ fn smallest_boxes_and_spheres() {
     for case in bodies.bodies {
         let hull = ConvexHull::new(&case.points).unwrap();
         let found = oriented_box::OrientedBox::around(&hull).volume() / case.smallest_box.volume;
-        // The search of boxes may stop at 1e-6 above the least. What searches found, ours may beat.
+        // The search for boxes may stop at 1e-6 above the minimum. Ours may beat boxes that were found by search.
         assert!(
             found < 1.0 + 2e-6,
             "{}: box {found} times as large",

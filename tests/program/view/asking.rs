@@ -51,7 +51,7 @@ impl Running {
         }
     }
 
-    /// Sends a request with exactly these headers, and gives the whole answer.
+    /// Sends a request with exactly these headers, and returns the whole response.
     pub fn raw(&self, first_line: &str, headers: &[(&str, &str)], body: &[u8]) -> Answer {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).expect("a connection");
         let mut text = format!("{first_line} HTTP/1.1\r\nConnection: close\r\n");
@@ -104,7 +104,7 @@ impl Drop for Running {
     }
 }
 
-/// What came back.
+/// The response.
 pub struct Answer {
     pub status: u16,
     pub headers: Vec<(String, String)>,

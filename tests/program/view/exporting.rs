@@ -60,7 +60,7 @@ fn one_file_holds_all_and_its_policy_knows_it() {
     }
 }
 
-/// In base64 it stays as small in a notebook's attribute, where quotes take six bytes.
+/// In base64 it stays small in a notebook's attribute too, where a quote takes six bytes.
 #[test]
 fn one_file_is_small() {
     let (_folder, path) = made("gripper");
@@ -70,7 +70,7 @@ fn one_file_is_small() {
     assert!(quotes < 2_000, "{quotes} characters to escape");
 }
 
-/// What a page carries under a name.
+/// The content that a page has under a name.
 fn carried(page: &str, id: &str) -> Vec<u8> {
     let start = format!(r#"<script type="text/plain" id="{id}">"#);
     let rest = page.split_once(&start).expect(id).1;
@@ -109,7 +109,7 @@ fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
             (path.ends_with(".stl") || path.ends_with(".obj")) && !path.contains("original");
         assert!(!is_second, "{path}");
     }
-    // What is left is enough to place its links and to measure between its hulls and pieces.
+    // The rest is enough to place its links and to measure between its hulls and pieces.
     let (part, whole) = (Robot::of(root), Robot::open(&path).expect("a robot"));
     let zero = whole.configurations().expect("it").zero();
     for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
@@ -119,7 +119,7 @@ fn one_file_holds_what_the_page_reads_and_nothing_of_a_persons() {
         };
         let (part, whole) = (distances(&part), distances(&whole));
         assert!(!part.is_empty() && part.len() == whole.len());
-        // Of another format, so that corners are in another order.
+        // In another format, so the corners are in another order.
         for (a, b) in part.iter().zip(&whole) {
             assert!((a.distance - b.distance).abs() < 1e-9, "{a:?} {b:?}");
         }
@@ -186,7 +186,7 @@ fn one_file_rounds_normals_and_nothing_else() {
     assert!(rounded > 100, "{rounded} normals");
 }
 
-/// A .glb of anybody's is carried as it is, whatever it says of its normals.
+/// A foreign .glb is carried unchanged, whatever its normals.
 #[test]
 fn one_file_carries_broken_meshes_as_they_are() {
     let (_folder, path) = made("welding_arm");

@@ -56,7 +56,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
     let revision = || server.json("/robots/gripper/files.json")["revision"].clone();
     let saved: Value = serde_json::from_slice(&answer.body).expect("JSON");
     assert_eq!(saved["revision"], revision());
-    // From now on that folder is shown, and written to.
+    // From now on, that folder is shown and written to.
     fs::remove_dir_all(&path).expect("removed");
     let entry = server.json("/robots.json")[0].clone();
     assert_eq!(
@@ -96,7 +96,7 @@ fn nothing_is_overwritten() {
         "mine"
     );
     assert_eq!(fs::read_dir(&full).expect("a folder").count(), 1);
-    // Whoever lacks the token saves nothing.
+    // Without the token, nothing can be saved.
     let free = folder.path().join("free");
     let wish = json!({ "folder": free.to_str() }).to_string();
     let headers = [("Host", &*server.host())];

@@ -1,4 +1,4 @@
-//! `urdd view` as its page and others ask it: who is refused, what is served, what saving skips does.
+//! `urdd view` as its page and others use it: who is refused, what is served, what saving skips does.
 
 mod asking;
 mod exporting;

@@ -1,4 +1,4 @@
-//! What a server does with who sends too much, too slowly, or too often.
+//! How a server handles clients that send too much, too slowly, or too often.
 
 use std::fs;
 use std::io::{ErrorKind, Read, Write};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::asking::{Running, made};
 
-/// The first line of the answer to a request of which only the head is sent.
+/// The first line of the response to a request of which only the head is sent.
 fn answer_to_head(server: &Running, head: &str) -> String {
     let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
     stream
@@ -20,7 +20,7 @@ fn answer_to_head(server: &Running, head: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// Nobody sends a body who may not: the answer comes while none of it is there.
+/// An unauthorised client gets its response before it sends any of the body.
 #[test]
 fn who_may_not_ask_is_refused_before_a_body_is_read() {
     let (_folder, path) = made("gripper");
@@ -38,7 +38,7 @@ fn who_may_not_ask_is_refused_before_a_body_is_read() {
             format!("Host: {host}\r\nOrigin: http://evil.example\r\nX-Urdd-Token: {token}\r\n"),
             403,
         ),
-        // And who may, sends no more than the route takes.
+        // An authorised client sends no more than the route accepts.
         (
             keep,
             format!("Host: {host}\r\nX-Urdd-Token: {token}\r\n"),
@@ -59,7 +59,7 @@ fn who_may_not_ask_is_refused_before_a_body_is_read() {
     }
 }
 
-/// The answer arrives although what was sent is not read to its end.
+/// The response arrives although the request was not read to its end.
 #[test]
 fn a_refusal_arrives_whole() {
     let (_folder, path) = made("gripper");
@@ -71,7 +71,7 @@ fn a_refusal_arrives_whole() {
     }
 }
 
-/// Connections that drip, and some that are silent, while a page asks.
+/// Connections that send slowly, and some that are silent, while a page makes requests.
 #[test]
 fn who_says_nothing_does_not_shut_the_page_out() {
     let (_folder, path) = made("gripper");
@@ -97,7 +97,7 @@ fn who_says_nothing_does_not_shut_the_page_out() {
     }
 }
 
-/// A connection that sends a byte now and then ends, as one that is silent does.
+/// A connection that sends a byte now and then is closed, like a silent one.
 #[test]
 fn a_dripping_connection_ends() {
     let (_folder, path) = made("gripper");
@@ -126,7 +126,7 @@ fn a_dripping_connection_ends() {
     );
 }
 
-/// An archive is read once, however many ask, and its files are sent as they are inflated.
+/// An archive is read once for all requests, and its files are sent as they are inflated.
 #[test]
 fn an_archive_is_served_as_its_folder() {
     let (folder, path) = made("gripper");

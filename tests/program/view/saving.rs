@@ -100,7 +100,7 @@ fn what_changed_on_disk_is_not_overwritten() {
     assert_eq!(content(&path), before);
 }
 
-/// An editor that keeps the time, or a program that sets it back.
+/// An editor that keeps the file time, or a program that sets it back.
 #[cfg(unix)]
 #[test]
 fn a_change_that_keeps_size_and_time_is_not_overwritten() {

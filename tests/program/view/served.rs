@@ -135,7 +135,7 @@ fn others_are_refused() {
         "GET /app.js",
         &[("Host", &host), ("Sec-Fetch-Site", "cross-site")],
     );
-    // A person who follows a link on any page reaches the page: its HTML, and nothing of a robot.
+    // A user who follows a link on any page reaches the page: its HTML, and nothing of a robot.
     let followed = [
         ("Host", &*host),
         ("Sec-Fetch-Site", "cross-site"),

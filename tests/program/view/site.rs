@@ -1,4 +1,4 @@
-//! The static site, and what a person adds to it.
+//! The static site, and what a user adds to it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -48,7 +48,7 @@ fn named(site: &Path) -> BTreeMap<String, String> {
     pairs.collect()
 }
 
-/// The files of the first robot of a site, by path, each of which is what its name says.
+/// The files of the first robot of a site, by path. Each has the content that its name implies.
 fn robot_files(site: &Path) -> BTreeMap<String, Vec<u8>> {
     let robots = json(&site.join(&named(site)["robots.json"]));
     let files = json(&site.join(robots[0]["files"].as_str().expect("a list")));
@@ -84,7 +84,7 @@ fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// What urdd.json lists, itself and the source.
+/// The paths that urdd.json lists, its own path and that of the source.
 fn listed(urdd: &Path) -> BTreeMap<String, Vec<u8>> {
     let metadata = json(&urdd.join("urdd.json"));
     let mut paths = vec!["urdd.json".to_owned()];
@@ -100,7 +100,7 @@ fn listed(urdd: &Path) -> BTreeMap<String, Vec<u8>> {
     paths.into_iter().map(read).collect()
 }
 
-/// Puts files of a person's into a folder.
+/// Puts a user's own files into a folder.
 fn put(folder: &Path, files: &[(&str, &str)]) {
     for (name, text) in files {
         let path = folder.join(name);
@@ -179,7 +179,8 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
     );
 }
 
-/// A listed SVG or page keeps its content, and a server that goes by names calls it nothing that runs.
+/// A listed SVG or HTML file keeps its content, and a server that derives types from names does not serve it as
+/// anything that runs.
 #[test]
 fn a_listed_file_that_browsers_run_is_inert() {
     let (folder, path) = made("gripper");
@@ -211,7 +212,7 @@ fn a_listed_file_that_browsers_run_is_inert() {
     }
 }
 
-/// `urdd.json` comes from anybody: it publishes no file of a person's by naming it.
+/// `urdd.json` is untrusted: naming a user's private file in it does not publish the file.
 #[test]
 fn urdd_json_cannot_name_files_outside_of_modules() {
     let (folder, path) = made("gripper");
@@ -240,7 +241,7 @@ fn urdd_json_cannot_name_files_outside_of_modules() {
     }
 }
 
-/// Of a URDD from before urdd.json: documents, what they name, and the URDF.
+/// For a URDD from before urdd.json: documents, the files that they name, and the URDF.
 #[test]
 fn a_urdd_without_urdd_json_has_the_files_that_its_modules_name() {
     let (folder, path) = made("gripper");
@@ -270,7 +271,7 @@ fn a_second_export_replaces_its_own_files_alone() {
     exported(&path, &site).expect("written");
     let first = all(&site);
     put(&site, OF_A_PERSON);
-    // Again, of the same: nothing changes.
+    // The same robot again: nothing changes.
     exported(&path, &site).expect("written");
     let mut expected = first.clone();
     expected.extend(
@@ -279,7 +280,7 @@ fn a_second_export_replaces_its_own_files_alone() {
             .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
     assert_eq!(all(&site), expected);
-    // Of another robot: its files instead, and a person's as they were.
+    // Another robot: its files replace the old ones, and a user's files are unchanged.
     let (_other, other) = made("welding_arm");
     exported(&other, &site).expect("written");
     assert_eq!(robot_files(&site), listed(&other));
@@ -318,7 +319,7 @@ fn a_file_of_a_persons_in_the_way_stops_the_export() {
     }
     assert_eq!(all(&site), before, "nothing was changed");
     fs::write(&page, text).expect("written");
-    // One that is not needed any more, and was changed: it stays, and is named.
+    // A file that is no longer needed, but was changed: it is kept, and a message names it.
     let is_own =
         |bytes: &[u8]| String::from_utf8_lossy(bytes).contains("\"robot_name\": \"gripper\"");
     let mut own = before.iter().filter(|(_, bytes)| is_own(bytes));
@@ -356,7 +357,7 @@ fn a_list_of_somebody_elses_removes_nothing() {
         assert_eq!(fs::read_to_string(site.join(name)).expect(name), *text);
     }
     assert!(folder.path().join("outside").is_file());
-    // A link in the place of the folder leads elsewhere.
+    // A link in place of the folder leads elsewhere.
     let elsewhere = folder.path().join("elsewhere");
     fs::rename(site.join("urdd-site"), &elsewhere).expect("moved");
     std::os::unix::fs::symlink(&elsewhere, site.join("urdd-site")).expect("a link");
@@ -369,7 +370,7 @@ fn a_list_of_somebody_elses_removes_nothing() {
     assert_eq!(all(&elsewhere), before);
 }
 
-/// 0.2.0 kept no list: nobody can tell what is a person's.
+/// 0.2.0 kept no list, so the user's files cannot be told apart.
 #[test]
 fn a_site_of_0_2_0_is_left_alone_until_its_files_are_gone() {
     let (folder, path) = made("gripper");
@@ -423,7 +424,7 @@ fn a_folder_with_something_else_is_left_alone() {
     }
 }
 
-/// Whenever it is killed, the site is the old one or the new one, and the next export finishes it.
+/// Whenever an export is killed, the site is the old one or the new one, and the next export completes it.
 #[test]
 fn a_killed_export_leaves_a_whole_site() {
     let (folder, path) = made("gripper");
@@ -443,7 +444,7 @@ fn a_killed_export_leaves_a_whole_site() {
     let usual = begun.elapsed();
     for k in 0..16_u32 {
         let mut child = export_it(if k % 2 == 0 { &path } else { &other });
-        // Most of the time goes before the first file is put in its place.
+        // Most of the time passes before the first file is moved into place.
         let share = usual.mul_f64(0.5 + 0.6 * f64::from(k) / 16.0);
         std::thread::sleep(share.max(Duration::from_millis(1)));
         let _ = child.kill();

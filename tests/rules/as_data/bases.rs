@@ -1,4 +1,4 @@
-//! The bases: which there are, which one a case changes, and how they are stored.
+//! The bases of cases: the existing ones, the one that a case changes, and how they are stored.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
@@ -16,19 +16,19 @@ use super::{suite, tree_of, tree_written};
 use crate::{Case, Make, legacy};
 use testkit::fixture::{Fixture, toy_robot};
 
-/// A case that takes more of a base's bytes than this part gets a base of its own.
+/// A case that adds more than this fraction of a base's bytes gets a base of its own.
 const TOO_DIFFERENT: f64 = 0.25;
-/// But not below so many bytes.
+/// Below this many bytes, a case never gets its own base.
 const SMALL: usize = 3000;
 
-/// Bases that are not made for a case. Their files come first where several bases have the same.
+/// Bases that do not belong to a case. Files that several bases share are stored in these first.
 const MAIN: [&str; 3] = ["toy", "toy_core", "legacy"];
 
 /// Bases by name, [`MAIN`] first.
 pub struct Bases(Vec<(String, Tree)>);
 
 impl Bases {
-    /// Those of the suite as it is stored.
+    /// The bases of the stored suite.
     pub fn stored() -> Bases {
         let bases = Suite::carried().expect("the suite reads").bases;
         let mut bases: Vec<(String, Tree)> = bases.into_iter().collect();
@@ -37,7 +37,7 @@ impl Bases {
         Bases(bases)
     }
 
-    /// Those of the suite, made again. Of a case that is gone, so is the base.
+    /// The bases of the stored suite, rebuilt. The bases of removed cases are dropped.
     pub fn made_again(cases: &[Case]) -> Bases {
         let fixture = |fixture: Fixture| {
             tree_of(&Make::Fixture(Box::new(move || {
@@ -59,7 +59,8 @@ impl Bases {
         Bases(bases)
     }
 
-    /// The base with the fewest words to `tree`, and these. The few that share most bytes with it are tried.
+    /// The base with the shortest changes to `tree`, and these changes. Only the few bases that share most bytes with
+    /// it are tried.
     fn nearest(&self, tree: &Tree) -> (usize, Difference) {
         let foreign = |base: &Tree| -> usize {
             let nodes = tree.nodes.iter();
@@ -84,8 +85,8 @@ impl Bases {
         nearest.expect("there are bases")
     }
 
-    /// The base of a case, and its changes: as they are stored where they still make the case, so that other cases and
-    /// bases change nothing here. Else of the nearest base, or of a new one where all are far away.
+    /// The base of a case, and its changes. The stored ones are kept if they still produce the case, so that other
+    /// cases and bases change nothing here. Otherwise the nearest base is used, or a new one if all are too different.
     pub fn for_case(
         &mut self,
         case: &Case,
@@ -115,13 +116,13 @@ impl Bases {
         (self.0[at].0.clone(), way)
     }
 
-    /// Leaves out those that no case names.
+    /// Drops bases that no case names.
     pub fn keep(&mut self, used: &BTreeSet<String>) {
         self.0.retain(|(name, _)| used.contains(name));
     }
 
-    /// Their files by path in `conformance/`. What several have is stored once: where it is stored already, else in the
-    /// first of them. The list of copies names the others.
+    /// Their files by path in `conformance/`. A file that several bases share is stored once: where it is stored
+    /// already, otherwise in the first of them. The list of copies names the others.
     pub fn files(&self) -> BTreeMap<String, Vec<u8>> {
         let mut all = Vec::new();
         for (rank, (name, tree)) in self.0.iter().enumerate() {
@@ -156,19 +157,19 @@ impl Bases {
     }
 }
 
-/// What a base that is made for a case is called.
+/// The name of a base that belongs to a case.
 fn base_name(case: &Case) -> String {
     format!("{}-{}", case.code.as_str().to_lowercase(), case.name)
 }
 
-/// What a base for a case holds: the URDD before the change where that is known, else the case itself.
+/// The content of a case's own base: the URDD before the change if known, otherwise the case itself.
 fn base_of(case: &Case, tree: &Tree) -> Tree {
     let base = case.base.as_ref().map(tree_of);
-    // One that is far larger than the case is of no use to it.
+    // A base that is far larger than the case does not help.
     let bytes = |tree: &Tree| stored(tree).map(|(_, bytes)| bytes.len()).sum::<usize>();
     let base = base.filter(|base| bytes(base) <= 2 * bytes(tree));
     let mut base = base.unwrap_or_else(|| tree.clone());
-    // A base has files only; what else there is comes by changes.
+    // A base contains only files; changes add everything else.
     base.nodes
         .retain(|path, node| path.as_str().is_some() && matches!(node, Node::File(_)));
     base
@@ -186,7 +187,7 @@ fn length((changes, kept): &Difference) -> usize {
     text.expect("changes are JSON").len()
 }
 
-/// The files of a base that are stored: mirrors that sealing makes are not.
+/// The files of a base that are stored, without the mirrors that sealing writes.
 fn stored(tree: &Tree) -> impl Iterator<Item = (&str, &[u8])> {
     let mut made = tree.clone();
     made.nodes.retain(|path, _| mirror_of(path).is_some());

@@ -1,4 +1,4 @@
-//! What makes one URDD of another, as changes that a case can list.
+//! The difference between two URDDs, as changes that a case can list.
 
 use std::collections::BTreeSet;
 
@@ -13,13 +13,13 @@ use urdd_directory::{canonical, digest, file_entry, json as json_text};
 use super::patch::patch;
 use testkit::fixture::ROOT;
 
-/// Changes, and the files whose entries in `urdd.json` do not follow them.
+/// Changes, and the files whose entries in `urdd.json` are not updated by them.
 pub type Difference = (Vec<Change>, BTreeSet<String>);
 
-/// Files shorter than this are written, even where the same is elsewhere.
+/// Files shorter than this are written out, even if an equal file exists elsewhere.
 const SHORT: usize = 200;
 
-/// What makes `new` of `old`.
+/// The changes from `old` to `new`.
 pub fn difference(old: &Tree, new: &Tree) -> Difference {
     let mut work = Work {
         tree: old.clone(),
@@ -36,7 +36,7 @@ pub fn difference(old: &Tree, new: &Tree) -> Difference {
     (work.changes, kept)
 }
 
-/// Whether changes that were made earlier still make `new` of `old`.
+/// Whether earlier changes still turn `old` into `new`.
 pub fn makes(old: &Tree, changes: &[Change], kept: &BTreeSet<String>, new: &Tree) -> bool {
     let mut tree = old.clone();
     let applied = changes.iter().all(|change| change.apply(&mut tree).is_ok());
@@ -58,7 +58,7 @@ struct Work {
 fn document(tree: &Tree, path: &FilePath) -> Option<Value> {
     let bytes = tree.file(path.as_str()?)?;
     let read = json_text::read(bytes).ok()?;
-    // Text that says more than the document (a repeated key, a mark) is compared as text.
+    // Text with more information than the document (a repeated key, a byte order mark) is compared as text.
     let same = |on_one_line| text_of(&read.value, on_one_line) == bytes;
     (same(false) || same(true)).then_some(read.value)
 }
@@ -67,14 +67,13 @@ fn is_document(path: &FilePath) -> bool {
     path.as_str() == Some(ROOT) || mirror_of(path).is_some()
 }
 
-/// The document of which `path` is the mirror.
+/// The document that `path` mirrors.
 fn mirrored(tree: &Tree, path: &FilePath) -> Option<Value> {
     let folder = path.as_str()?.strip_suffix("module.yaml")?;
     document(tree, &format!("{folder}module.json").as_str().into())
 }
 
-/// Whether both have the same there. The order of keys is not looked at, and hashes that are right
-/// are equal.
+/// Whether both have the same content at this path. The order of keys is ignored, and all correct hashes are equal.
 fn same(ours: &Tree, theirs: &Tree, path: &FilePath) -> bool {
     if ours.nodes.get(path) == theirs.nodes.get(path) {
         return true;
@@ -97,7 +96,7 @@ fn same(ours: &Tree, theirs: &Tree, path: &FilePath) -> bool {
     is_mirror(ours) && is_mirror(theirs)
 }
 
-/// Entries with the right size and hash lose both.
+/// Removes size and hash from entries where both are correct.
 fn mark_right(tree: &Tree, metadata: &mut Value) {
     for entry in file_entry::all(metadata) {
         if is_right(tree, entry) == Some(true) {
@@ -107,7 +106,7 @@ fn mark_right(tree: &Tree, metadata: &mut Value) {
     }
 }
 
-/// Entries that are as they were lose size and hash: where these are not right any more, they are kept.
+/// Removes size and hash from unchanged entries, unless they are no longer correct.
 fn leave_out_kept(before: &mut Value, after: &mut Value) {
     let before: Vec<_> = file_entry::all(before).collect();
     for entry in file_entry::all(after) {
@@ -118,14 +117,14 @@ fn leave_out_kept(before: &mut Value, after: &mut Value) {
     }
 }
 
-/// Whether an entry is true of its file; `None` where there is no such file.
+/// Whether an entry matches its file; `None` if the file does not exist.
 fn is_right(tree: &Tree, entry: &Value) -> Option<bool> {
     let bytes = tree.file(entry["path"].as_str()?)?;
     let (size, sha256) = digest::of_bytes(bytes);
     Some(entry["size"] == json!(size) && entry["sha256"] == json!(sha256))
 }
 
-/// Files with an entry that is not true of them.
+/// Files whose entry does not match.
 fn untrue_entries(tree: &Tree) -> BTreeSet<String> {
     let mut metadata = document(tree, &ROOT.into()).unwrap_or_default();
     let entries = file_entry::all(&mut metadata);
@@ -146,7 +145,7 @@ impl Work {
         self.changes.push(change);
     }
 
-    /// Documents that stay documents. Entries that `rehash` brings up to date are left to it.
+    /// Documents that remain documents, except for entries that `rehash` updates.
     fn patch_documents(&mut self, old: &Tree, new: &Tree) {
         let paths: Vec<FilePath> = self.tree.nodes.keys().cloned().collect();
         for path in paths.iter().filter(|path| is_document(path)) {
@@ -161,7 +160,7 @@ impl Work {
                 leave_out_kept(&mut before.clone(), &mut after);
                 mark_right(old, &mut before);
                 mark_right(new, &mut after);
-                // Files that are new to `urdd.json` get an entry to be filled in.
+                // Files that are new in `urdd.json` get an entry to be filled in.
                 for entry in file_entry::all(&mut after) {
                     let known =
                         file_entry::all(&mut before).any(|old| old["path"] == entry["path"]);
@@ -184,7 +183,7 @@ impl Work {
         }
     }
 
-    /// Files that are there before and after.
+    /// Files that exist before and after.
     fn change_files(&mut self, new: &Tree) {
         for (path, node) in &new.nodes {
             if same(&self.tree, new, path) || path.as_str() == Some(ROOT) && self.root_follows(new)
@@ -199,7 +198,7 @@ impl Work {
         }
     }
 
-    /// Whether what is left in `urdd.json` is for `rehash`.
+    /// Whether `rehash` makes the remaining changes in `urdd.json`.
     fn root_follows(&self, new: &Tree) -> bool {
         document(new, &ROOT.into()).is_some()
     }
@@ -237,7 +236,7 @@ impl Work {
     }
 }
 
-/// The highest folder around `path`, or that itself, in which `new` has nothing.
+/// The highest folder above `path`, or `path` itself, in which `new` has nothing.
 fn widest_folder_without(path: &FilePath, new: &Tree) -> FilePath {
     let text = path.as_str().expect("bases have names in UTF-8");
     let ends = text.match_indices('/').map(|(end, _)| end);
@@ -255,7 +254,7 @@ fn written(bytes: &[u8]) -> Action {
     }
 }
 
-/// The shortest way to say that a file has other bytes.
+/// The shortest change that gives a file other bytes.
 fn edit(before: &[u8], after: &[u8]) -> Action {
     let mut ways = vec![written(after)];
     if before.starts_with(after) {
@@ -293,7 +292,7 @@ fn edit(before: &[u8], after: &[u8]) -> Action {
     ways.into_iter().min_by_key(cost).expect("a way")
 }
 
-/// The text between an equal start and end, taken so far to the left that it is found there first.
+/// The text between an equal start and end, extended to the left until its first occurrence is this one.
 fn replacement(before: &str, after: &str, start: usize, end: usize) -> Option<Action> {
     let (mut start, mut end) = (start, end);
     while !before.is_char_boundary(start) {
@@ -302,7 +301,7 @@ fn replacement(before: &str, after: &str, start: usize, end: usize) -> Option<Ac
     while !before.is_char_boundary(before.len() - end) {
         end -= 1;
     }
-    // From the beginning of the word, for whoever reads it.
+    // From the beginning of the word, for readability.
     let word = before[..start].rfind(|c: char| c.is_whitespace());
     start = word
         .map_or(start, |space| space + 1)

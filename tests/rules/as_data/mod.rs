@@ -1,8 +1,8 @@
-//! The cases as data: `conformance/invalid` and `conformance/bases` are made of the closures in this
-//! test. `URDD_UPDATE=1 cargo test --test rules` writes them; without it, what is there is compared.
+//! The cases as data: `conformance/invalid` and `conformance/bases` are written from the closures in this test.
+//! `URDD_UPDATE=1 cargo test --test rules` writes them; without it, the stored files are compared.
 //!
-//! A case names the base that needs the fewest words. A URDD that is far from every base becomes one. What is stored and
-//! still makes the case stays, so that a new case changes no other.
+//! A case names the base that needs the shortest changes. A URDD that is far from every base becomes a base. Stored
+//! changes that still produce the case are kept, so that a new case does not change the others.
 
 mod bases;
 mod changes;
@@ -28,10 +28,10 @@ use self::bases::Bases;
 use self::changes::Difference;
 use crate::{Case, Make};
 
-/// In which versions of the specification the cases hold.
+/// The versions of the specification that the cases apply to.
 const SPEC_VERSIONS: &str = ">=1.0.0, <2.0.0";
 
-/// So many cases are held in memory.
+/// Number of cases to keep in memory.
 const AT_ONCE: usize = 32;
 
 fn update() -> bool {
@@ -42,7 +42,7 @@ fn suite() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance")
 }
 
-/// In memory where that can be: files on disk take ten times as long.
+/// In memory if possible: files on disk take ten times as long.
 fn tree_of(make: &Make) -> Tree {
     match make {
         Make::Fixture(make) => {
@@ -64,7 +64,7 @@ fn tree_written(write: &dyn Fn(&Path)) -> Tree {
     Tree::read(folder.path(), &root).expect("what was just written")
 }
 
-/// What the validator finds in a case, which is this URDD.
+/// The validator's findings in a case, which is this URDD.
 fn found(case: &case::Case, urdd: &Tree) -> Vec<Expected> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let root = folder.path().join("robot");
@@ -103,7 +103,7 @@ fn as_data(case: &Case, base: String, way: Difference, old: Option<&case::Case>)
             true => Verdict::Reject,
             false => Verdict::Accept,
         },
-        // Places are the validator's; a person reads them once, when they are written.
+        // The validator supplies the locations; a person reads them once, when they are written.
         expected: old.map(|old| old.expected.clone()).unwrap_or_default(),
         base,
         changes: way.0,
@@ -111,8 +111,8 @@ fn as_data(case: &Case, base: String, way: Difference, old: Option<&case::Case>)
     }
 }
 
-/// Every file that the closures make, by its path in `conformance/`. Of some cases only: what they add, beside the bases
-/// as they are stored.
+/// Every file that the closures produce, by its path in `conformance/`. If only some cases are selected: the files that
+/// they add to the stored bases.
 fn files(cases: &[Case], all: bool) -> BTreeMap<String, Vec<u8>> {
     let mut bases = match all {
         true => Bases::made_again(cases),
@@ -165,7 +165,7 @@ fn on_disk() -> BTreeSet<String> {
     found
 }
 
-/// `URDD_UPDATE=1` writes what is missing or stale; with `URDD_CASE`, of these cases alone.
+/// `URDD_UPDATE=1` writes what is missing or stale; with `URDD_CASE`, only for these cases.
 #[test]
 fn the_suite_is_what_the_closures_say() {
     let asked = crate::one_case::asked_for();
@@ -188,7 +188,7 @@ fn the_suite_is_what_the_closures_say() {
             println!("removed conformance/{path}");
             let path = suite().join(path);
             fs::remove_file(&path).expect("removed");
-            // Its folders, as far as nothing else is in them.
+            // Its folders, unless they contain anything else.
             let mut folders = path.ancestors().skip(1);
             while folders
                 .next()

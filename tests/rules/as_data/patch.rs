@@ -1,9 +1,9 @@
-//! JSON Patches that a person can read: of lists with an element more or less, that element.
+//! Readable JSON Patches: if a list gains or loses an element, only that element is patched.
 
 use json_patch::Patch;
 use serde_json::{Value, json};
 
-/// What makes `new` of `old`.
+/// The patch from `old` to `new`.
 pub fn patch(old: &Value, new: &Value) -> Patch {
     let mut operations = Vec::new();
     compare(old, new, "", &mut operations);
@@ -30,7 +30,7 @@ fn compare(old: &Value, new: &Value, at: &str, out: &mut Vec<Value>) {
     }
 }
 
-/// What is equal at both ends stays; of the middle, elements at the same place are compared.
+/// Equal elements at both ends are kept; in the middle, elements are compared by index.
 fn compare_lists(old: &[Value], new: &[Value], at: &str, out: &mut Vec<Value>) {
     if old.len() == new.len() {
         for (index, (old, new)) in old.iter().zip(new).enumerate() {

@@ -11,7 +11,7 @@ use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::Fixture;
 use testkit::robot::*;
 
-/// Two boxes, 1 m apart, of which one turns about its own middle.
+/// Two boxes, 1 m apart; one rotates about its own centre.
 fn turning_boxes() -> Fixture {
     let mut robot = robot_of(vec![boxy("a"), boxy("b")]);
     robot.urdf.joints[0].joint_type = JointType::Revolute;
@@ -22,7 +22,7 @@ fn turning_boxes() -> Fixture {
     Fixture::full_with_edits(&robot, Vec::new())
 }
 
-/// Sets how many samples the statistics are over to more than anybody looks at.
+/// Sets the number of samples in the statistics to more than a validator checks.
 fn of_a_billion(f: &mut Fixture) {
     f.set(STATISTICS, "/num_samples", json!(1_000_000_000));
 }

@@ -1,4 +1,4 @@
-//! SHP017 to SHP021: boxes, spheres and largest distances, held to the hulls and pieces.
+//! SHP017 to SHP021: boxes, spheres and largest distances, compared with the hulls and pieces.
 
 use serde_json::json;
 use urdd_validate::code::Code::*;
@@ -10,7 +10,7 @@ use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::Fixture;
 use testkit::robot::*;
 
-/// One box, of which the second link is a mere frame: nothing has a distance from it.
+/// One box; the second link is only a frame, without distances.
 fn lone_box() -> Fixture {
     Fixture::full(&robot_of(vec![boxy("a"), link("b")]))
 }
@@ -18,7 +18,7 @@ fn lone_box() -> Fixture {
 /// Half extents of the box that [`boxy`] shows.
 const BOXY: [f64; 3] = [0.05, 0.1, 0.15];
 
-/// Turns the box of the lone box about z, and makes it as large as it must be then.
+/// Turns the box of the lone box about z, and enlarges it to fit.
 fn turn_box(f: &mut Fixture, angle: f64) {
     let ([a, b, c], (sin, cos)) = (BOXY, angle.sin_cos());
     let half = [a * cos + b * sin, a * sin + b * cos, c];
@@ -28,7 +28,7 @@ fn turn_box(f: &mut Fixture, angle: f64) {
     f.set(REACH, "/full_obbs_maximum_distances/0", json!(reach));
 }
 
-/// Moves the centre of the sphere of the lone box along z, and makes it as large as it must be then.
+/// Moves the centre of the sphere of the lone box along z, and enlarges it to fit.
 fn move_sphere(f: &mut Fixture, shift: f64) {
     let [a, b, c] = BOXY;
     let radius = (a * a + b * b + (c + shift) * (c + shift)).sqrt();

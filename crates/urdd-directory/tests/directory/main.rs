@@ -1,4 +1,4 @@
-//! JSON and YAML as text, held to other readers.
+//! JSON and YAML as text, compared with other readers.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

@@ -87,7 +87,7 @@ fn document() -> impl Strategy<Value = Value> {
     })
 }
 
-/// As many leaves as there are, each with a way to reach it.
+/// All leaves, each with a path to it.
 fn leaves(value: &mut Value) -> Vec<&mut Value> {
     match value {
         Value::Array(list) => list.iter_mut().flat_map(leaves).collect(),
@@ -137,7 +137,7 @@ proptest! {
     #[test]
     fn another_writers_yaml_says_the_same(value in document()) {
         let text = serde_yaml::to_string(&value).unwrap();
-        // As a YAML 1.1 writer it folds lines at these; to YAML 1.2 that changes the string.
+        // A YAML 1.1 writer folds lines at these characters; for YAML 1.2, that changes the string.
         prop_assume!(!text.contains(['\u{85}', '\u{2028}', '\u{2029}']));
         let faults = check_mirror(text.as_bytes(), &value);
         prop_assert_eq!(faults.total(Kind::YamlDiffers), 0, "{}\n{}", faults, text);

@@ -65,7 +65,7 @@ fn a_key_in_braces_is_on_one_line_with_its_colon() {
 
 #[test]
 fn a_text_that_ends_with_the_file() {
-    // To saphyr each ends with one line break more than to PyYAML.
+    // Saphyr reads one more line break at the end of each than PyYAML.
     for yaml in [
         "k: |\n  é",
         "k: >\n  é",
@@ -108,7 +108,7 @@ fn bad_files_have_a_kind_each() {
     assert!(first(b"").message.contains("nothing"));
     assert!(first(b"# only a comment\n").message.contains("nothing"));
     assert!(first(b"a: [1]\0\n").message.contains("U+0000"));
-    // The parser takes NUL for the end of the file, so nothing may be made of what it would read.
+    // The parser takes NUL for the end of the file, so what it would read must not be used.
     let faults = check_mirror(b"a: [2]\0, b: 1", &json());
     assert_eq!(faults.totals().collect::<Vec<_>>(), [(Kind::YamlSyntax, 1)]);
     let cases: [(&[u8], Kind); 9] = [

@@ -1,4 +1,4 @@
-//! The YAML mirror against what other readers say, against one fault at a time, and on bad input.
+//! The YAML mirror: compared with other readers, with one fault at a time, and on bad input.
 
 use serde_json::{Value, json};
 use urdd_directory::canonical;
@@ -6,7 +6,7 @@ use urdd_directory::text_fault::{KEPT_PER_KIND, TextFault, TextFaultKind as Kind
 use urdd_directory::yaml::check_mirror;
 use urdd_directory::yaml::scalar::{Reading, classify};
 
-// What other readers say.
+// Results of other readers.
 
 #[test]
 fn plain_scalars_are_read_as_other_readers_read_them() {
@@ -44,7 +44,7 @@ fn plain_scalars_are_read_as_other_readers_read_them() {
         let text = row["text"].as_str().unwrap();
         let kind = |version: &str| row[version][0].as_str().unwrap();
         let (old, new) = (kind("yaml11"), kind("yaml12"));
-        // No plain scalars at all: a list, a mapping, a reserved character.
+        // Not plain scalars: a list, a mapping, a reserved character.
         if matches!(text, "-" | "1:" | "@x" | "`x" | "%x") {
             continue;
         }
@@ -142,7 +142,7 @@ fn tags_are_one_fault_and_the_content_is_still_compared() {
     assert_eq!(differs.pointer.as_deref(), Some("/shape/Mesh/scale/1"));
     assert_eq!(faults.iter().count(), 2);
 
-    // A missing key inside is placed inside, too.
+    // The location of a missing inner key is inside, too.
     let faults = faults_of("shape: !Mesh\n  scale: [1.0, 2.0]\n", json.clone());
     assert!(
         faults

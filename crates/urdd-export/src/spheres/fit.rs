@@ -29,17 +29,17 @@ const BY_SURFACE: f64 = 0.5;
 const CONTACT_ROUNDS: usize = 10;
 const CONTACT_STEPS: usize = 20;
 const LAST_STEPS: usize = 160;
-/// The part of the spheres that go in each round, to be put where they are of more use.
+/// The fraction of the spheres that each round removes, to place them where they are more useful.
 const MOVED: f64 = 0.05;
 /// The share of contacts, as opposed to the surface, in a sphere's blame.
 const CONTACT_SHARE: f64 = 0.8;
 /// Contact rounds use every `STRIDE`-th sample; the final steps use all.
 const STRIDE: usize = 3;
 
-/// Links that are farther apart in a free configuration than this have no part in it, in units of lengths.
+/// In a free configuration, links that are farther apart than this are ignored, in units of `Goal::size`.
 const NEAR: f64 = 1.0;
 
-/// After so many steps it is looked again which configurations matter.
+/// Number of steps after which the relevant configurations are selected again.
 const LOOK_AGAIN: usize = 10;
 /// Number of steps at the end of a round over which blame is summed.
 const BLAMED: usize = 5;
@@ -47,8 +47,8 @@ const BLAMED: usize = 5;
 /// Step sizes at the beginning and at the end, in units of `Goal::size`.
 const SURFACE_STEP: [f64; 2] = [0.02, 0.005];
 const LAST_STEP: [f64; 2] = [0.01, 0.0005];
-/// In rounds of splitting by contacts. Where a fit ends hangs on them: the second is tried where the first is not within
-/// the goals.
+/// Step sizes in rounds of splitting by contacts. The result of a fit depends on them: the second is tried if the first
+/// does not reach the goals.
 pub(super) const CONTACT_STEP: [[f64; 2]; 2] = [[0.02, 0.005], [0.01, 0.003]];
 
 /// Minimum radius, in units of `Goal::size`.
@@ -125,7 +125,7 @@ fn one_sphere(points: &[Point]) -> Vec<Sphere> {
     middle(points).map(sphere).into_iter().collect()
 }
 
-/// Steps down the slope; the contacts count where configurations to look at are given. Returns each sphere's blame.
+/// Gradient descent. The contact loss counts if configurations for it are given. Returns each sphere's blame.
 fn descend(
     goal: &Goal,
     spheres: &mut Spheres,
@@ -226,7 +226,7 @@ impl Adam {
     }
 }
 
-/// Splits the spheres with the most blame until there are `wanted`; each at most once, and none of a link at its limit.
+/// Splits the spheres with the most blame until there are `wanted`: each at most once, and none of a link at its limit.
 fn split(
     spheres: &mut Spheres,
     surface: &[Vec<Point>],

@@ -33,14 +33,14 @@ impl SphereRates {
 }
 
 impl SphereRates {
-    /// The greater of the upper ends of the intervals of both rates, each as a part of its goal.
+    /// The greater of the upper ends of the intervals of both rates, each relative to its goal.
     pub(super) fn worse(&self) -> f64 {
         (interval(self.missed, self.colliding)[1] / MAX_MISSED)
             .max(interval(self.false_contacts, self.free)[1] / MAX_FALSE)
     }
 }
 
-/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927): 0 to 1 of nothing.
+/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927); 0 to 1 if the total is 0.
 pub fn interval(hits: usize, of: usize) -> [f64; 2] {
     const Z: f64 = 1.959_963_984_540_054;
     if of == 0 {
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn intervals_are_those_of_the_closed_form() {
-        // By scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
+        // From scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
         for (hits, of, low, high) in [
             (9, 903, 0.005252, 0.018833),
             (0, 10_000, 0.0, 0.000384),
@@ -217,8 +217,8 @@ mod tests {
 
     #[test]
     fn radii_grow_until_the_rates_are_in_balance() {
-        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs as much relative to its
-        // goal.
+        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs both rates equally, relative
+        // to their goals.
         let mut collide = vec![false];
         let mut gaps = vec![0.009];
         for k in 0..100 {

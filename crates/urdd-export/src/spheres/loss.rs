@@ -38,14 +38,14 @@ const FREE: f64 = 20.0;
 /// Margin of penetration and of separation, in units of length.
 const MARGIN: f64 = 0.01;
 
-/// A configuration that may matter, and its pairs of links that may.
+/// A configuration that may contribute to the loss, and its pairs of links that may.
 #[derive(Clone)]
 pub(super) struct Looked {
     pub sample: usize,
     pub pairs: Vec<u32>,
 }
 
-/// A configuration that matters, and the pairs of spheres that may: link and number of each.
+/// A configuration that contributes to the loss, and its pairs of spheres that may: link and index of each.
 pub(super) struct Active {
     sample: usize,
     near: Vec<[(usize, usize); 2]>,
@@ -172,8 +172,8 @@ impl Goal<'_> {
         found.into_iter().enumerate().map(looked).collect()
     }
 
-    /// The configurations that matter as long as no sphere moves or grows by more than about half of `band`, metres.
-    /// Of `looked_at` what will not matter before spheres did so by half of `far` goes.
+    /// The configurations that contribute to the loss as long as no sphere moves or grows by more than about half of
+    /// `band`, metres. Removes from `looked_at` whatever cannot contribute before a sphere does so by half of `far`.
     pub fn active(
         &self,
         spheres: &Spheres,

@@ -59,7 +59,7 @@ struct Model {
     surface: Vec<Vec<Point>>,
     /// Ignored pairs of links, ascending: the URDD skips all their pairs of pieces, or they were never in contact.
     ignored: Vec<[usize; 2]>,
-    /// How many of these were never in contact, although the URDD does not skip them.
+    /// The number of these that were never in contact, although the URDD does not skip them.
     ignored_as_never: usize,
     measured: Measured,
 }
@@ -204,8 +204,8 @@ fn fitted(
     Ok((spheres, near))
 }
 
-/// Grows or shrinks all radii so that the rates are in balance, with the default configuration free; twice, since a pair
-/// that is ignored on the way changes the balance. Returns how the worse rate is, as a part of its goal.
+/// Grows or shrinks all radii so that the rates are balanced, with the default configuration free; twice, since a pair
+/// that becomes ignored changes the balance. Returns the worse rate, relative to its goal.
 fn balance(
     spheres: &mut Spheres,
     surface: &[Vec<Point>],

@@ -86,7 +86,7 @@ impl<'a> Placeable<'a> {
         reach > 0.0 && dot(between, between) <= reach * reach
     }
 
-    /// The least distance of two links' spheres, negative where they overlap; `limit` where it is more.
+    /// The minimum distance of two links' spheres, negative if they overlap; at most `limit`.
     pub fn gap(&self, sample: &Sample, placed: &mut Placed, links: [usize; 2], limit: f64) -> f64 {
         let mut least = limit;
         self.near(sample, placed, links, limit, |gap, _| {
@@ -96,8 +96,8 @@ impl<'a> Placeable<'a> {
         least
     }
 
-    /// Finds spheres of two links that are nearer than `limit`, with their distance and their numbers in their links.
-    /// What `found` returns is the limit from then on.
+    /// Finds spheres of two links that are nearer than `limit`, with their distance and their indices in their links.
+    /// The return value of `found` is the new limit.
     pub fn near(
         &self,
         sample: &Sample,

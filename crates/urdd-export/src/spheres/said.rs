@@ -182,7 +182,7 @@ fn rates_json(rates: SphereRates) -> Value {
     })
 }
 
-/// What is noted, beside the file: that there is nothing to fit to, or spheres that are not good enough to plan with.
+/// The note for the user: that there is nothing to fit to, or that the spheres are not good enough for planning.
 pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
     if model.links.is_empty() {
         return Some(Note::NoShapes(subject.options.shapes));

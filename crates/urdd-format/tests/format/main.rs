@@ -1,5 +1,5 @@
-//! For every published schema: serde reads a document exactly where JSON Schema accepts it, and
-//! what is read comes back unchanged.
+//! For every published schema: serde reads a document exactly if JSON Schema accepts it, and the result serialises back
+//! unchanged.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
@@ -23,7 +23,7 @@ use urdd_format::schema::{Subject, Variant};
 /// Generated documents for each schema; each is mutated [`MUTATIONS`] times.
 const CASES: u32 = 300;
 const MUTATIONS: usize = 25;
-/// How often each verdict must occur for each schema, or the comparison says nothing.
+/// Minimum number of times that each verdict must occur for each schema; below it, the comparison is meaningless.
 const ENOUGH: usize = 500;
 
 #[derive(Debug, PartialEq, Serialize)]
@@ -56,13 +56,13 @@ fn validator(schema: &Value) -> Validator {
     jsonschema::draft202012::new(schema).unwrap()
 }
 
-/// Raw choices, of which a document is made: few and small ones make a small document, so that
-/// proptest shrinks documents by shrinking this.
+/// Raw choices that determine a document: few and small ones give a small document, so that proptest shrinks documents
+/// by shrinking this.
 fn choices(most: usize) -> impl Strategy<Value = Vec<u16>> {
     proptest::collection::vec(any::<u16>(), 0..most)
 }
 
-/// Runs a property that makes a document of the first choices, and changes it by the second.
+/// Runs a property that generates a document from the first choices, and changes it by the second.
 fn run(cases: u32, property: impl Fn(&mut Choices, &mut Choices) -> Result<(), TestCaseError>) {
     let mut runner = TestRunner::new(Config {
         cases,

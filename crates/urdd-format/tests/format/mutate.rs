@@ -25,7 +25,7 @@ pub fn mutate(document: &mut Value, choices: &mut Choices) {
     }
     let mut pointers = Vec::new();
     collect(document, String::new(), &mut pointers);
-    // Most of a document is numbers, most of what can go wrong is in the rest.
+    // Most of a document is numbers; most of what can go wrong is in the rest.
     if choices.pick(2) == 0 {
         pointers.retain(|pointer| {
             pointer.is_empty() || !document.pointer(pointer).is_some_and(Value::is_number)
@@ -135,7 +135,7 @@ fn number(choices: &mut Choices) -> Value {
     ])
 }
 
-/// Changes an object, or gives what to put in its place.
+/// Changes an object, or returns its replacement.
 fn mutate_object(object: &mut Map<String, Value>, choices: &mut Choices) -> Option<Value> {
     let keys: Vec<String> = object.keys().cloned().collect();
     let key = if keys.is_empty() {
@@ -155,7 +155,7 @@ fn mutate_object(object: &mut Map<String, Value>, choices: &mut Choices) -> Opti
             object.insert(stranger.to_owned(), json!("text"));
         }
         3 => {
-            // A second kind beside the one of a choice.
+            // A second alternative of a choice, next to the first.
             let value = object.get(&key).cloned().unwrap_or_default();
             object.insert(choices.one(&WORDS).to_owned(), value);
         }

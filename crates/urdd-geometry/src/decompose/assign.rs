@@ -257,7 +257,7 @@ mod tests {
         };
         let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
         assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));
-        // The projection into the first plane alone stays.
+        // Only the projection into the first plane remains.
         assert!(given(0.11).len() > given(0.0).len());
     }
 }

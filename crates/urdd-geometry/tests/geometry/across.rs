@@ -1,5 +1,5 @@
-//! Pairs asked together, each against its closed form: faces that are parallel and apart, where the descent is
-//! stopped by rounding most often.
+//! Pairs computed together, each compared with its closed form: parallel faces apart, where rounding stops the descent
+//! most often.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::math::{Pose, Vector};
@@ -10,7 +10,7 @@ use urdd_geometry::convex::{ConvexShape, Level, TOLERANCE, distance};
 
 use crate::dice::Dice;
 
-/// A prism with its corners on a circle, from z = -half to half. It holds the circle of radius `inner`.
+/// A prism with its corners on a circle, from z = -half to half. It contains the circle of radius `inner`.
 #[derive(Clone)]
 struct Prism {
     corners: Vec<[f64; 3]>,
@@ -35,7 +35,7 @@ impl Prism {
         }
     }
 
-    /// The corners, moved, and rounded as files have them.
+    /// The corners, moved, and rounded as in files.
     fn moved(&self, by: &Isometry3<f64>) -> Vec<[f64; 3]> {
         let rounded = |x: f64| f64::from(x as f32);
         let corner = |p: &[f64; 3]| (by * Point3::from(*p)).coords.map(rounded).into();
@@ -43,10 +43,10 @@ impl Prism {
     }
 }
 
-/// How far rounding to 32 bits moves faces of this size, metres, and more.
+/// More than rounding to 32 bits can move faces of this size, metres.
 const ROUNDED: f64 = 2e-7;
 
-/// Two prisms with parallel faces a gap apart, of which they overlap a part.
+/// Two prisms with partially overlapping parallel faces, a gap apart.
 struct Case {
     points: [Vec<[f64; 3]>; 2],
     b_in_a: Isometry3<f64>,
@@ -58,7 +58,7 @@ fn cases(count: usize) -> Vec<Case> {
     let mut cases = Vec::new();
     for k in 0..count {
         let a = Prism::new(&mut dice);
-        // Half of them are two of a kind with one axis, as the discs of a robot's motors are.
+        // Half of them are two equal prisms on one axis, like the discs of a robot's motors.
         let alike = k % 2 == 0;
         let b = match alike {
             true => a.clone(),
@@ -130,7 +130,7 @@ fn parallel_faces_apart() {
             "{k}: {:?}, {gap}",
             seen[k]
         );
-        // Eight at a time, as they are in the lanes.
+        // Eight at a time, as in the lanes.
         if k % 8 == 0 {
             let eight = k..(k + 8).min(pairs.len());
             let touching = found[eight.clone()].contains(&0.0);

@@ -7,7 +7,7 @@ use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::mesh::Mesh;
 use urdd_geometry::{farthest, hull::ConvexHull};
 
-/// How far a sphere about `centre` must reach.
+/// The radius that a sphere around `centre` needs.
 fn reach(points: &[Point], centre: Vector3<f64>) -> f64 {
     points
         .iter()
@@ -15,8 +15,8 @@ fn reach(points: &[Point], centre: Vector3<f64>) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The sphere about points, after checking that it holds them and is the smallest: the reach is a
-/// convex function of the centre, so it is least where it is no less nearby.
+/// The sphere around points, after checking that it contains them and is the smallest: the radius is a convex function
+/// of the centre, so it is minimal if it is not smaller nearby.
 fn sphere_of(points: &[Point]) -> BoundingSphere {
     let hull = ConvexHull::new(points).expect("a hull");
     let sphere = BoundingSphere::around(&hull);
@@ -71,7 +71,7 @@ fn many_points_on_one_sphere() {
         [1.0, 2.0, 3.0],
     ));
     assert_near(cylinder.radius, 0.5, 1e-6);
-    // Points of the unit sphere all about, and others inside.
+    // Points all over the unit sphere, and others inside.
     let mut random = Random(3);
     let mut points = Vec::new();
     for i in 0..2000 {

@@ -23,7 +23,7 @@ pub fn distance(a: &[Point], b: &[Point]) -> f64 {
     least
 }
 
-/// Every three of the points, with repetition where there are fewer.
+/// All triples of the points, with repetition if there are fewer.
 fn triangles(p: &[Point]) -> Vec<[Point; 3]> {
     let n = p.len();
     let mut all = Vec::new();
@@ -109,7 +109,7 @@ fn point_triangle(p: Point, t: &[Point; 3]) -> f64 {
     least
 }
 
-/// The ends against the other segment, and the common normal where its feet are inside both.
+/// The ends against the other segment, and the common normal if its feet are inside both.
 fn segment_segment(s: [Point; 2], t: [Point; 2]) -> f64 {
     let mut least = point_segment(s[0], t)
         .min(point_segment(s[1], t))

@@ -1,4 +1,4 @@
-//! Convex decomposition held to closed forms and to its promises.
+//! Convex decomposition, compared with closed forms and its documented guarantees.
 
 use proptest::prelude::*;
 use urdd_geometry::Mesh;
@@ -26,8 +26,8 @@ pub(crate) fn volume(m: &Mesh) -> f64 {
         .sum()
 }
 
-/// How far a point is outside a convex mesh's planes at most: a lower bound of the distance. Flat
-/// pieces have their two sides for planes, and their rim unchecked here.
+/// The maximum distance of a point outside a convex mesh's planes: a lower bound of the distance. Flat pieces have
+/// their two sides as planes; their rim is not checked here.
 fn above(m: &Mesh, p: [f64; 3]) -> f64 {
     m.triangles
         .iter()
@@ -83,7 +83,7 @@ pub(crate) fn prism(outline: &[[f64; 2]], ears: &[[u32; 3]], height: f64) -> Mes
     m
 }
 
-/// A torus about z, or a tube's wall when `profile` is a rectangle: a closed profile turned.
+/// A torus about z, or the wall of a tube if `profile` is a rectangle: a closed profile, revolved.
 pub(crate) fn turned(profile: &[[f64; 2]], steps: u32) -> Mesh {
     let n = profile.len() as u32;
     let mut m = Mesh::default();
@@ -131,7 +131,7 @@ fn surface_points(m: &Mesh) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Every surface point is in a piece to within the promise; each piece is convex, closed and in the link's hull.
+/// Every surface point is in a piece to within the tolerance; each piece is convex, closed and in the link's hull.
 pub(crate) fn check(m: &Mesh, settings: &Settings) -> Vec<Mesh> {
     let d = decompose(m, settings);
     assert!(
@@ -364,7 +364,7 @@ fn turned_box(half: [f64; 3], rpy: [f64; 3], xyz: [f64; 3]) -> Mesh {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
-    /// Cuts in any direction through bodies with an inside: what is put into a cut stays in the hull.
+    /// Cuts in any direction through bodies with an interior: vertices added at a cut stay in the hull.
     #[test]
     fn pieces_of_boxes_that_cross_are_in_their_hull(
         boxes in proptest::collection::vec(

@@ -1,4 +1,4 @@
-//! Shapes of which the best division is known: its volume, or how far it stands off, by closed forms.
+//! Shapes whose best decomposition is known: its volume, or its distance from the surface, by closed forms.
 
 use urdd_geometry::Mesh;
 use urdd_geometry::decompose::{Settings, decompose};
@@ -59,7 +59,7 @@ fn a_comb_is_a_back_and_its_teeth() {
     }
 }
 
-/// A square box without a lid, turned about z: the outer and inner half sides, the height, the floor's thickness.
+/// A square box without a lid, turned about z: the outer and inner half sides, the height, the thickness of the floor.
 fn box_cup([outer, inner, height, floor]: [f64; 4], angle: f64) -> (Mesh, f64) {
     // A square of circumradius R has the half side R / sqrt 2, and its sides across the diagonals.
     let [r, s] = [outer, inner].map(|half| half * 2.0_f64.sqrt());
@@ -93,7 +93,7 @@ fn a_cup_is_a_floor_and_four_walls() {
                 (volume(&cup).abs() / solid - 1.0).abs() < 1e-9,
                 "the test's own mesh"
             );
-            // Triangles either way round.
+            // Triangles in either winding.
             for _ in 0..2 {
                 let pieces = check(&cup, &within(7));
                 let fullness = fullness(&pieces, solid);
@@ -148,8 +148,8 @@ fn no_more_pieces_than_a_standoff_needs() {
         };
         decompose(&mesh, &settings).pieces.len()
     };
-    // One piece has lids of 1 cm over the gaps, which stand off by 2.5 mm on average where they are open, and two
-    // sides that do: 1 cm is too much in any case, and 1 um needs every tooth.
+    // One piece has lids of 1 cm over the gaps. They are on average 2.5 mm from the surface where they are open, as are
+    // two sides. A tolerance of 1 cm accepts that in any case, and 1 um needs every tooth.
     assert_eq!(count(0.01), 1);
     assert!(count(1e-6) >= 13);
     let some = count(3e-4);

@@ -1,4 +1,4 @@
-//! Distances of convex shapes against closed forms and against trying everything.
+//! Distances of convex shapes, compared with closed forms and with brute force.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -32,7 +32,7 @@ fn near(found: f64, expected: f64) {
     );
 }
 
-/// The distance of two shapes that are given in one frame, seen from a few frames and both ways.
+/// The distance of two shapes given in one frame, measured in a few frames and in both orders.
 #[track_caller]
 fn check(a: &[[f64; 3]], b: &[[f64; 3]], expected: f64) {
     for q in [
@@ -59,7 +59,7 @@ fn shifted(points: &[[f64; 3]], by: [f64; 3]) -> Vec<[f64; 3]> {
 
 #[test]
 fn parallel_faces() {
-    // Boxes of half extents (1, 2, 3) and (0.5, 0.5, 0.5): faces 0.25 apart, of which they overlap a part.
+    // Boxes of half extents (1, 2, 3) and (0.5, 0.5, 0.5): partially overlapping faces 0.25 apart.
     check(
         &corners([1.0, 2.0, 3.0]),
         &shifted(&corners([0.5; 3]), [1.75, 1.9, -2.8]),
@@ -96,7 +96,7 @@ fn crossed_edges() {
 
 #[test]
 fn vertex_and_face() {
-    // An octahedron's vertex (0, 0, 1) below the face z = 1.5 of a box that lies off centre.
+    // An octahedron's vertex (0, 0, 1) below the face z = 1.5 of a box that is off centre.
     let octahedron = [
         [1.0, 0.0, 0.0],
         [-1.0, 0.0, 0.0],
@@ -295,7 +295,7 @@ fn points() -> impl Strategy<Value = Vec<[f64; 3]>> {
     })
 }
 
-/// A pose, half of them without a turn and on a grid.
+/// A pose; half of them on a grid and without a rotation.
 fn pose() -> impl Strategy<Value = Isometry3<f64>> {
     let angle = -3.1..3.1;
     let any = (

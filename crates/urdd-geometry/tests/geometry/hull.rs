@@ -1,10 +1,10 @@
-//! Convex hulls: closed forms, degenerate and hostile points, and properties held exactly.
+//! Convex hulls: closed forms, degenerate and hostile points, and properties that are exact.
 
 use crate::solids::*;
 use proptest::prelude::*;
 use urdd_geometry::hull::{ConvexHull, HullError};
 
-/// The hull, after checking all that every hull must hold.
+/// The hull, after checking the properties of every hull.
 fn hull_of(points: &[Point]) -> ConvexHull {
     let hull = ConvexHull::new(points).expect("a hull");
     assert_closed_subset(hull.mesh(), points);
@@ -35,7 +35,7 @@ fn a_box_full_of_points_on_its_faces_has_eight_corners() {
     );
     assert_eq!(volume(hull.mesh()), 13.5);
     assert_eq!(area(hull.mesh()), 36.0);
-    // Turned, its points are off their planes by single rounding, and the hull has more corners.
+    // Rotated, its points are off their planes by single-precision rounding, and the hull has more corners.
     let turned = placed(&grid, [0.3, 0.2, 0.1], [0.0; 3]);
     assert_near(volume(hull_of(&turned).mesh()), 13.5, 1e-6);
 }
@@ -152,7 +152,7 @@ fn what_has_no_area_is_refused() {
 #[test]
 fn a_corner_within_rounding_of_an_edge_is_left_out() {
     let mut points = box_corners([2.0; 3]);
-    // Above the top, beside the middle of an edge by h: the triangle between is as thin as that.
+    // Above the top, at h beside the middle of an edge: the triangle between is that thin.
     let with = |h: f64| [0.125, 1.0 - h, 1.0 + h];
     points.push(with(1e-10));
     assert_eq!(hull_of(&points).mesh().vertices.len(), 8);

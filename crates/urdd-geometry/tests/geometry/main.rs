@@ -1,5 +1,5 @@
-//! Geometry, held to closed forms, to brute force and to properties. Figures by peers on real meshes
-//! are made by the scripts in `tests/figures/geometry`.
+//! Geometry, compared with closed forms, brute force and properties. The scripts in `tests/figures/geometry` generate
+//! figures with other implementations on real meshes.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

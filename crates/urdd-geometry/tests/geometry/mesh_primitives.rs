@@ -24,7 +24,7 @@ fn assert_closed(mesh: &Mesh) {
     );
 }
 
-/// All of these bodies are convex and hold the origin: each face must look away from it.
+/// All of these bodies are convex and contain the origin: each face must point away from it.
 fn assert_outward(mesh: &Mesh) {
     for triangle in &mesh.triangles {
         let [a, b, c] = mesh.corners(*triangle).map(nalgebra::Vector3::from);

@@ -1,4 +1,4 @@
-//! No input makes a reader panic, and what a reader gives is a mesh.
+//! No input makes a reader panic, and every result is a valid mesh.
 
 use proptest::prelude::*;
 use urdd_geometry::primitives;
@@ -39,7 +39,7 @@ fn fetch(name: &str) -> Option<Vec<u8>> {
     Some((0..48).chain([0, 0, 1, 0, 2, 0, 3, 0]).collect())
 }
 
-/// Reads under every name, and looks at what comes.
+/// Reads under every name, and checks the result.
 fn check(bytes: &[u8]) {
     for name in NAMES {
         let Ok(scene) = read(bytes, name, &mut fetch) else {

@@ -1,4 +1,4 @@
-//! STL files that are right, odd and broken.
+//! STL files that are valid, odd and broken.
 
 use urdd_geometry::read::{Fault, Format, MeshError, NoteCode, Options, Scene, read, read_with};
 
@@ -64,7 +64,7 @@ fn counts_that_do_not_fit() {
         (scene.triangle_count(), codes(&scene)),
         (3, vec![NoteCode::WrongCount])
     );
-    // Only the extension tells what a file is that is cut off.
+    // Only the extension identifies a truncated file.
     bytes.truncate(84 + 3 * 50 - 1);
     assert_eq!(load(&bytes, "a.STL").unwrap().triangle_count(), 2);
     assert_eq!(

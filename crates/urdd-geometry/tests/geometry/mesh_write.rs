@@ -1,4 +1,5 @@
-//! What is written: read back by our readers, and looked at byte by byte. Peers read it in `scripts/compare_meshes.py`.
+//! Written meshes: read back by our readers, and inspected byte by byte. Other programs read them in
+//! `scripts/compare_meshes.py`.
 
 use serde_json::{Value, json};
 use urdd_geometry::Mesh;
@@ -42,7 +43,7 @@ fn parts() -> Vec<Part> {
     parts
 }
 
-/// The corners of each triangle as binary32, as the text of OBJ means them.
+/// The corners of each triangle as binary32, as in the text of the OBJ.
 fn corners(mesh: &Mesh) -> Vec<[[f64; 3]; 3]> {
     let mut mesh = mesh.clone();
     mesh.round_to_f32();
@@ -98,7 +99,7 @@ fn vertices_and_indices_come_back_as_they_were() {
             .merged(),
         );
         assert!(corners(&found) == corners(&expected));
-        // Readers number vertices by first use, so only how many there are can be compared.
+        // Readers number vertices by first use, so only their number can be compared.
         found.weld();
         expected.weld();
         assert_eq!(found.vertices.len(), expected.vertices.len());
@@ -136,8 +137,8 @@ fn the_text_of_obj_is_the_shortest() {
 
 #[test]
 fn the_text_of_obj_survives_a_reader_in_binary64() {
-    // The shortest text of this number, 7.038531e-26, is the nearest to no other binary32; but rounded to binary64 first
-    // it lies half way between two, and goes to the wrong one.
+    // The shortest text of this number, 7.038531e-26, is nearest to it among binary32 numbers. Rounded to binary64
+    // first, it is half way between two, and becomes the wrong one.
     let value = f64::from(f32::from_bits(0x15ae_43fd));
     let mesh = Mesh {
         vertices: vec![[value, 0.0, 0.0], [-value, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -1,4 +1,4 @@
-//! Files that say the same thing very often, or name very many things: what they cost.
+//! The cost of files that repeat one thing very often, or that name very many things.
 
 use urdd_geometry::Mesh;
 use urdd_geometry::decompose::{Settings, decompose};
@@ -9,13 +9,13 @@ fn read_obj(text: &str) -> Scene {
     read(text.as_bytes(), "a.obj", &mut |_| None).expect("an OBJ")
 }
 
-/// Pieces of a surface are those of its triangles, however often the file has each.
+/// Pieces of a surface are those of its triangles, however often the file repeats each.
 #[test]
 fn a_triangle_that_is_said_often_makes_what_it_makes_once() {
     let mut once = cuboid([1.0, 0.2, 0.3]);
     once.append(&cuboid([0.2, 1.0, 0.3]));
     let often = Mesh {
-        // Each time beginning with another corner.
+        // Each time beginning with a different corner.
         triangles: (0..500)
             .flat_map(|n| {
                 once.triangles.iter().map(move |t| {
@@ -65,14 +65,14 @@ fn materials_beyond_the_limit_keep_their_triangles() {
     );
 }
 
-/// The number of triangles is that of the corners less two for each polygon, cut by ears or as a fan.
+/// Each polygon gives as many triangles as it has corners, less two, by ear clipping or as a fan.
 #[test]
 fn many_tangled_polygons_are_cut_within_bounds() {
     let corners = 3000;
     let mut text = String::new();
     for polygon in 0..80_u64 {
         for corner in 0..corners {
-            // Any places that cross: the bits of a product.
+            // Arbitrary self-intersecting positions: the bits of a product.
             let mixed = (polygon * corners + corner).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let (x, y) = (mixed >> 40 & 0xffff, mixed >> 20 & 0xffff);
             text += &format!("v {x} {y} 0\n");
@@ -86,6 +86,6 @@ fn many_tangled_polygons_are_cut_within_bounds() {
     let start = std::time::Instant::now();
     let scene = read_obj(&text);
     assert!(scene.triangle_count() > 0);
-    // Ears alone take more than a minute here.
+    // Ear clipping alone takes more than a minute here.
     assert!(start.elapsed().as_secs() < 60, "{:?}", start.elapsed());
 }

@@ -5,7 +5,7 @@ use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use urdd_geometry::{farthest, hull::ConvexHull, oriented_box::OrientedBox};
 
-/// The box about points, after checking all that every box must hold.
+/// The box around points, after checking the properties of every box.
 fn box_of(points: &[Point]) -> OrientedBox {
     let hull = ConvexHull::new(points).expect("a hull");
     let found = OrientedBox::around(&hull);
@@ -32,7 +32,7 @@ fn box_of(points: &[Point]) -> OrientedBox {
     found
 }
 
-/// The volume of the axis-aligned box of points that are turned back by a rotation.
+/// The volume of the axis-aligned box of points that are rotated back by a rotation.
 fn volume_across(points: &[Point], rotation: &Rotation3<f64>) -> f64 {
     let mut volume = 1.0;
     for k in 0..3 {
@@ -43,7 +43,7 @@ fn volume_across(points: &[Point], rotation: &Rotation3<f64>) -> f64 {
     volume
 }
 
-/// Another search: from many rotations downhill by small turns at random, ever smaller.
+/// Another search: descent from many rotations by small random turns of decreasing size.
 fn brute_force(points: &[Point], starts: usize) -> f64 {
     let mut random = Random(99);
     let mut best = f64::INFINITY;
@@ -93,7 +93,7 @@ fn a_turned_box_is_found() {
     for (half, side) in found.half_extents.iter().zip(sides) {
         assert_near(2.0 * half, side, 1e-5);
     }
-    // Turned by more than its symmetries leave apart, it is named by the smallest turn.
+    // If the rotation is larger than its symmetries require, the smallest equivalent one is reported.
     let quarter = box_of(&placed(&box_corners(sides), [0.0, 0.0, 1.5], [0.0; 3]));
     assert_near(
         quarter.rotation.angle(),

@@ -1,7 +1,7 @@
-//! Distances and hulls as parry3d-f64 has them: another implementation of the same.
+//! Distances and hulls compared with parry3d-f64, another implementation.
 //!
-//! parry's GJK stops within some 1e-7 of the size of its shapes, ours within 1e-9 m, so that the two agree to 1e-6. Its
-//! hull takes what is thinner than about 1e-4 of its length for flat, so that only round bodies are compared here.
+//! parry's GJK stops within some 1e-7 of the size of its shapes, ours within 1e-9 m, so the two agree to 1e-6. Its hull
+//! treats anything thinner than about 1e-4 of its length as flat, so only round bodies are compared here.
 
 use nalgebra::Isometry3;
 use parry3d_f64::math::{Pose, Vector};
@@ -53,7 +53,7 @@ fn distances_of_random_bodies() {
             (found - expected).abs() < 1e-6,
             "{round}: {found}, parry {expected}"
         );
-        // Bodies that touch within what parry can tell may be on either side.
+        // For bodies that touch within parry's precision, either answer is right.
         if expected > 1e-6 {
             apart += 1;
             assert!(found > 0.0);
@@ -84,7 +84,7 @@ fn pairs_side_by_side_are_each_by_itself() {
     let seen = witnesses(Level::new(), &pairs);
     for k in 0..200 {
         let (a, b, pose) = place(k);
-        // Not the same bits: the centres are taken off in another order.
+        // Not the same bits: the centres are subtracted in another order.
         assert!((found[k] - distance(a, b, pose)).abs() < 2e-9, "{k}");
         assert_eq!(
             any_touches(Level::new(), &pairs[k..=k]),

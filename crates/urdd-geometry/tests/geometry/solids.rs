@@ -1,4 +1,4 @@
-//! What the tests of shapes share: point sets, and measures that use none of the code under test.
+//! Helpers for the tests of shapes: point sets, and measures that use none of the code under test.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -63,7 +63,7 @@ pub fn prism(corners: u32, radius: f64, height: f64) -> Vec<Point> {
     end(-height / 2.0).chain(end(height / 2.0)).collect()
 }
 
-/// Near to what is expected, as a part of that.
+/// Whether a value is close to the expected one, relative to it.
 #[track_caller]
 pub fn assert_near(actual: f64, expected: f64, relative: f64) {
     let error = (actual - expected).abs();
@@ -103,7 +103,7 @@ pub fn extent(points: &[Point]) -> f64 {
     far(&points[0])
 }
 
-/// How far a point is beyond the plane of a triangle, at most.
+/// The maximum distance of a point beyond the plane of a triangle.
 pub fn outside(mesh: &Mesh, points: &[Point]) -> f64 {
     let mut worst = f64::NEG_INFINITY;
     for triangle in &mesh.triangles {
@@ -118,8 +118,8 @@ pub fn outside(mesh: &Mesh, points: &[Point]) -> f64 {
     worst
 }
 
-/// Asserts that each edge is in two triangles, once in each direction, that the mesh is in one part
-/// and of the kind of a sphere, and that its vertices are all used and among the points.
+/// Asserts that each edge is in two triangles, once in each direction, that the mesh is connected and has the topology
+/// of a sphere, and that all its vertices are used and among the points.
 pub fn assert_closed_subset(mesh: &Mesh, points: &[Point]) {
     let mut edges: BTreeMap<(u32, u32), usize> = BTreeMap::new();
     for [a, b, c] in &mesh.triangles {

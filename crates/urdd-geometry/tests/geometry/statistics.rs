@@ -20,7 +20,7 @@ fn numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// Four bodies, of which 1 and 3 are of one group; in `num_samples` samples.
+/// Four bodies in `num_samples` samples; 1 and 3 are in one group.
 fn poses(num_samples: usize) -> Vec<Vec<Isometry3<f64>>> {
     let mut next = numbers();
     let mut pose = || {
@@ -41,7 +41,7 @@ fn poses(num_samples: usize) -> Vec<Vec<Isometry3<f64>>> {
 
 const GROUPS: [usize; 4] = [0, 1, 2, 1];
 
-/// Seven shapes: two on each body but the last.
+/// Seven shapes: two on each body except the last.
 fn shapes() -> Vec<PlacedShape<ConvexShape>> {
     let mut next = numbers();
     (0..7)
@@ -62,7 +62,7 @@ fn statistics(num_samples: usize) -> PairStatistics {
 
 #[test]
 fn every_pair_is_summed_up() {
-    // Not a multiple of the samples that are treated at once.
+    // Not a multiple of the number of samples processed at once.
     for num_samples in [1, 7, 8, 21] {
         let (poses, shapes, found) = (poses(num_samples), shapes(), statistics(num_samples));
         for i in 0..shapes.len() {
@@ -132,7 +132,7 @@ fn the_same_bits_for_each_number_of_threads() {
 
 #[test]
 fn spheres_on_a_circle() {
-    // A sphere of radius 0.25 goes round one of radius 0.5 at distances of 2, 1 and 0.5 between the centres.
+    // A sphere of radius 0.25 moves around one of radius 0.5 at distances of 2, 1 and 0.5 between the centres.
     let at = |x: f64, y: f64| vec![Isometry3::identity(), Isometry3::translation(x, y, 0.0)];
     let motion =
         Motion::new(&[at(2.0, 0.0), at(0.0, 1.0), at(-0.5, 0.0)], &[0, 1]).expect("a motion");
@@ -150,7 +150,7 @@ fn spheres_on_a_circle() {
 
 #[test]
 fn the_distance_in_each_sample() {
-    // Three spheres of radius 0.25: one goes away from the first, the last goes with it, 1 above.
+    // Three spheres of radius 0.25: one moves away from the first; the last moves with it, 1 above.
     let at = |x: f64| {
         vec![
             Isometry3::identity(),
@@ -207,6 +207,6 @@ fn it_stops_before_the_next_pair() {
     assert_eq!(asked.swap(0, Ordering::Relaxed), 21);
     let stopped = statistics_of_kinds(&[&&shapes[..]], &motion, &stops_after(3));
     assert_eq!(stopped, None);
-    // Shapes whose pairs have not begun may ask once each.
+    // Shapes whose pairs have not begun may check for cancellation once each.
     assert!(asked.into_inner() < 21);
 }

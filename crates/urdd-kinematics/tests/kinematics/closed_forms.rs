@@ -1,4 +1,4 @@
-//! Forward kinematics against values worked out by hand.
+//! Forward kinematics, compared with values calculated by hand.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
@@ -21,7 +21,7 @@ fn poses(joints: &[Joint], q: &[f64]) -> Vec<Isometry3<f64>> {
         .unwrap()
 }
 
-/// Pose of the child of one joint at the root's origin.
+/// Pose of the child link of a single joint at the root's origin.
 fn pose(joint_type: JointType, axis: [f64; 3], q: &[f64]) -> Isometry3<f64> {
     poses(&[Joint::after(0, joint_type, axis)], q)[1]
 }
@@ -115,7 +115,7 @@ fn a_planar_joint_near_minus_z_keeps_an_orthonormal_basis() {
                 "{axis:?}"
             );
             assert!((basis.determinant() - 1.0).abs() < 1e-14, "{axis:?}");
-            // The arc leaves the direction at right angles to itself as it is.
+            // The arc leaves the direction perpendicular to it unchanged.
             let still = Vector3::new(-angle.sin(), angle.cos(), 0.0);
             assert!((basis * still - still).norm() < 1e-14, "{axis:?}");
         }
@@ -182,7 +182,7 @@ fn mimic_joints_follow_their_dof_by_factor_and_offset() {
 
 #[test]
 fn the_order_comes_from_the_joints() {
-    // Links and joints listed from the tip up, and a hierarchy that says nothing.
+    // Links and joints listed from the tip up, and an empty hierarchy.
     let joint = |parent, child| Joint {
         child,
         ..Joint::after(parent, Prismatic, X)

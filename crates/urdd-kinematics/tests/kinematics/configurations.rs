@@ -163,7 +163,7 @@ fn sampled_rotation_vectors_are_shoemakes_quaternions() {
 
 #[test]
 fn sampled_rotations_are_uniform() {
-    // The angle of a uniform rotation has the distribution (a - sin a)/pi, and so mean pi/2 + 2/pi.
+    // The angle of a uniform rotation has the distribution (a - sin a)/pi, and therefore the mean pi/2 + 2/pi.
     let space = with_rotation_vectors();
     let count = 4000;
     let angles = (0..count).map(|k| {

@@ -1,4 +1,4 @@
-//! Modules that kinematics cannot be computed from: each fault is named at its place.
+//! Modules from which kinematics cannot be computed: each fault is reported at its location.
 
 use urdd_format::chain::ChainModule;
 use urdd_format::dof::{DofModule, ResolvedMimic};
@@ -79,12 +79,12 @@ fn a_chain_without_links() {
 
 #[test]
 fn chains_that_are_no_tree() {
-    // A ring that the root has no part in.
+    // A cycle that does not contain the root.
     fault(
         |chain, _| chain.joints_in_chain[1].parent_link_idx = LinkIdx(3),
         "chain_module/links_in_chain/2: no path leads from the root to this link",
     );
-    // A link on itself.
+    // A link that is its own parent.
     fault(
         |chain, _| chain.joints_in_chain[2].parent_link_idx = LinkIdx(3),
         "chain_module/links_in_chain/3: no path leads from the root to this link",

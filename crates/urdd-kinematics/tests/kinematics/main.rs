@@ -1,5 +1,5 @@
-//! Kinematics from modules alone, held to hand calculation, to published numbers, and to a second
-//! implementation of another kind.
+//! Kinematics from modules alone, compared with hand calculation, published numbers, and a second implementation that
+//! works differently.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

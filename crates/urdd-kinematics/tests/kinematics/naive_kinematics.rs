@@ -1,5 +1,4 @@
-//! Forward kinematics the plain way, as a second opinion: products of homogeneous 4x4 matrices,
-//! Rodrigues' formula, no quaternion.
+//! Simple forward kinematics for comparison: products of homogeneous 4x4 matrices, Rodrigues' formula, no quaternions.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use urdd_format::urdf::JointType;
@@ -25,7 +24,7 @@ pub fn rpy([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
     rodrigues(Vector3::z(), yaw) * rodrigues(Vector3::y(), pitch) * rodrigues(Vector3::x(), roll)
 }
 
-/// The shortest arc from z to `axis`; from z to -z by way of -y.
+/// The shortest arc from z to `axis`; from z to -z through -y.
 fn arc(axis: Vector3<f64>) -> Matrix3<f64> {
     let about = Vector3::z().cross(&axis);
     let about = if about.norm() == 0.0 {

@@ -1,4 +1,4 @@
-//! What holds for every robot and every configuration.
+//! Properties of every robot and every configuration.
 
 use std::f64::consts::TAU;
 
@@ -73,7 +73,7 @@ fn assemble(drafts: &[Draft], links: &[usize], mut values: Vec<f64>) -> (Vec<Joi
         joints.push(Joint {
             name: format!("joint_{i}"),
             joint_type: *joint_type,
-            // Any link that has its place already.
+            // Any link that is already in the tree.
             parent: links[parent.index(i + 1)],
             child: links[i + 1],
             xyz: *xyz,
@@ -126,7 +126,7 @@ proptest! {
 
     #[test]
     fn a_full_turn_changes_nothing((joints, q) in robot()) {
-        // Of a joint that turns about its axis and drives no other.
+        // For a joint that turns about its axis and drives no other.
         let kinematics = kinematics(&joints);
         let before = kinematics.link_poses(&q).unwrap();
         for (joint, first) in joints.iter().zip(first_dofs(&joints)) {

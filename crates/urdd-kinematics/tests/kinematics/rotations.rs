@@ -140,7 +140,7 @@ proptest! {
     #[test]
     fn rotation_vectors_come_back(
         direction in prop::array::uniform3(-1.0..1.0_f64),
-        // From far below to half a turn, near which most is lost if anything is.
+        // From far below half a turn up to it, where the precision is worst.
         angle in prop_oneof![
             0.0..PI,
             (-300.0..0.0_f64).prop_map(|x| 10_f64.powf(x)),
@@ -150,7 +150,7 @@ proptest! {
         let Some(axis) = unit_axis(direction) else { return Ok(()) };
         let vector = axis.into_inner() * angle;
         let back = Vector3::from(to_rotation_vector(&from_rotation_vector(vector.into())));
-        // So near half a turn that rounding goes past it, the opposite vector is right too.
+        // So close to half a turn that rounding exceeds it; the opposite vector is right too.
         let past = if angle > PI - 1e-15 { (back + vector).norm() } else { f64::MAX };
         let error = (back - vector).norm().min(past);
         prop_assert!(error <= 4e-15 * angle, "{} {}", vector, back);

@@ -91,7 +91,7 @@ impl ShapeSet {
                         list.push(placed);
                         list.len() - 1
                     }
-                    // The first decides the kind of all.
+                    // The first element determines the kind of the list.
                     list => {
                         *list = List::$list(vec![placed]);
                         0

@@ -81,7 +81,7 @@ fn what_is_not_finite_is_absent() {
     let pose = poses.expect("no DOFs")[1];
     assert_eq!(pose.translation.vector, Vector3::zeros());
     assert_eq!(pose.rotation * Vector3::x(), Vector3::x());
-    // About x, the default; by a quarter turn y goes to z.
+    // About x, the default: a quarter turn takes y to z.
     let turn = with_joint("continuous", "<axis xyz='inf 0 1'/>");
     let pose = turn.link_poses(&[PI / 2.0]).expect("one DOF")[1];
     assert!((pose.rotation * Vector3::y() - Vector3::z()).norm() < 1e-15);
@@ -122,7 +122,7 @@ fn chains_may_be_as_long_as_the_file() {
     let reference = reference(&(urdf + "</robot>"));
     assert_eq!(reference.num_dofs(), 1);
     let poses = reference.link_poses(&[0.5]).expect("one DOF");
-    // Every other joint goes the other way.
+    // Every other joint moves in the opposite direction.
     assert_eq!(poses[JOINTS].translation.vector, Vector3::zeros());
     assert_eq!(poses[JOINTS - 1].translation.vector.x, -0.5);
 }

@@ -39,7 +39,6 @@ pub fn bytes(files: &mut MeshFiles, profile: Profile, path: &str) -> Result<Vec<
 ///
 /// # Errors
 /// If it is not a mesh.
-/// Where it is no mesh at all.
 pub fn derived(
     bytes: &[u8],
     path: &str,

@@ -129,7 +129,7 @@ impl Comparison {
             .filter(|(_, (wanted, there))| wanted != there)
             .map(|(index, _)| index)
             .collect();
-        // One with another name is compared too; its name is a difference.
+        // An element with another name is compared too: the name is a difference.
         if wanted.len() == there.len() && others.len() <= 1 {
             for (index, (expected, actual)) in expected.iter().zip(actual).enumerate() {
                 let pointer = format!("{list}/{index}");

@@ -9,14 +9,14 @@ use urdd_format::urdf::UrdfModule;
 /// A URDF, as far as it could be read.
 #[derive(Debug, Default)]
 pub struct Reading {
-    /// What a faithful `urdf_module` says; `None` where the text is no XML, or no URDF at all.
-    /// Only to be relied on where there are no problems.
+    /// The content of a faithful `urdf_module`; `None` if the text is not well-formed XML, or not a URDF. Reliable only
+    /// if there are no problems.
     pub robot: Option<UrdfModule>,
     /// What cannot be read, in the order of the file.
     pub problems: Vec<Problem>,
-    /// Elements that are there again though once is all that counts.
+    /// Repeated elements, of which only one counts.
     pub repeated: Vec<Repeated>,
-    /// Where the values of `robot` stand in the text, by JSON Pointer.
+    /// The positions of the values of `robot` in the text, by JSON Pointer.
     pub(super) places: HashMap<String, usize>,
 }
 

@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn a_box_about_a_pyramid() {
-        // Turned by an eighth the square is sqrt(2) wide.
+        // Rotated by an eighth of a turn, the square is sqrt(2) wide.
         let half = 0.5_f64.sqrt();
         let tight = turned_box([half, half, 1.0]);
         assert!(tight.outside.1 < 1e-15 && tight.off.1 < 1e-15, "{tight:?}");
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_vertex_past_an_edge_is_as_far_out_as_the_edge_is_away() {
-        // Axes of their own: (1, 0, 0) stands at (half, -half) of the turned box.
+        // In the axes of the rotated box, (1, 0, 0) is at (half, -half).
         let half = 0.5_f64.sqrt();
         let narrow = turned_box([half - 0.03, half - 0.04, 1.0]);
         assert!((narrow.outside.1 - 0.05).abs() < 1e-15, "{narrow:?}");

@@ -279,7 +279,7 @@ mod tests {
         let broken = violations(&schema, &document, 10);
         assert_eq!(broken.found[0].0, "/7/8");
         assert!(broken.is_first_only);
-        // Of a million violations one is kept, of a few all.
+        // Of a million violations, one is kept; of a few, all.
         let all = json!({"items": {"type": "string"}});
         assert_eq!(
             violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(),

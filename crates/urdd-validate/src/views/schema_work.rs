@@ -65,8 +65,8 @@ pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)
     }))
 }
 
-/// The work of checking a document, if it is within the limit. Nested choices multiply, so that a page of schema can
-/// demand more than any computer can do.
+/// The work of checking a document, if it is within the limit. Nested choices multiply, so a page of schema can demand
+/// more work than any computer can do.
 pub fn affordable_work(schema: &Value, document: &Value) -> Option<u64> {
     let allowed = WORK.max(WORK_PER_VALUE.saturating_mul(count_values(document)));
     let longest_key = Value::String(longest_key(document).to_owned());

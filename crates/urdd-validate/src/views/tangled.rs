@@ -114,14 +114,14 @@ mod tests {
             [true, false, true],
         ]);
         assert!((0..3).all(|i| !sound.asymmetric(i) && !sound.pair(i, i)));
-        // The last two rows exchanged.
+        // The last two rows are exchanged.
         let exchanged = skips([
             [true, false, true],
             [true, false, true],
             [false, true, false],
         ]);
         assert!(exchanged.asymmetric(1) && exchanged.pair(1, 2));
-        // Equal but for the two diagonal elements and those across.
+        // Equal except for the two diagonal elements and those across.
         let across = skips([
             [true, false, false],
             [false, false, true],

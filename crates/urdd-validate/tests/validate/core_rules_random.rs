@@ -1,4 +1,5 @@
-//! The rules of the core modules that are derived, and of their poses, on robots of any kind: silent on a valid URDD, and not on one in which a single value was changed.
+//! The rules on derived core modules and their poses, on arbitrary robots: no finding on a valid URDD, and a finding
+//! after any single value has changed.
 //!
 //! `URDD_MUTATIONS` sets how many changes are tried per robot.
 
@@ -27,7 +28,7 @@ const MODULES: [&str; 5] = [
     "kinematics_samples_module",
 ];
 
-/// The codes of what is found in a URDD, each with its first message; but for oddities of the robot.
+/// The codes found in a URDD, each with its first message, except oddities of the robot.
 fn found(urdd: &Fixture, folder: &mut Folder) -> BTreeMap<Code, String> {
     let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
     let [urdd] = &run.report.urdds[..] else {
@@ -103,8 +104,8 @@ fn a_single_changed_value_is_found_by_one_rule() {
     assert!(several.is_empty(), "more than one message: {several:#?}");
 }
 
-/// Changes one value of a document anywhere: each kind of place as likely as any other, however large
-/// its table. Says what was changed.
+/// Changes one value anywhere in a document. Each kind of place is equally likely, however large its table. Returns a
+/// description of the change.
 fn mutate(urdd: &mut Fixture, dice: &mut Dice) -> String {
     loop {
         let module = MODULES[dice.below(MODULES.len())];
@@ -136,11 +137,11 @@ fn mutate(urdd: &mut Fixture, dice: &mut Dice) -> String {
         }
         let after = place.clone();
         if pointer == "/samples" && is_start(&after, &before) {
-            // A producer may write as many samples as it likes.
+            // A producer may write any number of samples.
             *place = before;
             continue;
         }
-        // The columns of `bounds` say the same again: half of the time, the fault is in both.
+        // The columns of `bounds` repeat the values: half of the time, the fault is in both.
         let parts: Vec<&str> = pointer.split('/').collect();
         if let ["", "bounds", dof, end] = parts[..]
             && dice.below(2) == 0
@@ -152,12 +153,12 @@ fn mutate(urdd: &mut Fixture, dice: &mut Dice) -> String {
         if fits_schema(module, urdd.doc(module)) {
             return format!("{module}{pointer}: {} -> {}", text(&before), text(&after));
         }
-        // What breaks the schema is found by SCH001, and tried elsewhere.
+        // SCH001 finds what breaks the schema; that is tested elsewhere.
         *urdd.doc_mut(module) = valid;
     }
 }
 
-/// Whether a list is another one without its last elements.
+/// Whether a list is a prefix of another one.
 fn is_start(list: &Value, of: &Value) -> bool {
     let (Some(list), Some(of)) = (list.as_array(), of.as_array()) else {
         return false;

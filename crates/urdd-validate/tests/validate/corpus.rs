@@ -1,5 +1,5 @@
-//! What is found in the published URDDs, held against a list of which every entry has been looked at
-//! and judged true. The URDDs are not in this repository: `URDD_CORPUS` names their folder.
+//! The findings in the published URDDs, compared with a list whose entries have all been reviewed and judged true. The
+//! URDDs are not in this repository: `URDD_CORPUS` names their folder.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

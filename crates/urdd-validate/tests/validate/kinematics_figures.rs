@@ -1,4 +1,4 @@
-//! Kinematics held to figures that Pinocchio, MuJoCo and plain Python made: those of our robots are in
+//! Kinematics compared with figures from Pinocchio, MuJoCo and plain Python: those of our robots are in
 //! `conformance/vectors`, those of others in `tests/figures`.
 
 use std::collections::HashMap;
@@ -18,7 +18,7 @@ use urdd_validate::reference::{MimicDofs, Reference};
 
 const VECTORS: &str = "conformance/vectors";
 
-/// The peers themselves differ by 2e-15.
+/// The other implementations differ from each other by 2e-15.
 const TOLERANCE: f64 = 1e-13;
 
 #[derive(Deserialize)]
@@ -137,7 +137,7 @@ fn compare_poses(
     }
 }
 
-/// A folder that is no part of this repository, named by an environment variable.
+/// A folder outside this repository, named by an environment variable.
 fn elsewhere(variable: &str, default: &str) -> PathBuf {
     std::env::var_os(variable).map_or_else(|| repository().join(default), PathBuf::from)
 }

@@ -1,4 +1,5 @@
-//! The validator as a library: sound robots, random faults, documents that only fit their schemas, figures by peers.
+//! The validator as a library: valid robots, random faults, documents that only match their schemas, figures from other
+//! implementations.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]

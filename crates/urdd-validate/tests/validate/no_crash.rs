@@ -1,5 +1,5 @@
-//! No document crashes a rule, whatever it says, as long as it fits its schema: that is what rules
-//! may count on, and no more.
+//! No document that matches its schema crashes a rule, whatever its content. Rules may rely on the schema, and on
+//! nothing else.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +33,7 @@ fn absurd_values_crash_no_rule() {
     );
 }
 
-/// The same of a robot with a self-collision model, which the toy has not.
+/// The same for a robot with a self-collision model, which the toy does not have.
 #[test]
 fn absurd_values_in_a_model_crash_no_rule() {
     let model = testkit::model::fixture();
@@ -67,7 +67,7 @@ fn arbitrary_documents_crash_no_rule() {
             let is_there = urdd.documents.keys().any(|folder| folder.ends_with(name));
             match is_there {
                 true => *urdd.doc_mut(name) = document,
-                // The toy was not put together from others.
+                // The toy is not composed of others.
                 false => urdd.add_module(name, document),
             }
         }
@@ -78,8 +78,8 @@ fn arbitrary_documents_crash_no_rule() {
     );
 }
 
-/// Changes a URDD as often as wanted, each time otherwise, and has it examined. Returns how many of
-/// these URDDs were found wrong.
+/// Changes a URDD a number of times, each time differently, and validates it. Returns how many of these URDDs have
+/// findings.
 fn try_all(
     base: impl Fn() -> Fixture + Sync,
     change: impl Fn(&mut Fixture, &mut Dice) + Sync,
@@ -97,7 +97,7 @@ fn try_all(
     broken.filter(|broken| *broken).count()
 }
 
-/// Whether the URDD is found wrong.
+/// Whether the URDD has findings.
 fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
     let run = urdd_validate::validate(&[folder.put(urdd)], &Settings::default()).unwrap();
     let [urdd_report] = &run.report.urdds[..] else {
@@ -124,12 +124,12 @@ fn examine(urdd: &Fixture, folder: &mut Folder, trial: u64) -> bool {
     !urdd_report.findings.is_empty()
 }
 
-/// Replaces a value of a document, such that it still fits its schema.
+/// Replaces a value of a document so that it still matches its schema.
 fn put_nonsense(urdd: &mut Fixture, dice: &mut Dice) {
     let names: Vec<String> = urdd.documents.keys().cloned().collect();
     let name = &names[dice.below(names.len())];
     let valid = urdd.doc(name).clone();
-    // Of a document that has lost nearly everything there may be nothing to replace.
+    // A document that has lost nearly everything may have nothing left to replace.
     for _ in 0..200 {
         let place = descend(urdd.doc_mut(name), dice);
         let before = place.clone();
@@ -141,7 +141,7 @@ fn put_nonsense(urdd: &mut Fixture, dice: &mut Dice) {
     }
 }
 
-/// Any place: each kind as likely as any other, however large its table.
+/// Any place: each kind is equally likely, however large its table.
 fn descend<'a>(document: &'a mut Value, dice: &mut Dice) -> &'a mut Value {
     let mut place = document;
     loop {
@@ -163,7 +163,7 @@ fn descend<'a>(document: &'a mut Value, dice: &mut Dice) -> &'a mut Value {
 }
 
 fn nonsense(place: &mut Value, document: &Value, dice: &mut Dice) {
-    // What stands elsewhere in the document, or nothing.
+    // A value from elsewhere in the document, or nothing.
     if dice.below(8) == 0 {
         *place = descend(&mut document.clone(), dice).take();
         return;

@@ -1,5 +1,5 @@
-//! The rules on meshes and link shapes, over arbitrary robots: silent on valid URDDs, and never out of
-//! step, whatever a document says.
+//! The rules on meshes and link shapes, on arbitrary robots: no finding on valid URDDs, and consistent results for any
+//! document.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ fn report(fixture: &Fixture, root: &Path) -> Report {
     run.report
 }
 
-/// Whether a rule is of the families at hand.
+/// Whether a rule is in the tested families.
 fn ours(code: &str) -> bool {
     code.starts_with("MSH") || code.starts_with("SHP")
 }
@@ -66,7 +66,7 @@ proptest! {
     }
 }
 
-/// A value to put, or `None` to take out what is there.
+/// The new value, or `None` to remove the old one.
 fn nonsense() -> impl Strategy<Value = Option<Value>> {
     prop_oneof![
         2 => Just(None),

@@ -1,5 +1,5 @@
-//! A fault in one mesh leaves the others judged: rules on geometry leave out the links and pieces in
-//! which another rule found a fault, say so, and look at all others.
+//! A fault in one mesh does not stop the validation of the others: rules on geometry skip the links and pieces in which
+//! another rule found a fault, report that, and check all others.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ const APPROXIMATIONS: &str = "link_shapes_approximations_module";
 const REACHES: &str = "link_shapes_max_distance_from_origin_module";
 const STATISTICS: &str = "link_shapes_distance_statistics_module";
 
-/// Half of each side of the box that every link shows, m: binary32 holds it.
+/// Half of each side of the box that every link shows, m; exact in binary32.
 const HALF: [f64; 3] = [0.0625, 0.125, 0.25];
 
 /// Four links, side by side, each a box; that of `moved` is 47 mm off its origin.
@@ -54,8 +54,8 @@ fn robot(moved: Option<usize>) -> Robot {
     robot
 }
 
-/// The corners of a link's box, in the order of `testkit::meshes`; `scaled`, and with the last corner
-/// pushed in where it is `dented`.
+/// The corners of a link's box, in the order of `testkit::meshes`; `scaled`, and with the last corner pushed in if
+/// `dented`.
 fn corners(scaled: f64, dented: bool) -> [Point; 8] {
     std::array::from_fn(|corner| {
         let inward = if dented && corner == 7 { 0.125 } else { 1.0 };
@@ -91,7 +91,7 @@ fn check(examined: &Examined, code: Code) -> &Check {
     found.expect("a rule that ran")
 }
 
-/// The parts that a rule found at fault.
+/// The parts in which a rule found a fault.
 fn at_fault(examined: &Examined, code: Code) -> Vec<Part> {
     let check = check(examined, code);
     assert_eq!(check.outcome, Outcome::Failed, "{code}");
@@ -114,7 +114,7 @@ fn pointers(examined: &Examined, code: Code) -> Vec<String> {
     pointers
 }
 
-/// The links of which some mesh was not verified.
+/// The links with a mesh that was not verified.
 fn links_left(examined: &Examined) -> BTreeSet<usize> {
     let links = examined.links_not_verified().into_iter();
     links.map(|link| link.link.get()).collect()
@@ -161,7 +161,7 @@ fn the_misplaced_one_of_two_links_that_share_a_file_is_named() {
     );
     assert_eq!(at_fault(&examined, MSH015), [Part::Plain(2)]);
     assert_eq!(pointers(&examined, SHP017), ["/full_obbs/3"]);
-    // Hulls and pieces cannot be held to a mesh that is elsewhere.
+    // Hulls and pieces cannot be compared with a mesh that is elsewhere.
     let not_held = NotVerified {
         part: Part::Hull(2),
         why: Why::Failed(MSH015),
@@ -191,7 +191,7 @@ fn a_folded_piece_leaves_the_other_pieces_judged() {
         part,
         why: Why::Failed(code),
     };
-    // Whether a link's pieces cover it is a question to all of them; a box is about one.
+    // Whether a link's pieces cover it depends on all of them; a box depends on one.
     let folded = [piece(2, 0), piece(2, 1)].map(|part| left(part, MSH020));
     assert_eq!(left_out(&examined, MSH022), BTreeSet::from(folded));
     let unsound = BTreeSet::from([left(piece(2, 0), MSH020), left(piece(1, 0), MSH022)]);
@@ -209,7 +209,7 @@ fn an_unsound_hull_leaves_the_distances_of_others_judged() {
         json!(0.2),
     );
     for key in ["mean_distances", "min_distances", "max_distances"] {
-        // Of links 2 and 3, and of 0 and 1; boxes side by side, 0.875 m apart.
+        // Links 2 and 3, and 0 and 1; boxes side by side, 0.875 m apart.
         for (i, j) in [(2, 3), (3, 2), (0, 1), (1, 0)] {
             let pointer = format!("/full_convex_hulls/{key}/{i}/{j}");
             let distance = urdd.get(STATISTICS, &pointer).as_f64().expect("a number");

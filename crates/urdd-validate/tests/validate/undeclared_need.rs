@@ -1,4 +1,4 @@
-//! A rule that takes something without declaring the need is caught, and never counts as passed.
+//! A rule that uses data without declaring the need is detected, and never counts as passed.
 
 use tempfile::tempdir;
 use testkit::fixture::{Fixture, toy_robot};
@@ -48,14 +48,14 @@ fn a_forgotten_need_is_caught() {
     assert!(SkipReason::UndeclaredNeed.is_obstacle());
 }
 
-/// Without its needs, no rule passes on a URDD that has nothing: whichever need a rule forgets, it is caught.
+/// Without its needs, no rule passes on an empty URDD: a forgotten need is always detected.
 #[test]
 fn every_rule_takes_what_it_needs() {
     let empty = tempdir().unwrap();
     let context = Context::new(Urdd::read(empty.path()).unwrap(), None);
     let mut passed = Vec::new();
     for rule in rules::all() {
-        // These read `urdf_module` in legacy URDDs alone.
+        // These read `urdf_module` only in legacy URDDs.
         if [Code::MSH005, Code::LEG007].contains(&rule.code) {
             continue;
         }
@@ -69,7 +69,7 @@ fn every_rule_takes_what_it_needs() {
     assert_eq!(passed, []);
 }
 
-/// Whether a URDD without any file does not meet the need.
+/// Whether a URDD without any files fails to meet the need.
 fn is_of_document(need: &Need) -> bool {
     match need {
         Need::Module(_) | Need::ModuleV1(_) | Need::RootMetadata | Need::CarriedUrdf => true,

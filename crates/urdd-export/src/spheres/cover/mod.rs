@@ -73,7 +73,7 @@ fn share(links: &mut [Cover], count: usize) {
 /// The cells of a link, and the best spheres so far.
 struct Cover {
     cells: Vec<Cell>,
-    /// The spheres with the smallest volume of their union.
+    /// The spheres whose union has the smallest volume.
     best: Vec<BoundingSphere>,
     volume: f64,
 }

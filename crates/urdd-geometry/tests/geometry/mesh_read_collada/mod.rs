@@ -1,4 +1,4 @@
-//! COLLADA: placement, faces, materials, and what is broken. All files are written here.
+//! COLLADA: placement, faces, materials, and broken files. All files are written here.
 
 mod odd;
 

@@ -145,7 +145,7 @@ fn nodes_that_hold_themselves_or_multiply_without_end() {
         "<extra>".repeat(1_000_000),
         "</extra>".repeat(1_000_000)
     );
-    // Read or refused: it must come back.
+    // Read or rejected: the reader must return.
     let _ = load(&deep);
 }
 

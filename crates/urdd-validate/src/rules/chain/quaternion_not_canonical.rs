@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// Whether it is another rotation than that of the joint's origin: CHN008 reports that, and negating it would not help.
+/// Whether it differs from the rotation of the joint's origin: CHN008 reports that, and negating it would not help.
 fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> bool {
     let joint = context.robot().and_then(|robot| robot.joints.get(index));
     joint.is_some_and(|joint| {

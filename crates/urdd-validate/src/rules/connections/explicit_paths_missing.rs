@@ -68,7 +68,7 @@ fn links_in_paths(tree: &Tree) -> usize {
 mod tests {
     use super::*;
 
-    /// The tree of links of which each hangs on the one that `parent` says, all but the first.
+    /// The tree of links in which `parent` gives the parent of each link except the first.
     fn tree(links: usize, parent: impl Fn(usize) -> usize) -> Tree {
         let mut depth = vec![0; links];
         for link in 1..links {

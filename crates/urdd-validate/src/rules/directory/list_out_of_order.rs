@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let Some(place) = (1..files.len()).find(|i| files[*i].path <= files[i - 1].path) else {
             continue;
         };
-        // A file with a fault of its own is in the wrong place for that reason.
+        // A file with another fault is out of order because of that fault.
         let faulty = |path: &str| !entry.holds(path) || entries::look(context, path).is_err();
         if files.iter().any(|file| faulty(&file.path)) {
             continue;

@@ -40,7 +40,7 @@ fn listed(
     let side_files = original.files.iter().flat_map(|f| &f.side_files);
     let paths = original.files.iter().map(|f| &f.path).chain(side_files);
     let named: HashSet<&str> = paths.map(String::as_str).collect();
-    // A named file that is missing has another name: MSH002 reports it.
+    // A missing file may have been renamed: MSH002 reports it.
     if named
         .iter()
         .any(|path| entries::look(context, path).is_err())

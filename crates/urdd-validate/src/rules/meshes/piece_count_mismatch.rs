@@ -47,7 +47,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let counts = lists
             .iter()
             .filter_map(|list| Some((*list.counts.get(link)?, list)));
-        // A link is one mistake, reported at the first list that differs from most lists.
+        // One finding per link, reported at the first list that differs from most lists.
         let usual = most_common(counts.clone().map(|(count, _)| count));
         let mut odd = counts.filter(|(count, _)| *count != usual);
         let Some((count, first)) = odd.next() else {
