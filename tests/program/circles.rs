@@ -12,18 +12,6 @@ use testkit::repository;
 use modules::Crate;
 use names::{Ties, ties};
 
-/// Folders with a known cycle. Remove those that are resolved; add none.
-const KNOWN: &[&str] = &[
-    "crates/urdd-validate/src/rules/bounds",
-    "crates/urdd-validate/src/rules/chain",
-    "crates/urdd-validate/src/rules/composition",
-    "crates/urdd-validate/src/rules/directory",
-    "crates/urdd-validate/src/rules/extensions",
-    "crates/urdd-validate/src/rules/learned",
-    "crates/urdd-validate/src/rules/meshes",
-    "crates/urdd-validate/src/rules/source",
-];
-
 /// Files that all reach each other.
 type Circle<'a> = BTreeSet<&'a Path>;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use urdd_format::registry::ModuleKind;
-use urdd_generate::{Settings, generate};
+use urdd_generate::{Selection, Settings, generate};
 
 use crate::generate::{findings_of, our_robots, read_json};
 use testkit::difference::difference;
@@ -25,24 +25,40 @@ fn our_robots_have_no_findings() {
 
 #[test]
 fn arbitrary_robots_are_as_the_others_have_them() {
+    let core = Selection::parse(["core", "kinematics_samples"]).unwrap();
+    on_arbitrary_robots(60, &core);
+}
+
+/// With meshes, pieces, boxes and distances. `.ci/full` tries more.
+#[test]
+fn arbitrary_robots_have_no_findings() {
+    let cases = std::env::var("URDD_CASES").map_or(15, |cases| cases.parse().expect("a number"));
+    on_arbitrary_robots(cases, &Selection::all());
+}
+
+fn on_arbitrary_robots(cases: u32, selection: &Selection) {
     let config = Config {
-        cases: 60,
+        cases,
         failure_persistence: None,
         max_shrink_iters: 100,
         ..Config::default()
     };
+    let settings = Settings {
+        selection: selection.clone(),
+        ..Settings::default()
+    };
     let outcome = TestRunner::new(config).run(&arbitrary_robot(), |robot| {
-        compare(&robot).map_err(TestCaseError::fail)
+        compare(&robot, &settings).map_err(TestCaseError::fail)
     });
     outcome.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
-fn compare(robot: &Robot) -> Result<(), String> {
+fn compare(robot: &Robot, settings: &Settings) -> Result<(), String> {
     let folder = tempfile::tempdir().unwrap();
     let (source, target) = (folder.path().join("robot.urdf"), folder.path().join("out"));
     let xml = robot.to_urdf_xml();
     fs::write(&source, &xml).unwrap();
-    generate(&source, &target, &Settings::default(), &()).map_err(|error| error.to_string())?;
+    generate(&source, &target, settings, &()).map_err(|error| error.to_string())?;
     let carried = fs::read_to_string(target.join("robot.urdf")).unwrap();
     if carried != xml {
         return Err("the URDF was changed".to_owned());
@@ -74,7 +90,7 @@ fn compare(robot: &Robot) -> Result<(), String> {
 #[test]
 fn what_is_asked_for_is_made_and_the_core_class_with_it() {
     let folder = tempfile::tempdir().unwrap();
-    let selection = urdd_generate::Selection::parse(["dof"]).unwrap();
+    let selection = Selection::parse(["dof"]).unwrap();
     let settings = Settings {
         selection,
         ..Settings::default()
@@ -90,7 +106,7 @@ fn what_is_asked_for_is_made_and_the_core_class_with_it() {
         .map(|(code, ..)| code)
         .collect();
     assert_eq!(codes, ["KIN005"], "the samples are recommended");
-    let error = urdd_generate::Selection::parse(["dof", "dofs"]).unwrap_err();
+    let error = Selection::parse(["dof", "dofs"]).unwrap_err();
     assert_eq!(error.word, "dofs");
 }
 
