@@ -1,9 +1,9 @@
 //! Queries on a robot: the contents of its URDD, with names and units, and results computed from them.
 //!
-//! [`Robot::open`] accepts a folder or a zip archive, version 1 or legacy. [`Robot::of`] accepts any [`Source`], such
-//! as one in memory. Modules are read on demand: kinematics reads `chain_module`, `dof_module` and `bounds_module`, and
-//! no mesh. A URDD that fails validation still works for every module that can be read. A module that cannot be read is
-//! an error that names the module and says how to generate it.
+//! [`Robot::open`] accepts a folder or a zip archive, version 1 or legacy. [`Robot::of`] accepts any
+//! [`Source`](urdd_directory::source::Source), such as one in memory. Modules are read on demand: kinematics reads
+//! `chain_module`, `dof_module` and `bounds_module`, and no mesh. A URDD that fails validation still works for every
+//! module that can be read. A module that cannot be read is an error that names the module and says how to generate it.
 //!
 //! ```
 //! use urdd_robot::{Robot, ShapeKind};
