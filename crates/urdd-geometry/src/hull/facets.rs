@@ -6,25 +6,31 @@ use super::quickhull::Triangle;
 
 /// Joins coplanar triangles to facets, drops points that are not corners, and triangulates the facets again.
 pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
-    let (facet, facets) = facet_of_each(points, triangles);
-    let is_corner = corners(points.len(), triangles, &facet);
-    // The edges between facets: (facet, from, to).
+    let (facet, sizes) = facet_of_each(points, triangles);
+    // For each point, the number of facets that meet there; 0 inside a facet.
+    let mut meetings = vec![0_u32; points.len()];
+    let mut result = Vec::with_capacity(triangles.len());
+    // The edges of facets with several triangles: (facet, from, to).
     let mut outline: Vec<[u32; 3]> = Vec::new();
-    for (t, triangle) in triangles.iter().enumerate() {
+    for (triangle, &f) in triangles.iter().zip(&facet) {
+        let is_whole = sizes[f as usize] == 1;
+        if is_whole {
+            result.push(triangle.corners);
+        }
         for k in 0..3 {
-            if facet[triangle.neighbours[k] as usize] != facet[t] {
-                outline.push([facet[t], triangle.corners[k], triangle.corners[(k + 1) % 3]]);
+            if is_whole || facet[triangle.neighbours[k] as usize] != f {
+                let from = triangle.corners[k];
+                meetings[from as usize] += 1;
+                if !is_whole {
+                    outline.push([f, from, triangle.corners[(k + 1) % 3]]);
+                }
             }
         }
     }
     outline.sort_unstable();
-    let mut result = Vec::with_capacity(triangles.len());
-    let mut edges = &outline[..];
-    for f in 0..facets {
-        let (own, rest) = edges.split_at(edges.partition_point(|edge| edge[0] <= f));
-        edges = rest;
-        let mut polygon = walk(own);
-        polygon.retain(|p| is_corner[*p as usize]);
+    for edges in outline.chunk_by(|e, g| e[0] == g[0]) {
+        let mut polygon = walk(edges);
+        polygon.retain(|p| meetings[*p as usize] >= 3);
         // Start at the lexicographically first corner, so that the result does not depend on the triangle order.
         let by_value = |(_, p): &(usize, &u32), (_, q): &(usize, &u32)| {
             lexicographic(&points[**p as usize], &points[**q as usize])
@@ -37,52 +43,43 @@ pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
     result
 }
 
-/// The facet of each triangle, and the number of facets.
-fn facet_of_each(points: &[Point], triangles: &[Triangle]) -> (Vec<u32>, u32) {
+/// The facet of each triangle, and the number of triangles of each facet.
+fn facet_of_each(points: &[Point], triangles: &[Triangle]) -> (Vec<u32>, Vec<u32>) {
     let mut facet = vec![u32::MAX; triangles.len()];
-    let mut facets = 0;
+    let mut sizes = Vec::new();
     let mut open = Vec::new();
     for seed in 0..triangles.len() {
         if facet[seed] != u32::MAX {
             continue;
         }
-        facet[seed] = facets;
+        let this = sizes.len() as u32;
+        let mut size = 0;
+        facet[seed] = this;
         open.push(seed);
         while let Some(t) = open.pop() {
+            size += 1;
             let Triangle {
                 corners,
                 neighbours,
             } = &triangles[t];
             let [a, b, c] = corners.map(|i| points[i as usize]);
             for n in neighbours.map(|n| n as usize) {
+                if facet[n] != u32::MAX {
+                    continue;
+                }
                 let mut others = triangles[n].corners.into_iter();
                 let opposite = others.find(|p| !corners.contains(p));
                 let level =
                     opposite.is_some_and(|p| side_of_plane(a, b, c, points[p as usize]).is_eq());
-                if facet[n] == u32::MAX && level {
-                    facet[n] = facets;
+                if level {
+                    facet[n] = this;
                     open.push(n);
                 }
             }
         }
-        facets += 1;
+        sizes.push(size);
     }
-    (facet, facets)
-}
-
-/// Whether each point is a corner of the hull, where at least three facets meet.
-fn corners(points: usize, triangles: &[Triangle], facet: &[u32]) -> Vec<bool> {
-    let mut meetings: Vec<(u32, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (triangle, f) in triangles.iter().zip(facet) {
-        meetings.extend(triangle.corners.map(|p| (p, *f)));
-    }
-    meetings.sort_unstable();
-    meetings.dedup();
-    let mut is_corner = vec![false; points];
-    for at_point in meetings.chunk_by(|(p, _), (q, _)| p == q) {
-        is_corner[at_point[0].0 as usize] = at_point.len() >= 3;
-    }
-    is_corner
+    (facet, sizes)
 }
 
 /// The corners along a closed loop of edges (facet, from, to), sorted by `from`.
@@ -118,20 +115,22 @@ fn cut(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
 /// The mesh in canonical order: vertices sorted by value, each triangle rotated to start at its lowest index, triangles
 /// sorted.
 pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
-    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
-    used.sort_unstable();
-    used.dedup();
-    let mut order = used.clone();
+    // The rank of each point among the vertices; 0 until it is known.
+    let mut rank = vec![u32::MAX; points.len()];
+    for p in triangles.as_flattened() {
+        rank[*p as usize] = 0;
+    }
+    let mut order: Vec<u32> = (0..points.len() as u32)
+        .filter(|p| rank[*p as usize] == 0)
+        .collect();
     order.sort_unstable_by(|p, q| lexicographic(&points[*p as usize], &points[*q as usize]));
-    let mut rank = vec![0; used.len()];
-    let position = |p: u32| used.partition_point(|q| *q < p);
     for (new, p) in order.iter().enumerate() {
-        rank[position(*p)] = new as u32;
+        rank[*p as usize] = new as u32;
     }
     let mut triangles: Vec<[u32; 3]> = triangles
         .into_iter()
         .map(|triangle| {
-            let mut corners = triangle.map(|p| rank[position(p)]);
+            let mut corners = triangle.map(|p| rank[p as usize]);
             let lowest = (0..3).min_by_key(|k| corners[*k]).unwrap_or(0);
             corners.rotate_left(lowest);
             corners

@@ -2,7 +2,6 @@
 //! is outside.
 
 use std::cmp::Ordering;
-use std::collections::VecDeque;
 
 use nalgebra::Vector3;
 
@@ -18,7 +17,7 @@ pub enum Start {
 }
 
 /// A triangle of the hull.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Triangle {
     /// Point indices, counterclockwise from outside.
     pub corners: [u32; 3],
@@ -29,7 +28,6 @@ pub struct Triangle {
 /// A triangle of the growing hull, with the points assigned to it.
 struct Face {
     triangle: Triangle,
-    anchor: Vector3<f64>,
     normal: Vector3<f64>,
     /// Error bound: a computed height below this may have the wrong sign.
     doubt: f64,
@@ -94,14 +92,17 @@ pub fn grow(points: &[Point], corners: [u32; 4]) -> Vec<Triangle> {
         hull.add_face(corners, neighbours);
     }
     let everything: Vec<u32> = (0..points.len() as u32).collect();
-    hull.assign(&everything, 0);
-    let mut queue: VecDeque<u32> = (0..4).collect();
-    while let Some(face) = queue.pop_front() {
-        let first = hull.faces.len() as u32;
+    hull.assign(&everything, &[0, 1, 2, 3]);
+    // Depth first, so that what comes next is near and in the processor's cache.
+    let mut open = vec![0, 1, 2, 3];
+    let mut new = Vec::new();
+    while let Some(face) = open.pop() {
+        // The slot of a removed face may be that of a newer one by now, which is in the list again.
         if let Some((apex, _)) = hull.faces[face as usize].farthest {
-            hull.take_in(apex, face);
+            hull.take_in(apex, face, &mut new);
+            let has_points = |f: &u32| hull.faces[*f as usize].farthest.is_some();
+            open.extend(new.iter().copied().filter(has_points));
         }
-        queue.extend(first..hull.faces.len() as u32);
     }
     hull.into_triangles()
 }
@@ -111,8 +112,14 @@ struct Growing<'a> {
     /// Side lengths of the axis-aligned box of all points.
     extent: Vector3<f64>,
     faces: Vec<Face>,
+    /// Slots of removed faces, to be used again.
+    free: Vec<u32>,
     /// For each point on the horizon, the new face whose edge starts there.
     face_from: Vec<u32>,
+    /// The faces that are visible from the point being added.
+    visible: Vec<u32>,
+    /// Their outline: the edge (from, to), the face behind it and the face beyond.
+    horizon: Vec<[u32; 4]>,
     spare_lists: Vec<Vec<u32>>,
 }
 
@@ -128,12 +135,16 @@ impl<'a> Growing<'a> {
             points,
             extent: high - low,
             faces: Vec::new(),
+            free: Vec::new(),
             face_from: vec![u32::MAX; points.len()],
+            visible: Vec::new(),
+            horizon: Vec::new(),
             spare_lists: Vec::new(),
         }
     }
 
-    fn add_face(&mut self, corners: [u32; 3], neighbours: [u32; 3]) {
+    /// Adds a face; returns its slot.
+    fn add_face(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
         let [anchor, b, c] = corners.map(|i| Vector3::from(self.points[i as usize]));
         let (u, v) = (b - anchor, c - anchor);
         let size = Vector3::new(
@@ -141,28 +152,38 @@ impl<'a> Growing<'a> {
             (u.z * v.x).abs() + (u.x * v.z).abs(),
             (u.x * v.y).abs() + (u.y * v.x).abs(),
         );
-        self.faces.push(Face {
+        let face = Face {
             triangle: Triangle {
                 corners,
                 neighbours,
             },
-            anchor,
             normal: u.cross(&v),
             // Shewchuk's bound for this expression is (7 + 56e)e times the sum of the absolute values of its six
             // products, with e = 2^-53. That sum is at most size . extent. The factor is more than twice the bound.
             doubt: 8.0 * f64::EPSILON * size.dot(&self.extent),
-            outside: self.spare_lists.pop().unwrap_or_default(),
+            outside: Vec::new(),
             farthest: None,
             removed: false,
             visited_for: u32::MAX,
-        });
+        };
+        match self.free.pop() {
+            Some(slot) => {
+                self.faces[slot as usize] = face;
+                slot
+            }
+            None => {
+                self.faces.push(face);
+                self.faces.len() as u32 - 1
+            }
+        }
     }
 
     /// The height of a point over a face, times twice the face's area; `None` unless the point is outside.
     #[inline]
     fn height_outside(&self, face: &Face, point: u32) -> Option<f64> {
         let p = self.points[point as usize];
-        let height = face.normal.dot(&(Vector3::from(p) - face.anchor));
+        let anchor = self.points[face.triangle.corners[0] as usize];
+        let height = face.normal.dot(&(Vector3::from(p) - Vector3::from(anchor)));
         if height > face.doubt {
             Some(height)
         } else if height < -face.doubt {
@@ -173,15 +194,19 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Assigns each point to the first face, from index `first`, that it is outside of. A point that is not outside any
-    /// face is inside the hull and never considered again.
-    fn assign(&mut self, candidates: &[u32], first: usize) {
+    /// Assigns each point to the first of these faces that it is outside of. A point that is not outside any of them is
+    /// inside the hull and never considered again.
+    fn assign(&mut self, candidates: &[u32], faces: &[u32]) {
         for &point in candidates {
-            let found = (first..self.faces.len())
-                .find_map(|f| Some((f, self.height_outside(&self.faces[f], point)?)));
+            let found = faces
+                .iter()
+                .find_map(|f| Some((*f, self.height_outside(&self.faces[*f as usize], point)?)));
             let Some((f, height)) = found else { continue };
             let points = self.points;
-            let face = &mut self.faces[f];
+            let face = &mut self.faces[f as usize];
+            if face.outside.is_empty() {
+                face.outside = self.spare_lists.pop().unwrap_or_default();
+            }
             face.outside.push(point);
             let farther = face.farthest.is_none_or(|(other, h)| {
                 let value = |i: u32| &points[i as usize];
@@ -193,18 +218,55 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Adds a point outside `seen_from`: a cone replaces the faces visible from the point.
-    fn take_in(&mut self, apex: u32, seen_from: u32) {
-        let mut visible = vec![seen_from];
-        let mut horizon = Vec::new();
+    /// Adds a point outside `seen_from`: a cone replaces the faces visible from the point. `new` is set to its faces.
+    fn take_in(&mut self, apex: u32, seen_from: u32, new: &mut Vec<u32>) {
+        self.find_horizon(apex, seen_from);
+        new.clear();
+        for k in 0..self.horizon.len() {
+            let [from, to, behind, beyond] = self.horizon[k];
+            let face = self.add_face([from, to, apex], [beyond, u32::MAX, u32::MAX]);
+            self.face_from[from as usize] = face;
+            let links = &mut self.faces[beyond as usize].triangle;
+            // Only in a flat hull can two triangles be neighbours twice.
+            if let Some(k) = links.neighbours.iter().position(|n| *n == behind) {
+                links.neighbours[k] = face;
+            }
+            new.push(face);
+        }
+        for &face in &*new {
+            let to = self.faces[face as usize].triangle.corners[1];
+            let following = self.face_from[to as usize];
+            self.faces[face as usize].triangle.neighbours[1] = following;
+            self.faces[following as usize].triangle.neighbours[2] = face;
+        }
+        for k in 0..self.visible.len() {
+            let gone = &mut self.faces[self.visible[k] as usize];
+            gone.farthest = None;
+            let mut list = std::mem::take(&mut gone.outside);
+            // Drop the apex and its duplicates at once: they are coplanar with all new faces.
+            list.retain(|p| self.points[*p as usize] != self.points[apex as usize]);
+            self.assign(&list, new);
+            if list.capacity() > 0 {
+                list.clear();
+                self.spare_lists.push(list);
+            }
+        }
+        // Only now, as the horizon tells faces by their slots.
+        self.free.append(&mut self.visible);
+    }
+
+    /// Finds the faces that are visible from a point, and the horizon.
+    fn find_horizon(&mut self, apex: u32, seen_from: u32) {
+        self.horizon.clear();
+        self.visible.push(seen_from);
         self.faces[seen_from as usize].removed = true;
         let mut next = 0;
-        while let Some(&f) = visible.get(next) {
+        while let Some(&f) = self.visible.get(next) {
             next += 1;
             let Triangle {
                 corners,
                 neighbours,
-            } = self.faces[f as usize].triangle.clone();
+            } = self.faces[f as usize].triangle;
             for k in 0..3 {
                 let g = neighbours[k];
                 let neighbour = &self.faces[g as usize];
@@ -213,38 +275,12 @@ impl<'a> Growing<'a> {
                 }
                 if neighbour.visited_for != apex && self.height_outside(neighbour, apex).is_some() {
                     self.faces[g as usize].removed = true;
-                    visible.push(g);
+                    self.visible.push(g);
                 } else {
                     self.faces[g as usize].visited_for = apex;
-                    horizon.push((corners[k], corners[(k + 1) % 3], f, g));
+                    self.horizon.push([corners[k], corners[(k + 1) % 3], f, g]);
                 }
             }
-        }
-        let first = self.faces.len();
-        for &(from, to, behind, beyond) in &horizon {
-            let new = self.faces.len() as u32;
-            self.face_from[from as usize] = new;
-            let links = &mut self.faces[beyond as usize].triangle;
-            // Only in a flat hull can two triangles be neighbours twice.
-            if let Some(k) = links.neighbours.iter().position(|n| *n == behind) {
-                links.neighbours[k] = new;
-            }
-            self.add_face([from, to, apex], [beyond, u32::MAX, u32::MAX]);
-        }
-        for new in first..self.faces.len() {
-            let to = self.faces[new].triangle.corners[1];
-            let following = self.face_from[to as usize];
-            self.faces[new].triangle.neighbours[1] = following;
-            self.faces[following as usize].triangle.neighbours[2] = new as u32;
-        }
-        for f in visible {
-            let mut list = std::mem::take(&mut self.faces[f as usize].outside);
-            self.faces[f as usize].farthest = None;
-            // Drop the apex and its duplicates at once: they are coplanar with all new faces.
-            list.retain(|p| self.points[*p as usize] != self.points[apex as usize]);
-            self.assign(&list, first);
-            list.clear();
-            self.spare_lists.push(list);
         }
     }
 

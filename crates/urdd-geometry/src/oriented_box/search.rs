@@ -86,7 +86,10 @@ pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
         search.try_axis(&axis);
     }
     let at_faces = search.try_faces();
-    search.walk_arcs(&at_faces);
+    // Without a budget, the arcs of a large hull would take memory for nothing.
+    if search.left > 0 {
+        search.walk_arcs(&at_faces);
+    }
     let limit = search.best * (1.0 + TIE);
     search.found.retain(|candidate| candidate.volume <= limit);
     search.found

@@ -1,5 +1,8 @@
 //! Queries on one configuration.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use super::body::Body;
 use super::vector::{dot, to_root};
 use super::{Group, PairDistance, Placed, Proximity};
@@ -133,18 +136,25 @@ impl Proximity {
         self.place(configuration, placed)?;
         self.place_centres(placed);
         let by = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        let bound = |pair: usize| (self.bound(placed, pair).max(0.0), pair);
-        let mut bounds: Vec<(f64, usize)> = (0..self.pairs.len()).map(bound).collect();
-        bounds.sort_unstable_by(by);
+        // A heap, as a few of the pairs are enough. The bits of numbers that are not negative have their order.
+        let bound = |pair: usize| {
+            let bound = self.bound(placed, pair).max(0.0) + 0.0;
+            Reverse((bound.to_bits(), pair))
+        };
+        let mut bounds: BinaryHeap<_> = (0..self.pairs.len()).map(bound).collect();
         let mut best: Vec<(f64, usize)> = Vec::new();
-        for bounds in bounds.chunks(AT_ONCE) {
-            // The bounds are sorted: no later pair can be nearer than the worst of `k` results, or equal to it and
-            // earlier in order.
+        while let Some(Reverse((least, _))) = bounds.peek() {
+            // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
             let enough = best.len() >= k;
-            if enough && best.last().is_none_or(|worst| bounds[0].0 > worst.0) {
+            if enough
+                && best
+                    .last()
+                    .is_none_or(|worst| f64::from_bits(*least) > worst.0)
+            {
                 break;
             }
-            let pairs: Vec<usize> = bounds.iter().map(|(_, pair)| *pair).collect();
+            let next = std::iter::from_fn(|| bounds.pop()).take(AT_ONCE);
+            let pairs: Vec<usize> = next.map(|Reverse((_, pair))| pair).collect();
             let mut values = [0.0; AT_ONCE];
             self.values(placed, &pairs, &mut values[..pairs.len()]);
             best.extend(values.into_iter().zip(pairs));

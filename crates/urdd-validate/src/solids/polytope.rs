@@ -121,8 +121,11 @@ pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
 /// The distinct vertices of a mesh's triangles, in order.
 pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
     let mut seen = std::collections::HashSet::with_capacity(mesh.vertices.len());
-    let corners = mesh.triangles.iter().flatten();
-    let places = corners.map(|vertex| mesh.vertices[*vertex as usize]);
+    // Six triangles share a vertex, whose place is hashed once.
+    let mut used = vec![false; mesh.vertices.len()];
+    let corners = mesh.triangles.as_flattened().iter();
+    let first = corners.filter(|vertex| !std::mem::replace(&mut used[**vertex as usize], true));
+    let places = first.map(|vertex| mesh.vertices[*vertex as usize]);
     places.filter(|place| seen.insert(bits(*place))).collect()
 }
 
