@@ -15,6 +15,7 @@ use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as A
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkips;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
+use urdd_format::registry::ModuleKind;
 use urdd_format::skips::skips_module;
 use urdd_geometry::hull::HullError;
 
@@ -28,7 +29,8 @@ pub(super) fn boxes_and_spheres(
         file: context.source.shown.clone(),
         reason: error.to_string(),
     };
-    let module = approximations(&solids, known, &context.settings.cancellation)?;
+    let finished = |link| context.finished(ModuleKind::LinkShapesApproximations, link);
+    let module = approximations(&solids, known, &context.settings.cancellation, &finished)?;
     let module = Arc::new(module.map_err(internal)?);
     made_with(&*module, Vec::new(), Arc::clone(&module))
 }
