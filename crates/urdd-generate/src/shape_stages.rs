@@ -9,7 +9,7 @@ use super::note::NoteKind;
 use super::shape_documents;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
-use super::shapes::statistics::{at_default_configuration, statistics};
+use super::shapes::statistics::{Shapes, at_default_configuration, statistics};
 use super::shapes::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, Shape, simple_skips};
 use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as Approximations;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
@@ -42,14 +42,24 @@ pub(super) fn distances_from_origin(
     made(&max_distances(&solids, approximations))
 }
 
-pub(super) fn distance_statistics(
+/// Prepares all shapes for distances.
+pub(super) fn prepared(
     context: &Context,
     solids: ConvexMeshes,
     approximations: &Approximations,
+) -> Result<Shapes, GenerateError> {
+    let shapes = Shapes::new(&solids, approximations, &context.chain);
+    shapes.map_err(|reason| context.unmeasurable(reason))
+}
+
+pub(super) fn distance_statistics(
+    context: &Context,
+    solids: ConvexMeshes,
+    shapes: &Shapes,
 ) -> Result<Made<Arc<Statistics>>, GenerateError> {
     let module = statistics(
         &solids,
-        approximations,
+        shapes,
         context.kinematics(),
         context.settings.num_samples,
         &context.settings.cancellation,
@@ -71,11 +81,10 @@ pub(super) fn distance_statistics(
 
 pub(super) fn skips_by_distance(
     context: &Context,
-    solids: ConvexMeshes,
-    approximations: &Approximations,
+    shapes: &Shapes,
     statistics: &Statistics,
 ) -> Result<Made<Arc<SimpleSkips>>, GenerateError> {
-    let default = at_default_configuration(&solids, approximations, context.kinematics())
+    let default = at_default_configuration(shapes, context.kinematics())
         .map_err(|reason| context.unmeasurable(reason))?;
     let module = simple_skips::simple_skips(statistics, &default, &context.chain);
     let module = Arc::new(module);
