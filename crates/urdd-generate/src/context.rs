@@ -87,6 +87,12 @@ impl<'a> Context<'a> {
         mesh_files(kind, link, name, piece, self.settings.mesh_formats)
     }
 
+    /// Reports that a module's work on a mesh of a link is finished.
+    pub fn finished(&self, kind: ModuleKind, link: usize) {
+        let name = &self.chain.links_in_chain[link].name;
+        self.progress.link(kind, name);
+    }
+
     /// A note about the whole robot.
     pub fn note(&self, kind: NoteKind, problem: String, assumed: &str) -> Note {
         Note {

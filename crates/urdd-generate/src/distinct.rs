@@ -9,37 +9,43 @@ use rayon::prelude::*;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_geometry::Mesh;
 
-/// The result of `work` for each mesh. Runs `work` once for meshes that are identical bit for bit.
+/// The result of `work` for each mesh. Runs `work` once for meshes that are identical bit for bit, with the index of the
+/// first.
 ///
 /// # Errors
 /// If cancelled; checked before each mesh.
 pub fn for_each_content<T: Clone + Send>(
     meshes: &[&Mesh],
     cancellation: &Cancellation,
-    work: impl Fn(&Mesh) -> T + Sync,
+    work: impl Fn(usize, &Mesh) -> T + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     let mut seen: HashMap<Content, usize> = HashMap::new();
-    let mut distinct: Vec<&Mesh> = Vec::new();
+    let mut distinct: Vec<(usize, &Mesh)> = Vec::new();
     let places: Vec<usize> = meshes
         .iter()
-        .map(|mesh| {
+        .enumerate()
+        .map(|(first, mesh)| {
             *seen.entry(Content(mesh)).or_insert_with(|| {
-                distinct.push(mesh);
+                distinct.push((first, mesh));
                 distinct.len() - 1
             })
         })
         .collect();
-    let made = distinct.into_par_iter().map(|mesh| {
+    let made = distinct.into_par_iter().map(|(first, mesh)| {
         cancellation.check()?;
-        Ok(work(mesh))
+        Ok(work(first, mesh))
     });
     let made: Vec<T> = made.collect::<Result<_, Cancelled>>()?;
     let made = places.into_iter().map(|place| made[place].clone());
     Ok(made.collect())
 }
 
-/// A mesh, compared and hashed by the bits of its numbers.
+/// A mesh, compared by the bits of its numbers. Its hash is that of a few of them: hashing all took longer than comparing
+/// the few meshes with an equal hash.
 struct Content<'a>(&'a Mesh);
+
+/// Number of vertices that are hashed, or up to twice as many.
+const HASHED: usize = 64;
 
 impl Content<'_> {
     fn bits(&self) -> impl Iterator<Item = u64> {
@@ -57,8 +63,14 @@ impl Eq for Content<'_> {}
 
 impl Hash for Content<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.triangles.hash(state);
-        self.bits().for_each(|bits| bits.hash(state));
+        let Mesh {
+            vertices,
+            triangles,
+        } = self.0;
+        (vertices.len(), triangles.len()).hash(state);
+        for vertex in vertices.iter().step_by((vertices.len() / HASHED).max(1)) {
+            vertex.map(f64::to_bits).hash(state);
+        }
     }
 }
 
@@ -79,7 +91,8 @@ mod tests {
         let asked = AtomicUsize::new(0);
         let meshes = [&one, &other, &again, &moved, &turned, &other];
         let cancellation = Cancellation::default();
-        let work = |mesh: &Mesh| {
+        let work = |first: usize, mesh: &Mesh| {
+            assert_eq!(meshes[first], mesh);
             asked.fetch_add(1, Ordering::Relaxed);
             (mesh.vertices[7][2], mesh.triangles[0])
         };

@@ -92,12 +92,12 @@ pub(super) fn hulls(
     taken: Vec<Option<Vec<LinkMesh>>>,
 ) -> Result<Made<Vec<Option<WrittenMesh>>>, GenerateError> {
     // A plain mesh has a triangle with positive area. It therefore has a convex hull.
-    let hull = |mesh: &Mesh| {
-        ConvexHull::new(&mesh.vertices)
-            .ok()
-            .map(ConvexHull::into_mesh)
+    let (links, meshes) = not_taken(plain, &taken);
+    let hull = |at: usize, mesh: &Mesh| {
+        let hull = ConvexHull::new(&mesh.vertices).ok();
+        context.finished(ModuleKind::ConvexHullMeshes, links[at]);
+        hull.map(ConvexHull::into_mesh)
     };
-    let meshes = not_taken(plain, &taken);
     let built = for_each_content(&meshes, &context.settings.cancellation, hull)?;
     let built = built.into_iter().map(Option::into_iter);
     let links = solids(plain, taken, built.map(Iterator::collect));
@@ -128,8 +128,12 @@ pub(super) fn pieces(
     taken: Vec<Option<Vec<LinkMesh>>>,
 ) -> Result<Made<Vec<Vec<WrittenMesh>>>, GenerateError> {
     let settings = decomposition(context.settings);
-    let decompose = |mesh: &Mesh| decompose::decompose(mesh, &settings);
-    let meshes = not_taken(plain, &taken);
+    let (links, meshes) = not_taken(plain, &taken);
+    let decompose = |at: usize, mesh: &Mesh| {
+        let pieces = decompose::decompose(mesh, &settings);
+        context.finished(ModuleKind::ConvexDecompositionMeshes, links[at]);
+        pieces
+    };
     let built = for_each_content(&meshes, &context.settings.cancellation, decompose)?;
     let of_taken = plain
         .iter()
@@ -153,14 +157,15 @@ pub(super) fn pieces(
     made_with(&module, files, pieces.collect())
 }
 
-/// The plain meshes for which nothing is taken, in order.
+/// The plain meshes for which nothing is taken, in order, and their links.
 fn not_taken<'a>(
     plain: &'a [Option<WrittenMesh>],
     taken: &[Option<Vec<LinkMesh>>],
-) -> Vec<&'a Mesh> {
-    let to_do = plain.iter().zip(taken).filter(|(_, taken)| taken.is_none());
-    let to_do = to_do.filter_map(|(plain, _)| plain.as_ref());
-    to_do.map(|plain| &plain.mesh).collect()
+) -> (Vec<usize>, Vec<&'a Mesh>) {
+    let links = plain.iter().zip(taken).enumerate();
+    let to_do = links.filter(|(_, (_, taken))| taken.is_none());
+    let to_do = to_do.filter_map(|(link, (plain, _))| Some((link, &plain.as_ref()?.mesh)));
+    to_do.unzip()
 }
 
 /// The solids of each link: those that are taken, or the next of those that were built, in the colour of the link.

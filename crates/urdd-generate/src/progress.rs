@@ -9,6 +9,9 @@ pub trait Progress: Sync {
 
     /// Progress within a slow module: `done` of `total` steps are finished.
     fn part(&self, _kind: ModuleKind, _done: usize, _total: usize) {}
+
+    /// A module's work on the mesh of a link is finished. Links with the same mesh are reported once, by the first.
+    fn link(&self, _kind: ModuleKind, _name: &str) {}
 }
 
 impl Progress for () {

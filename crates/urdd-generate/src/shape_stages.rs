@@ -9,12 +9,13 @@ use super::note::NoteKind;
 use super::shape_documents;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
-use super::shapes::statistics::{at_default_configuration, statistics};
+use super::shapes::statistics::{Shapes, at_default_configuration, statistics};
 use super::shapes::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, Shape, simple_skips};
 use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as Approximations;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkips;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
+use urdd_format::registry::ModuleKind;
 use urdd_format::skips::skips_module;
 use urdd_geometry::hull::HullError;
 
@@ -28,7 +29,8 @@ pub(super) fn boxes_and_spheres(
         file: context.source.shown.clone(),
         reason: error.to_string(),
     };
-    let module = approximations(&solids, known, &context.settings.cancellation)?;
+    let finished = |link| context.finished(ModuleKind::LinkShapesApproximations, link);
+    let module = approximations(&solids, known, &context.settings.cancellation, &finished)?;
     let module = Arc::new(module.map_err(internal)?);
     made_with(&*module, Vec::new(), Arc::clone(&module))
 }
@@ -40,14 +42,24 @@ pub(super) fn distances_from_origin(
     made(&max_distances(&solids, approximations))
 }
 
-pub(super) fn distance_statistics(
+/// Prepares all shapes for distances.
+pub(super) fn prepared(
     context: &Context,
     solids: ConvexMeshes,
     approximations: &Approximations,
+) -> Result<Shapes, GenerateError> {
+    let shapes = Shapes::new(&solids, approximations, &context.chain);
+    shapes.map_err(|reason| context.unmeasurable(reason))
+}
+
+pub(super) fn distance_statistics(
+    context: &Context,
+    solids: ConvexMeshes,
+    shapes: &Shapes,
 ) -> Result<Made<Arc<Statistics>>, GenerateError> {
     let module = statistics(
         &solids,
-        approximations,
+        shapes,
         context.kinematics(),
         context.settings.num_samples,
         &context.settings.cancellation,
@@ -69,11 +81,10 @@ pub(super) fn distance_statistics(
 
 pub(super) fn skips_by_distance(
     context: &Context,
-    solids: ConvexMeshes,
-    approximations: &Approximations,
+    shapes: &Shapes,
     statistics: &Statistics,
 ) -> Result<Made<Arc<SimpleSkips>>, GenerateError> {
-    let default = at_default_configuration(&solids, approximations, context.kinematics())
+    let default = at_default_configuration(shapes, context.kinematics())
         .map_err(|reason| context.unmeasurable(reason))?;
     let module = simple_skips::simple_skips(statistics, &default, &context.chain);
     let module = Arc::new(module);

@@ -1,6 +1,8 @@
 //! Builds the modules of a URDD. Each stage is a function of what it uses: the robot and the settings ([`Context`]), the
 //! products of earlier stages, and what donors have. It returns its module and its product.
 
+use std::cell::OnceCell;
+
 use super::connections::{MOST_LINKS_IN_PAIRS, MOST_LINKS_WITH_PAIRS, connections_module};
 use super::context::Context;
 use super::donor::links::DonorLinks;
@@ -58,15 +60,23 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     modules.add(Kind::LinkShapesMaxDistanceFromOrigin, |_| {
         shapes::distances_from_origin(solids()?, approximations.get()?)
     })?;
+    // Preparing the shapes takes long. The next two stages use them.
+    let known = OnceCell::new();
+    let prepared = || match known.get() {
+        Some(shapes) => Ok(shapes),
+        None => shapes::prepared(context, solids()?, approximations.get()?)
+            .map(|shapes| known.get_or_init(|| shapes)),
+    };
     let kind = Kind::LinkShapesDistanceStatistics;
     let statistics = modules.product(kind, product::document, |_| {
-        shapes::distance_statistics(context, solids()?, approximations.get()?)
+        shapes::distance_statistics(context, solids()?, prepared()?)
     })?;
     let kind = Kind::LinkShapesSimpleSkips;
     let simple_skips = modules.product(kind, product::document, |_| {
         let statistics = statistics.get()?;
-        shapes::skips_by_distance(context, solids()?, approximations.get()?, statistics)
+        shapes::skips_by_distance(context, prepared()?, statistics)
     })?;
+    drop(known);
     let skips = modules.product(Kind::LinkShapesSkips, product::document, |_| {
         shapes::edited_skips(context, simple_skips.get()?)
     })?;

@@ -12,6 +12,7 @@ use urdd_geometry::hull::{ConvexHull, HullError};
 use urdd_geometry::oriented_box::OrientedBox;
 
 /// Builds the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of the pieces.
+/// `finished` is called with the link of each mesh that is done.
 ///
 /// # Errors
 /// If cancelled, or if a mesh has no hull, which is a bug in an earlier stage.
@@ -19,17 +20,22 @@ pub(crate) fn approximations(
     solids: &ConvexMeshes,
     known: Vec<Option<Shape>>,
     cancellation: &Cancellation,
+    finished: &(dyn Fn(usize) + Sync),
 ) -> Result<Result<LinkShapesApproximationsModule, HullError>, Cancelled> {
-    let all = solids
-        .hulls
-        .iter()
-        .flatten()
-        .chain(solids.pieces.iter().flatten());
-    let meshes = all.map(|written| &written.mesh).zip(&known);
-    let meshes: Vec<&Mesh> = meshes
-        .filter_map(|(mesh, known)| known.is_none().then_some(mesh))
-        .collect();
-    let mut found = for_each_content(&meshes, cancellation, of_mesh)?.into_iter();
+    let hulls = solids.hulls.iter().enumerate();
+    let hulls = hulls.filter_map(|(link, hull)| Some((link, hull.as_ref()?)));
+    let pieces = solids.pieces.iter().enumerate();
+    let pieces = pieces.flat_map(|(link, pieces)| pieces.iter().map(move |piece| (link, piece)));
+    let to_do = hulls.chain(pieces).zip(&known);
+    let to_do = to_do.filter(|(_, known)| known.is_none());
+    let (links, meshes): (Vec<usize>, Vec<&Mesh>) =
+        to_do.map(|((link, of), _)| (link, &of.mesh)).unzip();
+    let shape = |at: usize, mesh: &Mesh| {
+        let shape = of_mesh(mesh);
+        finished(links[at]);
+        shape
+    };
+    let mut found = for_each_content(&meshes, cancellation, shape)?.into_iter();
     let found = known.into_iter().map(|known| match known {
         Some(known) => Ok(known),
         None => found.next().unwrap_or(Err(HullError::Empty)),

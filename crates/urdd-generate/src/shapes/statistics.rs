@@ -38,26 +38,19 @@ pub(crate) struct Kinds<T> {
 /// If cancelled.
 pub(crate) fn statistics(
     solids: &ConvexMeshes,
-    approximations: &LinkShapesApproximationsModule,
+    shapes: &Shapes,
     (dof, chain, bounds): Kinematics,
     num_samples: u32,
     cancellation: &Cancellation,
 ) -> Result<Result<LinkShapesDistanceStatisticsModule, String>, Cancelled> {
-    let found = sampled(
-        solids,
-        approximations,
-        (dof, chain, bounds),
-        num_samples,
-        cancellation,
-    );
+    let found = sampled(shapes, (dof, chain, bounds), num_samples, cancellation);
     cancellation.check()?;
     Ok(found.map(|found| module(solids, num_samples, found)))
 }
 
 /// The statistics of all pairs; invalid after a cancellation.
 fn sampled(
-    solids: &ConvexMeshes,
-    approximations: &LinkShapesApproximationsModule,
+    shapes: &Shapes,
     (dof, chain, bounds): Kinematics,
     num_samples: u32,
     cancellation: &Cancellation,
@@ -69,7 +62,7 @@ fn sampled(
     };
     let configurations = (0..num_samples).into_par_iter().map(configuration);
     let motion = motion(dof, chain, configurations)?;
-    over(&motion, solids, approximations, chain, cancellation)
+    Ok(over(&motion, shapes, cancellation))
 }
 
 fn module(
@@ -106,8 +99,7 @@ fn module(
 
 /// The distances in the default configuration (SPEC 9.4), metres.
 pub(crate) fn at_default_configuration(
-    solids: &ConvexMeshes,
-    approximations: &LinkShapesApproximationsModule,
+    shapes: &Shapes,
     (dof, chain, bounds): Kinematics,
 ) -> Result<Kinds<Vec<Vec<f64>>>, String> {
     let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
@@ -115,7 +107,7 @@ pub(crate) fn at_default_configuration(
     let configuration = [(name, space.default_configuration())];
     let motion = motion(dof, chain, configuration.into_par_iter())?;
     let never = Cancellation::default();
-    let found = over(&motion, solids, approximations, chain, &never)?;
+    let found = over(&motion, shapes, &never);
     // With one configuration, minimum, mean and maximum are all the distance.
     let distances = |pairs: PairStatistics| pairs.min;
     Ok(Kinds {
@@ -127,29 +119,50 @@ pub(crate) fn at_default_configuration(
 /// The modules from which sampled configurations and link poses are computed.
 pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
 
-/// The distances of all shapes over a motion; invalid after a cancellation.
-fn over(
-    motion: &Motion,
-    solids: &ConvexMeshes,
-    of: &LinkShapesApproximationsModule,
-    chain: &ChainModule,
-    cancellation: &Cancellation,
-) -> Result<Kinds<PairStatistics>, String> {
-    let hulls = placed(solids.hulls, chain, of_mesh)?;
-    let boxes = placed(&of.full_obbs, chain, of_box)?;
-    let spheres = placed(&of.full_bounding_spheres, chain, of_sphere)?;
-    let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
-    let pieces = with_pieces.then(|| {
-        let pieces = placed(solids.pieces, chain, of_mesh)?;
-        let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
-        let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
-        Ok::<_, String>((pieces, boxes, spheres))
-    });
-    let pieces = pieces.transpose()?;
+/// The shapes of one kind.
+type Placed<S> = Vec<PlacedShape<S>>;
 
+/// Hulls, boxes and spheres, of links or of pieces.
+type Three = (Placed<ConvexShape>, Placed<OrientedBox>, Placed<Sphere>);
+
+/// All shapes, prepared for distances.
+pub(crate) struct Shapes {
+    full: Three,
+    /// `None` if there are too many pieces.
+    pieces: Option<Three>,
+}
+
+impl Shapes {
+    /// Prepares the shapes, or returns the reason why one cannot be used.
+    pub fn new(
+        solids: &ConvexMeshes,
+        of: &LinkShapesApproximationsModule,
+        chain: &ChainModule,
+    ) -> Result<Self, String> {
+        let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
+        let full = (
+            placed(solids.hulls, chain, of_mesh)?,
+            placed(&of.full_obbs, chain, of_box)?,
+            placed(&of.full_bounding_spheres, chain, of_sphere)?,
+        );
+        let pieces = with_pieces.then(|| {
+            let pieces = placed(solids.pieces, chain, of_mesh)?;
+            let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
+            let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
+            Ok::<_, String>((pieces, boxes, spheres))
+        });
+        let pieces = pieces.transpose()?;
+        Ok(Shapes { full, pieces })
+    }
+}
+
+/// The distances of all shapes over a motion; invalid after a cancellation.
+fn over(motion: &Motion, shapes: &Shapes, cancellation: &Cancellation) -> Kinds<PairStatistics> {
+    let (hulls, boxes, spheres) = &shapes.full;
     let (hulls, boxes, spheres) = (&hulls[..], &boxes[..], &spheres[..]);
     let mut kinds: Vec<&dyn ShapeList> = vec![&hulls, &boxes, &spheres];
-    let of_pieces = pieces.as_ref().map(|(a, b, c)| (&a[..], &b[..], &c[..]));
+    let of_pieces = shapes.pieces.as_ref();
+    let of_pieces = of_pieces.map(|(a, b, c)| (&a[..], &b[..], &c[..]));
     if let Some((pieces, boxes, spheres)) = &of_pieces {
         kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
     }
@@ -158,10 +171,10 @@ fn over(
         .unwrap_or_default()
         .into_iter();
     let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());
-    Ok(Kinds {
+    Kinds {
         full: three(),
         pieces: of_pieces.map(|_| three()),
-    })
+    }
 }
 
 /// The link poses in named configurations.

@@ -6,6 +6,8 @@
 //! is sliced once, and a hull that grows slice by slice gives the cost of everything below each plane. The reverse
 //! sweep gives the cost of everything above.
 
+use rayon::prelude::*;
+
 use super::grower::{Frame, Grower, Places, SEED};
 use super::part::{Part, Plane};
 use super::slices::Slices;
@@ -29,34 +31,39 @@ pub(super) struct Cut {
     pub score: f64,
 }
 
-/// The part's hull and its best cuts, best first; no cuts if the part is too small or convex.
-pub(super) fn best_cuts(part: &Part, places: &Places) -> (Grower, Vec<Cut>) {
-    let mut found: Vec<Cut> = Vec::new();
-    let mut hull = None;
-    let mut turned = Vec::new();
-    for (frame, flats) in &places.frames {
-        // Coordinates in the frame: the planes are perpendicular to their z.
-        turned.clear();
-        turned.extend(part.points.iter().map(|&p| frame.map(|axis| dot(axis, p))));
-        let Some((whole, cuts)) = cuts_across(part, &turned, frame, flats, places) else {
-            continue;
-        };
-        if frame[2] == [0.0, 0.0, 1.0] {
-            if is_convex(part, &whole) {
-                return (whole, Vec::new());
-            }
-            hull = Some(whole);
+/// The part's hull, and its cuts along the first direction; `None` if it is convex.
+pub(super) fn first_cuts(part: &Part, places: &Places) -> (Grower, Option<Vec<Cut>>) {
+    match places
+        .frames
+        .first()
+        .and_then(|along| cuts_along(part, along, places))
+    {
+        Some((whole, _)) if is_convex(part, &whole) => (whole, None),
+        Some((whole, cuts)) => (whole, Some(cuts)),
+        None => {
+            let mut hull = Grower::new(Bounds::new(&part.points).extent());
+            part.points.iter().for_each(|&p| hull.add(p));
+            (hull, Some(Vec::new()))
         }
-        found.extend(cuts);
     }
-    let hull = hull.unwrap_or_else(|| {
-        let mut hull = Grower::new(Bounds::new(&part.points).extent());
-        part.points.iter().for_each(|&p| hull.add(p));
-        hull
-    });
+}
+
+/// The cuts of a part along all directions, best first. `first` are those along the first direction.
+pub(super) fn best_cuts(part: &Part, first: &[Cut], places: &Places) -> Vec<Cut> {
+    let others = places.frames.get(1..).unwrap_or_default().par_iter();
+    let others = others.filter_map(|along| Some(cuts_along(part, along, places)?.1));
+    let others: Vec<Vec<Cut>> = others.collect();
+    let mut found = [first, &others.concat()].concat();
     // A stable sort keeps the first of equals first.
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
-    (hull, found)
+    found
+}
+
+fn cuts_along(part: &Part, (frame, flats): &Frame, places: &Places) -> Option<(Grower, Vec<Cut>)> {
+    // Coordinates in the frame: the planes are perpendicular to their z.
+    let turned = part.points.iter().map(|&p| frame.map(|axis| dot(axis, p)));
+    let turned: Vec<[f64; 3]> = turned.collect();
+    cuts_across(part, &turned, frame, flats, places)
 }
 
 /// Whether no triangle of the surface is deeper in the hull than the search resolves.

@@ -3,7 +3,7 @@
 use rayon::join;
 use rayon::prelude::*;
 
-use super::cut::{Cut, best_cuts};
+use super::cut::{Cut, best_cuts, first_cuts};
 use super::faces;
 use super::grower::{AXES, Grower, Places, bulk};
 use super::part::{Part, Plane};
@@ -28,14 +28,22 @@ impl Block {
 struct Leaf {
     part: Part,
     block: Block,
-    /// Best first.
-    cuts: Vec<Cut>,
+    cuts: Cuts,
     node: usize,
+}
+
+/// Most of a search's time goes into the cuts of parts, and most parts are never cut further. So cuts are found when they
+/// are needed.
+enum Cuts {
+    /// Those along the first direction alone.
+    First(Vec<Cut>),
+    /// All, best first.
+    All(Vec<Cut>),
 }
 
 impl Leaf {
     fn new(part: Part, places: &Places) -> Self {
-        let (mut hull, cuts) = best_cuts(&part, places);
+        let (mut hull, cuts) = first_cuts(&part, places);
         let block = Block {
             standoff: places.standoff(&mut hull, &AXES, &part.cuts),
             hull,
@@ -44,14 +52,36 @@ impl Leaf {
         Leaf {
             part,
             block,
-            cuts,
+            cuts: cuts.map_or(Cuts::All(Vec::new()), Cuts::First),
             node: 0,
         }
     }
 
+    /// Finds all cuts, best first.
+    fn cuts(&mut self, places: &Places) -> &mut Vec<Cut> {
+        if let Cuts::First(first) = &self.cuts {
+            self.cuts = Cuts::All(best_cuts(&self.part, first, places));
+        }
+        let (Cuts::All(cuts) | Cuts::First(cuts)) = &mut self.cuts;
+        cuts
+    }
+
+    /// What its best cut promises to save; before the cuts are found, a number that is no less.
+    fn worth(&self) -> f64 {
+        let potential = POTENTIAL * self.block.cost();
+        match &self.cuts {
+            // No cut saves more than the whole cost.
+            Cuts::First(_) => self.block.cost() + potential,
+            Cuts::All(cuts) => cuts
+                .first()
+                .map_or(f64::NEG_INFINITY, |cut| cut.gain.max(0.0) + potential),
+        }
+    }
+
     /// The remaining cost after its best cut.
-    fn promise(&self) -> f64 {
-        let gain = self.cuts.iter().map(|c| c.gain).fold(0.0, f64::max);
+    fn promise(&mut self, places: &Places) -> f64 {
+        let cuts = self.cuts(places).iter();
+        let gain = cuts.map(|c| c.gain).fold(0.0, f64::max);
         self.block.cost() - gain
     }
 
@@ -116,20 +146,16 @@ fn grow(
 ) -> Search {
     let standoff = |leaves: &[Leaf]| leaves.iter().map(|l| l.block.standoff).sum::<f64>();
     while leaves.len() < limits.most && standoff(&leaves) > limits.enough * area {
-        let worth = |l: &Leaf| {
-            let promise = |c: &Cut| c.gain.max(0.0) + POTENTIAL * l.block.cost();
-            l.cuts.first().map_or(f64::NEG_INFINITY, promise)
-        };
-        let Some((k, _)) = leaves
-            .iter()
-            .enumerate()
-            .map(|(k, l)| (k, worth(l)))
-            .reduce(|a, b| if b.1 > a.1 { b } else { a })
-            .filter(|&(_, w)| w > limits.fat * area)
-        else {
+        let worth = leaves.iter().enumerate().map(|(k, l)| (k, l.worth()));
+        let best = worth.reduce(|a, b| if b.1 > a.1 { b } else { a });
+        let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else {
             break;
         };
-        let cuts = std::mem::take(&mut leaves[k].cuts);
+        if let Cuts::First(_) = leaves[k].cuts {
+            leaves[k].cuts(places);
+            continue;
+        }
+        let cuts = std::mem::take(leaves[k].cuts(places));
         let leaf = &leaves[k];
         let poor = cuts[0].gain < POOR * leaf.block.cost();
         let tried = if poor && leaves.len() <= EARLY {
@@ -137,18 +163,25 @@ fn grow(
         } else {
             1
         };
-        let made: Vec<(Plane, [Leaf; 2])> = cuts
+        let mut made: Vec<(Plane, [Leaf; 2])> = cuts
             .par_iter()
             .take(tried)
             .filter_map(|cut| Some((cut.plane, leaf.split(cut, places)?)))
             .collect();
-        let rest = |leaves: &[Leaf; 2]| leaves[0].promise() + leaves[1].promise();
-        let Some((plane, [mut below, mut above])) = made
-            .into_iter()
-            .reduce(|a, b| if rest(&b.1) < rest(&a.1) { b } else { a })
-        else {
+        let mut best = 0;
+        if made.len() > 1 {
+            let rest = made.par_iter_mut().map(|(_, leaves)| {
+                let [below, above] = leaves;
+                let (below, above) = join(|| below.promise(places), || above.promise(places));
+                below + above
+            });
+            let rest: Vec<f64> = rest.collect();
+            best = (1..rest.len()).fold(0, |best, k| if rest[k] < rest[best] { k } else { best });
+        }
+        if made.is_empty() {
             continue;
-        };
+        }
+        let (plane, [mut below, mut above]) = made.swap_remove(best);
         let sides = [k, leaves.len()];
         [below.node, above.node] = divide(&mut nodes, leaves[k].node, plane, sides);
         leaves[k] = below;
