@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::distances::Distances;
 use super::learned::counts::Judge;
+use super::memo::Memos;
 use super::part::Why;
 use super::skip::SkipReason;
 use super::solids::Solids;
@@ -32,6 +33,7 @@ pub struct Context {
     cancellation: Cancellation,
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     solids: Arc<OnceLock<Solids>>,
+    memos: Arc<Memos>,
     distances: OnceLock<Result<Distances, SkipReason>>,
     placed: OnceLock<Placed>,
     model_judge: OnceLock<Result<Judge, SkipReason>>,
@@ -55,6 +57,7 @@ impl Context {
             cancellation: Cancellation::default(),
             urdf_text: Arc::default(),
             solids: Arc::default(),
+            memos: Arc::default(),
             distances: OnceLock::new(),
             placed: OnceLock::new(),
             model_judge: OnceLock::new(),
@@ -70,6 +73,7 @@ impl Context {
         reading.problems.is_empty().then(|| Context {
             urdf_text: Arc::clone(&self.urdf_text),
             solids: Arc::clone(&self.solids),
+            memos: Arc::clone(&self.memos),
             deep: self.deep,
             cancellation: self.cancellation.clone(),
             ..Context::new(self.urdd.with_robot(robot::of_urdf(robot)), self.class)
@@ -124,6 +128,11 @@ impl Context {
     /// The contents of the mesh files, all read on first use.
     pub fn solids(&self) -> &Solids {
         self.solids.get_or_init(|| Solids::read(&self.urdd))
+    }
+
+    /// Results that follow from files alone, and so are the same by both descriptions of the robot.
+    pub fn memos(&self) -> &Memos {
+        &self.memos
     }
 
     /// The distances between shapes, recomputed on first use.

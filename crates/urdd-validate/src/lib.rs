@@ -33,6 +33,7 @@ mod fold;
 #[doc(hidden)]
 pub mod learned;
 mod locate;
+mod memo;
 mod model_verified;
 mod names;
 mod needs;

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::half_spaces::{HalfSpace, HalfSpaces};
-use super::surface::{extent, is_thin};
+use super::surface::is_thin;
 use crate::tolerance::mesh_resolution;
 use urdd_geometry::Mesh;
 use urdd_geometry::mesh::Bounds;
@@ -39,7 +39,8 @@ impl Polytope {
     /// For a mesh; `None` if no face has an area.
     pub fn new(mesh: &Mesh) -> Option<Self> {
         let bounds = mesh.bounds()?;
-        let resolution = mesh_resolution(extent(mesh));
+        let ends = bounds.min.into_iter().chain(bounds.max);
+        let resolution = mesh_resolution(ends.fold(0.0, |most: f64, x| most.max(x.abs())));
         let size = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
         let mut planes = Vec::with_capacity(mesh.triangles.len());
         for triangle in &mesh.triangles {

@@ -65,10 +65,10 @@ impl Difference {
 
 /// The largest absolute coordinate of a mesh's triangles.
 pub fn extent(mesh: &Mesh) -> f64 {
-    mesh.bounds().map_or(0.0, |bounds| {
-        let ends = bounds.min.into_iter().chain(bounds.max);
-        ends.fold(0.0, |most: f64, x| most.max(x.abs()))
-    })
+    let corners = mesh.triangles.iter().flatten();
+    let places = corners.map(|vertex| mesh.vertices[*vertex as usize]);
+    let larger = |most: f64, x: f64| if x.abs() > most { x.abs() } else { most };
+    places.fold(0.0, |most, place| place.into_iter().fold(most, larger))
 }
 
 /// The difference of a mesh from the expected one; `None` if there is none. Corners within `tolerance` are equal, and

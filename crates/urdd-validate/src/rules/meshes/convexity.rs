@@ -13,7 +13,9 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
     let module = context.module(kind)?;
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
-        Some((not_convex(solid)?, dents(solid)))
+        let key = (kind, mesh.link, mesh.piece);
+        let compute = || Some((not_convex(solid)?, dents(solid)));
+        context.memos().convexity.get(key, compute)
     };
     let meshes = context.solids().derived(kind);
     let faults: Vec<Option<(NotConvex, Option<Dents>)>> = meshes.par_iter().map(judge).collect();

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::code::Code;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::views::judged::judged;
@@ -17,11 +18,12 @@ pub struct Words {
     pub actual: String,
 }
 
-/// Reports every hull for which `off`, given the hull and the plain mesh, finds a vertex. `words` describes it, given
+/// Reports for a rule every hull for which `off`, given the hull and the plain mesh, finds a vertex. `words` describes it, given
 /// the link, the place and the distance.
 pub fn report(
     context: &Context,
     findings: &mut Findings,
+    code: Code,
     off: impl Fn(&Mesh, &Mesh) -> Option<Off> + Sync,
     words: impl Fn(&str, &str, &str) -> Words,
 ) -> Option<()> {
@@ -37,7 +39,9 @@ pub fn report(
     let hulls: Vec<&Derived> = hulls.collect();
     let off_of = |link| {
         let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
-        off(solids.sound(kind, link, 0)?, mesh)
+        let hull = solids.sound(kind, link, 0)?;
+        let key = (code, link, 0);
+        context.memos().farthest.get(key, || off(hull, mesh))
     };
     let off: Vec<Option<Off>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
     for (hull, off) in hulls.iter().zip(off) {

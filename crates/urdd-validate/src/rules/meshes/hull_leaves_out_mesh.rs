@@ -2,6 +2,7 @@ use std::collections::HashSet;
 
 use super::farthest;
 use super::hull_and_mesh::{self, Off, Words};
+use crate::code::Code;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, bits, distinct, step};
 use urdd_geometry::Mesh;
@@ -26,6 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     hull_and_mesh::report(
         context,
         findings,
+        Code::MSH018,
         farthest_outside,
         |label, place, distance| Words {
             message: format!(

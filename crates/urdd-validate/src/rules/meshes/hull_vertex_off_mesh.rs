@@ -2,6 +2,7 @@ use std::collections::HashSet;
 
 use super::farthest;
 use super::hull_and_mesh::{self, Off, Words};
+use crate::code::Code;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{bits, distinct};
 use crate::solids::surface::{extent, nearest};
@@ -26,15 +27,19 @@ declare_rule! {
 const MAX_SEARCHED: usize = 2_000;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    hull_and_mesh::report(context, findings, farthest_off, |label, place, distance| {
-        Words {
+    hull_and_mesh::report(
+        context,
+        findings,
+        Code::MSH019,
+        farthest_off,
+        |label, place, distance| Words {
             message: format!(
                 "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
             ),
             expected: "vertices of the plain mesh only",
             actual: format!("a vertex {distance} off"),
-        }
-    })
+        },
+    )
 }
 
 /// The vertex of a hull that is farthest from the vertices of a mesh.

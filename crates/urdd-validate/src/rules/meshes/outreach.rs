@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::farthest;
+use crate::code::Code;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, distinct, step};
@@ -81,18 +82,24 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
 fn farthest_outside(context: &Context, piece: &Derived) -> Option<Outside> {
     let solids = context.solids();
     let hull = solids.sound(ModuleKind::ConvexHullMeshes, piece.link, 0)?;
-    let polytope = Polytope::new(hull)?;
     let bounds = hull.bounds()?;
     let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
-    let vertices = distinct(piece.sound()?);
-    let every = step(vertices.len(), polytope.num_faces());
-    let vertices = vertices.into_iter().step_by(every);
-    let (place, distance) = farthest(vertices.map(|vertex| (vertex, polytope.outside(vertex))))?;
+    // MSH021 and MSH023 measure the same.
+    let key = (Code::MSH021, piece.link, piece.piece);
+    let (place, distance, resolution) = context.memos().farthest.get(key, || {
+        let polytope = Polytope::new(hull)?;
+        let vertices = distinct(piece.sound()?);
+        let every = step(vertices.len(), polytope.num_faces());
+        let vertices = vertices.into_iter().step_by(every);
+        let outside = vertices.map(|vertex| (vertex, polytope.outside(vertex)));
+        let (place, distance) = farthest(outside)?;
+        Some((place, distance, polytope.resolution))
+    })?;
     Some(Outside {
         place,
         distance,
-        least: polytope.resolution.max(PIECE_BARELY_OUT_OF_HULL * diagonal),
-        most: polytope.resolution.max(PIECE_OUT_OF_HULL * diagonal),
+        least: resolution.max(PIECE_BARELY_OUT_OF_HULL * diagonal),
+        most: resolution.max(PIECE_OUT_OF_HULL * diagonal),
         diagonal,
     })
 }

@@ -2,6 +2,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::farthest;
+use crate::code::Code;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use crate::solids::surface::extent;
@@ -24,12 +25,8 @@ declare_rule! {
     ],
 }
 
-/// A part of a link that no piece covers.
-struct Bare {
-    place: [f64; 3],
-    distance: f64,
-    tolerance: f64,
-}
+/// A part of a link that no piece covers: its place, distance and the tolerance, m.
+type Bare = ([f64; 3], f64, f64);
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
@@ -57,23 +54,27 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     });
     let bare: Vec<Option<Bare>> = links
         .par_iter()
-        .map(|link| bare(context, *link, meshes.count(*link), promised))
+        .map(|link| {
+            let compute = || bare(context, *link, meshes.count(*link), promised);
+            let key = (Code::MSH022, *link, 0);
+            context.memos().farthest.get(key, compute)
+        })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
-        let Some(bare) = bare else {
+        let Some((place, off, tolerance)) = bare else {
             continue;
         };
-        let distance = metres(bare.distance);
+        let distance = metres(off);
         let message = format!(
             "the pieces of {} leave out its surface at {}, {distance} outside of all of them",
             context.link_label(link),
-            point(bare.place)
+            point(place)
         );
         let mut finding = Finding::of(module, meshes.pointer(link), message)
             .expected("the whole surface of the plain mesh inside the pieces")
             .actual(format!("{distance} outside"))
-            .tolerance(bare.tolerance)
-            .off_by(bare.distance, "m");
+            .tolerance(tolerance)
+            .off_by(off, "m");
         finding.parts = pieces_of(link);
         findings.report(finding);
     }
@@ -102,11 +103,7 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
         let outside = pieces.iter().map(|piece| piece.outside(point));
         (point, outside.fold(f64::INFINITY, f64::min))
     }))?;
-    (distance > tolerance).then_some(Bare {
-        place,
-        distance,
-        tolerance,
-    })
+    (distance > tolerance).then_some((place, distance, tolerance))
 }
 
 /// Points of a surface: corners and centroids of triangles.

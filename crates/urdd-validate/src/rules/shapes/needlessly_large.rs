@@ -18,12 +18,14 @@ pub fn report(
     let module = context.module(ModuleKind::LinkShapesApproximations)?;
     let tight = context.profile() == Profile::V1;
     // SHP017 and SHP018 report those that do not fit.
-    let fits = |e: &Enclosure| e.holds() && (e.touches() || !tight);
+    let fits = |e: &Enclosure| e.noun() == shape && e.holds() && (e.touches() || !tight);
     let mut found: Vec<(Enclosure, f64)> = enclosures(context, findings)
         .into_par_iter()
         .filter(fits)
         .filter_map(|enclosure| {
-            let ratio = ratio(&enclosure).filter(|ratio| *ratio > most)?;
+            let key = (enclosure.kind, enclosure.link, enclosure.piece);
+            let found = context.memos().ratios.get(key, || ratio(&enclosure));
+            let ratio = found.filter(|ratio| *ratio > most)?;
             Some((enclosure, ratio))
         })
         .collect();

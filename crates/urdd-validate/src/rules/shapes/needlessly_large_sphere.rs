@@ -1,3 +1,5 @@
+use nalgebra::Vector3;
+
 use super::needlessly_large;
 use crate::rules::prelude::*;
 use crate::views::enclosure::Enclosure;
@@ -22,11 +24,62 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     needlessly_large::report(context, findings, NEEDLESSLY_LARGE_SPHERE, words, ratio)
 }
 
-/// The radius of a sphere over that of the smallest one; `None` for a box, or without a hull.
+/// The radius of a sphere over that of the smallest one; `None` if it is surely not too large, for a box, or without a
+/// hull.
 fn ratio(enclosure: &Enclosure) -> Option<f64> {
     let Volume::Sphere { radius, .. } = enclosure.volume else {
         return None;
     };
-    let hull = ConvexHull::new(&enclosure.mesh.vertices).ok()?;
+    let vertices = &enclosure.mesh.vertices;
+    // Well below the bound, so that rounding does not matter.
+    if exceeds(vertices, radius / NEEDLESSLY_LARGE_SPHERE * (1.0 + 1e-6)) {
+        return None;
+    }
+    let hull = ConvexHull::new(vertices).ok()?;
     Some(radius / BoundingSphere::around(&hull).radius)
+}
+
+/// Whether every sphere around these points has a larger radius than this, if a few steps show it.
+///
+/// The variance of the points under any weights is at most the square of the smallest radius. Each step moves weight to
+/// the point farthest from the mean, as much as increases the variance most (Frank and Wolfe 1956, on the dual of the
+/// smallest enclosing ball).
+fn exceeds(points: &[[f64; 3]], radius: f64) -> bool {
+    const STEPS: usize = 32;
+    let mut mean = points
+        .first()
+        .map_or_else(Vector3::zeros, |p| Vector3::from(*p));
+    let mut variance = 0.0;
+    for _ in 0..STEPS {
+        let away = |p: &[f64; 3]| (Vector3::from(*p) - mean).norm_squared();
+        let pairs = points.iter().map(|p| (away(p), p));
+        let Some((squared, farthest)) = pairs.reduce(|a, b| if b.0 > a.0 { b } else { a }) else {
+            return false;
+        };
+        let weight = (squared - variance) / (2.0 * squared);
+        mean += (Vector3::from(*farthest) - mean) * weight;
+        variance = (1.0 - weight) * (variance + weight * squared);
+        if variance > radius * radius {
+            return true;
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use urdd_geometry::primitives::{cuboid, sphere};
+
+    #[test]
+    fn a_bound_is_near_the_smallest_radius_and_never_above_it() {
+        for mesh in [cuboid([1.0, 2.0, 3.0]), sphere(0.7)] {
+            let hull = ConvexHull::new(&mesh.vertices).unwrap();
+            let least = BoundingSphere::around(&hull).radius;
+            assert!(exceeds(&mesh.vertices, 0.97 * least));
+            assert!(!exceeds(&mesh.vertices, least * (1.0 + 1e-9)));
+        }
+        assert!(!exceeds(&[], 0.0));
+        assert!(!exceeds(&[[1.0; 3]; 2], 0.0));
+    }
 }

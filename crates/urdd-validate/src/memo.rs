@@ -1,0 +1,44 @@
+//! Results that follow from files alone. A rule may run up to four times on a URDD, by both descriptions of its robot.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Mutex, PoisonError};
+
+use super::code::Code;
+use super::solids::dents::Dents;
+use super::solids::polytope::NotConvex;
+use urdd_format::registry::ModuleKind;
+use urdd_format::shape_kind::ShapeKind;
+
+/// Results by key, each computed once.
+pub struct Memo<K, V>(Mutex<HashMap<K, V>>);
+
+impl<K, V> Default for Memo<K, V> {
+    fn default() -> Self {
+        Memo(Mutex::default())
+    }
+}
+
+impl<K: Eq + Hash, V: Copy> Memo<K, V> {
+    /// The result of a key, computed if it is not known.
+    pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().get(&key).copied();
+        found.unwrap_or_else(|| {
+            let value = compute();
+            known().insert(key, value);
+            value
+        })
+    }
+}
+
+/// The results of comparisons of mesh files, boxes and spheres with each other. Links and pieces are by index.
+#[derive(Default)]
+pub struct Memos {
+    /// For a rule, link and piece: the place farthest off, its distance and the tolerance, m.
+    pub farthest: Memo<(Code, usize, usize), Option<([f64; 3], f64, f64)>>,
+    /// Why a mesh is not convex.
+    pub convexity: Memo<(ModuleKind, usize, usize), Option<(NotConvex, Option<Dents>)>>,
+    /// The size of a box or sphere over that of the smallest one.
+    pub ratios: Memo<(ShapeKind, usize, usize), Option<f64>>,
+}
