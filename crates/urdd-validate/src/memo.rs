@@ -32,13 +32,19 @@ impl<K: Eq + Hash, V: Copy> Memo<K, V> {
     }
 }
 
+/// A place, its distance, m, and the tolerance, m.
+type Farthest = ([f64; 3], f64, f64);
+
+/// Why a mesh is not convex, and its dents, where they were measured.
+type Concavity = (NotConvex, Option<Dents>);
+
 /// The results of comparisons of mesh files, boxes and spheres with each other. Links and pieces are by index.
 #[derive(Default)]
 pub struct Memos {
-    /// For a rule, link and piece: the place farthest off, its distance and the tolerance, m.
-    pub farthest: Memo<(Code, usize, usize), Option<([f64; 3], f64, f64)>>,
+    /// For a rule, link and piece: the place farthest off.
+    pub farthest: Memo<(Code, usize, usize), Option<Farthest>>,
     /// Why a mesh is not convex.
-    pub convexity: Memo<(ModuleKind, usize, usize), Option<(NotConvex, Option<Dents>)>>,
+    pub convexity: Memo<(ModuleKind, usize, usize), Option<Concavity>>,
     /// The size of a box or sphere over that of the smallest one.
     pub ratios: Memo<(ShapeKind, usize, usize), Option<f64>>,
 }
