@@ -175,18 +175,8 @@ impl Robot {
         first: u64,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
-        let dofs = space.num_dofs();
-        answers(py, [count, dofs], BLOCK, dofs == 0, |on, out| {
-            each(
-                on,
-                out,
-                dofs,
-                || (),
-                |(), k, out| {
-                    out.copy_from_slice(&space.random(first.wrapping_add(k as u64)));
-                    Ok(())
-                },
-            )
+        rows(py, count, space.num_dofs(), |k, out| {
+            out.copy_from_slice(&space.random(first.wrapping_add(k as u64)));
         })
     }
 
@@ -197,19 +187,10 @@ impl Robot {
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let space = self.names(py, |robot| robot.configurations())?;
-        let (batch, dofs) = (Batch::new(&configurations)?, space.num_dofs());
-        answers(py, [batch.count, dofs], BLOCK, dofs == 0, |on, out| {
-            each(
-                on,
-                out,
-                dofs,
-                || (),
-                |(), k, out| {
-                    out.copy_from_slice(batch.row(k));
-                    space.clamp(out);
-                    Ok(())
-                },
-            )
+        let batch = Batch::new(&configurations)?;
+        rows(py, batch.count, space.num_dofs(), |k, out| {
+            out.copy_from_slice(batch.row(k));
+            space.clamp(out);
         })
     }
 
@@ -328,6 +309,27 @@ impl Robot {
         let mut known = work::lock(py, &self.collision_model)?;
         Ok(known.get_or_insert(made).clone_ref(py))
     }
+}
+
+/// Configurations, each written given its number: (count, dofs).
+fn rows<'py>(
+    py: Python<'py>,
+    count: usize,
+    dofs: usize,
+    write: impl Fn(usize, &mut [f64]) + Sync + Send,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    answers(py, [count, dofs], BLOCK, dofs == 0, |on, out| {
+        each(
+            on,
+            out,
+            dofs,
+            || (),
+            |(), k, out| {
+                write(k, out);
+                Ok(())
+            },
+        )
+    })
 }
 
 /// Runs a query for each configuration of a batch, until Ctrl-C.

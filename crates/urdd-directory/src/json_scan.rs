@@ -265,6 +265,20 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Texts that are not JSON.
+#[cfg(test)]
+pub(crate) const BROKEN: [&str; 9] = [
+    "",
+    "\"",
+    "{\"a",
+    "{\"a\\",
+    "[1,,",
+    "}}",
+    "{\"é\\ud800\":1}",
+    "[\\",
+    ":",
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -290,17 +304,7 @@ mod tests {
 
     #[test]
     fn broken_text_ends_the_walk() {
-        for text in [
-            "",
-            "\"",
-            "{\"a",
-            "{\"a\\",
-            "[1,,",
-            "}}",
-            "{\"é\\ud800\":1}",
-            "[\\",
-            ":",
-        ] {
+        for text in BROKEN {
             repeated_keys(text, |_| {});
             pointer_at(text, usize::MAX);
         }

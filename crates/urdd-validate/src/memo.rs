@@ -32,8 +32,16 @@ impl<K: Eq + Hash, V: Copy> Memo<K, V> {
     }
 }
 
-/// A place, its distance, m, and the tolerance, m.
-type Farthest = ([f64; 3], f64, f64);
+/// The place that is farthest from where it should be.
+#[derive(Clone, Copy)]
+pub struct Farthest {
+    /// Coordinates in the frame of the link, m.
+    pub place: [f64; 3],
+    /// Its distance, m.
+    pub distance: f64,
+    /// The distance up to which it is not reported, m.
+    pub tolerance: f64,
+}
 
 /// Why a mesh is not convex, and its dents, where they were measured.
 type Concavity = (NotConvex, Option<Dents>);

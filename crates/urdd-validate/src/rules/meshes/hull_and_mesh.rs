@@ -3,13 +3,11 @@
 use rayon::prelude::*;
 
 use crate::code::Code;
+use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::views::judged::judged;
 use urdd_geometry::Mesh;
-
-/// A vertex, its distance from where it should be, and the tolerance, m.
-pub type Off = ([f64; 3], f64, f64);
 
 /// What a finding says.
 pub struct Words {
@@ -24,7 +22,7 @@ pub fn report(
     context: &Context,
     findings: &mut Findings,
     code: Code,
-    off: impl Fn(&Mesh, &Mesh) -> Option<Off> + Sync,
+    off: impl Fn(&Mesh, &Mesh) -> Option<Farthest> + Sync,
     words: impl Fn(&str, &str, &str) -> Words,
 ) -> Option<()> {
     let kind = ModuleKind::ConvexHullMeshes;
@@ -43,18 +41,18 @@ pub fn report(
         let key = (code, link, 0);
         context.memos().farthest.get(key, || off(hull, mesh))
     };
-    let off: Vec<Option<Off>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
+    let off: Vec<Option<Farthest>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
     for (hull, off) in hulls.iter().zip(off) {
-        let Some((place, distance, tolerance)) = off else {
+        let Some(off) = off else {
             continue;
         };
         let label = context.link_label(hull.link);
-        let words = words(&label, &point(place), &metres(distance));
+        let words = words(&label, &point(off.place), &metres(off.distance));
         Finding::of(module, hull.pointer(), words.message)
             .expected(words.expected)
             .actual(words.actual)
-            .tolerance(tolerance)
-            .off_by(distance, "m")
+            .tolerance(off.tolerance)
+            .off_by(off.distance, "m")
             .part(Part::Hull(hull.link))
             .report(findings);
     }

@@ -1,8 +1,9 @@
 use std::collections::HashSet;
 
 use super::farthest;
-use super::hull_and_mesh::{self, Off, Words};
+use super::hull_and_mesh::{self, Words};
 use crate::code::Code;
+use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, bits, distinct, step};
 use urdd_geometry::Mesh;
@@ -40,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// The vertex of a mesh that is farthest outside a hull.
-fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Off> {
+fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let polytope = Polytope::new(hull)?;
     let known: HashSet<[u64; 3]> = hull.vertices.iter().copied().map(bits).collect();
     // The corners of the mesh's own hull suffice, and most of them are vertices of the hull.
@@ -52,5 +53,10 @@ fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Off> {
     let every = step(corners.len(), polytope.num_faces());
     let corners = corners.into_iter().step_by(every);
     let (place, distance) = farthest(corners.map(|corner| (corner, polytope.outside(corner))))?;
-    (distance > polytope.resolution).then_some((place, distance, polytope.resolution))
+    let tolerance = polytope.resolution;
+    (distance > tolerance).then_some(Farthest {
+        place,
+        distance,
+        tolerance,
+    })
 }

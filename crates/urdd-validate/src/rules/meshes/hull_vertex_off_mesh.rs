@@ -1,8 +1,9 @@
 use std::collections::HashSet;
 
 use super::farthest;
-use super::hull_and_mesh::{self, Off, Words};
+use super::hull_and_mesh::{self, Words};
 use crate::code::Code;
+use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{bits, distinct};
 use crate::solids::surface::{extent, nearest};
@@ -43,12 +44,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// The vertex of a hull that is farthest from the vertices of a mesh.
-fn farthest_off(hull: &Mesh, mesh: &Mesh) -> Option<Off> {
+fn farthest_off(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let known: HashSet<[u64; 3]> = mesh.vertices.iter().copied().map(bits).collect();
     let vertices = distinct(hull).into_iter();
     let unknown = vertices.filter(|vertex| !known.contains(&bits(*vertex)));
     let unknown = unknown.take(MAX_SEARCHED);
     let (place, distance) = farthest(unknown.map(|vertex| (vertex, nearest(mesh, vertex))))?;
     let tolerance = mesh_resolution(extent(mesh));
-    (distance > tolerance).then_some((place, distance, tolerance))
+    (distance > tolerance).then_some(Farthest {
+        place,
+        distance,
+        tolerance,
+    })
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::farthest;
 use crate::code::Code;
+use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, distinct, step};
@@ -86,20 +87,24 @@ fn farthest_outside(context: &Context, piece: &Derived) -> Option<Outside> {
     let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
     // MSH021 and MSH023 measure the same.
     let key = (Code::MSH021, piece.link, piece.piece);
-    let (place, distance, resolution) = context.memos().farthest.get(key, || {
+    let found = context.memos().farthest.get(key, || {
         let polytope = Polytope::new(hull)?;
         let vertices = distinct(piece.sound()?);
         let every = step(vertices.len(), polytope.num_faces());
         let vertices = vertices.into_iter().step_by(every);
         let outside = vertices.map(|vertex| (vertex, polytope.outside(vertex)));
         let (place, distance) = farthest(outside)?;
-        Some((place, distance, polytope.resolution))
+        Some(Farthest {
+            place,
+            distance,
+            tolerance: polytope.resolution,
+        })
     })?;
     Some(Outside {
-        place,
-        distance,
-        least: resolution.max(PIECE_BARELY_OUT_OF_HULL * diagonal),
-        most: resolution.max(PIECE_OUT_OF_HULL * diagonal),
+        place: found.place,
+        distance: found.distance,
+        least: found.tolerance.max(PIECE_BARELY_OUT_OF_HULL * diagonal),
+        most: found.tolerance.max(PIECE_OUT_OF_HULL * diagonal),
         diagonal,
     })
 }

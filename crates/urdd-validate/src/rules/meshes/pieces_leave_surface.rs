@@ -3,6 +3,7 @@ use rayon::prelude::*;
 
 use super::farthest;
 use crate::code::Code;
+use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use crate::solids::surface::extent;
@@ -24,9 +25,6 @@ declare_rule! {
         NotFailed(MSH007), CONVEX_PIECE,
     ],
 }
-
-/// A part of a link that no piece covers: its place, distance and the tolerance, m.
-type Bare = ([f64; 3], f64, f64);
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
@@ -52,7 +50,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             .filter(|piece| judged(context, findings, **piece, &by));
         judged.count() == pieces.len()
     });
-    let bare: Vec<Option<Bare>> = links
+    let bare: Vec<Option<Farthest>> = links
         .par_iter()
         .map(|link| {
             let compute = || bare(context, *link, meshes.count(*link), promised);
@@ -61,20 +59,20 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
-        let Some((place, off, tolerance)) = bare else {
+        let Some(bare) = bare else {
             continue;
         };
-        let distance = metres(off);
+        let distance = metres(bare.distance);
         let message = format!(
             "the pieces of {} leave out its surface at {}, {distance} outside of all of them",
             context.link_label(link),
-            point(place)
+            point(bare.place)
         );
         let mut finding = Finding::of(module, meshes.pointer(link), message)
             .expected("the whole surface of the plain mesh inside the pieces")
             .actual(format!("{distance} outside"))
-            .tolerance(tolerance)
-            .off_by(off, "m");
+            .tolerance(bare.tolerance)
+            .off_by(bare.distance, "m");
         finding.parts = pieces_of(link);
         findings.report(finding);
     }
@@ -82,7 +80,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// Where a link's surface is farthest outside its pieces, if that exceeds the tolerance.
-fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Bare> {
+fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Farthest> {
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
     let kind = ModuleKind::ConvexDecompositionMeshes;
@@ -103,7 +101,11 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
         let outside = pieces.iter().map(|piece| piece.outside(point));
         (point, outside.fold(f64::INFINITY, f64::min))
     }))?;
-    (distance > tolerance).then_some((place, distance, tolerance))
+    (distance > tolerance).then_some(Farthest {
+        place,
+        distance,
+        tolerance,
+    })
 }
 
 /// Points of a surface: corners and centroids of triangles.
