@@ -1,5 +1,5 @@
-//! `URDD_CASE=SRC009 cargo test --test rules` judges these cases at once, from the closures, before any of them is
-//! data. The value is a code or a prefix of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
+//! `URDD_CASE=SRC009 cargo test --test rules asked_for` judges these cases at once, from the closures, before any of
+//! them is data. The value is a code or a prefix of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
 //!
 //! `URDD_RULE=mute` runs them with a rule that finds nothing: every invalid case must fail. `URDD_RULE=alarm` runs them
 //! with a rule that always finds something: every near miss must fail.

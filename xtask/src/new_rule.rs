@@ -99,7 +99,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     steps.extend([
         format!("Write the rule: {rule_path}."),
         format!("Write its two cases: {test}, fn {cases}."),
-        format!("URDD_CASE={code} cargo test --test rules      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)"),
+        format!("URDD_CASE={code} cargo test --test rules asked_for      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)"),
         format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules         (writes the cases as data; read what it wrote)"),
         "cargo xtask update       (what is generated)".to_owned(),
         "cargo xtask check        (what is left)".to_owned(),
