@@ -2,7 +2,7 @@
 //
 //     node build.mjs [URDD_WASM ROBOT_WASM [FOLDER]]
 //
-// URDD_WASM is the module that `cargo build --release -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
+// URDD_WASM is the module that `cargo build --profile wasm -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
 // a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is page/dist unless
 // it is given; `URDD_DIST=FOLDER npm test` tries what is there.
 
@@ -16,8 +16,8 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
 const dist = process.argv[4] ?? join(here, "dist");
-const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/release/urdd_wasm.wasm");
-const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/release/robot.wasm");
+const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/wasm/urdd_wasm.wasm");
+const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/wasm/robot.wasm");
 
 const common = {
   bundle: true,
