@@ -6,10 +6,10 @@ use super::root_metadata::Sha256;
 use super::tagged::tagged;
 
 module! {
-    /// How this robot was put together from others, its parts. The robot itself is what the URDF says
-    /// that the URDD carries; this says which of its links and joints came from where.
+    /// How this robot was combined from others, its parts. The robot itself is defined by the URDF
+    /// that the URDD carries; this module says which part each of its links and joints came from.
     pub struct CompositionModule {
-        /// The link that carries all parts and is of none; null where a part is the root.
+        /// The link that carries all parts and belongs to none of them; null where a part is the root.
         pub base: Option<CompositionBase>,
         /// The parts, in the order in which they stand in the URDF. The place in this list is the part's
         /// index.
@@ -18,7 +18,7 @@ module! {
 }
 
 object! {
-    /// A link that carries all parts and is of none.
+    /// A link that carries all parts and belongs to none of them.
     pub struct CompositionBase {
         /// The link.
         pub link_idx: LinkIdx,
@@ -48,13 +48,13 @@ object! {
         pub frozen_joints: Vec<FrozenJoint>,
         /// What it hangs on; null for the part that is the root.
         pub attachment: Option<PartAttachment>,
-        /// How the part was put together itself; null where it was not, or that is not known.
+        /// How the part itself was combined; null where it was not combined, or where this is not known.
         pub composition: Option<PartComposition>,
     }
 }
 
 tagged! {
-    /// What a part was taken from: SHA-256 of the file that stands for it.
+    /// The source of a part: the SHA-256 of the file that identifies it.
     pub enum PartSource {
         /// A URDD: of its `urdd.json`, which has the hashes of all its files.
         Urdd(Sha256),
@@ -106,10 +106,10 @@ object! {
 }
 
 object! {
-    /// How a part was put together itself: as `composition_module` says it of the part. Indices in it are
+    /// How a part itself was combined, as the part's own `composition_module` says. Its indices are
     /// those of the part's own modules.
     pub struct PartComposition {
-        /// The link that carries all parts and is of none; null where a part is the root.
+        /// The link that carries all parts and belongs to none of them; null where a part is the root.
         pub base: Option<CompositionBase>,
         /// The parts.
         pub parts: Vec<CompositionPart>,

@@ -19,7 +19,7 @@ module! {
         pub command: Vec<String>,
         /// The conformance class that was asked for.
         pub class: ConformanceClass,
-        /// Whether everything passed but what is skipped, and no skip is stale.
+        /// Whether everything passed except what is skipped, and no skip is stale.
         pub passed: bool,
         /// Every robot, by name.
         pub robots: Vec<RobotScore>,
@@ -43,9 +43,9 @@ object! {
         pub skipped_since: Option<String>,
         /// How the command ended.
         pub end: String,
-        /// The end of what it printed to standard output; null where the robot passed.
+        /// The last part of what it printed to standard output; null where the robot passed.
         pub stdout: Option<String>,
-        /// The end of what it printed to standard error; null where the robot passed.
+        /// The last part of what it printed to standard error; null where the robot passed.
         pub stderr: Option<String>,
         /// Why the URDD could not be examined; else null.
         pub unreadable: Option<String>,
@@ -101,7 +101,7 @@ object! {
     pub struct ClassScore {
         /// Which.
         pub class: ConformanceClass,
-        /// Robots whose modules of this class are all there without errors.
+        /// Robots whose modules of this class are all present and without errors.
         pub passed: Count,
         /// Robots that were run.
         pub of: Count,
@@ -135,7 +135,7 @@ module! {
         pub spec_version: String,
         /// The command that was run, as it was given.
         pub command: Vec<String>,
-        /// Whether every case was judged right but those skipped, and no skip is stale.
+        /// Whether every case except those skipped was judged correctly, and no skip is stale.
         pub passed: bool,
         /// Sums over all cases of version 1.
         pub totals: CaseScore,
@@ -147,14 +147,14 @@ module! {
         pub families: Vec<GroupScore>,
         /// Sums by code.
         pub codes: Vec<GroupScore>,
-        /// Every case that was not judged right, by id.
+        /// Every case that was judged incorrectly, by id.
         pub wrong: Vec<WrongCase>,
         /// Cases that were rejected by a command that seems to have crashed: it printed what an interpreter prints of an
         /// uncaught exception. They count as rejected.
         pub crashed: Vec<String>,
         /// Cases that this operating system cannot have on disk.
         pub not_run: Vec<String>,
-        /// Entries of the skip list whose cases are judged right now, or that name no case that was run.
+        /// Entries of the skip list whose cases are now judged correctly, or that name no case that was run.
         pub stale_skips: Vec<String>,
     }
 }
@@ -186,7 +186,7 @@ object! {
 }
 
 object! {
-    /// A case that was not judged right.
+    /// A case that was judged incorrectly.
     pub struct WrongCase {
         /// Its id.
         pub id: String,
@@ -196,7 +196,7 @@ object! {
         pub fault: CaseFault,
         /// How the command ended.
         pub end: String,
-        /// The end of what it printed to standard error.
+        /// The last part of what it printed to standard error.
         pub stderr: String,
         /// Why it is skipped; else null.
         pub skipped_since: Option<String>,
@@ -204,7 +204,7 @@ object! {
 }
 
 string_enum! {
-    /// How a case was judged that was not judged right.
+    /// How a case was judged incorrectly.
     pub enum CaseFault {
         /// Accepted, and to be rejected.
         Missed = "missed",

@@ -14,7 +14,7 @@ module! {
         /// Element (i, j) is the path from link i to link j. May be null above 300 links, and where
         /// the paths hold more than 2,000,000 links together.
         pub link_to_link_paths: Option<Vec<Vec<LinkPath>>>,
-        /// Element (i, j), where j is a descendant of i: the links from i (left out) to j (included);
+        /// Element (i, j), where j is a descendant of i: the links from i (exclusive) to j (inclusive);
         /// where i is j: `[i]`; else null. The whole may be null where `link_to_link_paths` may.
         pub link_connection_paths: Option<Vec<Vec<Option<Vec<LinkIdx>>>>>,
     }

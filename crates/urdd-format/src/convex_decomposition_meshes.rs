@@ -6,7 +6,7 @@ use super::object::{module, object};
 module! {
     /// Each link's plain mesh as a union of convex pieces.
     pub struct ConvexDecompositionMeshesModule {
-        /// How the pieces were made. Free, but for what `surface_tolerance` promises (7.10).
+        /// How the pieces were made. Any method may be used, as long as `surface_tolerance` holds (7.10).
         pub method: DecompositionMethod,
         /// For each link its pieces; empty for a link without a plain mesh. The place in the list is
         /// the piece index.

@@ -46,6 +46,6 @@ integer! {
 }
 
 integer! {
-    /// Index of a robot among those that a robot was put together from, from 0.
+    /// Index of a robot among those that a robot was combined from, from 0.
     pub struct RobotIdx;
 }

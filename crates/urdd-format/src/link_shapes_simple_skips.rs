@@ -5,8 +5,8 @@ use super::object::{module, object, string_enum};
 use super::shapes::PieceShape;
 
 module! {
-    /// For each pair of shapes, whether the two are always in contact, so that a collision check says
-    /// nothing about them, and the reason by which the pair is classed.
+    /// For each pair of shapes, whether the two are always in contact, so that checking them for
+    /// collision says nothing, and the reason of the pair.
     pub struct LinkShapesSimpleSkipsModule {
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
         pub full_shapes: Vec<LinkIdx>,

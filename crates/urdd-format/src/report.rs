@@ -106,7 +106,7 @@ string_enum! {
         Fail = "fail",
         /// The folder could not be read.
         Unreadable = "unreadable",
-        /// A rule crashed: a fault of this program. The URDD is not fully examined.
+        /// A rule crashed: a bug in this program. The URDD is not fully examined.
         Incomplete = "incomplete",
     }
 }
@@ -148,7 +148,7 @@ string_enum! {
         OtherFormat = "other-format",
         /// The settings say to leave it out.
         Ignored = "ignored",
-        /// Something that it needs is at fault or missing: what it checks is not verified.
+        /// Something that it needs is wrong or missing: what it checks is not verified.
         NotVerified = "not-verified",
     }
 }
@@ -204,17 +204,17 @@ string_enum! {
     pub enum Severity {
         /// A convention of old, or something worth knowing.
         Info = "info",
-        /// A SHOULD of the specification that is not kept, or an odd robot.
+        /// A violated SHOULD of the specification, or an unusual robot.
         Warning = "warning",
-        /// A MUST of the specification that is not kept.
+        /// A violated MUST of the specification.
         Error = "error",
     }
 }
 
 string_enum! {
-    /// What a fault does to whoever uses the URDD; the worst is the greatest.
+    /// What a fault does to users of the URDD, in ascending order of harm.
     pub enum Consequence {
-        /// Nothing is wrong, but it could be tighter, or the robot itself is odd.
+        /// Nothing is wrong, but it could be tighter, or the robot itself is unusual.
         Looseness = "looseness",
         /// The robot is shown in other colours or textures.
         Appearance = "appearance",
@@ -254,7 +254,7 @@ object! {
         pub default_severity: Severity,
         /// Clause of the specification.
         pub clause: String,
-        /// What it does to whoever uses the URDD.
+        /// What it does to users of the URDD.
         pub consequence: Consequence,
         /// The module; null where it is about none.
         pub module: Option<String>,
@@ -266,7 +266,7 @@ object! {
         pub line: Option<Count>,
         /// Column in the line, in characters, from 1.
         pub column: Option<Count>,
-        /// What the pointer leads to, by the names of links, joints or DOFs.
+        /// What the pointer refers to, by the names of links, joints or DOFs.
         pub subject: Option<String>,
         /// What is wrong, and what to do.
         pub message: String,
@@ -282,7 +282,7 @@ object! {
         pub count: Count,
         /// All places, the worst first; the first is the finding's own.
         pub places: Vec<Place>,
-        /// How many of the count have no place here, since there are too many.
+        /// How many of the counted places are not listed here, because there are too many.
         pub places_cut: Count,
     }
 }
@@ -303,9 +303,9 @@ object! {
         pub expected: Option<String>,
         /// What is there.
         pub actual: Option<String>,
-        /// What the pointer leads to, by the names of links, joints or DOFs.
+        /// What the pointer refers to, by the names of links, joints or DOFs.
         pub subject: Option<String>,
-        /// What is wrong there, where that is not what the finding says.
+        /// What is wrong at this place, where that differs from the finding's message.
         pub message: Option<String>,
         /// By how much it is off.
         pub magnitude: Option<Magnitude>,

@@ -756,7 +756,7 @@ class ConnectionsModule:
     than 2,000,000 links together."""
 
     link_connection_paths: list[list[list[int] | None]] | None
-    """Element (i, j), where j is a descendant of i: the links from i (left out) to j (included); where i is j:
+    """Element (i, j), where j is a descendant of i: the links from i (exclusive) to j (inclusive); where i is j:
     `[i]`; else null. The whole may be null where `link_to_link_paths` may."""
 
 
@@ -812,7 +812,7 @@ class KinematicsSamplesModule:
 
 @dataclass(frozen=True)
 class CompositionBase:
-    """A link that carries all parts and is of none."""
+    """A link that carries all parts and belongs to none of them."""
 
     link_idx: int
     """The link."""
@@ -853,7 +853,7 @@ class CompositionPart:
     """What it hangs on; null for the part that is the root."""
 
     composition: PartComposition | None
-    """How the part was put together itself; null where it was not, or that is not known."""
+    """How the part itself was combined; null where it was not combined, or where this is not known."""
 
 
 @dataclass(frozen=True)
@@ -905,11 +905,11 @@ class PartAttachment:
 
 @dataclass(frozen=True)
 class PartComposition:
-    """How a part was put together itself: as `composition_module` says it of the part. Indices in it are those of
-    the part's own modules."""
+    """How a part itself was combined, as the part's own `composition_module` says. Its indices are those of the
+    part's own modules."""
 
     base: CompositionBase | None
-    """The link that carries all parts and is of none; null where a part is the root."""
+    """The link that carries all parts and belongs to none of them; null where a part is the root."""
 
     parts: list[CompositionPart]
     """The parts."""
@@ -917,11 +917,11 @@ class PartComposition:
 
 @dataclass(frozen=True)
 class CompositionModule:
-    """How this robot was put together from others, its parts. The robot itself is what the URDF says that the URDD
-    carries; this says which of its links and joints came from where."""
+    """How this robot was combined from others, its parts. The robot itself is defined by the URDF that the URDD
+    carries; this module says which part each of its links and joints came from."""
 
     base: CompositionBase | None
-    """The link that carries all parts and is of none; null where a part is the root."""
+    """The link that carries all parts and belongs to none of them; null where a part is the root."""
 
     parts: list[CompositionPart]
     """The parts, in the order in which they stand in the URDF. The place in this list is the part's index."""
@@ -1037,7 +1037,7 @@ class ConvexDecompositionMeshesModule:
     """Each link's plain mesh as a union of convex pieces."""
 
     method: DecompositionMethod
-    """How the pieces were made. Free, but for what `surface_tolerance` promises (7.10)."""
+    """How the pieces were made. Any method may be used, as long as `surface_tolerance` holds (7.10)."""
 
     link_pieces: list[list[MeshFiles]]
     """For each link its pieces; empty for a link without a plain mesh. The place in the list is the piece index."""
@@ -1192,8 +1192,8 @@ class SkipReasons:
 
 @dataclass(frozen=True)
 class LinkShapesSimpleSkipsModule:
-    """For each pair of shapes, whether the two are always in contact, so that a collision check says nothing about
-    them, and the reason by which the pair is classed."""
+    """For each pair of shapes, whether the two are always in contact, so that checking them for collision says
+    nothing, and the reason of the pair."""
 
     full_shapes: list[int]
     """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
@@ -1438,7 +1438,7 @@ Geometry: TypeAlias = Mesh | Cuboid | Cylinder | Capsule | Sphere
 """A shape: in JSON an object of one key, here that key's value."""
 
 PartSource: TypeAlias = tuple[Literal["Urdd", "Urdf"], str]
-"""What a part was taken from: in JSON an object of one key, here that key and its value."""
+"""The source of a part: in JSON an object of one key, here that key and its value."""
 
 ModelInput: TypeAlias = AngleInput | LengthInput | RotationVectorInput
 """Something that the network is told of a configuration: in JSON an object of one key, here that key's value."""
@@ -2199,8 +2199,8 @@ class Modules(Reading):
 
     @property
     def composition(self) -> CompositionModule:
-        """How this robot was put together from others, its parts. The robot itself is what the URDF says that the
-        URDD carries; this says which of its links and joints came from where."""
+        """How this robot was combined from others, its parts. The robot itself is defined by the URDF that the URDD
+        carries; this module says which part each of its links and joints came from."""
         return self._read("composition_module", _composition_module)
 
     @property
@@ -2243,8 +2243,8 @@ class Modules(Reading):
 
     @property
     def link_shapes_simple_skips(self) -> LinkShapesSimpleSkipsModule:
-        """For each pair of shapes, whether the two are always in contact, so that a collision check says nothing
-        about them, and the reason by which the pair is classed."""
+        """For each pair of shapes, whether the two are always in contact, so that checking them for collision says
+        nothing, and the reason of the pair."""
         return self._read("link_shapes_simple_skips_module", _link_shapes_simple_skips_module)
 
     @property

@@ -44,7 +44,7 @@ Verdict: TypeAlias = Literal["pass", "fail", "unreadable", "incomplete"]
 - `pass`: Nothing found at or above the severity at which a run fails.
 - `fail`: Something found.
 - `unreadable`: The folder could not be read.
-- `incomplete`: A rule crashed: a fault of this program. The URDD is not fully examined.
+- `incomplete`: A rule crashed: a bug in this program. The URDD is not fully examined.
 """
 
 Status: TypeAlias = Literal["passed", "failed", "skipped", "crashed"]
@@ -60,14 +60,14 @@ Skipped: TypeAlias = Literal["absent", "other-format", "ignored", "not-verified"
 - `absent`: What it is about is not there.
 - `other-format`: It is for another family of URDDs.
 - `ignored`: The settings say to leave it out.
-- `not-verified`: Something that it needs is at fault or missing: what it checks is not verified.
+- `not-verified`: Something that it needs is wrong or missing: what it checks is not verified.
 """
 
 Severity: TypeAlias = Literal["info", "warning", "error"]
 """How bad a finding is; the worst is the greatest.
 - `info`: A convention of old, or something worth knowing.
-- `warning`: A SHOULD of the specification that is not kept, or an odd robot.
-- `error`: A MUST of the specification that is not kept.
+- `warning`: A violated SHOULD of the specification, or an unusual robot.
+- `error`: A violated MUST of the specification.
 """
 
 Consequence: TypeAlias = Literal[
@@ -79,8 +79,8 @@ Consequence: TypeAlias = Literal[
     "wrong-place",
     "wrong-motion",
 ]
-"""What a fault does to whoever uses the URDD; the worst is the greatest.
-- `looseness`: Nothing is wrong, but it could be tighter, or the robot itself is odd.
+"""What a fault does to users of the URDD, in ascending order of harm.
+- `looseness`: Nothing is wrong, but it could be tighter, or the robot itself is unusual.
 - `appearance`: The robot is shown in other colours or textures.
 - `format`: A reader may refuse it, or read it in another way.
 - `collisions`: Collision checking misses contacts, or sees some that are not there.
@@ -212,7 +212,7 @@ class Finding:
     """Clause of the specification."""
 
     consequence: Consequence
-    """What it does to whoever uses the URDD."""
+    """What it does to users of the URDD."""
 
     module: str | None
     """The module; null where it is about none."""
@@ -230,7 +230,7 @@ class Finding:
     """Column in the line, in characters, from 1."""
 
     subject: str | None
-    """What the pointer leads to, by the names of links, joints or DOFs."""
+    """What the pointer refers to, by the names of links, joints or DOFs."""
 
     message: str
     """What is wrong, and what to do."""
@@ -254,7 +254,7 @@ class Finding:
     """All places, the worst first; the first is the finding's own."""
 
     places_cut: int
-    """How many of the count have no place here, since there are too many."""
+    """How many of the counted places are not listed here, because there are too many."""
 
 
 @dataclass(frozen=True)
@@ -291,10 +291,10 @@ class Place:
     """What is there."""
 
     subject: str | None
-    """What the pointer leads to, by the names of links, joints or DOFs."""
+    """What the pointer refers to, by the names of links, joints or DOFs."""
 
     message: str | None
-    """What is wrong there, where that is not what the finding says."""
+    """What is wrong at this place, where that differs from the finding's message."""
 
     magnitude: Magnitude | None
     """By how much it is off."""
