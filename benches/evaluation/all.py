@@ -19,6 +19,7 @@ from pathlib import Path
 #: Each script: which arguments of ours it takes, what `--quick` adds; none is left out then.
 SCRIPTS: dict[str, tuple[list[str], list[str] | None]] = {
     "conversion.py": (["robots", "urdd"], ["--runs", "3"]),
+    "stages.py": (["robots", "urdd"], None),
     "kinematics.py": (["robots", "urdd"], []),
     "proximity.py": (["robots", "urdd"], ["--configurations", "50"]),
     "validation.py": (["corpus"], []),

@@ -90,8 +90,7 @@ fn eight_touch<S: Simd>(simd: S, pairs: &[PlacedPair]) -> u64 {
 #[inline(always)]
 fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    let distances = gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()));
-    let mut found = witness::witnesses(simd, &a, &b, &pose, lanes(pairs.len()), distances);
+    let mut found = witness::witnesses(simd, &a, &b, &pose, lanes(pairs.len()));
     for (found, pair) in found.iter_mut().zip(pairs) {
         found.points = found
             .points

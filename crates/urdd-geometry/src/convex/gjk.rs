@@ -18,19 +18,38 @@ pub const TOLERANCE: f64 = 1e-9;
 const CONTACT: f64 = 1e-10;
 
 /// Maximum number of iterations per lane; two to five are usual.
-pub(crate) const MAX_ROUNDS: usize = 64;
+const MAX_ROUNDS: usize = 64;
 
 /// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
 /// What a descent found.
-struct Bounds<S: Simd> {
+pub(crate) struct Bounds<S: Simd> {
     /// Upper bounds of the distances.
-    upper: Num<S>,
+    pub upper: Num<S>,
     /// Lanes that touch or overlap.
     contact: Mask<S>,
     /// Lanes whose bounds differ by more than the tolerance, because rounding stopped the descent.
-    unsure: Mask<S>,
+    pub unsure: Mask<S>,
+}
+
+/// What a descent records of its way, for the closest points.
+pub(crate) trait Record<S: Simd> {
+    /// A new vertex of the difference, and its support point on the first shape.
+    fn vertex(&mut self, vertex: Vec3<S>, on_a: Vec3<S>);
+
+    /// The vertices of the nearest feature, in the lanes of `moved`; in those of `inside`, the simplex of the feature
+    /// before and of the newest vertex encloses the origin.
+    fn feature(&mut self, vertices: [Vec3<S>; 3], moved: Mask<S>, inside: Mask<S>);
+}
+
+/// Distances need nothing of the way.
+impl<S: Simd> Record<S> for () {
+    #[inline(always)]
+    fn vertex(&mut self, _: Vec3<S>, _: Vec3<S>) {}
+
+    #[inline(always)]
+    fn feature(&mut self, _: [Vec3<S>; 3], _: Mask<S>, _: Mask<S>) {}
 }
 
 /// Distances of `a` and `b` in the lanes of the bit set `lanes`. Both shapes are relative to their centres; `pose` is
@@ -43,7 +62,19 @@ pub(crate) fn distances<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> [f64; LANES] {
-    let bounds = descend::<S, T, false>(simd, a, b, pose, -pose.shift, lanes);
+    let bounds = descend::<S, T, (), false>(simd, a, b, pose, -pose.shift, lanes, &mut ());
+    sure(simd, a, b, pose, &bounds)
+}
+
+/// The distances that a descent found. Where rounding stopped it, from other sides.
+#[inline(always)]
+pub(crate) fn sure<S: Simd, T: Support>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &Pose<S>,
+    bounds: &Bounds<S>,
+) -> [f64; LANES] {
     let mut distances = bounds.upper.to_array();
     let mut unsure = bounds.unsure.to_bitmask();
     while unsure != 0 {
@@ -69,7 +100,7 @@ fn from_other_sides<S: Simd, T: Support>(
         #[inline(always)]
         || {
             let pose = Pose::same(simd, pose);
-            let bounds = descend::<S, T, false>(simd, a, b, &pose, octants(simd), ALL);
+            let bounds = descend::<S, T, (), false>(simd, a, b, &pose, octants(simd), ALL, &mut ());
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -98,18 +129,19 @@ pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
 /// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
 /// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane.
 #[inline(always)]
-fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
+pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bool>(
     simd: S,
     a: &T,
     b: &T,
     pose: &Pose<S>,
     start: Vec3<S>,
     lanes: u64,
+    record: &mut R,
 ) -> Bounds<S> {
     let contact2 = splat(simd, CONTACT * CONTACT);
     let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
     let zero = splat(simd, 0.0);
-    let mut v = farthest(simd, a, b, pose, start, lanes);
+    let mut v = farthest(simd, a, b, pose, start, lanes, record);
     let mut s = [v; 3];
     let mut squared = v.dot(v);
     let mut contact = squared.simd_le(contact2);
@@ -119,7 +151,7 @@ fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
         if done.all_true() {
             break;
         }
-        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
+        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL, record);
         // The distance is between v . w / |v| and |v|.
         let along = v.dot(w);
         let gap = squared - along;
@@ -147,6 +179,7 @@ fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
         let stuck = !least.simd_lt(squared) & !done;
         unsure |= stuck;
         done |= stuck;
+        record.feature(vertices, !done | (touching & !inside), touching & inside);
         v = Vec3::select(done, v, point);
         squared = select(done, squared, least);
         s = vertices;
@@ -168,7 +201,7 @@ pub(crate) fn touching<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> u64 {
-    let bounds = descend::<S, T, true>(simd, a, b, pose, -pose.shift, lanes);
+    let bounds = descend::<S, T, (), true>(simd, a, b, pose, -pose.shift, lanes, &mut ());
     let mut found = bounds.contact.to_bitmask() & lanes;
     let mut unsure = bounds.unsure.to_bitmask() & lanes;
     while unsure != 0 {
@@ -193,8 +226,11 @@ fn farthest<S: Simd, T: Support>(
     pose: &Pose<S>,
     v: Vec3<S>,
     lanes: u64,
+    record: &mut impl Record<S>,
 ) -> Vec3<S> {
     let on_a = a.support(simd, -v, lanes);
     let on_b = b.support(simd, pose.rotate_back(v), lanes);
-    on_a - pose.rotate(on_b) - pose.shift
+    let vertex = on_a - pose.rotate(on_b) - pose.shift;
+    record.vertex(vertex, on_a);
+    vertex
 }

@@ -1,14 +1,12 @@
 //! The closest points of two shapes.
 //!
-//! The descent is that of `gjk`. In addition, each vertex of the simplex keeps its support point on the first shape.
-//! The nearest point is a convex combination of the vertices; the same weights give the closest point on the first
-//! shape.
+//! The descent is that of `gjk`, which records its vertices and their support points on the first shape. The nearest
+//! point is a convex combination of the last vertices; the same weights give the closest point on the first shape.
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::gjk::{ALL, MAX_ROUNDS, TOLERANCE, octants};
-use super::lanes::{LANES, Mask, Pose, Vec3, select, splat};
-use super::simplex::{Nearest, segment, tetrahedron, triangle};
+use super::gjk::{self, ALL, Record, TOLERANCE, octants};
+use super::lanes::{LANES, Mask, Pose, Vec3};
 use super::support::Support;
 
 /// The distance of two shapes and their closest points.
@@ -20,15 +18,111 @@ pub struct Witness {
     pub points: [[f64; 3]; 2],
 }
 
-/// A simplex of the Minkowski difference: its vertices, and their support points on the first shape.
-#[derive(Clone, Copy)]
-struct Simplex {
-    vertices: [[f64; 3]; 4],
-    on_a: [[f64; 3]; 4],
+/// The way of a descent.
+struct Way<S: Simd> {
+    /// Each vertex of the Minkowski difference so far, and its support point on the first shape.
+    vertices: Vec<[Vec3<S>; 2]>,
+    /// The vertices of the nearest feature.
+    feature: [Vec3<S>; 3],
+    /// The fourth vertex, in the lanes of `inside`.
+    last: Vec3<S>,
+    /// Lanes whose simplex encloses the origin.
+    inside: Mask<S>,
 }
 
-/// The closest points in the lanes of the bit set `lanes`, relative to the centre of `a`. `distances` are the known
-/// distances.
+impl<S: Simd> Way<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        let none = Vec3::splat(simd, [0.0; 3]);
+        Self {
+            vertices: Vec::with_capacity(USUAL),
+            feature: [none; 3],
+            last: none,
+            inside: Mask::from_bitmask(simd, 0),
+        }
+    }
+}
+
+/// Vertices of a usual descent.
+const USUAL: usize = 8;
+
+impl<S: Simd> Record<S> for Way<S> {
+    #[inline(always)]
+    fn vertex(&mut self, vertex: Vec3<S>, on_a: Vec3<S>) {
+        if self.vertices.is_empty() {
+            self.feature = [vertex; 3];
+        }
+        self.vertices.push([vertex, on_a]);
+    }
+
+    #[inline(always)]
+    fn feature(&mut self, vertices: [Vec3<S>; 3], moved: Mask<S>, inside: Mask<S>) {
+        for (kept, new) in self.feature.iter_mut().zip(vertices) {
+            *kept = Vec3::select(moved, new, *kept);
+        }
+        if let Some([newest, _]) = self.vertices.last() {
+            self.last = Vec3::select(inside, *newest, self.last);
+        }
+        self.inside |= inside;
+    }
+}
+
+impl<S: Simd> Way<S> {
+    /// The closest points in a lane, relative to the centre of the first shape, and the deviation of their distance from
+    /// `distance`.
+    #[inline(always)]
+    fn witness(&self, lane: usize, distance: f64) -> (Witness, f64) {
+        let feature = self.feature.map(|vertex| vertex.lane(lane));
+        if self.inside.to_bitmask() >> lane & 1 == 0 {
+            return self.combined(
+                lane,
+                distance,
+                feature,
+                of_triangle(feature.map(Into::into)),
+            );
+        }
+        let [a, b, c] = feature;
+        let simplex = [a, b, c, self.last.lane(lane)];
+        self.combined(lane, distance, simplex, weights(&simplex))
+    }
+
+    /// The closest points, from vertices and their weights.
+    #[inline(always)]
+    fn combined<const N: usize>(
+        &self,
+        lane: usize,
+        distance: f64,
+        vertices: [[f64; 3]; N],
+        weights: [f64; N],
+    ) -> (Witness, f64) {
+        let mut on_a = [0.0; 3];
+        let mut apart = [0.0; 3];
+        for (vertex, weight) in vertices.into_iter().zip(weights) {
+            // By value: of equal vertices, the first.
+            let same = |[of, _]: &&[Vec3<S>; 2]| of.lane(lane) == vertex;
+            let Some([_, support]) = self.vertices.iter().find(same) else {
+                continue;
+            };
+            let support = support.lane(lane);
+            for k in 0..3 {
+                on_a[k] += weight * support[k];
+                apart[k] += weight * vertex[k];
+            }
+        }
+        let on_b = match distance > 0.0 {
+            true => [0, 1, 2].map(|k| on_a[k] - apart[k]),
+            false => on_a,
+        };
+        let found = Witness {
+            distance,
+            points: [on_a, on_b],
+        };
+        let length = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (found, (length - distance).abs())
+    }
+}
+
+/// The distances and closest points in the lanes of the bit set `lanes`, relative to the centre of `a`.
 #[inline(always)]
 pub(crate) fn witnesses<S: Simd, T: Support>(
     simd: S,
@@ -36,11 +130,13 @@ pub(crate) fn witnesses<S: Simd, T: Support>(
     b: &T,
     pose: &Pose<S>,
     lanes: u64,
-    distances: [f64; LANES],
 ) -> [Witness; LANES] {
-    let simplices = descend(simd, a, b, pose, -pose.shift, lanes);
+    let mut way = Way::new(simd);
+    let bounds =
+        gjk::descend::<S, T, Way<S>, false>(simd, a, b, pose, -pose.shift, lanes, &mut way);
+    let distances = gjk::sure(simd, a, b, pose, &bounds);
     std::array::from_fn(|lane| {
-        let (found, off) = witness(&simplices[lane], distances[lane]);
+        let (found, off) = way.witness(lane, distances[lane]);
         if off <= TOLERANCE || lanes >> lane & 1 == 0 {
             return found;
         }
@@ -64,10 +160,12 @@ fn from_other_sides<S: Simd, T: Support>(
         #[inline(always)]
         || {
             let pose = Pose::same(simd, pose);
-            let simplices = descend(simd, a, b, &pose, octants(simd), ALL);
-            let mut best = witness(&simplices[0], distance);
-            for simplex in &simplices[1..] {
-                let other = witness(simplex, distance);
+            let start = octants(simd);
+            let mut way = Way::new(simd);
+            gjk::descend::<S, T, Way<S>, false>(simd, a, b, &pose, start, ALL, &mut way);
+            let mut best = way.witness(0, distance);
+            for lane in 1..LANES {
+                let other = way.witness(lane, distance);
                 if other.1 < best.1 {
                     best = other;
                 }
@@ -75,114 +173,6 @@ fn from_other_sides<S: Simd, T: Support>(
             best
         },
     )
-}
-
-/// The final simplex of each lane. The descent starts from the point of the difference that is farthest against
-/// `start`.
-#[inline(always)]
-fn descend<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    start: Vec3<S>,
-    lanes: u64,
-) -> [Simplex; LANES] {
-    let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
-    let zero = splat(simd, 0.0);
-    let (mut v, first) = farthest(simd, a, b, pose, start, lanes);
-    let mut s = [v; 3];
-    let mut on_a = [first; 3];
-    // The fourth vertex, if the origin is inside.
-    let mut last = (v, first);
-    let mut squared = v.dot(v);
-    let mut done = squared.simd_le(zero) | Mask::from_bitmask(simd, !lanes & ALL);
-    for round in 1..=MAX_ROUNDS {
-        if done.all_true() {
-            break;
-        }
-        let (w, w_on_a) = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL);
-        let gap = squared - v.dot(w);
-        done |= gap.simd_le(zero) | (gap * gap).simd_le(squared * tolerance2);
-        if done.all_true() {
-            break;
-        }
-        let Nearest {
-            point,
-            vertices,
-            inside,
-        } = match round {
-            1 => segment(simd, w, s[0]),
-            2 => triangle(simd, w, [s[0], s[1]]),
-            _ => tetrahedron(simd, w, s),
-        };
-        // If the origin is inside, keep all four: the three previous vertices and the new one.
-        let enclosing = inside & !done;
-        last.0 = Vec3::select(enclosing, w, last.0);
-        last.1 = Vec3::select(enclosing, w_on_a, last.1);
-        done |= enclosing;
-        let least = point.dot(point);
-        done |= !least.simd_lt(squared);
-        let before = (s, on_a);
-        for k in 0..3 {
-            // Find the support point of each vertex by value; equal vertices are interchangeable.
-            let mut of = w_on_a;
-            for (vertex, on_a) in before.0.iter().zip(before.1) {
-                of = Vec3::select(equal(*vertex, vertices[k]), on_a, of);
-            }
-            of = Vec3::select(equal(w, vertices[k]), w_on_a, of);
-            s[k] = Vec3::select(done, s[k], vertices[k]);
-            on_a[k] = Vec3::select(done, on_a[k], of);
-        }
-        last.0 = Vec3::select(done, last.0, vertices[0]);
-        last.1 = Vec3::select(done, last.1, on_a[0]);
-        v = Vec3::select(done, v, point);
-        squared = select(done, squared, least);
-    }
-    std::array::from_fn(|lane| Simplex {
-        vertices: [s[0], s[1], s[2], last.0].map(|p| p.lane(lane)),
-        on_a: [on_a[0], on_a[1], on_a[2], last.1].map(|p| p.lane(lane)),
-    })
-}
-
-#[inline(always)]
-fn equal<S: Simd>(a: Vec3<S>, b: Vec3<S>) -> Mask<S> {
-    a.x.simd_eq(b.x) & a.y.simd_eq(b.y) & a.z.simd_eq(b.z)
-}
-
-/// The point of the difference that is farthest against `v`, and its support point on `a`.
-#[inline(always)]
-fn farthest<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    v: Vec3<S>,
-    lanes: u64,
-) -> (Vec3<S>, Vec3<S>) {
-    let on_a = a.support(simd, -v, lanes);
-    let on_b = b.support(simd, pose.rotate_back(v), lanes);
-    (on_a - pose.rotate(on_b) - pose.shift, on_a)
-}
-
-/// The closest points from the simplex, and the deviation of their distance from `distance`.
-fn witness(simplex: &Simplex, distance: f64) -> (Witness, f64) {
-    let weights = weights(&simplex.vertices);
-    let mean = |points: &[[f64; 3]; 4]| {
-        [0, 1, 2].map(|k| (0..4).map(|i| weights[i] * points[i][k]).sum::<f64>())
-    };
-    let on_a = mean(&simplex.on_a);
-    let apart = mean(&simplex.vertices);
-    let on_b = match distance > 0.0 {
-        true => [0, 1, 2].map(|k| on_a[k] - apart[k]),
-        false => on_a,
-    };
-    let found = Witness {
-        distance,
-        points: [on_a, on_b],
-    };
-    let length = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (found, (length - distance).abs())
 }
 
 /// The weights of the four vertices for the point of their hull nearest to the origin.
