@@ -18,7 +18,7 @@ cargo xtask update
 
 cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
     Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
-    The code is the family and its next free number (SRC009); the name states the fault.
+    The code is the family and its next free number (such as SRC010); the name states the fault.
     A family that is new gets a folder: --family battery.
 
 cargo xtask new-module NAME
@@ -27,6 +27,10 @@ cargo xtask new-module NAME
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    if words.iter().any(|word| word == "--help" || word == "-h") {
+        println!("{}", USAGE.trim_end());
+        return ExitCode::SUCCESS;
+    }
     let result = match words.split_first() {
         Some((command, words)) => run(command, words),
         None => Err(USAGE.to_owned()),

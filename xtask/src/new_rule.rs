@@ -250,7 +250,7 @@ fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
 
 /// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
 fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
-    let text = with_module(text, &format!("pub mod {module};"), path)?;
+    let text = with_module(text, &format!("mod {module};"), path)?;
     let unexpected = || format!("{path} is not as expected: no list of rules");
     let (head, rest) = text.split_once("rules! {").ok_or_else(unexpected)?;
     let (list, tail) = rest.split_once('}').ok_or_else(unexpected)?;

@@ -101,7 +101,7 @@ fn a_rule_gets_all_of_its_files() {
     );
     let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
     assert!(
-        list.contains("pub mod made_of_cheese;\n") && list.contains(" made_of_cheese,"),
+        list.contains("\nmod made_of_cheese;\n") && list.contains(" made_of_cheese,"),
         "{list}"
     );
     // In order: after `inertia_…`, before `mass_…`.
@@ -225,7 +225,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         ),
         (
             "crates/urdd-validate/src/rules/battery_pack/mod.rs",
-            "pub mod no_values;\npub mod odd_values;",
+            "mod no_values;\nmod odd_values;",
         ),
         (
             "crates/urdd-validate/src/rules/battery_pack/mod.rs",
