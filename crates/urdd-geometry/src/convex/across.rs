@@ -78,7 +78,7 @@ pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
 #[inline(always)]
 fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()))
+    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()), gjk::EXACT)
 }
 
 #[inline(always)]
@@ -90,7 +90,7 @@ fn eight_touch<S: Simd>(simd: S, pairs: &[PlacedPair]) -> u64 {
 #[inline(always)]
 fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    let distances = gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()));
+    let distances = gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()), gjk::EXACT);
     let mut found = witness::witnesses(simd, &a, &b, &pose, lanes(pairs.len()), distances);
     for (found, pair) in found.iter_mut().zip(pairs) {
         found.points = found

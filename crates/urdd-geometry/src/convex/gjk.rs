@@ -20,6 +20,9 @@ const CONTACT: f64 = 1e-10;
 /// Maximum number of iterations per lane; two to five are usual.
 pub(crate) const MAX_ROUNDS: usize = 64;
 
+/// The range of distances whose exact values do not matter, metres: none.
+pub(crate) const EXACT: [f64; 2] = [0.0, -1.0];
+
 /// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
@@ -34,7 +37,7 @@ struct Bounds<S: Simd> {
 }
 
 /// Distances of `a` and `b` in the lanes of the bit set `lanes`. Both shapes are relative to their centres; `pose` is
-/// that of `b` in the frame of `a`.
+/// that of `b` in the frame of `a`. In place of a distance in the range `within`, the result may be any number in it.
 #[inline(always)]
 pub(crate) fn distances<S: Simd, T: Support>(
     simd: S,
@@ -42,8 +45,9 @@ pub(crate) fn distances<S: Simd, T: Support>(
     b: &T,
     pose: &Pose<S>,
     lanes: u64,
+    within: [f64; 2],
 ) -> [f64; LANES] {
-    let bounds = descend::<S, T, false>(simd, a, b, pose, -pose.shift, lanes);
+    let bounds = descend::<S, T, false>(simd, a, b, pose, -pose.shift, lanes, within);
     let mut distances = bounds.upper.to_array();
     let mut unsure = bounds.unsure.to_bitmask();
     while unsure != 0 {
@@ -69,7 +73,7 @@ fn from_other_sides<S: Simd, T: Support>(
         #[inline(always)]
         || {
             let pose = Pose::same(simd, pose);
-            let bounds = descend::<S, T, false>(simd, a, b, &pose, octants(simd), ALL);
+            let bounds = descend::<S, T, false>(simd, a, b, &pose, octants(simd), ALL, EXACT);
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -96,7 +100,8 @@ pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
 }
 
 /// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
-/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane.
+/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane, any other as soon as the
+/// distance is known to be in the range from `low` to `high`.
 #[inline(always)]
 fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
     simd: S,
@@ -105,7 +110,11 @@ fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
     pose: &Pose<S>,
     start: Vec3<S>,
     lanes: u64,
+    [low, high]: [f64; 2],
 ) -> Bounds<S> {
+    let low2 = splat(simd, low * low);
+    // No square is below a negative number.
+    let high2 = splat(simd, high.min(1e9) * high.abs().min(1e9));
     let contact2 = splat(simd, CONTACT * CONTACT);
     let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
     let zero = splat(simd, 0.0);
@@ -125,7 +134,12 @@ fn descend<S: Simd, T: Support, const CONTACT_ALONE: bool>(
         let gap = squared - along;
         let decided = match CONTACT_ALONE {
             true => along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared),
-            false => (gap * gap).simd_le(squared * tolerance2),
+            false => {
+                let below = squared.simd_le(high2);
+                let above = along.simd_ge(zero) & (along * along).simd_ge(low2 * squared);
+                let is_exact = (gap * gap).simd_le(squared * tolerance2);
+                is_exact | (below & (above | low2.simd_le(zero)))
+            }
         };
         done |= decided | gap.simd_le(zero);
         if done.all_true() {
@@ -168,7 +182,7 @@ pub(crate) fn touching<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> u64 {
-    let bounds = descend::<S, T, true>(simd, a, b, pose, -pose.shift, lanes);
+    let bounds = descend::<S, T, true>(simd, a, b, pose, -pose.shift, lanes, EXACT);
     let mut found = bounds.contact.to_bitmask() & lanes;
     let mut unsure = bounds.unsure.to_bitmask() & lanes;
     while unsure != 0 {
