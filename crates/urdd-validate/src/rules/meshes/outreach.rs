@@ -86,7 +86,15 @@ fn farthest_outside(context: &Context, piece: &Derived) -> Option<Outside> {
     let bounds = hull.bounds()?;
     let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
     // MSH021 and MSH023 measure the same.
-    let key = (Code::MSH021, piece.link, piece.piece);
+    let contents = [
+        solids.content(ModuleKind::ConvexHullMeshes, piece.link, 0)?,
+        solids.content(
+            ModuleKind::ConvexDecompositionMeshes,
+            piece.link,
+            piece.piece,
+        )?,
+    ];
+    let key = (Code::MSH021, contents.to_vec());
     let found = context.memos().farthest.get(key, || {
         let polytope = Polytope::new(hull)?;
         let vertices = distinct(piece.sound()?);
