@@ -10,6 +10,7 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
+use super::validated_parts::ValidatedParts;
 use urdd_generate::batch::Job;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_generate::process;
@@ -59,6 +60,11 @@ pub struct CombineArguments {
     #[arg(long, requires = "at")]
     name: Option<String>,
 
+    /// Validates the parts even if this program found them free of errors before, and remembers nothing. Otherwise the
+    /// user's cache folder holds a hash of each part that passed.
+    #[arg(long)]
+    no_cache: bool,
+
     #[command(flatten)]
     making: MakingArguments,
 }
@@ -83,6 +89,10 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let job = Job {
         source: source.cloned().unwrap_or_default(),
         name: target.display().to_string(),
+    };
+    let validated = match arguments.no_cache {
+        true => ValidatedParts::none(),
+        false => ValidatedParts::new(|name| std::env::var_os(name)),
     };
     let mut unsaid = Vec::new();
     let recipe = match (arguments.sources.as_slice(), &arguments.at) {
@@ -113,8 +123,8 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         let progress = printer.begin_robot(&job);
         pool.install(|| {
             settings.cancellation = signals.cancellation();
-            let find_errors =
-                |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
+            let validate = |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
+            let find_errors = |part: &Path| validated.find_errors(part, validate);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, unsaid);

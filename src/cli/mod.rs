@@ -18,6 +18,7 @@ mod shapes;
 mod signals;
 mod skips;
 mod validate;
+mod validated_parts;
 mod view;
 mod words;
 

@@ -7,8 +7,6 @@ use std::sync::{Mutex, PoisonError};
 use super::code::Code;
 use super::solids::dents::Dents;
 use super::solids::polytope::NotConvex;
-use urdd_format::registry::ModuleKind;
-use urdd_format::shape_kind::ShapeKind;
 
 /// Results by key, each computed once.
 pub struct Memo<K, V>(Mutex<HashMap<K, V>>);
@@ -46,13 +44,14 @@ pub struct Farthest {
 /// Why a mesh is not convex, and its dents, where they were measured.
 type Concavity = (NotConvex, Option<Dents>);
 
-/// The results of comparisons of mesh files, boxes and spheres with each other. Links and pieces are by index.
+/// The results of comparisons of mesh files, boxes and spheres with each other. Meshes are by their content: see
+/// [`Solids::content`](super::solids::Solids::content).
 #[derive(Default)]
 pub struct Memos {
-    /// For a rule, link and piece: the place farthest off.
-    pub farthest: Memo<(Code, usize, usize), Option<Farthest>>,
+    /// For a rule and the meshes that it compares: the place farthest off.
+    pub farthest: Memo<(Code, Vec<usize>), Option<Farthest>>,
     /// Why a mesh is not convex.
-    pub convexity: Memo<(ModuleKind, usize, usize), Option<Concavity>>,
-    /// The size of a box or sphere over that of the smallest one.
-    pub ratios: Memo<(ShapeKind, usize, usize), Option<f64>>,
+    pub convexity: Memo<usize, Option<Concavity>>,
+    /// The size of a box or sphere over that of the smallest one around a mesh. The numbers are those of its size.
+    pub ratios: Memo<(usize, [u64; 4]), Option<f64>>,
 }

@@ -78,7 +78,7 @@ pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
 #[inline(always)]
 fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()))
+    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()), gjk::EXACT)
 }
 
 #[inline(always)]

@@ -20,6 +20,9 @@ const CONTACT: f64 = 1e-10;
 /// Maximum number of iterations per lane; two to five are usual.
 const MAX_ROUNDS: usize = 64;
 
+/// The range of distances whose exact values do not matter, metres: none.
+pub(crate) const EXACT: [f64; 2] = [0.0, -1.0];
+
 /// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
@@ -33,8 +36,13 @@ pub(crate) struct Bounds<S: Simd> {
     pub unsure: Mask<S>,
 }
 
-/// What a descent records of its way, for the closest points.
+/// What is asked of a descent, and what it records of its way for the closest points.
 pub(crate) trait Record<S: Simd> {
+    /// The range of distances whose exact values do not matter, metres.
+    fn within(&self) -> [f64; 2] {
+        EXACT
+    }
+
     /// A new vertex of the difference, and its support point on the first shape.
     fn vertex(&mut self, vertex: Vec3<S>, on_a: Vec3<S>);
 
@@ -43,8 +51,15 @@ pub(crate) trait Record<S: Simd> {
     fn feature(&mut self, vertices: [Vec3<S>; 3], moved: Mask<S>, inside: Mask<S>);
 }
 
-/// Distances need nothing of the way.
-impl<S: Simd> Record<S> for () {
+/// Distances alone, which need nothing of the way, and the range of those whose exact values do not matter.
+struct Alone([f64; 2]);
+
+impl<S: Simd> Record<S> for Alone {
+    #[inline(always)]
+    fn within(&self) -> [f64; 2] {
+        self.0
+    }
+
     #[inline(always)]
     fn vertex(&mut self, _: Vec3<S>, _: Vec3<S>) {}
 
@@ -53,7 +68,7 @@ impl<S: Simd> Record<S> for () {
 }
 
 /// Distances of `a` and `b` in the lanes of the bit set `lanes`. Both shapes are relative to their centres; `pose` is
-/// that of `b` in the frame of `a`.
+/// that of `b` in the frame of `a`. In place of a distance in the range `within`, the result may be any number in it.
 #[inline(always)]
 pub(crate) fn distances<S: Simd, T: Support>(
     simd: S,
@@ -61,8 +76,10 @@ pub(crate) fn distances<S: Simd, T: Support>(
     b: &T,
     pose: &Pose<S>,
     lanes: u64,
+    within: [f64; 2],
 ) -> [f64; LANES] {
-    let bounds = descend::<S, T, (), false>(simd, a, b, pose, -pose.shift, lanes, &mut ());
+    let bounds =
+        descend::<S, T, Alone, false>(simd, a, b, pose, -pose.shift, lanes, &mut Alone(within));
     sure(simd, a, b, pose, &bounds)
 }
 
@@ -100,7 +117,15 @@ fn from_other_sides<S: Simd, T: Support>(
         #[inline(always)]
         || {
             let pose = Pose::same(simd, pose);
-            let bounds = descend::<S, T, (), false>(simd, a, b, &pose, octants(simd), ALL, &mut ());
+            let bounds = descend::<S, T, Alone, false>(
+                simd,
+                a,
+                b,
+                &pose,
+                octants(simd),
+                ALL,
+                &mut Alone(EXACT),
+            );
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -127,7 +152,8 @@ pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
 }
 
 /// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
-/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane.
+/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane, any other as soon as the
+/// distance is known to be in the range of `record`.
 #[inline(always)]
 pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bool>(
     simd: S,
@@ -138,6 +164,10 @@ pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bo
     lanes: u64,
     record: &mut R,
 ) -> Bounds<S> {
+    let [low, high] = record.within();
+    let low2 = splat(simd, low * low);
+    // No square is below a negative number.
+    let high2 = splat(simd, high.min(1e9) * high.abs().min(1e9));
     let contact2 = splat(simd, CONTACT * CONTACT);
     let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
     let zero = splat(simd, 0.0);
@@ -157,7 +187,12 @@ pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bo
         let gap = squared - along;
         let decided = match CONTACT_ALONE {
             true => along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared),
-            false => (gap * gap).simd_le(squared * tolerance2),
+            false => {
+                let below = squared.simd_le(high2);
+                let above = along.simd_ge(zero) & (along * along).simd_ge(low2 * squared);
+                let is_exact = (gap * gap).simd_le(squared * tolerance2);
+                is_exact | (below & (above | low2.simd_le(zero)))
+            }
         };
         done |= decided | gap.simd_le(zero);
         if done.all_true() {
@@ -201,7 +236,8 @@ pub(crate) fn touching<S: Simd, T: Support>(
     pose: &Pose<S>,
     lanes: u64,
 ) -> u64 {
-    let bounds = descend::<S, T, (), true>(simd, a, b, pose, -pose.shift, lanes, &mut ());
+    let bounds =
+        descend::<S, T, Alone, true>(simd, a, b, pose, -pose.shift, lanes, &mut Alone(EXACT));
     let mut found = bounds.contact.to_bitmask() & lanes;
     let mut unsure = bounds.unsure.to_bitmask() & lanes;
     while unsure != 0 {

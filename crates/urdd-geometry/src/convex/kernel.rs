@@ -21,7 +21,7 @@ impl Shape for Sphere {}
 pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
     let poses = PoseLanes::new(std::iter::once(b_in_a));
     let mut lanes = [0.0; LANES];
-    T::distances(Level::new(), a, b, &poses, &mut lanes);
+    T::distances(Level::new(), a, b, &poses, gjk::EXACT, &mut lanes);
     lanes[0]
 }
 
@@ -29,25 +29,54 @@ mod sealed {
     use super::{Level, PoseLanes};
 
     pub trait Distances: Sized {
-        /// The distance in each sample, in order. The length of `distances` is a multiple of the lane count.
-        fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]);
+        /// The distance in each sample, in order. In place of one in the range `within`, any number in it. The length
+        /// of `distances` is a multiple of the lane count.
+        fn distances(
+            level: Level,
+            a: &Self,
+            b: &Self,
+            poses: &PoseLanes,
+            within: [f64; 2],
+            distances: &mut [f64],
+        );
     }
 }
 
 impl sealed::Distances for ConvexShape {
-    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
-        dispatch!(level, simd => hulls(simd, a, b, poses, distances));
+    fn distances(
+        level: Level,
+        a: &Self,
+        b: &Self,
+        poses: &PoseLanes,
+        within: [f64; 2],
+        distances: &mut [f64],
+    ) {
+        dispatch!(level, simd => hulls(simd, a, b, poses, within, distances));
     }
 }
 
 impl sealed::Distances for OrientedBox {
-    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
-        dispatch!(level, simd => boxes(simd, a, b, poses, distances));
+    fn distances(
+        level: Level,
+        a: &Self,
+        b: &Self,
+        poses: &PoseLanes,
+        within: [f64; 2],
+        distances: &mut [f64],
+    ) {
+        dispatch!(level, simd => boxes(simd, a, b, poses, within, distances));
     }
 }
 
 impl sealed::Distances for Sphere {
-    fn distances(level: Level, a: &Self, b: &Self, poses: &PoseLanes, distances: &mut [f64]) {
+    fn distances(
+        level: Level,
+        a: &Self,
+        b: &Self,
+        poses: &PoseLanes,
+        _within: [f64; 2],
+        distances: &mut [f64],
+    ) {
         dispatch!(level, simd => spheres(simd, a, b, poses, distances));
     }
 }
@@ -58,13 +87,14 @@ fn hulls<S: Simd>(
     a: &ConvexShape,
     b: &ConvexShape,
     poses: &PoseLanes,
+    within: [f64; 2],
     distances: &mut [f64],
 ) {
     let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
     for (at, out) in groups(distances) {
         let mut pose = poses.load(simd, at);
         pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
-        store(simd, a, b, &pose, poses.num_samples() - at, out);
+        store(simd, a, b, &pose, poses.num_samples() - at, within, out);
     }
 }
 
@@ -74,6 +104,7 @@ fn boxes<S: Simd>(
     a: &OrientedBox,
     b: &OrientedBox,
     poses: &PoseLanes,
+    within: [f64; 2],
     distances: &mut [f64],
 ) {
     let (frame_a, frame_b) = (Pose::splat(simd, &a.pose), Pose::splat(simd, &b.pose));
@@ -88,7 +119,7 @@ fn boxes<S: Simd>(
             ],
             shift: frame_a.rotate_back(shift),
         };
-        store(simd, a, b, &pose, poses.num_samples() - at, out);
+        store(simd, a, b, &pose, poses.num_samples() - at, within, out);
     }
 }
 
@@ -120,6 +151,7 @@ fn store<S: Simd, T: Support>(
     b: &T,
     pose: &Pose<S>,
     samples: usize,
+    within: [f64; 2],
     out: &mut [f64],
 ) {
     let lanes = if samples < LANES {
@@ -127,7 +159,7 @@ fn store<S: Simd, T: Support>(
     } else {
         gjk::ALL
     };
-    out.copy_from_slice(&gjk::distances(simd, a, b, pose, lanes));
+    out.copy_from_slice(&gjk::distances(simd, a, b, pose, lanes, within));
 }
 
 #[cfg(test)]
@@ -158,8 +190,15 @@ mod tests {
         let all = levels().into_iter().map(|level| {
             let mut found = vec![0.0; 3000];
             let (hulls, of_boxes) = found.split_at_mut(1000);
-            ConvexShape::distances(level, &a, &b, &lanes, hulls);
-            OrientedBox::distances(level, &boxes[0], &boxes[1], &lanes, &mut of_boxes[..1000]);
+            ConvexShape::distances(level, &a, &b, &lanes, gjk::EXACT, hulls);
+            OrientedBox::distances(
+                level,
+                &boxes[0],
+                &boxes[1],
+                &lanes,
+                gjk::EXACT,
+                &mut of_boxes[..1000],
+            );
             found
                 .iter()
                 .map(|x: &f64| x.to_bits())

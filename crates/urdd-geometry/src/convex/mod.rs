@@ -28,6 +28,7 @@ pub use kernel::{Shape, distance};
 pub use motion::{Motion, MotionError};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
 pub use statistics::{
-    PairStatistics, PlacedShape, ShapeList, pair_distances, pair_statistics, statistics_of_kinds,
+    PairStatistics, PlacedShape, ShapeList, pair_distances, pair_ranges, pair_statistics,
+    statistics_of_kinds,
 };
 pub use witness::Witness;

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use fearless_simd::Level;
 use rayon::prelude::*;
 
+use super::gjk::EXACT;
 use super::kernel::Shape;
 use super::lanes::LANES;
 use super::motion::{Motion, PoseLanes};
@@ -74,7 +75,37 @@ impl<T: Shape> ShapeList for &[PlacedShape<T>] {
         poses: &PoseLanes,
         distances: &mut [f64],
     ) {
-        T::distances(level, &self[i].shape, &self[j].shape, poses, distances);
+        let (a, b) = (&self[i].shape, &self[j].shape);
+        T::distances(level, a, b, poses, EXACT, distances);
+    }
+}
+
+/// Shapes with a range of distances for each pair, metres. In place of a distance in the range, the result may be any
+/// number in it, which takes less time. `None` asks for exact distances.
+struct Within<'a, T, F> {
+    shapes: &'a [PlacedShape<T>],
+    range: F,
+}
+
+impl<T: Shape, F: Fn(usize, usize) -> Option<[f64; 2]> + Sync> ShapeList for Within<'_, T, F> {
+    fn count(&self) -> usize {
+        self.shapes.len()
+    }
+
+    fn body(&self, shape: usize) -> usize {
+        self.shapes[shape].body
+    }
+
+    fn distances(
+        &self,
+        level: Level,
+        [i, j]: [usize; 2],
+        poses: &PoseLanes,
+        distances: &mut [f64],
+    ) {
+        let (a, b) = (&self.shapes[i].shape, &self.shapes[j].shape);
+        let range = (self.range)(i.min(j), i.max(j)).unwrap_or(EXACT);
+        T::distances(level, a, b, poses, range, distances);
     }
 }
 
@@ -90,6 +121,17 @@ pub fn pair_statistics<T: Shape>(
     motion: &Motion,
 ) -> Option<PairStatistics> {
     statistics_of_kinds(&[&shapes], motion, &|| false)?.pop()
+}
+
+/// Answers whether the distances of every pair of shapes stay in a range, with less work than [`pair_statistics`]: the
+/// minimum and maximum are in the `range` of a pair, given as `i < j`, exactly if all its distances are. Otherwise those
+/// outside are exact; the mean is not. `None` for a range asks for exact distances.
+pub fn pair_ranges<T: Shape>(
+    shapes: &[PlacedShape<T>],
+    motion: &Motion,
+    range: impl Fn(usize, usize) -> Option<[f64; 2]> + Sync,
+) -> Option<PairStatistics> {
+    statistics_of_kinds(&[&Within { shapes, range }], motion, &|| false)?.pop()
 }
 
 /// The statistics of several kinds of shapes, each as from [`pair_statistics`]. The relative poses of two bodies are
@@ -188,7 +230,8 @@ pub fn pair_distances<T: Shape>(
     }
     let poses = motion.relative(a.body, b.body);
     let mut distances = vec![0.0; poses.num_samples().next_multiple_of(LANES)];
-    T::distances(Level::new(), &a.shape, &b.shape, &poses, &mut distances);
+    let level = Level::new();
+    T::distances(level, &a.shape, &b.shape, &poses, EXACT, &mut distances);
     distances.truncate(poses.num_samples());
     // Bodies in fixed relative position have one sample that stands for all.
     let first = distances.first().copied()?;

@@ -10,7 +10,7 @@ mod vectors;
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use super::hull::ConvexHull;
-use search::{TIE, smallest_boxes};
+use search::{TIE, finds_box, smallest_boxes};
 use shadow::Caster;
 
 /// An oriented box.
@@ -80,7 +80,7 @@ impl OrientedBox {
     /// The search is that of [`Self::around`], but skips what cannot reach `volume`. That is much less work if `volume`
     /// is near the minimum.
     pub fn exists_within(hull: &ConvexHull, volume: f64) -> bool {
-        !smallest_boxes(hull, volume).is_empty()
+        finds_box(hull, volume)
     }
 
     /// The smallest box of this orientation that encloses a hull.

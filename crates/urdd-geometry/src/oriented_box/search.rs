@@ -68,6 +68,8 @@ struct Search {
     left: usize,
     coarse: Option<Caster>,
     best: f64,
+    /// Whether one box is enough.
+    any: bool,
     /// Boxes that were within [`TIE`] of the best when found.
     found: Vec<Candidate>,
 }
@@ -75,24 +77,18 @@ struct Search {
 /// The boxes within [`TIE`] of the smallest one found that is at most `volume`, cubic metres. For an infinite `volume`
 /// the result is empty only if the hull has no area.
 pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
-    let mut search = Search {
-        fine: Caster::new(hull),
-        left: MOST_CAST,
-        coarse: coarse(hull),
-        best: volume,
-        found: Vec::new(),
-    };
-    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-        search.try_axis(&axis);
-    }
-    let at_faces = search.try_faces();
-    // Without a budget, the arcs of a large hull would take memory for nothing.
-    if search.left > 0 {
-        search.walk_arcs(&at_faces);
-    }
+    let mut search = Search::new(hull, volume, false);
+    search.run();
     let limit = search.best * (1.0 + TIE);
     search.found.retain(|candidate| candidate.volume <= limit);
     search.found
+}
+
+/// Whether that search finds a box. It ends with the first.
+pub fn finds_box(hull: &ConvexHull, volume: f64) -> bool {
+    let mut search = Search::new(hull, volume, true);
+    search.run();
+    !search.found.is_empty()
 }
 
 /// A hull of some of the corners; `None` for a small hull.
@@ -124,6 +120,31 @@ fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
 }
 
 impl Search {
+    fn new(hull: &ConvexHull, volume: f64, any: bool) -> Self {
+        Search {
+            fine: Caster::new(hull),
+            left: MOST_CAST,
+            coarse: coarse(hull),
+            best: volume,
+            any,
+            found: Vec::new(),
+        }
+    }
+
+    fn run(&mut self) {
+        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+            self.try_axis(&axis);
+        }
+        if self.left == 0 {
+            return;
+        }
+        let at_faces = self.try_faces();
+        // Without a budget, the arcs of a large hull would take memory for nothing.
+        if self.left > 0 {
+            self.walk_arcs(&at_faces);
+        }
+    }
+
     /// Computes the smallest box with this axis, and keeps it if it is among the best.
     fn try_axis(&mut self, axis: &Vector3<f64>) -> Known {
         let candidate = self.fine.smallest_box(axis);
@@ -139,6 +160,9 @@ impl Search {
         if candidate.volume <= self.best * (1.0 + TIE) {
             self.best = self.best.min(candidate.volume);
             self.found.push(candidate);
+            if self.any {
+                self.left = 0;
+            }
         }
         Known::of(&candidate)
     }
@@ -251,6 +275,9 @@ impl Search {
             };
             let mut queue = Queue::new(stretches.drain(..).map(judged));
             for _ in 0..pass.shadows.max(pass.triangles / triangles) {
+                if self.left == 0 {
+                    return;
+                }
                 let limit = self.best * (1.0 - GAIN);
                 let axis = |stretch: &Stretch| arcs[stretch.arc].at(stretch.middle());
                 let sketches = |axes: &[Vector3<f64>]| self.sketches(axes);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use urdd_geometry::convex::{
     ConvexShape, Motion, MotionError, PairStatistics, PlacedShape, Sphere, distance,
-    pair_distances, pair_statistics, statistics_of_kinds,
+    pair_distances, pair_ranges, pair_statistics, statistics_of_kinds,
 };
 
 /// Numbers from 0 to 1, the same in each run (SplitMix64).
@@ -190,6 +190,40 @@ fn what_is_no_motion() {
         pair_statistics::<Sphere>(&[], &motion),
         Some(PairStatistics::default())
     );
+}
+
+#[test]
+fn a_range_is_left_exactly_if_a_distance_is_outside() {
+    let motion = Motion::new(&poses(21), &GROUPS).expect("a motion");
+    let (shapes, exact) = (shapes(), statistics(21));
+    let ranges = |low: f64, high: f64| {
+        let range = |i: usize, j: usize| {
+            assert!(i < j);
+            Some([exact.min[i][j] + low, exact.max[i][j] + high])
+        };
+        pair_ranges(&shapes, &motion, range).expect("bodies of the motion")
+    };
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-8;
+    let (mut early, mut pairs) = (0, 0);
+    for i in 0..shapes.len() {
+        for j in i + 1..shapes.len() {
+            let (min, max) = (exact.min[i][j], exact.max[i][j]);
+            // The stated range is right, or wider.
+            for slack in [0.0, 0.01] {
+                let found = ranges(-slack, slack);
+                let (low, high) = (found.min[i][j], found.max[i][j]);
+                assert!(low >= min - slack - 1e-8 && high <= max + slack + 1e-8);
+                early += usize::from(!near(found.mean[i][j], exact.mean[i][j]));
+            }
+            // It is too narrow at one end.
+            assert!(near(ranges(0.01, 0.0).min[i][j], min));
+            assert!(near(ranges(0.0, -0.01).max[i][j], max));
+            pairs += 1;
+        }
+    }
+    assert!(early > pairs / 2, "{early} of {pairs}");
+    let all = pair_ranges(&shapes, &motion, |_, _| None);
+    assert_eq!(all, Some(exact));
 }
 
 #[test]

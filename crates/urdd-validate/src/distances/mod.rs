@@ -38,10 +38,12 @@ pub struct KindDistances {
     pub configurations: u32,
     /// Whether these are all configurations of the statistics.
     pub complete: bool,
+    /// Where not complete, exact only outside the stated ranges, and without means.
     found: PairStatistics,
 }
 
-/// The distances of a pair.
+/// The distances of a pair. Where not all configurations were used, `min` and `max` are exact only outside the stated
+/// range, and `mean` is not.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Found {
     /// Mean distance, m.
@@ -85,15 +87,20 @@ impl Distances {
         let default = poses.default_motion()?;
         let first = poses.motion(0..num_samples.min(plan::AT_ONCE))?;
         let mut kinds: [Option<KindDistances>; 6] = Default::default();
-        for ((kind, set), n) in kinds.iter_mut().zip(sets).zip(configurations) {
-            let Some(shapes) = set else {
+        let planned = recorded.iter().zip(sets).zip(configurations);
+        for (kind, ((stated, set), n)) in kinds.iter_mut().zip(planned) {
+            let (Some(stated), Some(shapes)) = (stated, set) else {
                 continue;
             };
-            let found = over(&shapes, &poses, &first, n)?;
+            let complete = n == num_samples;
+            let found = over(&poses, &first, n, |motion| match complete {
+                true => shapes.statistics(motion),
+                false => shapes.ranges(motion, stated),
+            })?;
             *kind = Some(KindDistances {
                 shapes,
                 configurations: n,
-                complete: n == num_samples,
+                complete,
                 found,
             });
         }
@@ -147,19 +154,19 @@ impl KindDistances {
 
 /// The statistics over the first `n` configurations, some of which are in `first`.
 fn over(
-    shapes: &ShapeSet,
     poses: &Poses,
     first: &Motion,
     n: u32,
+    statistics: impl Fn(&Motion) -> PairStatistics,
 ) -> Result<PairStatistics, SkipReason> {
     if n as usize == first.num_samples() {
-        return Ok(shapes.statistics(first));
+        return Ok(statistics(first));
     }
     let mut all = PairStatistics::default();
     let mut start = 0;
     while start < n {
         let end = n.min(start + plan::AT_ONCE);
-        let part = shapes.statistics(&poses.motion(start..end)?);
+        let part = statistics(&poses.motion(start..end)?);
         match start {
             0 => all = part,
             _ => join(&mut all, &part, start, end),

@@ -6,13 +6,14 @@ use super::plan::{self, Work};
 use super::poses::Poses;
 use crate::solids::Solids;
 use crate::views::enclosure::Fit;
+use urdd_document::shape_matrices::{Statistics, at};
 use urdd_document::shapes::{Shapes, Volume, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{
     ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Shape, Sphere, pair_distances,
-    pair_statistics,
+    pair_ranges, pair_statistics,
 };
 use urdd_kinematics::rotation::from_rpy;
 
@@ -147,6 +148,23 @@ impl ShapeSet {
             List::Spheres(list) => pair_statistics(list, motion),
         };
         statistics.unwrap_or_default()
+    }
+
+    /// The smallest and largest distances of all pairs: exact where they are outside the stated ones.
+    pub fn ranges(&self, motion: &Motion, stated: &Statistics) -> PairStatistics {
+        let shapes: Vec<usize> = (0..self.places.len())
+            .filter(|shape| self.place(*shape).is_some())
+            .collect();
+        let range = |i: usize, j: usize| {
+            let (i, j) = (*shapes.get(i)?, *shapes.get(j)?);
+            Some([at(stated.min, i, j)?, at(stated.max, i, j)?])
+        };
+        let ranges = match &self.list {
+            List::Hulls(list) => pair_ranges(list, motion, range),
+            List::Boxes(list) => pair_ranges(list, motion, range),
+            List::Spheres(list) => pair_ranges(list, motion, range),
+        };
+        ranges.unwrap_or_default()
     }
 
     /// The distance of a pair in each configuration.

@@ -1,5 +1,7 @@
 //! The meshes derived for links: plain meshes, hulls and convex pieces, each in three formats.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
@@ -37,6 +39,31 @@ impl Derived {
     pub fn sound(&self) -> Option<&Mesh> {
         let sound = self.differences.is_empty() && self.files.iter().all(|f| f.fault.is_none());
         self.mesh.as_ref().filter(|_| sound)
+    }
+
+    /// The mesh of copies of its files, which are sound.
+    fn copied(&self, link: usize, piece: usize, paths: &[&MeshPath]) -> Derived {
+        let paths = paths.iter().filter(|path| path.format.is_some());
+        let files = self
+            .files
+            .iter()
+            .zip(paths)
+            .map(|(file, path)| DerivedFile {
+                path: path.path.to_owned(),
+                pointer: path.pointer.clone(),
+                format: file.format,
+                content: file.content,
+                fault: None,
+                not_glb: file.not_glb,
+            });
+        Derived {
+            link,
+            piece,
+            files: files.collect(),
+            mesh: self.mesh.clone(),
+            mesh_of: self.mesh_of,
+            differences: Vec::new(),
+        }
     }
 
     /// Its JSON Pointer: in version 1 of the object with its files, in legacy modules of the entry in the first
@@ -81,13 +108,55 @@ pub fn read_all(urdd: &Urdd, meshes: &Meshes) -> Vec<Derived> {
         }
     }
     let profile = meshes.profile;
-    places
-        .into_par_iter()
-        .map_init(
-            || MeshFiles::new(urdd),
-            |files, (link, piece, paths)| read(files, profile, link, piece, &paths),
-        )
-        .collect()
+    let sizes = places.par_iter().map_init(
+        || MeshFiles::new(urdd),
+        |files, (_, _, paths)| {
+            let size = |path: &&MeshPath| files.open(profile, path.path).map(|(_, size)| size);
+            let sizes: Result<Vec<u64>, _> = paths.iter().map(size).collect();
+            sizes.ok()
+        },
+    );
+    let sizes: Vec<Option<Vec<u64>>> = sizes.collect();
+    // Files of the same sizes may be copies, whose meshes need not be read again.
+    let mut groups: HashMap<(usize, Option<Vec<u64>>), Vec<usize>> = HashMap::new();
+    for (at, sizes) in sizes.into_iter().enumerate() {
+        let alone = if sizes.is_none() { at } else { 0 };
+        groups.entry((alone, sizes)).or_default().push(at);
+    }
+    let read = groups.into_par_iter().flat_map_iter(|(_, group)| {
+        let mut files = MeshFiles::new(urdd);
+        let mut done: Vec<(usize, Derived)> = Vec::with_capacity(group.len());
+        for at in group {
+            let (link, piece, paths) = &places[at];
+            let known = done.iter().take(MAX_COMPARED).find(|(other, derived)| {
+                derived.sound().is_some()
+                    && are_copies(&mut files, profile, &places[*other].2, paths)
+            });
+            let derived = match known {
+                Some((_, known)) => known.copied(*link, *piece, paths),
+                None => read(&mut files, profile, *link, *piece, paths),
+            };
+            done.push((at, derived));
+        }
+        done
+    });
+    let mut read: Vec<(usize, Derived)> = read.collect();
+    read.sort_unstable_by_key(|(at, _)| *at);
+    read.into_iter().map(|(_, derived)| derived).collect()
+}
+
+/// Number of meshes of the same sizes that a mesh is compared with.
+const MAX_COMPARED: usize = 8;
+
+/// Whether two lists of files have the same formats and contents.
+fn are_copies(files: &mut MeshFiles, profile: Profile, a: &[&MeshPath], b: &[&MeshPath]) -> bool {
+    let mut bytes = |path: &MeshPath| file::bytes(files, profile, path.path).ok();
+    a.len() == b.len()
+        && a.iter().zip(b).all(|(a, b)| {
+            let end = |path: &str| path.rsplit_once('.').map(|(_, end)| end.to_owned());
+            let alike = a.format == b.format && end(a.path) == end(b.path);
+            alike && bytes(a).is_some_and(|one| bytes(b).is_some_and(|other| one == other))
+        })
 }
 
 fn read(

@@ -3,6 +3,7 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
+mod apart;
 pub mod dents;
 pub mod derived;
 pub mod expected;
@@ -18,6 +19,9 @@ pub mod stl_records;
 pub mod surface;
 
 use std::collections::HashMap;
+use std::hash::{BuildHasher, RandomState};
+
+use rayon::prelude::*;
 
 use self::derived::Derived;
 use self::original::Original;
@@ -30,6 +34,7 @@ use urdd_geometry::Mesh;
 pub struct Solids {
     derived: HashMap<ModuleKind, Vec<Derived>>,
     by_place: HashMap<(ModuleKind, usize, usize), usize>,
+    contents: HashMap<(ModuleKind, usize, usize), usize>,
     originals: HashMap<String, Original>,
 }
 
@@ -50,7 +55,40 @@ impl Solids {
             }
             solids.derived.insert(*kind, read);
         }
+        solids.contents = solids.compare();
         solids
+    }
+
+    /// Numbers the contents of all sound meshes.
+    fn compare(&self) -> HashMap<(ModuleKind, usize, usize), usize> {
+        let all = self.derived.iter().flat_map(|(kind, meshes)| {
+            let sound = meshes.iter().filter_map(|one| Some((one, one.sound()?)));
+            sound.map(|(one, mesh)| ((*kind, one.link, one.piece), mesh))
+        });
+        let all: Vec<_> = all.collect();
+        // Seeded at random: no one can make many meshes with the same hash.
+        let seed = RandomState::new();
+        let hashes: Vec<u64> = all
+            .par_iter()
+            .map(|(_, mesh)| {
+                let bits = |vertex: &[f64; 3]| vertex.map(f64::to_bits);
+                let vertices: Vec<[u64; 3]> = mesh.vertices.iter().map(bits).collect();
+                seed.hash_one((vertices, &mesh.triangles))
+            })
+            .collect();
+        let mut first: HashMap<u64, (usize, &Mesh)> = HashMap::new();
+        let numbered = all.into_iter().zip(hashes).enumerate();
+        let numbered = numbered.map(|(at, ((place, mesh), hash))| {
+            let (content, other) = *first.entry(hash).or_insert((at, mesh));
+            (place, if mesh == other { content } else { at })
+        });
+        numbered.collect()
+    }
+
+    /// A number that is the same for meshes of the same vertices and triangles; `None` for a mesh that is not
+    /// [sound](Solids::sound).
+    pub fn content(&self, kind: ModuleKind, link: usize, piece: usize) -> Option<usize> {
+        self.contents.get(&(kind, link, piece)).copied()
     }
 
     /// The meshes of a module of derived meshes, in order of links and pieces.

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Solids;
+use super::apart::are_apart;
 use super::derived::Derived;
 use super::expected::{self, Expected};
 use super::polytope::step;
@@ -111,13 +112,22 @@ pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
     (0..others).filter(|other| *other != link).find(|other| {
         let expected = kind_of(urdd, *other)
             .and_then(|kind| expected::of_link(urdd, solids, &usable, *other, kind));
-        expected.is_some_and(|expected| !expected.is_empty() && fault(&expected, mesh).is_none())
+        expected.is_some_and(|expected| {
+            !expected.is_empty()
+                && !are_apart(&expected.mesh, mesh, tolerance(&expected, mesh))
+                && fault(&expected, mesh).is_none()
+        })
     })
+}
+
+/// Maximum distance of corners, m.
+fn tolerance(expected: &Expected, found: &Mesh) -> f64 {
+    placing_resolution(expected.extent.max(surface::extent(found)))
 }
 
 /// The fault of a mesh and the tolerance; `None` if it is right.
 fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
-    let tolerance = placing_resolution(expected.extent.max(surface::extent(found)));
+    let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
     let told = |difference: &Difference| Some((difference.in_words(), tolerance));

@@ -70,12 +70,12 @@ impl Fit {
                 let to_box = Rotation3::from_euler_angles(roll, pitch, yaw).inverse();
                 let half = Vector3::from(half_extents);
                 let inside = |p: &[f64; 3]| to_box * (Point3::from(*p) - Point3::from(offset));
-                let beyond = |p: &[f64; 3]| (inside(p).abs() - half).sup(&Vector3::zeros()).norm();
+                let inside: Vec<Vector3<f64>> = mesh.vertices.iter().map(inside).collect();
+                let beyond = |p: &Vector3<f64>| (p.abs() - half).sup(&Vector3::zeros()).norm();
                 let mut off = (Side::Round, 0.0);
                 for axis in 0..3 {
-                    let along = |p: &[f64; 3]| inside(p)[axis];
-                    let (_, upper) = most(mesh.vertices.iter().map(along));
-                    let (_, lower) = most(mesh.vertices.iter().map(|p| -along(p)));
+                    let (_, upper) = most(inside.iter().map(|p| p[axis]));
+                    let (_, lower) = most(inside.iter().map(|p| -p[axis]));
                     for (end, reach) in [(false, lower), (true, upper)] {
                         if half[axis] - reach > off.1 {
                             off = (Side::Of(axis, end), half[axis] - reach);
@@ -83,7 +83,7 @@ impl Fit {
                     }
                 }
                 Fit {
-                    outside: most(mesh.vertices.iter().map(beyond)),
+                    outside: most(inside.iter().map(beyond)),
                     off,
                 }
             }

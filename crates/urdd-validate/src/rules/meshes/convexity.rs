@@ -13,7 +13,7 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
     let module = context.module(kind)?;
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
-        let key = (kind, mesh.link, mesh.piece);
+        let key = context.solids().content(kind, mesh.link, mesh.piece)?;
         let compute = || Some((not_convex(solid)?, dents(solid)));
         context.memos().convexity.get(key, compute)
     };

@@ -38,7 +38,8 @@ pub fn report(
     let off_of = |link| {
         let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
         let hull = solids.sound(kind, link, 0)?;
-        let key = (code, link, 0);
+        let contents = [kind, ModuleKind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
+        let key = (code, contents.into_iter().flatten().collect());
         context.memos().farthest.get(key, || off(hull, mesh))
     };
     let off: Vec<Option<Farthest>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();

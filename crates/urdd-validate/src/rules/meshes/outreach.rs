@@ -1,5 +1,8 @@
 //! Pieces that reach out of the hulls of their links, for MSH021 and MSH023.
 
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -10,6 +13,7 @@ use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, distinct, step};
 use crate::views::judged::judged;
+use urdd_geometry::Mesh;
 
 /// Which pieces to report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,9 +49,13 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
         .iter()
         .filter(|piece| judged(context, findings, part(piece), &[Part::Hull(piece.link)]))
         .collect();
+    let mut links: Vec<usize> = pieces.iter().map(|piece| piece.link).collect();
+    links.dedup();
+    let hull_of = |link: usize| Some((link, Hull::of(context, link)?));
+    let hulls: HashMap<usize, Hull> = links.into_iter().filter_map(hull_of).collect();
     let outside: Vec<_> = pieces
         .par_iter()
-        .map(|piece| farthest_outside(context, piece))
+        .map(|piece| farthest_outside(context, piece, hulls.get(&piece.link)?))
         .collect();
     for (piece, outside) in pieces.iter().zip(outside) {
         let Some(out) = outside else {
@@ -80,15 +88,41 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
     Some(())
 }
 
-fn farthest_outside(context: &Context, piece: &Derived) -> Option<Outside> {
-    let solids = context.solids();
-    let hull = solids.sound(ModuleKind::ConvexHullMeshes, piece.link, 0)?;
-    let bounds = hull.bounds()?;
-    let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
+/// The hull of a link.
+struct Hull<'a> {
+    mesh: &'a Mesh,
+    diagonal: f64,
+    polytope: OnceLock<Option<Polytope>>,
+}
+
+impl<'a> Hull<'a> {
+    fn of(context: &'a Context, link: usize) -> Option<Self> {
+        let solids = context.solids();
+        let mesh = solids.sound(ModuleKind::ConvexHullMeshes, link, 0)?;
+        let bounds = mesh.bounds()?;
+        Some(Hull {
+            mesh,
+            diagonal: (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm(),
+            polytope: OnceLock::new(),
+        })
+    }
+}
+
+fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<Outside> {
+    let (solids, diagonal) = (context.solids(), hull.diagonal);
     // MSH021 and MSH023 measure the same.
-    let key = (Code::MSH021, piece.link, piece.piece);
+    let contents = [
+        solids.content(ModuleKind::ConvexHullMeshes, piece.link, 0)?,
+        solids.content(
+            ModuleKind::ConvexDecompositionMeshes,
+            piece.link,
+            piece.piece,
+        )?,
+    ];
+    let key = (Code::MSH021, contents.to_vec());
     let found = context.memos().farthest.get(key, || {
-        let polytope = Polytope::new(hull)?;
+        let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh));
+        let polytope = polytope.as_ref()?;
         let vertices = distinct(piece.sound()?);
         let every = step(vertices.len(), polytope.num_faces());
         let vertices = vertices.into_iter().step_by(every);

@@ -54,8 +54,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         .par_iter()
         .map(|link| {
             let compute = || bare(context, *link, meshes.count(*link), promised);
-            let key = (Code::MSH022, *link, 0);
-            context.memos().farthest.get(key, compute)
+            let solids = context.solids();
+            let pieces = (0..meshes.count(*link)).map(|piece| solids.content(kind, *link, piece));
+            let contents = std::iter::once(solids.content(ModuleKind::PlainMeshes, *link, 0));
+            let contents: Option<Vec<usize>> = contents.chain(pieces).collect();
+            context
+                .memos()
+                .farthest
+                .get((Code::MSH022, contents?), compute)
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {

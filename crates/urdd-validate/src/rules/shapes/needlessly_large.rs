@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::rules::prelude::*;
 use crate::views::enclosure::Enclosure;
 use crate::views::judged::enclosures;
+use urdd_document::shapes::Volume;
 
 /// Reports every box or sphere whose `ratio` of size to that of the smallest one is above `most`. `words` names shape and
 /// size: "box", "volume".
@@ -23,7 +24,16 @@ pub fn report(
         .into_par_iter()
         .filter(fits)
         .filter_map(|enclosure| {
-            let key = (enclosure.kind, enclosure.link, enclosure.piece);
+            let (meshes, solids) = (enclosure.kind.meshes(), context.solids());
+            let content = solids.content(meshes, enclosure.link, enclosure.piece)?;
+            let size = match enclosure.volume {
+                Volume::Box {
+                    half_extents: [x, y, z],
+                    ..
+                } => [x, y, z, 0.0],
+                Volume::Sphere { radius, .. } => [0.0, 0.0, 0.0, radius],
+            };
+            let key = (content, size.map(f64::to_bits));
             let found = context.memos().ratios.get(key, || ratio(&enclosure));
             let ratio = found.filter(|ratio| *ratio > most)?;
             Some((enclosure, ratio))

@@ -1,0 +1,52 @@
+//! Shows with little work that two meshes are not the same surface.
+
+use urdd_geometry::Mesh;
+
+use super::surface::is_thin;
+
+/// Whether [`surface::difference`](super::surface::difference) is certain to find a triangle of `expected` missing in
+/// `found`. Looks at a few triangles only, so false says nothing.
+pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
+    const TRIANGLES: usize = 3;
+    let near = |p: &[f64; 3], q: &[f64; 3]| (0..3).all(|i| (p[i] - q[i]).abs() <= tolerance);
+    // Points within the tolerance are merged, in chains too, so points of both meshes count.
+    let is_alone = |p: &&[f64; 3]| {
+        !found.vertices.iter().any(|q| near(p, q))
+            && !expected.vertices.iter().any(|q| *p != q && near(p, q))
+    };
+    let triangles = expected.triangles.iter();
+    let thick = triangles
+        .map(|triangle| expected.corners(*triangle))
+        .filter(|corners| !is_thin(*corners, tolerance));
+    // With two such corners, none of the three is merged with another, and the triangle counts.
+    thick
+        .take(TRIANGLES)
+        .any(|corners| corners.iter().filter(is_alone).count() >= 2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::surface::{Likeness, difference};
+    use super::*;
+    use urdd_geometry::primitives::cuboid;
+
+    #[test]
+    fn only_different_surfaces_are_apart() {
+        const TOLERANCE: f64 = 1e-6;
+        let mesh = cuboid([1.0, 2.0, 3.0]);
+        let moved = |by: f64| {
+            let mut moved = mesh.clone();
+            moved.vertices.iter_mut().for_each(|p| p[0] += by);
+            moved
+        };
+        assert!(!are_apart(&mesh, &mesh, TOLERANCE));
+        assert!(!are_apart(&mesh, &moved(0.9 * TOLERANCE), TOLERANCE));
+        assert!(are_apart(&mesh, &moved(1.1 * TOLERANCE), TOLERANCE));
+        // Points between the corners of two meshes connect them.
+        let mut chained = moved(1.8 * TOLERANCE);
+        chained.vertices.extend(moved(0.9 * TOLERANCE).vertices);
+        let difference = difference(&mesh, &chained, TOLERANCE, Likeness::SameSurface);
+        assert_eq!(difference, None);
+        assert!(!are_apart(&mesh, &chained, TOLERANCE));
+    }
+}
