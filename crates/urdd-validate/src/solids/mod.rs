@@ -3,6 +3,7 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
+mod cut;
 pub mod dents;
 pub mod derived;
 pub mod expected;
