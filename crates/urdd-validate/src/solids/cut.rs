@@ -90,8 +90,7 @@ pub fn as_found(mut expected: Expected, found: &Mesh) -> Option<Expected> {
 }
 
 /// The triangles outside of uncut faces, and the fan of each uncut face; `None` without any.
-#[expect(clippy::type_complexity, reason = "the two halves of a list")]
-fn faces(mesh: &Mesh) -> Option<(Vec<[u32; 3]>, Vec<Vec<[u32; 3]>>)> {
+fn faces(mesh: &Mesh) -> Option<(Triangles, Vec<Triangles>)> {
     let mut parts = (mesh.triangles).split(|[a, b, c]| a == b && b == c);
     let mut whole = parts.next()?.to_vec();
     let mut faces = Vec::new();
@@ -114,6 +113,8 @@ fn area(corners: [[f64; 3]; 3]) -> Vector3<f64> {
     let [a, b, c] = corners.map(Vector3::from);
     (b - a).cross(&(c - a))
 }
+
+type Triangles = Vec<[u32; 3]>;
 
 type Edges = BTreeMap<(u32, u32), u32>;
 
