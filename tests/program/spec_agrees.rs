@@ -2,6 +2,7 @@
 //! clause that it names.
 
 mod annex;
+mod example;
 mod values;
 
 use std::collections::BTreeMap;
@@ -133,23 +134,41 @@ fn the_table_of_modules_is_the_registry() {
     assert_eq!(cells, registry);
 }
 
-const BEGIN: &str = "<!-- made from the schemas by tests/program/spec_agrees.rs: begin -->\n";
 const END: &str = "<!-- end -->";
 
-/// `URDD_UPDATE=1 cargo test --test program spec_agrees` writes the tables.
+/// Where SPEC.md is written by this test, and what.
+fn written() -> [(&'static str, String); 2] {
+    let mark = "tests/program/spec_agrees.rs: begin -->\n";
+    assert!(spec().matches(mark).count() == 2, "two parts are written");
+    [
+        (
+            "<!-- made from the schemas by tests/program/spec_agrees.rs: begin -->\n",
+            format!("\n{}", annex::tables()),
+        ),
+        (
+            "<!-- made from examples/annex_b by tests/program/spec_agrees.rs: begin -->\n",
+            example::text(),
+        ),
+    ]
+}
+
+/// `URDD_UPDATE=1 cargo test --test program spec_agrees` writes the annexes.
 #[test]
-fn the_tables_of_fields_are_the_schemas() {
-    let text = spec();
-    let begin = text.find(BEGIN).expect("the annex begins") + BEGIN.len();
-    let end = begin + text[begin..].find(END).expect("the annex ends");
-    let expected = format!("\n{}", annex::tables());
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        let updated = format!("{}{expected}{}", &text[..begin], &text[end..]);
-        fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md"), updated).expect("written");
-        return;
+fn the_tables_of_fields_and_the_example_are_the_files() {
+    let mut text = spec();
+    for (mark, expected) in written() {
+        let begin = text.find(mark).expect("the annex begins") + mark.len();
+        let end = begin + text[begin..].find(END).expect("the annex ends");
+        if std::env::var_os("URDD_UPDATE").is_some() {
+            text = format!("{}{expected}{}", &text[..begin], &text[end..]);
+            continue;
+        }
+        assert!(
+            text[begin..end] == expected,
+            "an annex of SPEC.md is not what the files say: run URDD_UPDATE=1 cargo test --test program spec_agrees\n{mark}"
+        );
     }
-    assert!(
-        text[begin..end] == expected,
-        "annex A of SPEC.md is not what the schemas say: run URDD_UPDATE=1 cargo test --test program spec_agrees"
-    );
+    if std::env::var_os("URDD_UPDATE").is_some() {
+        fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md"), text).expect("written");
+    }
 }

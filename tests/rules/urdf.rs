@@ -313,6 +313,13 @@ fn mimics_and_axes() -> Vec<Case> {
         faulty(URD010, "revolute-about-nothing", |robot| {
             robot.joint_mut("turn").axis = axis([0.0, -0.0, 0.0]);
         }),
+        // The square of the first is not a normal number, that of the second is.
+        faulty(URD010, "squared-length-subnormal", |robot| {
+            robot.joint_mut("turn").axis = axis([0.0, 0.0, 1.4e-154]);
+        }),
+        sound(URD010, "squared-length-barely-normal", |robot| {
+            robot.joint_mut("turn").axis = axis([0.0, 0.0, 1.5e-154]);
+        }),
         faulty(URD010, "planar-without-a-plane", |robot| {
             robot.joint_mut("plane").axis = axis([0.0; 3]);
         }),
@@ -386,6 +393,24 @@ fn readable() -> Vec<Case> {
         }),
         invalid(URD011, "another-encoding-declared", |urdd| {
             urdd.urdf_replace("encoding=\"utf-8\"", "encoding=\"ISO-8859-1\"");
+        }),
+        invalid(URD011, "reference-to-half-a-character", |urdd| {
+            urdd.urdf_replace("<gazebo/>", "<gazebo a=\"&#xD800;\"/>");
+        }),
+        invalid(URD011, "prefix-of-no-namespace", |urdd| {
+            urdd.urdf_replace("<gazebo/>", "<gazebo xmlns:q=\"\"/>");
+        }),
+        invalid(URD011, "name-that-begins-with-a-colon", |urdd| {
+            urdd.urdf_replace("<gazebo/>", "<gazebo><:c/></gazebo>");
+        }),
+        invalid(URD011, "parameter-entity-reference", |urdd| {
+            urdd.urdf_replace("<!--", "<!DOCTYPE robot [%a;]><!--");
+        }),
+        near_miss(URD011, "entity-in-a-comment", |urdd| {
+            urdd.urdf_replace(
+                "<!--",
+                "<!DOCTYPE robot [<!-- <!ENTITY a \"0\"> -->]><!-- &#0; ",
+            );
         }),
         near_miss(URD011, "utf-8-declared-otherwise", |urdd| {
             urdd.urdf_replace("encoding=\"utf-8\"", "encoding='UTF8'");

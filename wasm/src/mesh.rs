@@ -28,6 +28,7 @@ fn triangles(files: &Files, path: &str) -> Result<Vec<u8>, String> {
     let options = Options {
         gltf_up: GltfUp::Keep,
         max_triangles: MAX_TRIANGLES,
+        uncut: false,
     };
     let scene =
         read_with(&bytes, path, &mut |_| None, &options).map_err(|error| match &error.place {

@@ -94,7 +94,9 @@ fn has_surface(geometry: &Geometry) -> bool {
     };
     match geometry {
         Geometry::Mesh(mesh) => two(mesh.scale.unwrap_or([1.0; 3]), |factor| factor != 0.0),
-        Geometry::Box(cuboid) => two(cuboid.size, |side| side > 0.0),
+        Geometry::Box(cuboid) => {
+            two(cuboid.size, |side| side > 0.0) && cuboid.size.iter().all(|side| *side >= 0.0)
+        }
         Geometry::Cylinder(cylinder) => cylinder.radius > 0.0 && cylinder.length >= 0.0,
         Geometry::Capsule(capsule) => capsule.radius > 0.0 && capsule.length >= 0.0,
         Geometry::Sphere(sphere) => sphere.radius > 0.0,
@@ -111,6 +113,7 @@ mod tests {
         let of = |size| has_surface(&Geometry::Box(Cuboid { size }));
         assert!(of([1.0, 2.0, 0.0]));
         assert!(!of([1.0, 0.0, 0.0]));
+        assert!(!of([1.0, 2.0, -1.0]));
         assert!(!of([0.0; 3]));
         assert!(!has_surface(&Geometry::Sphere(Sphere { radius: 0.0 })));
     }

@@ -37,7 +37,7 @@ object! {
 object! {
     /// A degree of freedom.
     pub struct Dof {
-        /// Unique name: the joint's name where the joint has one DOF; else that name, a slash, and
+        /// Name: the joint's name where the joint has one DOF; else that name, a slash, and
         /// `trans_x`, `trans_y`, `trans_z`, `rot_x`, `rot_y`, `rot_z` or (planar) `rot`.
         pub name: String,
         /// The joint that it moves.

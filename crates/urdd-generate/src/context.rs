@@ -3,12 +3,14 @@
 use super::donor::edits::{Decisions, Edits};
 use super::error::GenerateError;
 use super::fault::Fault;
+use super::kinematics_samples::SamplesError;
 use super::meshes::names::mesh_files;
 use super::note::{Note, NoteKind};
 use super::progress::Progress;
 use super::settings::Settings;
 use super::shapes::statistics::Kinematics;
 use super::source::Source;
+use super::urdf::shortened;
 use super::{bounds, chain, dof, kinematics_samples};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
@@ -18,6 +20,7 @@ use urdd_format::kinematics_samples::KinematicsSamplesModule;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
+use urdd_kinematics::ConfigurationError;
 
 /// What all stages may use.
 pub(crate) struct Context<'a> {
@@ -33,6 +36,23 @@ pub(crate) struct Context<'a> {
     pub samples: KinematicsSamplesModule,
     /// The user's edits of the skips.
     pub edits: Edits,
+}
+
+/// The fault of a robot whose poses cannot be computed; names the joint above the link where it shows.
+fn no_poses(error: &SamplesError, chain: &ChainModule) -> Fault {
+    let SamplesError::Sample {
+        kind,
+        error: ConfigurationError::Overflow { link_idx },
+    } = error
+    else {
+        return Fault::NoPoses(error.to_string());
+    };
+    let mut joints = chain.joints_in_chain.iter();
+    let joint = joints.find(|joint| joint.child_link_idx.get() == *link_idx);
+    Fault::PosesTooLarge {
+        joint: joint.map_or_else(String::new, |joint| shortened(&joint.joint_name)),
+        configuration: kind.to_string(),
+    }
 }
 
 impl<'a> Context<'a> {
@@ -53,7 +73,7 @@ impl<'a> Context<'a> {
         let chain = chain::chain_module(&reading.robot, &reading.tree);
         let bounds = bounds::bounds_module(&reading.robot, &dof);
         let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
-            .map_err(|error| refused(Fault::NoPoses(error.to_string())))?;
+            .map_err(|error| refused(no_poses(&error, &chain)))?;
         Ok(Context {
             edits: Edits::of(decisions, &chain),
             source,

@@ -130,6 +130,16 @@ pub enum Fault {
     /// Link poses overflow binary64.
     #[error("the numbers in the URDF are too large ({0})")]
     NoPoses(String),
+    /// The pose of a link overflows binary64.
+    #[error(
+        "the URDF places the child of joint `{joint}` beyond the range of 64-bit numbers, in the configuration {configuration}; correct the origins, limits or mimics on the way to it"
+    )]
+    PosesTooLarge {
+        /// The joint that moves the link.
+        joint: String,
+        /// The configuration.
+        configuration: String,
+    },
     /// The robot has more links than the generator accepts.
     #[error(
         "the robot has {found} links, but a URDD has at most {limit}: lists over all pairs of links grow with the square of their number"

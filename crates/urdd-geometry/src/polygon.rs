@@ -18,15 +18,26 @@ pub(crate) struct Splitter {
     flat: Vec<[f64; 2]>,
     found: Vec<u32>,
     work: usize,
+    uncut: bool,
 }
 
 impl Splitter {
-    pub(crate) fn new() -> Self {
+    /// `uncut` as in [`Options`](crate::read::Options).
+    pub(crate) fn new(uncut: bool) -> Self {
         Self {
+            uncut,
             ears: Earcut::new(),
             flat: Vec::new(),
             found: Vec::new(),
             work: 0,
+        }
+    }
+
+    /// Appends a triangle. Where faces stay uncut, three equal indices would mark one.
+    pub(crate) fn push(&self, triangle: [u32; 3], out: &mut Vec<[u32; 3]>) {
+        let [a, b, c] = triangle;
+        if !self.uncut || a != b || b != c {
+            out.push(triangle);
         }
     }
 
@@ -43,7 +54,7 @@ impl Splitter {
         out: &mut Vec<[u32; 3]>,
     ) {
         if let [a, b, c] = *corners {
-            out.push([a, b, c]);
+            self.push([a, b, c], out);
             return;
         }
         if corners.len() < 3 {
@@ -52,12 +63,12 @@ impl Splitter {
         let place = |index: u32| vertices.get(index as usize).copied().map(Vector3::from);
         let places: Option<Vec<Vector3<f64>>> =
             corners.iter().map(|corner| place(*corner)).collect();
+        let uncut = self.uncut;
+        let is_same = |[a, b, c]: &[u32; 3]| a == b && b == c;
         let fan = |out: &mut Vec<[u32; 3]>| {
-            out.extend(
-                corners[1..]
-                    .windows(2)
-                    .map(|pair| [corners[0], pair[0], pair[1]]),
-            )
+            let pairs = corners[1..].windows(2);
+            let triangles = pairs.map(|pair| [corners[0], pair[0], pair[1]]);
+            out.extend(triangles.filter(|triangle| !uncut || !is_same(triangle)))
         };
         // An index out of range or a non-finite coordinate: the caller drops the affected triangles.
         let Some(places) =
@@ -67,8 +78,14 @@ impl Splitter {
             return;
         };
         let normal = area_normal(&places);
-        if corners.len() > MOST_CORNERS || is_convex(&places, normal) {
+        if corners.len() > MOST_CORNERS && !uncut || is_convex(&places, normal) {
             fan(out);
+            return;
+        }
+        if uncut {
+            out.push([corners[0]; 3]);
+            fan(out);
+            out.push([corners[0]; 3]);
             return;
         }
         if corners.len() > FEW_CORNERS {

@@ -23,6 +23,13 @@ pub enum XmlError {
         /// Its position.
         pos: TextPos,
     },
+    /// Not well-formed in a way that the parser accepts.
+    NotWellFormed {
+        /// What is wrong, and what to do.
+        what: &'static str,
+        /// Its position.
+        pos: TextPos,
+    },
     /// A limit is exceeded.
     TooMany {
         /// The limited items.
@@ -42,6 +49,7 @@ impl XmlError {
             XmlError::Entities(pos)
             | XmlError::Version { pos, .. }
             | XmlError::Encoding { pos, .. }
+            | XmlError::NotWellFormed { pos, .. }
             | XmlError::TooMany { pos, .. } => *pos,
         }
     }

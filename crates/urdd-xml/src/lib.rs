@@ -11,6 +11,7 @@ mod declaration;
 pub mod element;
 mod error;
 mod limits;
+mod strict;
 mod words;
 
 pub use declaration::wrong_version;
@@ -24,11 +25,13 @@ use roxmltree::{Document, ParsingOptions};
 ///
 /// # Errors
 /// [`XmlError`] if the document is not well-formed, declares entities, or exceeds a limit. For [`Kind::Robot`], also if
-/// the XML declaration names a wrong version or encoding.
+/// the XML declaration names a wrong version or encoding, or a name, prefix or reference is not one of XML 1.0 and its
+/// namespaces.
 pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     count::check(text, kind)?;
     if kind == Kind::Robot {
         declaration::check(text)?;
+        strict::check(text)?;
     }
     let options = ParsingOptions {
         allow_dtd: kind == Kind::Robot,

@@ -221,3 +221,33 @@ fn each_fault_says_what_to_do() {
         assert!(error.starts_with(expected), "{text:?}: {error}");
     }
 }
+
+#[test]
+fn faults_that_the_parser_does_not_see_are_faults() {
+    for (text, expected) in [
+        ("<r a='x&#xD800;'/>", "1:8: a reference"),
+        ("<r>&#0;</r>", "1:4: a reference"),
+        ("<r>&#xFFFE;</r>", "1:4: a reference"),
+        ("<?XML version='1.0'?><r/>", "1:1: `<?xml"),
+        (
+            "<?xml version='1.0' standalone='maybe'?><r/>",
+            "1:1: `standalone`",
+        ),
+        ("<r xmlns:q=''/>", "1:4: a prefix"),
+        ("<r><:c/></r>", "1:5: a name"),
+        ("<r :a='1'/>", "1:4: a name"),
+        ("<r><?a:b c?></r>", "1:4: the target"),
+    ] {
+        let error = result(text).unwrap_err();
+        assert!(error.starts_with(expected), "{text:?}: {error}");
+    }
+    for text in [
+        "<r a='&#x9;&#10;&#x1F600;&#xE000;'>&#13;</r>",
+        "\u{feff}<?xml version='1.0' standalone = \"no\" ?><r/>",
+        "<r xmlns='' a='xmlns:q=\"\"'/>",
+        "<r><!-- &#0; <:c/> <?XML?> --><![CDATA[&#0;<:c/>]]><?p &#0; <:c/> a:b ?></r>",
+        "<r><?xml-model a:b?><a b = ':' c=\"'>:\"/></r>",
+    ] {
+        assert_eq!(result(text), Ok(()), "{text}");
+    }
+}

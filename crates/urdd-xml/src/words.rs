@@ -141,6 +141,7 @@ impl XmlError {
                 "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
                 found.escape_debug()
             ),
+            XmlError::NotWellFormed { what, .. } => (*what).to_owned(),
             XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
         }
     }

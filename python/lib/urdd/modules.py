@@ -609,7 +609,7 @@ class Dof:
     """A degree of freedom."""
 
     name: str
-    """Unique name: the joint's name where the joint has one DOF; else that name, a slash, and `trans_x`, `trans_y`,
+    """Name: the joint's name where the joint has one DOF; else that name, a slash, and `trans_x`, `trans_y`,
     `trans_z`, `rot_x`, `rot_y`, `rot_z` or (planar) `rot`."""
 
     joint_idx: int

@@ -27,6 +27,7 @@ pub fn dae(bytes: &[u8]) {
 const OPTIONS: Options = Options {
     gltf_up: GltfUp::Keep,
     max_triangles: 100_000,
+    uncut: false,
 };
 
 /// A mesh that was read has finite vertices, indices in range and colours from 0 to 1. Reading it again gives the same.

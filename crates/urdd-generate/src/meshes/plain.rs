@@ -133,7 +133,9 @@ fn is_usable(element: &Element) -> bool {
         Some(Geometry::Mesh(mesh)) => {
             element.scene.is_some() && extends(mesh.scale.unwrap_or([1.0; 3]))
         }
-        Some(Geometry::Box(cuboid)) => extends(cuboid.size.map(|side| side.max(0.0))),
+        Some(Geometry::Box(cuboid)) => {
+            extends(cuboid.size) && cuboid.size.iter().all(|side| *side >= 0.0)
+        }
         Some(Geometry::Cylinder(of)) => of.radius > 0.0 && of.length >= 0.0,
         Some(Geometry::Capsule(of)) => of.radius > 0.0 && of.length >= 0.0,
         Some(Geometry::Sphere(of)) => of.radius > 0.0,

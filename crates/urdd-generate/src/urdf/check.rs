@@ -215,9 +215,9 @@ fn axes(reader: &mut Reader) {
     let mut faults = Vec::new();
     for (joint, place) in reader.reading.robot.joints.iter().zip(&reader.joint_places) {
         let axis = written_axis(joint);
-        // As in SPEC 6.1.6: its squared length is finite and not 0.
+        // As in SPEC 6.1.6: its squared length is a normal number.
         let square: f64 = axis.iter().map(|x| x * x).sum();
-        let fine = square > 0.0 && square.is_finite() && unit_axis(axis).is_some();
+        let fine = square.is_normal() && unit_axis(axis).is_some();
         if has_axis(joint.joint_type) && !fine {
             let fault = Fault::ZeroAxis {
                 joint: shortened(&joint.name),

@@ -9,6 +9,7 @@ mod link;
 mod materials;
 mod numbers;
 mod reader;
+pub(crate) use reader::shortened;
 mod reading;
 mod tree;
 mod xml;

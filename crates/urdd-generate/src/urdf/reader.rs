@@ -326,7 +326,7 @@ fn absent(element: &str, attribute: &str) -> String {
 }
 
 /// Shortens text for a message.
-pub(super) fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     let mut short: String = text.chars().take(LONGEST).collect();
     if short.len() < text.len() {

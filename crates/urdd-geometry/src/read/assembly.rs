@@ -6,6 +6,7 @@ use nalgebra::Matrix4;
 
 use super::error::{Failure, Fault, NoteCode, Notes};
 use super::format::Format;
+use super::options::Options;
 use super::scene::{Part, Scene};
 use crate::mesh::Mesh;
 
@@ -15,6 +16,8 @@ pub(super) struct Assembly {
     part_of: HashMap<Look, usize>,
     triangles: usize,
     limit: usize,
+    /// As in [`Options`].
+    pub(super) uncut: bool,
     side_files: Vec<String>,
     pub(super) notes: Notes,
 }
@@ -33,12 +36,13 @@ pub(super) struct Material {
 type Look = (Option<String>, Option<[u64; 4]>);
 
 impl Assembly {
-    pub(super) fn new(limit: usize) -> Self {
+    pub(super) fn new(options: &Options) -> Self {
         Self {
             parts: Vec::new(),
             part_of: HashMap::new(),
             triangles: 0,
-            limit,
+            limit: options.max_triangles,
+            uncut: options.uncut,
             side_files: Vec::new(),
             notes: Notes::default(),
         }

@@ -101,7 +101,7 @@ fn read_format(
     options: &Options,
 ) -> Result<Scene, Failure> {
     let format = sniff::format(bytes, name)?;
-    let mut assembly = Assembly::new(options.max_triangles);
+    let mut assembly = Assembly::new(options);
     let named = sniff::extension_format(name);
     if let Some(named) = named.filter(|named| named.extension() != format.extension()) {
         let text = format!(

@@ -26,7 +26,7 @@ pub(super) fn read(
         group_of: HashMap::new(),
     };
     let mut faces = Faces {
-        splitter: Splitter::new(),
+        splitter: Splitter::new(assembly.uncut),
         corners: Vec::new(),
         bad: 0,
     };

@@ -17,6 +17,9 @@ pub struct Options {
     pub gltf_up: GltfUp,
     /// Maximum number of triangles; a file with more is an error.
     pub max_triangles: usize,
+    /// Whether to leave the faces that are not convex uncut. Each is then a fan from its first corner, which may overlap
+    /// itself, between two triangles of three equal indices. No other triangle has three equal indices.
+    pub uncut: bool,
 }
 
 impl Default for Options {
@@ -24,6 +27,7 @@ impl Default for Options {
         Self {
             gltf_up: GltfUp::Turn,
             max_triangles: 20_000_000,
+            uncut: false,
         }
     }
 }

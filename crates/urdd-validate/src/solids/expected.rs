@@ -3,7 +3,6 @@
 
 use nalgebra::Vector3;
 
-use super::Solids;
 use super::primitive::Primitive;
 use super::surface::extent;
 use urdd_document::robot::{Element, Link};
@@ -26,10 +25,10 @@ pub struct Expected {
     pub extent: f64,
 }
 
-/// The surface of a link by its elements of a kind; `None` if one of their meshes is not carried or cannot be read.
+/// The surface of a link by its elements of a kind. `original` reads a carried mesh by its path; `None` if one of their meshes is not carried or cannot be read.
 pub fn of_link(
     urdd: &Urdd,
-    solids: &Solids,
+    original: &dyn Fn(&str) -> Option<Mesh>,
     usable: &UsableGeometry,
     link: usize,
     kind: GeometryKind,
@@ -51,7 +50,7 @@ pub fn of_link(
             }
             None => {
                 let path = carried(urdd, named, link, kind, at)?;
-                let mesh = solids.original(&path)?.mesh.as_ref().ok()?;
+                let mesh = original(&path)?;
                 expected.add(mesh, element, geometry);
             }
         }
@@ -66,21 +65,22 @@ impl Expected {
     }
 
     /// Adds a mesh, placed.
-    fn add(&mut self, mesh: &Mesh, element: &Element, geometry: &Geometry) {
+    fn add(&mut self, mesh: Mesh, element: &Element, geometry: &Geometry) {
         let scale = match geometry {
             Geometry::Mesh(mesh) => mesh.scale.unwrap_or([1.0; 3]),
             _ => [1.0; 3],
         };
         let rotation = element.origin.rotation();
         let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
-        let mut placed = mesh.clone();
+        let own = extent(&mesh);
+        let mut placed = mesh;
         placed.transform(&placement(scale, rows, element.origin.xyz));
         let largest = scale
             .into_iter()
             .fold(0.0, |most: f64, x| most.max(x.abs()));
         self.extent = self
             .extent
-            .max(extent(mesh) * largest)
+            .max(own * largest)
             .max(Vector3::from(element.origin.xyz).amax())
             .max(extent(&placed));
         self.mesh.append(&placed);

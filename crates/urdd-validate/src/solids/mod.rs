@@ -4,6 +4,7 @@
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
 mod apart;
+mod cut;
 pub mod dents;
 pub mod derived;
 pub mod expected;

@@ -10,7 +10,7 @@ use urdd_document::mesh_files::MeshFiles;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_geometry::Mesh;
-use urdd_geometry::read::read;
+use urdd_geometry::read::{Format, Options, read, read_with};
 
 /// A mesh that the URDF names.
 #[derive(Debug)]
@@ -31,6 +31,19 @@ pub fn read_all(urdd: &Urdd) -> HashMap<String, Original> {
             |files, path| (path.to_owned(), read_one(files, profile, path)),
         )
         .collect()
+}
+
+/// A mesh that the URDF names, with its faces uncut (see [`Options`]); `None` if it cannot be read.
+pub fn uncut(urdd: &Urdd, path: &str) -> Option<Mesh> {
+    let (profile, _) = paths(urdd);
+    let bytes = file::bytes(&mut MeshFiles::new(urdd), profile, path).ok()?;
+    let options = Options {
+        uncut: true,
+        ..Options::default()
+    };
+    let scene = read_with(&bytes, path, &mut |_| None, &options).ok()?;
+    let has_faces = matches!(scene.format, Format::Obj | Format::Collada);
+    has_faces.then(|| scene.merged())
 }
 
 fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {

@@ -4,8 +4,10 @@ use rayon::prelude::*;
 
 use super::Solids;
 use super::apart::are_apart;
+use super::cut;
 use super::derived::Derived;
 use super::expected::{self, Expected};
+use super::original;
 use super::polytope::step;
 use super::surface::{self, Difference, Likeness};
 use crate::finding::point;
@@ -54,11 +56,19 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
         let Some(kind) = kind_of(urdd, mesh.link) else {
             return Look::Right;
         };
-        let Some(expected) = expected::of_link(urdd, solids, &usable, mesh.link, kind) else {
+        let original = |path: &str| solids.original(path)?.mesh.as_ref().ok().cloned();
+        let Some(expected) = expected::of_link(urdd, &original, &usable, mesh.link, kind) else {
             return Look::Unknown(Why::SourceMissing);
         };
         // MSH011 reports a mesh of a link without geometry.
         let fault = fault(&expected, found).filter(|_| !expected.is_empty());
+        // A face that is not convex may be cut otherwise.
+        let fault = fault.filter(|_| {
+            let uncut = |path: &str| original::uncut(urdd, path).or_else(|| original(path));
+            let expected = expected::of_link(urdd, &uncut, &usable, mesh.link, kind);
+            let cut = expected.and_then(|expected| cut::as_found(expected, found));
+            cut.is_none_or(|expected| self::fault(&expected, found).is_some())
+        });
         let (Some((what, tolerance)), Some(file)) = (fault, mesh.files.get(mesh.mesh_of)) else {
             return Look::Right;
         };
@@ -109,9 +119,10 @@ pub fn owner(urdd: &Urdd, solids: &Solids, link: usize) -> Option<usize> {
     let usable = UsableGeometry::new(urdd);
     let mesh = solids.mesh(ModuleKind::PlainMeshes, link, 0)?;
     let others = urdd.robot()?.links.len();
+    let original = |path: &str| solids.original(path)?.mesh.as_ref().ok().cloned();
     (0..others).filter(|other| *other != link).find(|other| {
         let expected = kind_of(urdd, *other)
-            .and_then(|kind| expected::of_link(urdd, solids, &usable, *other, kind));
+            .and_then(|kind| expected::of_link(urdd, &original, &usable, *other, kind));
         expected.is_some_and(|expected| {
             !expected.is_empty()
                 && !are_apart(&expected.mesh, mesh, tolerance(&expected, mesh))

@@ -118,18 +118,18 @@ pub fn is_thin(corners: [[f64; 3]; 3], tolerance: f64) -> bool {
 }
 
 /// The corners of two meshes, with those within the tolerance merged.
-struct Matching<'a> {
+pub(super) struct Matching<'a> {
     meshes: [&'a Mesh; 2],
     tolerance: f64,
     /// For each vertex of each mesh, the index of its merged point.
-    places: [Vec<u32>; 2],
+    pub(super) places: [Vec<u32>; 2],
 }
 
 /// Triangles on the same three points: their number in each mesh, by orientation.
 type Count = [[u32; 2]; 2];
 
 impl<'a> Matching<'a> {
-    fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
+    pub(super) fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
         let meshes = [expected, actual];
         let points: Vec<[f64; 3]> = meshes
             .iter()

@@ -17,11 +17,20 @@ pub(super) struct Primitive<'a> {
 }
 
 /// State that geometries share while they are read.
-#[derive(Default)]
 pub(super) struct Tools {
     picker: Picker,
-    splitter: Option<Splitter>,
+    splitter: Splitter,
     read: Read,
+}
+
+impl Tools {
+    pub(super) fn new(uncut: bool) -> Self {
+        Self {
+            picker: Picker::default(),
+            splitter: Splitter::new(uncut),
+            read: Read::default(),
+        }
+    }
 }
 
 /// Reads a `geometry` element.
@@ -68,12 +77,7 @@ pub(super) fn read<'a>(
             corners: Vec::new(),
             bad: 0,
         };
-        faces.read(
-            element,
-            vertices,
-            splitter.get_or_insert_with(Splitter::new),
-            notes,
-        );
+        faces.read(element, vertices, splitter, notes);
         let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
         let text = "a triangle was dropped: a vertex index is out of range, or is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
@@ -185,7 +189,7 @@ impl Faces<'_> {
             let text = text(list);
             let mut words = Words::new(text.as_bytes());
             match (self.shape, counts.as_mut()) {
-                (Shape::Triangles, _) => self.read_triangles(&mut words),
+                (Shape::Triangles, _) => self.read_triangles(&mut words, splitter),
                 (Shape::PolyList, Some(counts)) => {
                     while let Some(count) = counts.index() {
                         self.read_corners(&mut words, count.map_or(0, |count| count as usize));
@@ -196,7 +200,7 @@ impl Faces<'_> {
                     }
                 }
                 // In real files, a polylist without counts contains triangles.
-                (Shape::PolyList, None) => self.read_triangles(&mut words),
+                (Shape::PolyList, None) => self.read_triangles(&mut words, splitter),
                 (Shape::Polygons, _) => {
                     self.read_corners(&mut words, usize::MAX);
                     splitter.split(vertices, &self.corners, &mut self.triangles);
@@ -204,23 +208,21 @@ impl Faces<'_> {
                 (Shape::Fans, _) => {
                     self.read_corners(&mut words, usize::MAX);
                     let corners = &self.corners;
-                    self.triangles.extend(
-                        corners
-                            .get(1..)
-                            .unwrap_or_default()
-                            .windows(2)
-                            .map(|pair| [corners[0], pair[0], pair[1]]),
-                    );
+                    for pair in corners.get(1..).unwrap_or_default().windows(2) {
+                        splitter.push([corners[0], pair[0], pair[1]], &mut self.triangles);
+                    }
                 }
                 (Shape::Strips, _) => {
                     self.read_corners(&mut words, usize::MAX);
-                    self.triangles.extend(strip(&self.corners));
+                    for triangle in strip(&self.corners) {
+                        splitter.push(triangle, &mut self.triangles);
+                    }
                 }
             }
         }
     }
 
-    fn read_triangles(&mut self, words: &mut Words<'_>) {
+    fn read_triangles(&mut self, words: &mut Words<'_>, splitter: &Splitter) {
         loop {
             let mut triangle = [0; 3];
             for corner in &mut triangle {
@@ -229,7 +231,7 @@ impl Faces<'_> {
                     None => return,
                 }
             }
-            self.triangles.push(triangle);
+            splitter.push(triangle, &mut self.triangles);
         }
     }
 

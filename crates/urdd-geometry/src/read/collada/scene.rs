@@ -30,8 +30,8 @@ pub(super) fn walk(
     let root = Matrix4::new_nonuniform_scaling(&Vector3::repeat(unit));
     let mut walker = Walker {
         document,
+        tools: Tools::new(assembly.uncut),
         assembly,
-        tools: Tools::default(),
         geometries: HashMap::new(),
         colors: Colors::new(),
         path: Vec::new(),
