@@ -395,13 +395,13 @@ fn readable() -> Vec<Case> {
             urdd.urdf_replace("encoding=\"utf-8\"", "encoding=\"ISO-8859-1\"");
         }),
         invalid(URD011, "reference-to-half-a-character", |urdd| {
-            urdd.urdf_replace("<gazebo/>", "<gazebo a=\"&#xD800;\"/>");
+            urdd.urdf_replace("<robot ", "<robot q=\"&#xD800;\" ");
         }),
         invalid(URD011, "prefix-of-no-namespace", |urdd| {
-            urdd.urdf_replace("<gazebo/>", "<gazebo xmlns:q=\"\"/>");
+            urdd.urdf_replace("<robot ", "<robot xmlns:q=\"\" ");
         }),
         invalid(URD011, "name-that-begins-with-a-colon", |urdd| {
-            urdd.urdf_replace("<gazebo/>", "<gazebo><:c/></gazebo>");
+            urdd.urdf_replace("<robot ", "<robot :c=\"1\" ");
         }),
         invalid(URD011, "parameter-entity-reference", |urdd| {
             urdd.urdf_replace("<!--", "<!DOCTYPE robot [%a;]><!--");

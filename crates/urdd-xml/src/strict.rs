@@ -50,10 +50,10 @@ fn fault(text: &str) -> Option<Found> {
             end
         } else {
             let end = tag_end(rest)?;
-            if !rest.starts_with("<!") {
-                if let Some((offset, what)) = tag(&rest[1..end - 1]) {
-                    return Some((found + 1 + offset, what));
-                }
+            if !rest.starts_with("<!")
+                && let Some((offset, what)) = tag(&rest[1..end - 1])
+            {
+                return Some((found + 1 + offset, what));
             }
             found + end
         };
