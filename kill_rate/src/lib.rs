@@ -46,4 +46,4 @@ pub use mutation::{Description, Target};
 pub use original::OriginalError;
 pub use outcome::{Outcome, Trial};
 pub use plan::{Judge, Plan};
-pub use result::{FieldCount, Measured, ModuleCount, Tally};
+pub use result::{FieldCount, Measured, ModuleCount, Tally, modules_of};

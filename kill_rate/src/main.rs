@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use urdd_kill_rate::{Judge, MeasureError, Plan, measure, present};
+use urdd_kill_rate::{Judge, MeasureError, Plan, measure, modules_of, present};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 
@@ -21,8 +21,8 @@ const USAGE: u8 = 2;
 #[command(
     name = "urdd-kill-rate",
     after_help = "Each change is made in a temporary copy; the URDDs themselves are only read. What counts as a change, \
-    and why some survive: conformance/kill_rate.md.\n\nExit status: 0 every module of every URDD has the least rate; 1 \
-    one has not, or a URDD has findings before anything is changed; 2 wrong usage, or nothing to measure with."
+    and why some survive: conformance/kill_rate.md.\n\nExit status: 0 every module has the least rate, in all \
+    URDDs together; 1 one has not, or a URDD has findings before anything is changed; 2 wrong usage, or nothing to measure with."
 )]
 struct Arguments {
     /// Valid URDDs of version 1, or folders with URDDs at any depth.
@@ -53,7 +53,7 @@ struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// The least part of a module's changes that must be noticed.
+    /// The least part of a module's changes, in all URDDs together, that must be noticed.
     #[arg(long, value_name = "RATE", default_value_t = 0.99)]
     min_rate: f64,
 
@@ -137,9 +137,9 @@ fn main() -> ExitCode {
         eprintln!("urdd-kill-rate: the result cannot be written: {error}");
         return ExitCode::from(USAGE);
     }
-    let mut modules = measured.iter().flat_map(|urdd| urdd.modules());
-    let below =
-        modules.any(|module| module.deep.unwrap_or(module.plain).rate() < arguments.min_rate);
+    let below = modules_of(&measured)
+        .iter()
+        .any(|module| module.deep.unwrap_or(module.plain).rate() < arguments.min_rate);
     match below {
         true => ExitCode::from(BELOW),
         false => ExitCode::SUCCESS,

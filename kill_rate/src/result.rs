@@ -79,15 +79,7 @@ impl Measured {
 
     /// Counts for each module, in the order of the trials.
     pub fn modules(&self) -> Vec<ModuleCount> {
-        let of = |trial: &Trial| trial.change.module.clone();
-        let tallies = tallies(&self.trials, of).into_iter();
-        tallies
-            .map(|(module, plain, deep)| ModuleCount {
-                module,
-                plain,
-                deep,
-            })
-            .collect()
+        modules_of(std::slice::from_ref(self))
     }
 
     /// Counts for each field, in the order of the trials.
@@ -96,7 +88,7 @@ impl Measured {
             let change = &trial.change;
             (change.module.clone(), change.field.clone(), change.target)
         };
-        let tallies = tallies(&self.trials, of).into_iter();
+        let tallies = tallies(self.trials.iter(), of).into_iter();
         tallies
             .map(|((module, field, target), plain, deep)| FieldCount {
                 module,
@@ -116,8 +108,20 @@ impl Measured {
     }
 }
 
-fn tallies<K: Ord + Clone>(
-    trials: &[Trial],
+/// Counts for each module, over all URDDs together, in the order of the trials.
+pub fn modules_of(measured: &[Measured]) -> Vec<ModuleCount> {
+    let trials = measured.iter().flat_map(|urdd| &urdd.trials);
+    let tallies = tallies(trials, |trial| trial.change.module.clone());
+    let count = |(module, plain, deep)| ModuleCount {
+        module,
+        plain,
+        deep,
+    };
+    tallies.into_iter().map(count).collect()
+}
+
+fn tallies<'a, K: Ord + Clone>(
+    trials: impl Iterator<Item = &'a Trial>,
     key: impl Fn(&Trial) -> K,
 ) -> Vec<(K, Tally, Option<Tally>)> {
     let mut places: BTreeMap<K, usize> = BTreeMap::new();
