@@ -3,7 +3,7 @@
 //! The directions are divided into cells (`cells`). Most cells list one to four vertices, so four dot products find the
 //! farthest, however many vertices the shape has.
 
-use fearless_simd::{Simd, f64x4, prelude::*};
+use fearless_simd::{Simd, f64x4, prelude::*, u64x4};
 
 use super::cells::candidates;
 
@@ -115,15 +115,10 @@ fn greatest<S: Simd>(simd: S, block: &Block, d: [f64; 3]) -> f64 {
     let dots = f64x4::load_array_ref(simd, &block.x) * d[0]
         + f64x4::load_array_ref(simd, &block.y) * d[1]
         + f64x4::load_array_ref(simd, &block.z) * d[2];
-    let dots = dots.to_array();
-    let mark = |k: usize| f64::from_bits(dots[k].to_bits() & !(WIDTH as u64 - 1) | k as u64);
-    greater(greater(mark(0), mark(1)), greater(mark(2), mark(3)))
-}
-
-/// The greater of two numbers, neither NaN; compiles to one instruction.
-#[inline(always)]
-fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+    let rest = u64x4::splat(simd, !(WIDTH as u64 - 1));
+    let numbers = u64x4::load_array(simd, [0, 1, 2, 3]);
+    let marked: f64x4<S> = ((dots.bitcast::<u64x4<S>>() & rest) | numbers).bitcast();
+    marked.reduce_max()
 }
 
 #[cfg(test)]

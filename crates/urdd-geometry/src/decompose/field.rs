@@ -158,79 +158,115 @@ impl Field {
         best.into_iter().map(|b| b.1).collect()
     }
 
-    /// Distance outside the surface; 0 inside.
-    #[inline]
+    /// Distance outside the surface at a point in unit coordinates; 0 inside.
     pub fn at(&self, p: [f64; 3]) -> f64 {
+        self.at_place(self.place(p))
+    }
+
+    /// A point in cells from the first node.
+    fn place(&self, p: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|a| (p[a] - self.low[a]) / self.cell)
+    }
+
+    /// As [`Field::at`], at a point in cells from the first node.
+    #[inline]
+    fn at_place(&self, p: [f64; 3]) -> f64 {
         let [nx, ny, _] = self.count;
         let mut base = [0_usize; 3];
         let mut f = [0.0_f64; 3];
         for a in 0..3 {
-            let x = ((p[a] - self.low[a]) / self.cell).clamp(0.0, (self.count[a] - 1) as f64);
+            let x = p[a].clamp(0.0, (self.count[a] - 1) as f64);
             base[a] = (x as usize).min(self.count[a] - 2);
             f[a] = x - base[a] as f64;
         }
         let k = (base[2] * ny + base[1]) * nx + base[0];
-        let v = |step: usize| f64::from(self.value[k + step]);
-        let row = |step: usize| v(step) + f[0] * (v(step + 1) - v(step));
-        let plane = |step: usize| row(step) + f[1] * (row(step + nx) - row(step));
+        let row = |step: usize| {
+            let two = self.value.get(k + step..).and_then(|v| v.first_chunk());
+            let [v, w] = two.map_or([0.0; 2], |two: &[f32; 2]| two.map(f64::from));
+            v + f[0] * (w - v)
+        };
+        let plane = |step: usize| {
+            let low = row(step);
+            low + f[1] * (row(step + nx) - low)
+        };
         let low = plane(0);
         (low + f[2] * (plane(nx * ny) - low)).max(0.0)
     }
 
-    /// Passes evenly spread points of a triangle to `take`, each for the same part of its area; returns their number.
-    pub fn spread(&self, [a, b, c]: [[f64; 3]; 3], mut take: impl FnMut([f64; 3])) -> usize {
-        let (ab, ac) = (sub(b, a), sub(c, a));
-        let bc = sub(c, b);
-        let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
-        // Rounds up without `ceil`, which would be a function call.
-        let n = ((longest / (SPREAD * self.cell)) as usize)
-            .saturating_add(1)
-            .min(MOST_SIDE);
-        // The centroids of the n^2 triangles between parallels to the sides.
-        let side = 1.0 / (3 * n) as f64;
-        for i in 0..n {
-            for j in 0..n - i {
-                let mut at = |u: usize, v: usize| {
-                    let (u, v) = (u as f64 * side, v as f64 * side);
-                    take([0, 1, 2].map(|k| a[k] + u * ab[k] + v * ac[k]));
-                };
-                at(3 * i + 1, 3 * j + 1);
-                if i + j + 1 < n {
-                    at(3 * i + 2, 3 * j + 2);
-                }
-            }
-        }
-        n * n
+    /// Passes evenly spread points of a triangle in unit coordinates to `take`, each for the same part of its area;
+    /// returns their number.
+    pub fn spread(&self, corners: [[f64; 3]; 3], take: impl FnMut([f64; 3])) -> usize {
+        spread(corners, SPREAD * self.cell, take)
     }
 
     /// The integral of distances over the faces of a hull in the coordinates of `frame`. Skips faces in one of the
-    /// planes, where another piece begins. `known` caches the integrals of faces, by slot.
+    /// planes, where another piece begins. `known` is what is known of the hull from earlier calls.
     pub fn standoff(
         &self,
         hull: &GrowingHull,
         frame: &[[f64; 3]; 3],
         planes: &[Plane],
-        known: &mut Vec<([u16; 3], f64)>,
+        known: &mut Known,
     ) -> f64 {
-        let mut sum = 0.0;
         let turn = |p: [f64; 3]| {
             [0, 1, 2].map(|a| p[0] * frame[0][a] + p[1] * frame[1][a] + p[2] * frame[2][a])
         };
-        known.resize(hull.slots(), ([0; 3], 0.0));
+        let fresh = hull.points.iter().skip(known.points.len());
+        known.points.extend(fresh.map(|&p| turn(p)));
+        known.faces.resize(hull.slots(), ([0; 3], 0.0));
+        let mut sum = 0.0;
         for (slot, face, area) in hull.faces() {
-            let corners = || face.map(|i| turn(hull.points[i as usize]));
-            if known[slot].0 != face {
+            let corners = face.map(|i| known.points[i as usize]);
+            if known.faces[slot].0 != face {
+                let places = corners.map(|p| self.place(p));
                 let mut of_face = 0.0;
-                let n = self.spread(corners(), |p| of_face += self.at(p));
-                known[slot] = (face, of_face / n as f64 * area);
+                let n = spread(places, SPREAD, |p| of_face += self.at_place(p));
+                known.faces[slot] = (face, of_face / n as f64 * area);
             }
-            let of_face = known[slot].1;
-            if of_face > 0.0 && !in_cut(corners(), planes) {
+            let of_face = known.faces[slot].1;
+            if of_face > 0.0 && !in_cut(corners, planes) {
                 sum += of_face;
             }
         }
         sum
     }
+}
+
+/// What the standoff of a growing hull found at its last call.
+#[derive(Clone, Default)]
+pub(super) struct Known {
+    /// The hull's points in unit coordinates.
+    points: Vec<[f64; 3]>,
+    /// The integral over each face, by slot.
+    faces: Vec<([u16; 3], f64)>,
+}
+
+/// Passes evenly spread points of a triangle to `take`, at most [`MOST_SIDE`] along a side, and about `apart` from each
+/// other. Returns their number.
+#[inline]
+fn spread([a, b, c]: [[f64; 3]; 3], apart: f64, mut take: impl FnMut([f64; 3])) -> usize {
+    let (ab, ac) = (sub(b, a), sub(c, a));
+    let bc = sub(c, b);
+    let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
+    // Rounds up without `ceil`, which would be a function call.
+    let n = ((longest / apart) as usize)
+        .saturating_add(1)
+        .min(MOST_SIDE);
+    // The centroids of the n^2 triangles between parallels to the sides.
+    let side = 1.0 / (3 * n) as f64;
+    for i in 0..n {
+        for j in 0..n - i {
+            let mut at = |u: usize, v: usize| {
+                let (u, v) = (u as f64 * side, v as f64 * side);
+                take([0, 1, 2].map(|k| a[k] + u * ab[k] + v * ac[k]));
+            };
+            at(3 * i + 1, 3 * j + 1);
+            if i + j + 1 < n {
+                at(3 * i + 2, 3 * j + 2);
+            }
+        }
+    }
+    n * n
 }
 
 /// Whether a face is in one of the planes, where another piece begins.

@@ -1,6 +1,6 @@
 //! Shared data of the cut search: the planes to try, and growing hulls.
 
-use super::field::Field;
+use super::field::{Field, Known};
 use super::growing_hull::GrowingHull;
 use super::part::Plane;
 
@@ -58,8 +58,7 @@ pub(super) fn bulk(hull: &GrowingHull) -> f64 {
 pub(super) struct Grower {
     pub hull: GrowingHull,
     pub step: f64,
-    /// Cached standoff of its faces, by slot.
-    known: Vec<([u16; 3], f64)>,
+    known: Known,
 }
 
 impl Grower {
@@ -68,7 +67,7 @@ impl Grower {
         Grower {
             hull: GrowingHull::default(),
             step: (STEP * extent).max(4.0 * SEED),
-            known: Vec::new(),
+            known: Known::default(),
         }
     }
 

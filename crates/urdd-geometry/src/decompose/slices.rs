@@ -140,7 +140,10 @@ impl Slices {
                 cost(&mut hull, section)
             });
         }
-        take(&self.slices[if upwards { planes } else { 0 }], &mut hull);
+        // Downwards, nobody asks for the whole hull.
+        if upwards {
+            take(&self.slices[planes], &mut hull);
+        }
         (costs, hull)
     }
 }
