@@ -91,6 +91,10 @@ pub(crate) fn triangle<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 2]) -> Nearest
     }
 }
 
+/// A tetrahedron with less than this part of the volume of its three edges at w is flat: the volume may be rounding alone,
+/// as where a feature with fewer vertices repeats one. What is nearest is then in a face.
+const FLAT: f64 = 3e-14;
+
 /// The nearest point of the tetrahedron of `w` and `s`.
 #[inline(always)]
 pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Nearest<S> {
@@ -110,7 +114,7 @@ pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Near
         & g1.simd_ge(zero)
         & g2.simd_ge(zero)
         & (g0 + g1 + g2).simd_le(volume * volume)
-        & (volume * volume).simd_gt(zero);
+        & (volume * volume).simd_gt(a[0] * a[1] * a[2] * splat(simd, FLAT * FLAT));
 
     let (t0, d0) = edge(simd, c, b[0], a[0]);
     let (t1, d1) = edge(simd, c, b[1], a[1]);
