@@ -35,7 +35,7 @@ pub(super) fn text(kind: ModuleKind, context: &Context) -> Option<String> {
             String::new()
         }
         ModuleKind::LinkShapesDistanceStatistics => {
-            format!("{} samples, 7 digits", settings.num_samples)
+            format!("{} samples, 7 digits; 2", settings.num_samples)
         }
         ModuleKind::LinkShapesSimpleSkips => "2".to_owned(),
         ModuleKind::LinkShapesSkips => {
