@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// The tests to run, by prefix of their path, and what to do if one fails.
 const TESTS: &[(&str, &str)] = &[
@@ -36,7 +36,7 @@ const TESTS: &[(&str, &str)] = &[
     ),
     (
         "as_data::the_suite_is_what",
-        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules for one rule; read what it wrote",
+        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules as_data for one rule; read what it wrote",
     ),
     (
         "every_rule_has_an_invalid_case",
@@ -111,32 +111,40 @@ pub fn run(root: &Path) -> Result<bool, String> {
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
-    let output = cargo(root)
-        .args([
-            "test",
-            "--locked",
-            "--no-fail-fast",
-            "--test",
-            "program",
-            "--test",
-            "rules",
-            "--",
-        ])
-        .args(TESTS.iter().map(|(test, _)| test))
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| format!("cargo cannot be run: {error}"))?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let failures = failures(&text);
-    if failures.is_empty() && !output.status.success() {
+    let tests = [
+        "test",
+        "--locked",
+        "--no-fail-fast",
+        "--test",
+        "program",
+        "--test",
+        "rules",
+    ];
+    let failed = |error| format!("cargo cannot be run: {error}");
+    // In view: it takes long. What cargo prints after tests that failed is left out.
+    let built = cargo(root).args(tests).arg("--no-run").status();
+    if !built.map_err(failed)?.success() {
         fault("build", "", "see what cargo printed above");
-    }
-    for (test, message) in failures {
-        let known = TESTS.iter().find(|(start, _)| test.starts_with(start));
-        let remedy = known.map_or("see the message", |(_, remedy)| remedy);
-        match test.starts_with(PAGE) {
-            true => println!("\nnote: page/dist is stale\n  {remedy}"),
-            false => fault(test, &message, remedy),
+    } else {
+        let output = cargo(root)
+            .args(tests)
+            .arg("--")
+            .args(TESTS.iter().map(|(test, _)| test))
+            .output()
+            .map_err(failed)?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let failures = failures(&text);
+        if failures.is_empty() && !output.status.success() {
+            let message = String::from_utf8_lossy(&output.stderr);
+            fault("tests", &message, "see the message");
+        }
+        for (test, message) in failures {
+            let known = TESTS.iter().find(|(start, _)| test.starts_with(start));
+            let remedy = known.map_or("see the message", |(_, remedy)| remedy);
+            match test.starts_with(PAGE) {
+                true => println!("\nnote: page/dist is stale\n  {remedy}"),
+                false => fault(test, &message, remedy),
+            }
         }
     }
     match faults {

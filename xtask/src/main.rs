@@ -71,6 +71,8 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
         _ => return Err(USAGE.to_owned()),
     };
     print!("{text}");
+    // Breaks long lines. The copies of tests have no manifest and stay as they are.
+    let _ = check::cargo(&root).arg("fmt").output();
     Ok(true)
 }
 

@@ -21,21 +21,21 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
     let path = format!("{TYPES}/{stem}.rs");
     edits.create(&path, module_type(&name, &kind))?;
     edits.insert_module(&format!("{TYPES}/lib.rs"), &format!("pub mod {stem};"))?;
-    // The modules of version 1 come first; then those that are legacy only.
+    // After the last of the core modules, as in SPEC.md.
     let registry = format!("{TYPES}/registry.rs");
     if edits.read(&registry)?.contains(&format!("= \"{name}\" in")) {
         return Err(format!("{name} is there already: {registry}"));
     }
     edits.insert_before(
         &registry,
-        "    /// Error of linearised distances. Legacy only.",
+        "    /// Mesh files as the URDF names them.",
         &format!(
             "    /// TODO: what it says, in some words. Optional.\n    {kind} = \"{name}\" in \"\", None, needs [Urdf];\n"
         ),
     )?;
     edits.insert_before(
         &registry,
-        "    LegacyUrdf(",
+        "    OriginalMeshes(",
         &format!("    {kind}({stem}::{kind}Module): {kind} @ \"1.0.0\", V1;\n"),
     )?;
     let selection = edits.read(SELECTION)?;
@@ -55,7 +55,7 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
     )?;
     edits.insert_before(
         SPEC,
-        "\n## 13 Security",
+        "| `original_meshes_module` | `mesh_modules/",
         &format!("| `{name}` | `{name}` | (optional) | `urdf_module` |\n"),
     )?;
     edits.write()?;
@@ -63,7 +63,7 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
         "1. Write its type: {path}. Every key with its meaning, shape, unit and frame.\n\
          2. What it is derived from, and its words: `{kind}` in {registry}, and the table in {SPEC}, clause 12.1.\n\
          3. Say in {SPEC}, clause {clause}, what it holds.\n\
-         4. cargo xtask new-rule ABC001 name-of-the-fault --family {stem} --clause {clause}.1     (its first rule; ABC is the new family's code)\n\
+         4. cargo xtask new-rule BAT001 name-of-the-fault --clause {clause}.1 --family {stem}     (its first rule; three letters of yours for BAT)\n\
          5. cargo xtask update     (schemas, annex A, types for Python)\n\
          6. cargo xtask check      (what is left)\n\
          `urdd generate` does not make it. If it should: a stage in crates/urdd-generate/src/stages.rs, and its name goes from {SELECTION}.\n"

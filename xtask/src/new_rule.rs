@@ -81,28 +81,15 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         steps.push(format!("Say it in {SPEC}, clause {clause}: one sentence with MUST or SHOULD, instead of the TODO."));
     }
     let test = format!("tests/rules/{room}.rs");
-    let cases = format!("{}_cases", code.to_lowercase());
-    let others = edits.read(&test)?;
-    let base = match (CORE.contains(&family), others.contains("\nfn base() ->")) {
-        (true, _) => {
-            "\n    let base = || testkit::fixture::Fixture::core(&testkit::fixture::toy_robot());"
-        }
-        (false, true) => "",
-        (false, false) => "\n    let base = || testkit::fixture::Fixture::toy();",
-    };
-    edits.set(
-        &test,
-        format!("{}\n\n{}", others.trim_end(), two_cases(code, base, &cases)),
-    );
-    edits.set(CASES, list_cases(&edits.read(CASES)?, &room, &cases)?);
+    edits.set(&test, add_cases(&edits.read(&test)?, code, &test)?);
     edits.write()?;
     steps.extend([
         format!("Write the rule: {rule_path}."),
-        format!("Write its two cases: {test}, fn {cases}."),
+        format!("Write its two cases: {test}, at the end of fn cases."),
         format!("URDD_CASE={code} cargo test --test rules asked_for      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)"),
-        format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules         (writes the cases as data; read what it wrote)"),
-        "cargo xtask update       (what is generated)".to_owned(),
-        "cargo xtask check        (what is left)".to_owned(),
+        format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules as_data      (writes the cases as data; read what it wrote)"),
+        "cargo xtask update       (writes again what is generated)".to_owned(),
+        "cargo xtask check        (says what is left; before you send, .ci/quick runs it)".to_owned(),
     ]);
     let lines = steps.iter().enumerate();
     Ok(lines
@@ -138,7 +125,11 @@ fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
         family_cases(edits, family, room),
     )?;
     edits.insert_module(CASES, &format!("mod {room};"))?;
-    Ok(())
+    edits.insert_before(
+        CASES,
+        "        legacy::cases(),",
+        &format!("        {room}::cases(),\n"),
+    )
 }
 
 /// Whether a family is about a module of version 1 that has its type in a file of that name.
@@ -149,22 +140,25 @@ fn is_module(edits: &Edits, room: &str) -> bool {
 
 /// The file of a new family's cases.
 fn family_cases(edits: &Edits, family: &str, room: &str) -> String {
+    let cases = "\npub fn cases() -> Vec<crate::Case> {\n    vec![\n    ]\n}\n";
     if !is_module(edits, room) {
-        return format!("//! {family}.\n");
+        return format!("//! {family}.\n\nuse urdd_validate::code::Code::*;\n{cases}");
     }
     let kind = camel(room);
     format!(
         r#"//! {family}: `{room}_module`.
 
 use serde_json::json;
-use testkit::fixture::{{Fixture, toy_robot}};
 use urdd_format::registry::ModuleKind;
+use urdd_validate::code::Code::*;
+
+use testkit::fixture::{{Fixture, toy_robot}};
 
 /// A small URDD that has the module.
 fn base() -> Fixture {{
     Fixture::core_with(&toy_robot(), ModuleKind::{kind}, json!({{ "values": [] }}))
 }}
-"#
+{cases}"#
     )
 }
 
@@ -333,34 +327,49 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
     )
 }
 
-fn two_cases(code: &str, base: &str, cases: &str) -> String {
-    format!(
-        r#"pub fn {cases}() -> Vec<crate::Case> {{
-    use urdd_validate::code::Code::{code};{base}
-    vec![
-        crate::changed({code}, "todo-name-the-fault", true, base, |_urdd| {{
-            todo!("{code}: change the URDD so that exactly this rule catches it: `urdd.set(module, pointer, value)`")
-        }}),
-        crate::changed({code}, "todo-name-what-comes-near", false, base, |_urdd| {{
-            todo!("{code}: change the URDD so that it comes near the fault, and is right")
-        }}),
-    ]
-}}
-"#
-    )
-}
-
-/// Adds the rule's cases to the list of all cases: after those of the family, or before the legacy ones if the family
-/// is new.
-fn list_cases(text: &str, room: &str, cases: &str) -> Result<String, String> {
-    let new = format!("        {room}::{cases}(),\n");
-    let own = format!("        {room}::cases(),\n");
-    let legacy = "        legacy::cases(),\n";
-    if text.contains(&own) {
-        Ok(text.replacen(&own, &format!("{own}{new}"), 1))
-    } else if text.contains(legacy) {
-        Ok(text.replacen(legacy, &format!("{new}{legacy}"), 1))
+/// Adds two cases to be written to the family's `cases()`, at the end of the list that it consists of, or of the one that
+/// it collects.
+fn add_cases(text: &str, code: &str, path: &str) -> Result<String, String> {
+    let base = if CORE.contains(&&code[..3]) {
+        "|| testkit::fixture::Fixture::core(&testkit::fixture::toy_robot())"
+    } else if text.contains("\nfn base() ->") {
+        "base"
     } else {
-        Err(format!("{CASES} lists no {room}::cases()"))
+        "testkit::fixture::Fixture::toy"
+    };
+    let unexpected = || format!("{path} is not as expected: no fn cases with a list");
+    let start = text.find("\npub fn cases() ").ok_or_else(unexpected)?;
+    let length = text[start..].find("\n}\n").ok_or_else(unexpected)?;
+    let (function, tail) = text.split_at(start + length);
+    let case = |caught: bool, name: &str, what: &str| {
+        format!(
+            r#"        crate::changed(
+            {code},
+            "todo-name-{name}",
+            {caught},
+            {base},
+            |_urdd| todo!("{code}: change the URDD {what}"),
+        ),
+"#
+        )
+    };
+    let invalid = case(
+        true,
+        "the-fault",
+        "so that exactly this rule catches it: `urdd.set(module, pointer, value)`",
+    );
+    let near = case(
+        false,
+        "what-comes-near",
+        "so that it comes near the fault, and is right",
+    );
+    if let Some(head) = function.strip_suffix("    ]") {
+        Ok(format!("{head}{invalid}{near}    ]{tail}"))
+    } else if let Some(head) = function.strip_suffix("    cases") {
+        Ok(format!(
+            "{head}    cases.extend([\n{invalid}{near}    ]);\n    cases{tail}"
+        ))
+    } else {
+        Err(unexpected())
     }
 }

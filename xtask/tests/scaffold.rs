@@ -118,16 +118,19 @@ fn a_rule_gets_all_of_its_files() {
         clause.trim_end().ends_with(&format!("[{code}]")),
         "{clause}"
     );
-    let cases = format!("{}_cases", code.to_lowercase());
+    // In the list of the family's cases, which is in the list of all.
     let test = text(root, "tests/rules/source.rs");
-    let own = test.split(&cases).nth(1).expect("the cases");
+    let cases = test.split("pub fn cases()").nth(1).expect("the cases");
+    let own = cases.split("\n}\n").next().expect("their end");
     assert!(
-        own.contains("Fixture::core")
-            && own.contains("todo!(")
-            && own.contains("true, base")
-            && own.contains("false, base")
+        own.matches("Fixture::core").count() == 2
+            && own.contains(&format!("todo!(\"{code}: "))
+            && own.contains(&format!(
+                "{code},\n            \"todo-name-the-fault\",\n            true,"
+            ))
+            && own.ends_with("    ]);\n    cases"),
+        "{own}"
     );
-    assert!(text(root, "tests/rules/main.rs").contains(&format!("source::{cases}(),")));
 
     // The second time, it is taken.
     let again = new_rule(root, &[&code, "made-of-cheese"]);
@@ -200,7 +203,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         ),
         (
             "crates/urdd-format/src/registry.rs",
-            "BatteryPack(battery_pack::BatteryPackModule): BatteryPack @ \"1.0.0\", V1;\n    LegacyUrdf(",
+            "BatteryPack(battery_pack::BatteryPackModule): BatteryPack @ \"1.0.0\", V1;\n    OriginalMeshes(",
         ),
         (
             "crates/urdd-generate/src/selection.rs",
@@ -213,7 +216,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         ),
         (
             "SPEC.md",
-            "|\n| `battery_pack_module` | `battery_pack_module` | (optional) | `urdf_module` |\n\n## 13",
+            "|\n| `battery_pack_module` | `battery_pack_module` | (optional) | `urdf_module` |\n| `original_meshes_module` |",
         ),
         (
             "crates/urdd-validate/src/code.rs",
@@ -238,7 +241,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
         ("tests/rules/main.rs", "mod battery_pack;\nmod bounds;"),
         (
             "tests/rules/main.rs",
-            "battery_pack::bat001_cases(),\n        battery_pack::bat002_cases(),",
+            "battery_pack::cases(),\n        legacy::cases(),",
         ),
         ("tests/rules/battery_pack.rs", "ModuleKind::BatteryPack"),
     ] {

@@ -180,12 +180,7 @@ impl Robot {
 impl Joint {
     /// Number of DOFs of a joint of this type, mimic or not (SPEC 5.8).
     pub fn num_dofs(&self) -> usize {
-        match self.joint_type {
-            JointType::Fixed => 0,
-            JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
-            JointType::Planar | JointType::Spherical => 3,
-            JointType::Floating => 6,
-        }
+        num_dofs(self.joint_type)
     }
 
     /// The mimic, unless the joint is fixed and cannot follow.
@@ -215,6 +210,16 @@ impl Joint {
             }
             _ => None,
         }
+    }
+}
+
+/// Number of DOFs of a joint of this type (SPEC 5.8).
+pub(crate) fn num_dofs(joint_type: JointType) -> usize {
+    match joint_type {
+        JointType::Fixed => 0,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
+        JointType::Planar | JointType::Spherical => 3,
+        JointType::Floating => 6,
     }
 }
 

@@ -60,6 +60,11 @@ macro_rules! kinds {
                 match self { $(ModuleKind::$kind => $class,)* }
             }
 
+            /// Whether no conformance class requires the module, so that its absence is normal.
+            pub fn is_optional(self) -> bool {
+                self.class().is_none()
+            }
+
             /// The modules that this one is derived from, in version 1.
             pub fn depends_on(self) -> &'static [ModuleKind] {
                 match self { $(ModuleKind::$kind => &[$(ModuleKind::$needs),*],)* }

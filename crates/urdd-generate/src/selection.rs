@@ -21,7 +21,8 @@ fn known() -> String {
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1 that cannot be selected: every composed robot gets the composition module.
+/// The modules of version 1 that cannot be selected: those that no stage makes, and the composition module, which every
+/// composed robot gets.
 const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition];
 
 /// The modules of version 1 that can be selected, in the order of the specification.

@@ -60,12 +60,16 @@ impl Bases {
     }
 
     /// The base with the shortest changes to `tree`, and these changes. Only the few bases that share most bytes with
-    /// it are tried.
+    /// it are tried, those with fewest other files first.
     fn nearest(&self, tree: &Tree) -> (usize, Difference) {
-        let foreign = |base: &Tree| -> usize {
+        let foreign = |base: &Tree| -> (usize, usize) {
             let nodes = tree.nodes.iter();
             let missing = nodes.filter(|(path, node)| base.nodes.get(path) != Some(node));
-            missing.map(|(_, node)| size(node)).sum()
+            let gone = base
+                .nodes
+                .keys()
+                .filter(|path| !tree.nodes.contains_key(path));
+            (missing.map(|(_, node)| size(node)).sum(), gone.count())
         };
         let mut order: Vec<usize> = (0..self.0.len()).collect();
         order.sort_by_cached_key(|at| foreign(&self.0[*at].1));

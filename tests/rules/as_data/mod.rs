@@ -1,5 +1,5 @@
 //! The cases as data: `conformance/invalid` and `conformance/bases` are written from the closures in this test.
-//! `URDD_UPDATE=1 cargo test --test rules` writes them; without it, the stored files are compared.
+//! `URDD_UPDATE=1 cargo test --test rules as_data` writes them; without it, the stored files are compared.
 //!
 //! A case names the base that needs the shortest changes. A URDD that is far from every base becomes a base. Stored
 //! changes that still produce the case are kept, so that a new case does not change the others.
@@ -206,7 +206,7 @@ fn the_suite_is_what_the_closures_say() {
     let stale: Vec<&String> = stale.into_iter().map(|(path, _)| path).collect();
     assert!(
         stale.is_empty() && stray.is_empty(),
-        "conformance/ is not what the cases say; run URDD_UPDATE=1 cargo test --test rules and read what \
-         changed.\nmissing or stale: {stale:#?}\nof no case: {stray:#?}"
+        "conformance/ is not what the cases say; run URDD_UPDATE=1 cargo test --test rules as_data and read what \
+         changed (URDD_CASE=CODE: of one rule).\nmissing or stale: {stale:#?}\nof no case: {stray:#?}"
     );
 }

@@ -9,10 +9,12 @@ use std::fmt::{self, Write};
 
 use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::number;
+use urdd_format::registry::ModuleKind;
 
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural};
 use super::{summary, unverified};
+use crate::skip::SkipReason;
 use urdd_format::report::{
     CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
 };
@@ -241,8 +243,8 @@ fn place(found: &Place, with_file: bool) -> String {
     place
 }
 
-/// What was not checked, by reason. Rules for other formats are not mentioned, and rules about absent modules take one
-/// line.
+/// What was not checked, by reason. Rules for other formats are not mentioned, nor are rules about absent modules that
+/// no class requires. Rules about other absent modules take one line.
 fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
     let label = style.paint(DIM, "not checked:");
     for open in &urdd.not_checked {
@@ -264,10 +266,13 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
     for (reason, codes) in by_reason {
         writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
     }
-    // Most robots are not composed of others: the absence of that module is normal.
-    let is_of_parts = |check: &CheckStatus| check.code.starts_with("CMP");
-    let absent =
-        |check: &&CheckStatus| check.skipped == Some(Skipped::Absent) && !is_of_parts(check);
+    let optional = ModuleKind::ALL.iter().filter(|kind| kind.is_optional());
+    let normal: Vec<_> = optional
+        .map(|kind| Some(SkipReason::Absent(*kind).to_string()))
+        .collect();
+    let absent = |check: &&CheckStatus| {
+        check.skipped == Some(Skipped::Absent) && !normal.contains(&check.reason)
+    };
     let absent = urdd.checks.iter().filter(absent).count();
     if absent > 0 {
         let rules = plural(absent, "rule");

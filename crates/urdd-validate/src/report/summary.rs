@@ -9,24 +9,27 @@ use super::causes::{Cause, causes};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::{self, not_verified};
 use super::words::plural;
+use crate::rules;
 use urdd_format::escape::line as safe;
 use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
-/// Columns of the table: a title, and the families of rules.
-const COLUMNS: &[(&str, &[&str])] = &[
-    ("DIR", &["DIR"]),
-    ("TXT", &["JSN", "YML", "SCH", "EXT"]),
-    ("URD", &["URD", "CMP"]),
-    ("SRC", &["SRC"]),
-    ("DOF", &["DOF"]),
-    ("CHN", &["CHN"]),
-    ("CON", &["CON"]),
-    ("BND", &["BND"]),
-    ("MSH", &["MSH"]),
-    ("SHP", &["SHP", "LRN"]),
-    ("KIN", &["KIN"]),
-    ("LEG", &["LEG"]),
-];
+/// The column of a family of rules in the table. Most families have their own.
+fn column(family: &str) -> &str {
+    match family {
+        "JSN" | "YML" | "SCH" | "EXT" => "TXT",
+        "CMP" => "URD",
+        "LRN" => "SHP",
+        own => own,
+    }
+}
+
+/// The columns of all rules, in the order of their codes.
+fn columns() -> Vec<&'static str> {
+    let mut seen = BTreeSet::new();
+    let all = rules::all().into_iter();
+    let columns = all.map(|rule| column(rule.code.family()));
+    columns.filter(|column| seen.insert(*column)).collect()
+}
 
 /// Maximum number of table rows, of causes of errors, and of causes of warnings and infos, without `--full`.
 const ROWS: usize = 60;
@@ -198,38 +201,27 @@ fn shorten(text: &str, longest: usize) -> String {
 }
 
 fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let mut columns = columns();
     let worth = |urdd: &&Urdd| {
-        !urdd.findings.is_empty()
-            || urdd.verdict != Verdict::Pass
-            || COLUMNS
-                .iter()
-                .any(|(_, f)| cell(urdd, f).0 == Cell::Unknown)
+        let unknown = |column: &&str| cell(urdd, column).0 == Cell::Unknown;
+        !urdd.findings.is_empty() || urdd.verdict != Verdict::Pass || columns.iter().any(unknown)
     };
     let rows: Vec<&Urdd> = report.urdds.iter().filter(worth).collect();
     let clean = report.urdds.len() - rows.len();
     let most = if style.full { rows.len() } else { ROWS };
-    let columns: Vec<_> = COLUMNS
-        .iter()
-        .filter(|(_, families)| {
-            let absent = |urdd: &&Urdd| cell(urdd, families).0 != Cell::Absent;
-            rows.iter().any(absent)
-        })
-        .collect();
+    columns.retain(|column| rows.iter().any(|urdd| cell(urdd, column).0 != Cell::Absent));
     if !rows.is_empty() {
         let shown = rows.iter().take(most);
         let names: Vec<String> = shown.map(|urdd| shorten(&safe(&urdd.path), NAME)).collect();
         let lengths = names.iter().map(|name| name.chars().count());
         let width = lengths.max().unwrap_or(0).max(4);
-        let titles: String = columns
-            .iter()
-            .map(|(title, _)| format!(" {title:>4}"))
-            .collect();
+        let titles: String = columns.iter().map(|title| format!(" {title:>4}")).collect();
         let heading = format!("{:width$}{titles}", "URDD");
         writeln!(out, "{}", style.paint(BOLD, heading))?;
         for (name, urdd) in names.iter().zip(&rows) {
             write!(out, "{name:width$}")?;
-            for (_, families) in &columns {
-                let (cell, text) = cell(urdd, families);
+            for column in &columns {
+                let (cell, text) = cell(urdd, column);
                 let text = format!("{text:>4}");
                 let text = match cell {
                     Cell::Error => style.paint(RED, text),
@@ -263,9 +255,9 @@ enum Cell {
     Absent,
 }
 
-/// The result of families of rules for a URDD.
-fn cell(urdd: &Urdd, families: &[&str]) -> (Cell, String) {
-    let of_family = |code: &str| families.iter().any(|family| code.starts_with(family));
+/// The result of a column's rules for a URDD.
+fn cell(urdd: &Urdd, title: &str) -> (Cell, String) {
+    let of_family = |code: &str| code.get(..3).map(column) == Some(title);
     let times = |severity: Severity| -> usize {
         let findings = urdd.findings.iter();
         let alike = findings.filter(|f| f.severity == severity && of_family(&f.code));
@@ -309,16 +301,16 @@ fn short(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::COLUMNS;
+    use super::*;
 
     #[test]
     fn each_family_of_rules_has_one_column() {
-        for rule in crate::rules::all() {
-            let family = rule.code.family();
-            let columns = COLUMNS
-                .iter()
-                .filter(|(_, families)| families.contains(&family));
-            assert_eq!(columns.count(), 1, "{family}");
+        let columns = columns();
+        for rule in rules::all() {
+            let own = column(rule.code.family());
+            let times = columns.iter().filter(|column| **column == own).count();
+            assert_eq!(times, 1, "{}", rule.code);
         }
+        assert_eq!(columns[..3], ["DIR", "TXT", "URD"]);
     }
 }
