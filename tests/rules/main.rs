@@ -30,6 +30,7 @@ mod shapes;
 mod source;
 mod two_faults;
 mod urdf;
+mod usable;
 mod yaml;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -148,6 +149,7 @@ fn cases() -> Vec<Case> {
         composition::cases(),
         meshes::cases(),
         mesh_files::cases(),
+        usable::cases(),
         shapes::cases(),
         kinematics::cases(),
         learned::cases(),

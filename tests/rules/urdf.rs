@@ -10,6 +10,7 @@ use testkit::robot::{Robot, link};
 
 pub fn cases() -> Vec<Case> {
     let mut cases = against_the_urdf();
+    cases.extend(there_without_what_it_is_for());
     cases.extend(trees());
     cases.extend(mimics_and_axes());
     cases.extend(readable());
@@ -197,6 +198,70 @@ fn against_the_urdf() -> Vec<Case> {
             );
         }),
     ]
+}
+
+/// SPEC 6.1.8, *Absent*: elements that are there without what they are for. Each right, and as it is not meant.
+fn there_without_what_it_is_for() -> Vec<Case> {
+    const FRAME: &str = "<link name=\"frame\">";
+    let nothing = || json!({"origin": null, "mass": null, "inertia": null});
+    let inertia = |off: Value| {
+        json!({"origin": null, "mass": {"value": 1.0}, "inertia": {
+            "ixx": 1.0, "ixy": off, "ixz": off, "iyy": 1.0, "iyz": off, "izz": 1.0}})
+    };
+    let diagonal =
+        "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial>";
+    let origin = |xyz: Value| json!({"origin": {"xyz": xyz, "rpy": null, "quat_xyzw": null}, "mass": null, "inertia": null});
+    let rows = [
+        (
+            "inertial-with-nothing-in-it",
+            "<inertial/>",
+            nothing(),
+            Value::Null,
+        ),
+        (
+            "mass-without-value",
+            "<inertial><mass/></inertial>",
+            nothing(),
+            Value::Null,
+        ),
+        (
+            "inertia-of-three-elements",
+            diagonal,
+            inertia(Value::Null),
+            inertia(json!(0.0)),
+        ),
+        (
+            "origin-with-nothing-in-it",
+            "<inertial><origin/></inertial>",
+            origin(Value::Null),
+            nothing(),
+        ),
+        (
+            "position-that-is-not-finite",
+            "<inertial><origin xyz=\"1 inf 0\"/></inertial>",
+            origin(Value::Null),
+            origin(json!([1.0, 0.0, 0.0])),
+        ),
+        (
+            "second-inertial-not-read",
+            "<inertial/><inertial><mass value=\"many\"/></inertial>",
+            nothing(),
+            json!({"origin": null, "mass": {"value": 0.0}, "inertia": null}),
+        ),
+    ];
+    let rows = rows.into_iter().flat_map(|(name, xml, right, other)| {
+        [
+            (name, right, false),
+            (format!("{name}-taken-otherwise").leak(), other, true),
+        ]
+        .map(|(name, said, caught)| {
+            changed(URD013, name, caught, Fixture::toy, move |urdd| {
+                urdd.urdf_replace(FRAME, &format!("{FRAME}{xml}"));
+                set_link(urdd, "frame", "/inertial", said.clone());
+            })
+        })
+    });
+    rows.collect()
 }
 
 fn trees() -> Vec<Case> {

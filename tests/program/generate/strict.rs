@@ -286,6 +286,34 @@ fn shapes_that_files_do_not_tell_from_points_or_lines_are_refused() {
 }
 
 #[test]
+fn meshes_of_which_files_keep_nothing_are_refused() {
+    for (scale, made) in [
+        ("1 1 1", true),
+        // The triangle is in the xy plane: it becomes a line.
+        ("1 0 1", false),
+        ("1e-50 1e-50 1e-50", false),
+        ("1e39 1e39 1e39", false),
+        // Not usable (SPEC 7.2), so there is no mesh to keep.
+        ("0 0 1", true),
+    ] {
+        let folder = workshop(&format!(
+            "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"here.stl\" scale=\"{scale}\"/></geometry></visual></link></robot>"
+        ));
+        let output = generate(folder.path(), &["r.urdf"]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        let out = folder.path().join("out");
+        if made {
+            assert_eq!(output.status.code(), Some(0), "{scale}: {said}");
+            assert_eq!(findings_of(&out), [], "{scale}");
+        } else {
+            assert_eq!(output.status.code(), Some(1), "{scale}: {said}");
+            assert!(said.contains("link `a`: its shape is too thin"), "{said}");
+            assert!(!out.exists());
+        }
+    }
+}
+
+#[test]
 fn paths_that_are_left_out_are_said_and_strict_allows_it() {
     let line = |links: usize| {
         let names = (0..links).map(|i| format!("<link name=\"l{i}\"/>"));

@@ -83,8 +83,7 @@ pub(crate) fn link_geometries(
                     .iter()
                     .flat_map(|element| placed(element, &robot.materials, quaternions))
                     .collect();
-                let has_shapes = elements.iter().any(|element| element.scene.is_none());
-                if !parts.is_empty() || has_shapes {
+                if !elements.is_empty() {
                     check_resolved(&link.name, &parts)?;
                     return Ok(Some(LinkGeometry {
                         geometry: kind,
