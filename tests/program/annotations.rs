@@ -82,8 +82,6 @@ const FRAMED: &[&str] = &[
 const NOT_FRAMED: &[&str] = &[
     // Joint values.
     "composition_module position",
-    // Bytes of a file.
-    "root_metadata size",
     // The sphere's; its centre has a frame.
     "link_shapes_approximations_module radius",
 ];

@@ -248,7 +248,16 @@ fn indices() -> Vec<Case> {
         passes(EXT003, "module-that-is-not-there", index("pair"), |_| {
             json!(1000)
         }),
+        caught(EXT003, "negative-of-any-number", index("pair"), |_| {
+            json!(-1)
+        }),
         passes(EXT003, "other", index("other"), |_| json!(1000)),
+        passes(
+            EXT003,
+            "other-beyond-integers-of-64-bits",
+            json!({"x-index": "other"}),
+            |_| json!(1e300),
+        ),
         passes(
             EXT003,
             "another-alternative",

@@ -74,9 +74,8 @@ impl IndexOf {
         let Value::Number(number) = value else {
             return true;
         };
-        // 2^53: above, not every integer is a binary64.
-        let whole =
-            |number: &f64| number.fract() == 0.0 && (0.0..9_007_199_254_740_992.0).contains(number);
+        let whole = |number: &f64| number.fract() == 0.0 && *number >= 0.0;
+        // As an integer: a large one is the largest.
         let fraction = || number.as_f64().filter(whole);
         let Some(index) = number.as_u64().or_else(|| Some(fraction()? as u64)) else {
             return false;
