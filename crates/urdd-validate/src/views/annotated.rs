@@ -88,13 +88,16 @@ impl IndexOf {
             let word = thing.index();
             match self.counts.below(*thing) {
                 Some(0) => format!("{word} (there is none)"),
-                Some(1) => format!("{word} (0 alone)"),
+                Some(1) => format!("{word} (only 0)"),
                 Some(end) => format!("{word} (0 to {})", end - 1),
                 None => word.to_owned(),
             }
         };
         let all: Vec<String> = self.things.iter().map(of_thing).collect();
-        format!("the number is not an index of {}", all.join(" or "))
+        format!(
+            "`{INDEX}` of schema.json asks for the index of a {}",
+            all.join(" or ")
+        )
     }
 }
 
@@ -132,17 +135,14 @@ impl LengthOf {
     fn fault(&self, list: &[Value]) -> Option<String> {
         let length = list.len();
         if !self.fits(length) {
-            let of_thing = |thing: &Thing| {
-                let word = thing.length().unwrap_or_default();
-                match self.counts.count(*thing) {
-                    Some(count) => format!("{word} ({count})"),
-                    None => format!("{word} of a link"),
-                }
+            let of_thing = |thing: &Thing| match self.counts.count(*thing) {
+                Some(count) => format!("{count} ({})", thing.length().unwrap_or_default()),
+                None => "as many as a link has pieces".to_owned(),
             };
             let all: Vec<String> = self.things.iter().map(of_thing).collect();
             let all = all.join(" or ");
             return Some(format!(
-                "the list must have one element for each of {all}, and has {length}"
+                "`{LENGTH}` of schema.json asks for a list of {all}, and this has {length}"
             ));
         }
         let pieces = self.counts.pieces().filter(|_| self.pieces_inside)?;
@@ -157,7 +157,7 @@ impl LengthOf {
         });
         let (link, length, pieces) = wrong.next()?;
         Some(format!(
-            "element {link} must have one element for each of the {pieces} pieces of link {link}, and has {length}"
+            "`{LENGTH}` of schema.json asks for a list of {pieces} (pieces of link {link}) as element {link}, and this has {length}"
         ))
     }
 }

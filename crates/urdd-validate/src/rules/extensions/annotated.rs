@@ -37,7 +37,7 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
                 Value::Array(list) => format!("{} elements", list.len()),
                 value => schema_check::excerpt(value),
             });
-            let message = format!("{message}: `{}` of schema.json{more}", judged.keyword());
+            let message = format!("{message}{more}");
             let mut finding = Finding::of(module, pointer, message);
             finding.place.actual = actual;
             findings.report(finding);
