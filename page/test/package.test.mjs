@@ -26,17 +26,20 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
     writeFileSync(join(project, "package.json"), `{ "type": "module", "private": true }`);
     does(project, "npm", "install", "--offline", "--no-audit", "--no-fund", join(folder, tarball));
     const installed = readdirSync(join(project, "node_modules/urdd")).sort();
-    const files = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "index.d.ts", "index.mjs", "module.mjs"];
+    const files = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "index.d.ts", "index.mjs", "module.mjs", "modules.d.ts"];
     assert.deepEqual(installed, [...files, "package.json", "protocol.d.ts", "urdd.wasm"]);
     // TypeScript, so that the types are held too; Node runs what is left without them.
     const program = `
       import { folder, load } from "urdd";
       import type { Report } from "urdd";
+      import type { JointInChain } from "urdd/modules";
       const urdd = await load();
       const source = await folder(process.argv[2] ?? "");
       const report: Report = urdd.validate(source);
       const robot = urdd.robot(source);
       const q: number[] = robot.about.middle ?? [];
+      const axis: JointInChain["axis"] = [0, 0, 1];
+      if (axis.length !== 3) throw new Error("an axis");
       const link: number = robot.about.links.length - 1;
       const there = robot.linkPoses(q)[link];
       if (!there) throw new Error("no pose");

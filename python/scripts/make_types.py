@@ -176,6 +176,27 @@ def docstring(text: str, indent: str) -> str:
     return f'{indent}"""' + "\n".join([first, *rest]) + '"""\n'
 
 
+def sentence(schema: dict[str, Any]) -> str:
+    """What the annotations of a property say (SPEC 11.3), in a line."""
+    lengths: list[str] = []
+    inner = schema
+    while True:
+        if "x-length" in inner:
+            lengths.append(inner["x-length"])
+        if "items" not in inner:
+            break
+        inner = inner["items"]
+    words = {"Unit": "x-unit", "Frame": "x-frame", "Index of": "x-index"}
+    said = {word: schema.get(key, inner.get(key)) for word, key in words.items()}
+    said["Length"] = "`, each `".join(lengths)
+    return " ".join(f"{word}: `{value}`." for word, value in said.items() if value)
+
+
+def described(schema: dict[str, Any]) -> str:
+    """The description of a property, and its annotations as a paragraph of their own."""
+    return "\n\n".join(text for text in [schema["description"], sentence(schema)] if text)
+
+
 def fields(definition: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in definition["properties"].items() if key != "$schema"}
 
@@ -202,7 +223,7 @@ def declaration(types: Types, name: str) -> str:
     lines = [f"@dataclass(frozen=True)\nclass {name}:\n", docstring(text, "    ")]
     for key, schema in fields(definition).items():
         lines.append(f"\n    {attribute(key)}: {types.annotation(schema)}\n")
-        lines.append(docstring(schema["description"], "    "))
+        lines.append(docstring(described(schema), "    "))
     return "".join(lines)
 
 

@@ -11,6 +11,7 @@ mod generate;
 mod generate_output;
 mod info;
 mod making;
+mod new_extension;
 mod output;
 mod rehash;
 mod schema;
@@ -68,7 +69,7 @@ enum Command {
     Rehash(rehash::RehashArguments),
     /// Conformance suite, for authors of producers and validators.
     Conformance(conformance::ConformanceArguments),
-    /// Show, export or check the published JSON Schemas.
+    /// Show, export or check the published JSON Schemas, or begin an extension.
     Schema(schema::SchemaArguments),
     /// Print the completion script of a shell: `urdd completions bash > ~/.local/share/bash-completion/completions/urdd`.
     Completions {

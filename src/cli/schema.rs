@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
+use super::new_extension::{self, NewExtensionArguments};
 use super::output;
 use urdd_directory::schema_files::{self, SchemaFault};
 use urdd_format::bundle;
@@ -47,6 +48,8 @@ enum Command {
         #[arg(default_value = "schema")]
         folder: PathBuf,
     },
+    /// Write a module of your own with a schema, and add it to a URDD.
+    NewExtension(NewExtensionArguments),
 }
 
 #[derive(Args)]
@@ -92,6 +95,10 @@ pub fn run(arguments: &SchemaArguments) -> ExitCode {
                 Err(error) => fail(&error),
             },
             Err(error) => fail(&error.to_string()),
+        },
+        Command::NewExtension(arguments) => match new_extension::run(arguments) {
+            Ok(text) => print(&text),
+            Err(error) => fail(&error),
         },
     }
 }

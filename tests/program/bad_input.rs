@@ -448,6 +448,84 @@ fn hostile_schemas_of_extensions() {
     }
 }
 
+/// Annotations of extensions that would take time, memory or the stack of a validator.
+#[test]
+fn hostile_annotations_of_extensions() {
+    let is_link = json!({"x-index": "link"});
+    let mut deep = json!([]);
+    for _ in 0..90 {
+        deep = json!([deep]);
+    }
+    let words = vec!["link"; 100_000].join(" or ");
+    let many = json!(
+        (0..2000)
+            .map(|i| (format!("a{i}"), is_link.clone()))
+            .collect::<serde_json::Map<_, _>>()
+    );
+    let cases = [
+        // A million wrong indices: one is named.
+        (
+            json!({"items": is_link}),
+            json!(vec![4_000_000_000_u32; 1_000_000]),
+            "EXT003",
+        ),
+        (
+            json!({"x-length": "links"}),
+            json!(vec![0; 1_000_000]),
+            "EXT004",
+        ),
+        // Every level of lists has the wrong length.
+        (
+            json!({"x-length": "links", "items": {"$ref": "#"}}),
+            deep.clone(),
+            "EXT004",
+        ),
+        (
+            json!({"$ref": "#", "x-index": "link"}),
+            json!(1e300),
+            "EXT003",
+        ),
+        (json!({"x-index": words}), json!(-1), "EXT003"),
+        (
+            json!({"$dynamicAnchor": "a", "items": {"$dynamicRef": "#a"}, "x-index": "link"}),
+            json!([[[-1]]]),
+            "EXT003",
+        ),
+        (
+            json!({"unevaluatedProperties": is_link}),
+            json!({"a": -1}),
+            "EXT003",
+        ),
+        (json!({"contains": is_link}), json!([-1]), "EXT003"),
+        (
+            json!({"dependentSchemas": {"a": {"properties": {"b": is_link}}}}),
+            json!({"a": 0, "b": -1}),
+            "EXT003",
+        ),
+        (
+            json!({"properties": many}),
+            json!({"a7": -1, "a1999": 0}),
+            "EXT003",
+        ),
+        (json!({"x-unit": "m*".repeat(400_000)}), json!(1), "EXT001"),
+        (json!({"x-frame": {"deep": deep}}), json!(1), "EXT001"),
+    ];
+    for (schema, document, code) in cases {
+        let outcome = examine(|root| {
+            let mut toy = Fixture::toy();
+            let folder = "x_acme_gripper_module";
+            toy.put_file(&format!("{folder}/schema.json"), schema.to_string());
+            toy.add_module(folder, document.clone());
+            toy.seal();
+            toy.write_to(root);
+        });
+        let mut codes = outcome.codes();
+        codes.dedup();
+        assert_eq!(codes, [code], "{}", outcome.stderr);
+        assert_eq!((outcome.status, outcome.stderr.as_str()), (1, ""));
+    }
+}
+
 /// `rehash` does not vouch for documents: one that it updates may still be broken.
 #[test]
 fn rehash_says_which_document_is_broken() {

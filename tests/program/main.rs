@@ -3,6 +3,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod annotations;
 mod architecture;
 mod bad_input;
 mod circles;
@@ -16,6 +17,7 @@ mod fuzz_findings;
 mod generate;
 mod large_inputs;
 mod links;
+mod new_extension;
 mod page_bundle;
 mod printing;
 mod producers_agree;
@@ -31,5 +33,6 @@ mod security_doc;
 mod snapshots;
 mod spec_agrees;
 mod support_is_sound;
+mod typescript;
 mod vectors;
 mod view;

@@ -14,6 +14,7 @@ mod composition;
 mod connections;
 mod directory;
 mod dof;
+mod extension_annotations;
 mod extensions;
 mod json;
 mod kinematics;
@@ -140,6 +141,7 @@ fn cases() -> Vec<Case> {
         yaml::cases(),
         schema::cases(),
         extensions::cases(),
+        extension_annotations::cases(),
         urdf::cases(),
         source::cases(),
         dof::cases(),

@@ -53,6 +53,11 @@ const TESTS: &[(&str, &str)] = &[
         "see the message; a released schema never changes: make a new version of the module",
     ),
     (
+        "annotations::every_field",
+        "annotate the fields in crates/urdd-format/src: SPEC 11.3 has the words",
+    ),
+    ("typescript::", UPDATE),
+    (
         "support_is_sound::toy_holds",
         "say in that test that the toy does not have the module, or make it in testkit/src/core_modules.rs",
     ),

@@ -16,6 +16,7 @@ const GENERATED: &[&str] = &[
     "python/lib/urdd",
     "schema",
     "tests/program",
+    "wasm/npm/modules.d.ts",
 ];
 
 /// The tests that write what they compare with.
@@ -24,6 +25,7 @@ const WRITERS: &[&str] = &[
     "conformance::cases::the_pages_say",
     "snapshots::",
     "spec_agrees::the_tables_of_fields",
+    "typescript::",
 ];
 
 /// Regenerates everything; returns whether that succeeded.

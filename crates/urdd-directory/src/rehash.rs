@@ -74,7 +74,7 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
 
 /// Writes a temporary file beside `urdd.json` and renames it, so that readers see either the old or the new one.
 /// Removes the temporary file on failure, and those that crashed runs left behind.
-fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
+pub(crate) fn replace(folder: &Path, text: &[u8]) -> io::Result<()> {
     let file = folder.join(ROOT_METADATA);
     for entry in fs::read_dir(folder)?.flatten() {
         let name = entry.file_name();

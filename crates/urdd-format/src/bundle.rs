@@ -3,7 +3,6 @@
 
 use serde_json::{Map, Value, json};
 
-use super::registry::Profile;
 use super::schema::{Subject, Variant};
 
 /// The schema of an object with a property for `urdd.json` and one for each module. Each shared
@@ -11,7 +10,7 @@ use super::schema::{Subject, Variant};
 pub fn bundle(variant: Variant) -> Value {
     let mut definitions = Map::new();
     let mut properties = Map::new();
-    for subject in Subject::all().filter(|subject| is_version_1(*subject)) {
+    for subject in Subject::all().filter(|subject| subject.is_annotated()) {
         let name = match subject {
             Subject::RootMetadata => "urdd.json",
             subject => subject.name(),
@@ -32,14 +31,6 @@ pub fn bundle(variant: Variant) -> Value {
         "properties": properties,
         "$defs": definitions,
     })
-}
-
-fn is_version_1(subject: Subject) -> bool {
-    match subject {
-        Subject::RootMetadata => true,
-        Subject::Module(spec) => spec.profile == Profile::V1,
-        Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => false,
-    }
 }
 
 /// Adds a schema and its definitions, and returns the reference to it.

@@ -1,5 +1,6 @@
 //! `chain_module`: the kinematic tree, with all data for forward kinematics.
 
+use super::annotations::lengths;
 use super::index::{JointIdx, LinkIdx};
 use super::object::{module, object};
 use super::pose::Pose;
@@ -10,8 +11,10 @@ module! {
     /// `dof_module`, this is all that forward kinematics needs.
     pub struct ChainModule {
         /// Every link, in link order.
+        #[schemars(transform = lengths(&["links"]))]
         pub links_in_chain: Vec<LinkInChain>,
         /// Every joint, in joint order.
+        #[schemars(transform = lengths(&["joints"]))]
         pub joints_in_chain: Vec<JointInChain>,
         /// Links by their depth below the root: level 0 is the root alone; each level ascending.
         pub kinematic_hierarchy: Vec<Vec<LinkIdx>>,
@@ -57,9 +60,11 @@ object! {
         pub joint_type: JointType,
         /// Pose of the joint's frame in the parent link's frame. At the zero position the child
         /// link's frame is the joint's frame.
+        #[schemars(extend("x-frame" = "parent_link"))]
         pub origin: Pose,
         /// Unit axis in the joint's frame; for a planar joint the plane's normal. Null for fixed,
         /// floating and spherical joints, which have none.
+        #[schemars(extend("x-unit" = "1", "x-frame" = "joint"))]
         pub axis: Option<[f64; 3]>,
     }
 }

@@ -1,5 +1,6 @@
 //! `composition_module`: how a robot was composed of others.
 
+use super::annotations::lengths;
 use super::index::{JointIdx, LinkIdx, RobotIdx};
 use super::object::{module, object};
 use super::root_metadata::Sha256;
@@ -13,6 +14,7 @@ module! {
         pub base: Option<CompositionBase>,
         /// The parts, in the order in which they stand in the URDF. The place in this list is the part's
         /// index.
+        #[schemars(transform = lengths(&["parts"]))]
         pub parts: Vec<CompositionPart>,
     }
 }
@@ -21,6 +23,7 @@ object! {
     /// A link that carries all parts and belongs to none of them.
     pub struct CompositionBase {
         /// The link.
+        #[schemars(extend("x-index" = "link or other"))]
         pub link_idx: LinkIdx,
     }
 }
@@ -69,6 +72,7 @@ object! {
         /// Its name in the part.
         pub name: String,
         /// The link of this robot.
+        #[schemars(extend("x-index" = "link or other"))]
         pub link_idx: LinkIdx,
     }
 }
@@ -79,6 +83,7 @@ object! {
         /// Its name in the part.
         pub name: String,
         /// The joint of this robot.
+        #[schemars(extend("x-index" = "joint or other"))]
         pub joint_idx: JointIdx,
     }
 }
@@ -87,8 +92,10 @@ object! {
     /// A joint that moved in the part, and is fixed in this robot.
     pub struct FrozenJoint {
         /// The joint.
+        #[schemars(extend("x-index" = "joint or other"))]
         pub joint_idx: JointIdx,
         /// Where it was made fixed: a value for each DOF that it had, rad or m.
+        #[schemars(extend("x-unit" = "rad or m"))]
         pub position: Vec<f64>,
     }
 }
@@ -97,10 +104,13 @@ object! {
     /// What a part hangs on.
     pub struct PartAttachment {
         /// The part that carries it; null for the base.
+        #[schemars(extend("x-index" = "part or other"))]
         pub part_idx: Option<RobotIdx>,
         /// The link that carries it.
+        #[schemars(extend("x-index" = "link or other"))]
         pub link_idx: LinkIdx,
         /// The joint between that link and the part's root link.
+        #[schemars(extend("x-index" = "joint or other"))]
         pub joint_idx: JointIdx,
     }
 }

@@ -1,5 +1,6 @@
 //! `convex_decomposition_meshes_module`: each link as a union of convex pieces.
 
+use super::annotations::lengths;
 use super::meshes::MeshFiles;
 use super::object::{module, object};
 
@@ -10,6 +11,7 @@ module! {
         pub method: DecompositionMethod,
         /// For each link its pieces; empty for a link without a plain mesh. The place in the list is
         /// the piece index.
+        #[schemars(transform = lengths(&["links", "pieces"]))]
         pub link_pieces: Vec<Vec<MeshFiles>>,
     }
 }
@@ -21,6 +23,7 @@ object! {
         pub name: String,
         /// How far a point of the link's surface may lie outside the pieces, metres, where the
         /// algorithm promises that; else null.
+        #[schemars(extend("x-unit" = "m"))]
         pub surface_tolerance: Option<f64>,
     }
 }

@@ -1,5 +1,6 @@
 //! `dof_module`: the degrees of freedom, and how they determine the joint values.
 
+use super::annotations::lengths;
 use super::index::{Count, DofIdx, JointIdx};
 use super::object::{module, object, string_enum};
 
@@ -10,13 +11,17 @@ module! {
         /// Number of DOFs: the length of a configuration vector.
         pub num_dofs: Count,
         /// For each DOF, its joint.
+        #[schemars(transform = lengths(&["dofs"]))]
         pub dof_idx_to_joint_idx_mapping: Vec<JointIdx>,
         /// For each joint, its DOFs, ascending; empty for fixed and for mimic joints.
+        #[schemars(transform = lengths(&["joints"]))]
         pub joint_idx_to_dof_idxs_mapping: Vec<Vec<DofIdx>>,
         /// For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics
         /// are resolved.
+        #[schemars(transform = lengths(&["joints"]))]
         pub joint_idx_to_mimic_mapping: Vec<Option<ResolvedMimic>>,
         /// What each DOF is.
+        #[schemars(transform = lengths(&["dofs"]))]
         pub dofs: Vec<Dof>,
     }
 }
@@ -28,8 +33,10 @@ object! {
         /// and the position is `offset` at all times.
         pub dof_idx: Option<DofIdx>,
         /// Factor: the product of the factors along the chain of mimics.
+        #[schemars(extend("x-unit" = "1 or rad/m or m/rad"))]
         pub multiplier: f64,
         /// Offset, rad or m, accumulated along the chain of mimics.
+        #[schemars(extend("x-unit" = "rad or m"))]
         pub offset: f64,
     }
 }

@@ -18,6 +18,8 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+#[doc(hidden)]
+pub mod annotations;
 pub mod bounds;
 #[doc(hidden)]
 pub mod bundle;
@@ -43,6 +45,8 @@ pub mod link_shapes_skips;
 pub mod meshes;
 #[doc(hidden)]
 pub mod nearest;
+#[doc(hidden)]
+pub mod new_extension;
 pub mod object;
 pub mod original_meshes;
 pub mod plain_meshes;

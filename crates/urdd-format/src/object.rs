@@ -133,9 +133,9 @@ macro_rules! string_enum {
     };
 }
 
-/// Declares a non-negative integer type: an index space or a count.
+/// Declares a non-negative integer type, an index space or a count, with its annotation (SPEC 11.3).
 macro_rules! integer {
-    ($(#[doc = $doc:literal])* pub struct $name:ident;) => {
+    ($(#[doc = $doc:literal])* pub struct $name:ident says $keyword:literal = $says:literal;) => {
         $(#[doc = $doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, serde::Serialize)]
         #[serde(transparent)]
@@ -176,7 +176,7 @@ macro_rules! integer {
             }
 
             fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-                $crate::object::integer_schema(&[$($doc),*])
+                $crate::object::integer_schema(&[$($doc),*], $keyword, $says)
             }
         }
     };
@@ -363,9 +363,9 @@ pub(crate) fn paragraph(doc: &[&str]) -> String {
     lines.join("\n").trim().to_owned()
 }
 
-pub(crate) fn integer_schema(doc: &[&str]) -> Schema {
+pub(crate) fn integer_schema(doc: &[&str], keyword: &str, says: &str) -> Schema {
     object_schema(json!({
-        "description": paragraph(doc), "type": "integer", "minimum": 0, "maximum": u32::MAX,
+        "description": paragraph(doc), keyword: says, "type": "integer", "minimum": 0, "maximum": u32::MAX,
     }))
 }
 

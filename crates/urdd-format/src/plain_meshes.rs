@@ -1,5 +1,6 @@
 //! `plain_meshes_module`: one mesh per link, in the link's frame.
 
+use super::annotations::lengths;
 use super::meshes::{GeometryKind, MeshFiles};
 use super::object::{module, object};
 
@@ -10,6 +11,7 @@ module! {
         /// Which geometry is preferred; the other is used for a link that has none of it.
         pub preferred_geometry: GeometryKind,
         /// For each link its mesh, or null for a link without geometry.
+        #[schemars(transform = lengths(&["links"]))]
         pub link_meshes: Vec<Option<PlainMesh>>,
     }
 }

@@ -7,8 +7,10 @@ object! {
     /// It takes coordinates of the inner frame to the outer one: `p_outer = R * p_inner + position`.
     pub struct Pose {
         /// Origin of the inner frame in the outer frame, metres: x, y, z.
+        #[schemars(extend("x-unit" = "m"))]
         pub position: [f64; 3],
         /// Rotation from the inner to the outer frame as a unit quaternion: w, x, y, z, with `w >= 0`.
+        #[schemars(extend("x-unit" = "1"))]
         pub quaternion_wxyz: [f64; 4],
     }
 }

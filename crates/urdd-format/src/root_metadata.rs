@@ -98,6 +98,7 @@ object! {
         /// Path relative to the URDD's root, with forward slashes.
         pub path: String,
         /// Size in bytes.
+        #[schemars(extend("x-unit" = "byte"))]
         pub size: Count,
         /// SHA-256 of the bytes.
         pub sha256: Sha256,

@@ -6,9 +6,10 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
+use super::annotations::KEYWORDS;
 use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
 use super::hexadecimal::hexadecimal;
-use super::registry::{MODULES, ModuleSpec};
+use super::registry::{MODULES, ModuleSpec, Profile};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
 
@@ -165,7 +166,16 @@ impl Subject {
             Variant::Open => ":open",
         };
         let id = format!("urn:urdd:schema:{}:{}{suffix}", self.name(), self.version());
-        published(schema, id, variant)
+        published(schema, id, variant, self.is_annotated())
+    }
+
+    /// Whether its schema says units, frames, indices and lengths (SPEC 11.3). Legacy schemas are frozen without.
+    pub fn is_annotated(self) -> bool {
+        match self {
+            Subject::RootMetadata => true,
+            Subject::Module(spec) => spec.profile == Profile::V1,
+            Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => false,
+        }
     }
 
     /// The text of its schema file.
@@ -194,8 +204,9 @@ pub fn files(variant: Variant) -> Vec<SchemaFile> {
     files
 }
 
-/// The part of a schema that decides validity: without annotations, and with unordered lists
-/// sorted. Schemas with equal validating parts accept the same documents.
+/// The part of a schema that decides validity: without texts for people, and with unordered lists
+/// sorted. Schemas with equal validating parts accept the same documents. The annotations of SPEC 11.3
+/// are part of it: a released field keeps its unit, frame, index space and length.
 pub fn validating_part(schema: &Value) -> Value {
     let mut part = each_schema(schema, &|object| {
         for annotation in ["title", "description", "$id", "$comment", "examples"] {
@@ -218,12 +229,15 @@ pub fn validating_hash(schema: &Value) -> String {
     hexadecimal(&digest)
 }
 
-fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
+fn published(mut schema: Schema, id: String, variant: Variant, annotated: bool) -> Value {
     schema.insert("$id".to_owned(), json!(id));
     name_definitions(&mut schema);
     each_schema(schema.as_value(), &|object| {
         // The bit width is an implementation detail, and validators warn about unknown formats.
         object.shift_remove("format");
+        if !annotated {
+            object.retain(|keyword, _| !KEYWORDS.contains(&keyword.as_str()));
+        }
         if let Some(Value::String(text)) = object.get_mut("description") {
             *text = flowing(text);
         }
@@ -240,7 +254,10 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
         }
         // Put first what a reader looks for first.
         let mut rest = std::mem::take(object);
-        for keyword in ["$schema", "$id", "title", "description"] {
+        for keyword in ["$schema", "$id", "title", "description"]
+            .into_iter()
+            .chain(KEYWORDS)
+        {
             if let Some(value) = rest.shift_remove(keyword) {
                 object.insert(keyword.to_owned(), value);
             }
@@ -254,7 +271,7 @@ fn published(mut schema: Schema, id: String, variant: Variant) -> Value {
 fn plain_integers(list: &mut Map<String, Value>) {
     let items = list.get_mut("items").and_then(Value::as_object_mut);
     if let Some(items) = items.filter(|items| items.get("type") == Some(&json!("integer"))) {
-        items.retain(|keyword, _| keyword == "type");
+        items.retain(|keyword, _| keyword == "type" || KEYWORDS.contains(&keyword.as_str()));
     }
 }
 

@@ -1,5 +1,6 @@
 //! `self_collision_model_module`: a network that estimates the distances between a robot's links.
 
+use super::annotations::lengths;
 use super::index::{Count, DofIdx, LinkIdx, SampleIdx};
 use super::object::{module, object};
 use super::rate::Rate;
@@ -29,6 +30,7 @@ module! {
         /// Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines.
         pub trained_on: Sha256,
         /// Distances from here on were all the same to it, metres.
+        #[schemars(extend("x-unit" = "m"))]
         pub clip_distance: f64,
         /// What the network is told of a configuration, in the order of its first layer's columns.
         pub inputs: Vec<ModelInput>,
@@ -36,6 +38,7 @@ module! {
         /// its hyperbolic tangent.
         pub layers: Vec<ModelLayer>,
         /// The pairs of links that the network has an output for, in that order.
+        #[schemars(transform = lengths(&["pairs"]))]
         pub pairs: Vec<ModelPair>,
         /// The pairs of links that are not skipped and have no output: they were never near in training.
         pub other_pairs: Vec<LinkPair>,
@@ -76,8 +79,10 @@ object! {
         /// The DOF, which is a length.
         pub dof_idx: DofIdx,
         /// What becomes 0, metres.
+        #[schemars(extend("x-unit" = "m"))]
         pub middle: f64,
         /// How far from that is 1, metres; positive.
+        #[schemars(extend("x-unit" = "m"))]
         pub half_range: f64,
     }
 }
@@ -94,8 +99,10 @@ object! {
     /// A layer of a network: its values are `weights` times the values before, plus `biases`.
     pub struct ModelLayer {
         /// One row for each value of the layer, with one number for each value before it.
+        #[schemars(extend("x-unit" = "1 or m"))]
         pub weights: Vec<Vec<f64>>,
         /// One number for each value of the layer.
+        #[schemars(extend("x-unit" = "1 or m"))]
         pub biases: Vec<f64>,
     }
 }
@@ -109,6 +116,7 @@ object! {
         pub link_b_idx: LinkIdx,
         /// The clearance of the pair is the network's output less this, metres. A clearance of 0 or less means that the
         /// pair may be in contact.
+        #[schemars(extend("x-unit" = "m"))]
         pub margin: f64,
     }
 }
@@ -185,8 +193,10 @@ object! {
     /// What the model gives in a configuration.
     pub struct ModelTestVector {
         /// One value for each DOF, rad or m.
+        #[schemars(transform = lengths(&["dofs"]), extend("x-unit" = "rad or m"))]
         pub configuration: Vec<f64>,
         /// One clearance for each entry of `pairs`, metres.
+        #[schemars(transform = lengths(&["pairs"]), extend("x-unit" = "m"))]
         pub clearances: Vec<f64>,
     }
 }

@@ -187,7 +187,10 @@ class FileEntry:
     """Path relative to the URDD's root, with forward slashes."""
 
     size: int
-    """Size in bytes."""
+    """Size in bytes.
+
+    Unit: `byte`.
+    """
 
     sha256: str
     """SHA-256 of the bytes."""
@@ -262,13 +265,19 @@ class Inertial:
     """Mass properties of a link."""
 
     origin: Origin | None
-    """Centre of mass, and the axes of `inertia`, in the link's frame."""
+    """Centre of mass, and the axes of `inertia`, in the link's frame.
+
+    Frame: `link`.
+    """
 
     mass: Mass | None
     """Mass."""
 
     inertia: Inertia | None
-    """Inertia tensor about the centre of mass, in the axes of `origin`."""
+    """Inertia tensor about the centre of mass, in the axes of `origin`.
+
+    Frame: `inertial`.
+    """
 
 
 @dataclass(frozen=True)
@@ -276,14 +285,23 @@ class Origin:
     """A pose as the URDF writes it."""
 
     xyz: list[float] | None
-    """Position, metres: x, y, z."""
+    """Position, metres: x, y, z.
+
+    Unit: `m`.
+    """
 
     rpy: list[float] | None
-    """Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame."""
+    """Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame.
+
+    Unit: `rad`.
+    """
 
     quat_xyzw: list[float] | None
     """Rotation as a quaternion x, y, z, w of any length but zero, instead of `rpy`. It counts from URDF version 1.1
-    on; before, it has no meaning."""
+    on; before, it has no meaning.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -291,7 +309,10 @@ class Mass:
     """Mass of a link."""
 
     value: float
-    """Kilograms."""
+    """Kilograms.
+
+    Unit: `kg`.
+    """
 
 
 @dataclass(frozen=True)
@@ -299,22 +320,40 @@ class Inertia:
     """The six independent elements of a symmetric inertia tensor, kg m²."""
 
     ixx: float | None
-    """Element xx."""
+    """Element xx.
+
+    Unit: `kg*m^2`.
+    """
 
     ixy: float | None
-    """Element xy."""
+    """Element xy.
+
+    Unit: `kg*m^2`.
+    """
 
     ixz: float | None
-    """Element xz."""
+    """Element xz.
+
+    Unit: `kg*m^2`.
+    """
 
     iyy: float | None
-    """Element yy."""
+    """Element yy.
+
+    Unit: `kg*m^2`.
+    """
 
     iyz: float | None
-    """Element yz."""
+    """Element yz.
+
+    Unit: `kg*m^2`.
+    """
 
     izz: float | None
-    """Element zz."""
+    """Element zz.
+
+    Unit: `kg*m^2`.
+    """
 
 
 @dataclass(frozen=True)
@@ -325,10 +364,16 @@ class Visual:
     """Name of the element."""
 
     origin: Origin | None
-    """Pose of the geometry in the link's frame."""
+    """Pose of the geometry in the link's frame.
+
+    Frame: `link`.
+    """
 
     geometry: Geometry | None
-    """Its shape."""
+    """Its shape.
+
+    Frame: `shape`.
+    """
 
     material: Material | None
     """Its material."""
@@ -342,7 +387,10 @@ class Mesh:
     """File name as the URDF has it (`package://…`, `file://…`, relative or absolute)."""
 
     scale: list[float] | None
-    """Factors along x, y, z; null means 1, 1, 1."""
+    """Factors along x, y, z; null means 1, 1, 1.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -350,7 +398,10 @@ class Cuboid:
     """A box about the origin."""
 
     size: list[float]
-    """Full side lengths along x, y, z, metres."""
+    """Full side lengths along x, y, z, metres.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -358,10 +409,16 @@ class Cylinder:
     """A cylinder about the origin, along z."""
 
     radius: float
-    """Radius, metres."""
+    """Radius, metres.
+
+    Unit: `m`.
+    """
 
     length: float
-    """Full length, metres."""
+    """Full length, metres.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -369,10 +426,16 @@ class Capsule:
     """A capsule about the origin, along z: a cylinder with half a sphere on each end."""
 
     radius: float
-    """Radius, metres."""
+    """Radius, metres.
+
+    Unit: `m`.
+    """
 
     length: float
-    """Length of the cylinder without the half spheres, metres."""
+    """Length of the cylinder without the half spheres, metres.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -380,7 +443,10 @@ class Sphere:
     """A sphere about the origin."""
 
     radius: float
-    """Radius, metres."""
+    """Radius, metres.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -402,7 +468,10 @@ class Color:
     """A colour."""
 
     rgba: list[float]
-    """Red, green, blue, opacity, each from 0 to 1."""
+    """Red, green, blue, opacity, each from 0 to 1.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -421,10 +490,16 @@ class Collision:
     """Name of the element."""
 
     origin: Origin | None
-    """Pose of the geometry in the link's frame."""
+    """Pose of the geometry in the link's frame.
+
+    Frame: `link`.
+    """
 
     geometry: Geometry | None
-    """Its shape."""
+    """Its shape.
+
+    Frame: `shape`.
+    """
 
 
 @dataclass(frozen=True)
@@ -438,7 +513,10 @@ class Joint:
     """How it moves."""
 
     origin: Origin | None
-    """Pose of the joint's frame (which is the child link's frame at zero) in the parent link's frame."""
+    """Pose of the joint's frame (which is the child link's frame at zero) in the parent link's frame.
+
+    Frame: `parent_link`.
+    """
 
     parent: LinkName
     """The link that carries the joint."""
@@ -447,7 +525,10 @@ class Joint:
     """The link that the joint moves."""
 
     axis: Axis | None
-    """Axis in the joint's frame, as written: not normalised. Null means (1, 0, 0)."""
+    """Axis in the joint's frame, as written: not normalised. Null means (1, 0, 0).
+
+    Frame: `joint`.
+    """
 
     limit: Limit | None
     """Limits."""
@@ -481,7 +562,10 @@ class Axis:
     """The axis of a joint."""
 
     xyz: list[float] | None
-    """Direction in the joint's frame, of any length but zero."""
+    """Direction in the joint's frame, of any length but zero.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -489,25 +573,46 @@ class Limit:
     """Limits of a joint: rad, rad/s, N m for turning joints; m, m/s, N for sliding ones."""
 
     lower: float | None
-    """Smallest position."""
+    """Smallest position.
+
+    Unit: `rad or m`.
+    """
 
     upper: float | None
-    """Largest position."""
+    """Largest position.
+
+    Unit: `rad or m`.
+    """
 
     effort: float | None
-    """Largest effort."""
+    """Largest effort.
+
+    Unit: `N*m or N`.
+    """
 
     velocity: float | None
-    """Largest speed."""
+    """Largest speed.
+
+    Unit: `rad/s or m/s`.
+    """
 
     acceleration: float | None
-    """Largest acceleration, rad/s² or m/s². This and the next two: from URDF version 1.2 on."""
+    """Largest acceleration, rad/s² or m/s². This and the next two: from URDF version 1.2 on.
+
+    Unit: `rad/s^2 or m/s^2`.
+    """
 
     deceleration: float | None
-    """Largest deceleration, rad/s² or m/s²; where it is absent, that of `acceleration`."""
+    """Largest deceleration, rad/s² or m/s²; where it is absent, that of `acceleration`.
+
+    Unit: `rad/s^2 or m/s^2`.
+    """
 
     jerk: float | None
-    """Largest rate of change of acceleration, rad/s³ or m/s³."""
+    """Largest rate of change of acceleration, rad/s³ or m/s³.
+
+    Unit: `rad/s^3 or m/s^3`.
+    """
 
 
 @dataclass(frozen=True)
@@ -515,10 +620,16 @@ class Dynamics:
     """Dynamics of a joint."""
 
     damping: float | None
-    """Damping: N m s/rad, or N s/m."""
+    """Damping: N m s/rad, or N s/m.
+
+    Unit: `N*m*s/rad or N*s/m`.
+    """
 
     friction: float | None
-    """Static friction: N m, or N."""
+    """Static friction: N m, or N.
+
+    Unit: `N*m or N`.
+    """
 
 
 @dataclass(frozen=True)
@@ -529,10 +640,16 @@ class Mimic:
     """Name of the joint that is followed."""
 
     multiplier: float | None
-    """Factor; null means 1."""
+    """Factor; null means 1.
+
+    Unit: `1 or rad/m or m/rad`.
+    """
 
     offset: float | None
-    """Offset, rad or m; null means 0."""
+    """Offset, rad or m; null means 0.
+
+    Unit: `rad or m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -540,16 +657,28 @@ class SafetyController:
     """Soft limits of a joint."""
 
     soft_lower_limit: float | None
-    """Where the controller begins to limit the position, below."""
+    """Where the controller begins to limit the position, below.
+
+    Unit: `rad or m`.
+    """
 
     soft_upper_limit: float | None
-    """Where the controller begins to limit the position, above."""
+    """Where the controller begins to limit the position, above.
+
+    Unit: `rad or m`.
+    """
 
     k_position: float | None
-    """Relation between position and velocity limits."""
+    """Relation between position and velocity limits.
+
+    Unit: `1/s`.
+    """
 
     k_velocity: float | None
-    """Relation between effort and velocity limits."""
+    """Relation between effort and velocity limits.
+
+    Unit: `N*m*s/rad or N*s/m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -557,10 +686,16 @@ class Calibration:
     """Reference positions of a joint."""
 
     rising: float | None
-    """Position at which a rising edge is seen."""
+    """Position at which a rising edge is seen.
+
+    Unit: `rad or m`.
+    """
 
     falling: float | None
-    """Position at which a falling edge is seen."""
+    """Position at which a falling edge is seen.
+
+    Unit: `rad or m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -576,10 +711,16 @@ class UrdfModule:
     """The URDF format version that the file states (`<robot version>`)."""
 
     links: list[Link]
-    """Links in the order of the file. The place in this list is the link index."""
+    """Links in the order of the file. The place in this list is the link index.
+
+    Length: `links`.
+    """
 
     joints: list[Joint]
-    """Joints in the order of the file. The place in this list is the joint index."""
+    """Joints in the order of the file. The place in this list is the joint index.
+
+    Length: `joints`.
+    """
 
     materials: list[Material]
     """Materials declared at the top of the file, in its order."""
@@ -595,13 +736,22 @@ class ResolvedMimic:
 
     dof_idx: int | None
     """The DOF that drives the joint; null where the chain of mimics ends in a fixed joint, and the position is
-    `offset` at all times."""
+    `offset` at all times.
+
+    Index of: `dof`.
+    """
 
     multiplier: float
-    """Factor: the product of the factors along the chain of mimics."""
+    """Factor: the product of the factors along the chain of mimics.
+
+    Unit: `1 or rad/m or m/rad`.
+    """
 
     offset: float
-    """Offset, rad or m, accumulated along the chain of mimics."""
+    """Offset, rad or m, accumulated along the chain of mimics.
+
+    Unit: `rad or m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -613,7 +763,10 @@ class Dof:
     `trans_z`, `rot_x`, `rot_y`, `rot_z` or (planar) `rot`."""
 
     joint_idx: int
-    """The joint that it moves."""
+    """The joint that it moves.
+
+    Index of: `joint`.
+    """
 
     joint_name: str
     """Name of that joint."""
@@ -627,19 +780,34 @@ class DofModule:
     """The robot's degrees of freedom (DOFs), in joint order, and the position of every joint as a function of them."""
 
     num_dofs: int
-    """Number of DOFs: the length of a configuration vector."""
+    """Number of DOFs: the length of a configuration vector.
+
+    Unit: `1`.
+    """
 
     dof_idx_to_joint_idx_mapping: list[int]
-    """For each DOF, its joint."""
+    """For each DOF, its joint.
+
+    Index of: `joint`. Length: `dofs`.
+    """
 
     joint_idx_to_dof_idxs_mapping: list[list[int]]
-    """For each joint, its DOFs, ascending; empty for fixed and for mimic joints."""
+    """For each joint, its DOFs, ascending; empty for fixed and for mimic joints.
+
+    Index of: `dof`. Length: `joints`.
+    """
 
     joint_idx_to_mimic_mapping: list[ResolvedMimic | None]
-    """For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics are resolved."""
+    """For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics are resolved.
+
+    Length: `joints`.
+    """
 
     dofs: list[Dof]
-    """What each DOF is."""
+    """What each DOF is.
+
+    Length: `dofs`.
+    """
 
 
 @dataclass(frozen=True)
@@ -650,19 +818,34 @@ class LinkInChain:
     """Name of the link."""
 
     link_idx: int
-    """Its own index: its place in this list."""
+    """Its own index: its place in this list.
+
+    Index of: `link`.
+    """
 
     parent_joint_idx: int | None
-    """The joint that moves it; null for the root."""
+    """The joint that moves it; null for the root.
+
+    Index of: `joint`.
+    """
 
     parent_link_idx: int | None
-    """The link that this joint sits on; null for the root."""
+    """The link that this joint sits on; null for the root.
+
+    Index of: `link`.
+    """
 
     children_joint_idxs: list[int]
-    """The joints that sit on this link, ascending."""
+    """The joints that sit on this link, ascending.
+
+    Index of: `joint`.
+    """
 
     children_link_idxs: list[int]
-    """The links that these joints move, ascending."""
+    """The links that these joints move, ascending.
+
+    Index of: `link`.
+    """
 
 
 @dataclass(frozen=True)
@@ -673,30 +856,45 @@ class JointInChain:
     """Name of the joint."""
 
     joint_idx: int
-    """Its own index: its place in this list."""
+    """Its own index: its place in this list.
+
+    Index of: `joint`.
+    """
 
     parent_link_name: str
     """Name of the link that carries it."""
 
     parent_link_idx: int
-    """That link."""
+    """That link.
+
+    Index of: `link`.
+    """
 
     child_link_name: str
     """Name of the link that it moves."""
 
     child_link_idx: int
-    """That link."""
+    """That link.
+
+    Index of: `link`.
+    """
 
     joint_type: JointType
     """How it moves."""
 
     origin: Pose
     """Pose of the joint's frame in the parent link's frame. At the zero position the child link's frame is the
-    joint's frame."""
+    joint's frame.
+
+    Frame: `parent_link`.
+    """
 
     axis: list[float] | None
     """Unit axis in the joint's frame; for a planar joint the plane's normal. Null for fixed, floating and spherical
-    joints, which have none."""
+    joints, which have none.
+
+    Unit: `1`. Frame: `joint`.
+    """
 
 
 @dataclass(frozen=True)
@@ -705,10 +903,16 @@ class Pose:
     the inner frame to the outer one: `p_outer = R * p_inner + position`."""
 
     position: list[float]
-    """Origin of the inner frame in the outer frame, metres: x, y, z."""
+    """Origin of the inner frame in the outer frame, metres: x, y, z.
+
+    Unit: `m`.
+    """
 
     quaternion_wxyz: list[float]
-    """Rotation from the inner to the outer frame as a unit quaternion: w, x, y, z, with `w >= 0`."""
+    """Rotation from the inner to the outer frame as a unit quaternion: w, x, y, z, with `w >= 0`.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -717,16 +921,28 @@ class ChainModule:
     is all that forward kinematics needs."""
 
     links_in_chain: list[LinkInChain]
-    """Every link, in link order."""
+    """Every link, in link order.
+
+    Length: `links`.
+    """
 
     joints_in_chain: list[JointInChain]
-    """Every joint, in joint order."""
+    """Every joint, in joint order.
+
+    Length: `joints`.
+    """
 
     kinematic_hierarchy: list[list[int]]
-    """Links by their depth below the root: level 0 is the root alone; each level ascending."""
+    """Links by their depth below the root: level 0 is the root alone; each level ascending.
+
+    Index of: `link`.
+    """
 
     root_idx: int
-    """The one link without a parent."""
+    """The one link without a parent.
+
+    Index of: `link`.
+    """
 
 
 @dataclass(frozen=True)
@@ -734,10 +950,16 @@ class LinkPath:
     """A path through the kinematic tree."""
 
     links: list[int]
-    """The links along the path, both ends included."""
+    """The links along the path, both ends included.
+
+    Index of: `link`.
+    """
 
     joints: list[int]
-    """The joints between them: one fewer than `links`."""
+    """The joints between them: one fewer than `links`.
+
+    Index of: `joint`.
+    """
 
 
 @dataclass(frozen=True)
@@ -746,18 +968,30 @@ class ConnectionsModule:
     ancestor and goes down to j, so two slices of `root_paths` give it."""
 
     root_paths: list[LinkPath]
-    """For each link, the path to it from the root."""
+    """For each link, the path to it from the root.
+
+    Length: `links`.
+    """
 
     lowest_common_ancestors: list[list[int]]
-    """Element (i, j) is the lowest link that lies above (or is) both i and j."""
+    """Element (i, j) is the lowest link that lies above (or is) both i and j.
+
+    Index of: `link`. Length: `links`, each `links`.
+    """
 
     link_to_link_paths: list[list[LinkPath]] | None
     """Element (i, j) is the path from link i to link j. May be null above 300 links, and where the paths hold more
-    than 2,000,000 links together."""
+    than 2,000,000 links together.
+
+    Length: `links`, each `links`.
+    """
 
     link_connection_paths: list[list[list[int] | None]] | None
     """Element (i, j), where j is a descendant of i: the links from i (exclusive) to j (inclusive); where i is j:
-    `[i]`; else null. The whole may be null where `link_to_link_paths` may."""
+    `[i]`; else null. The whole may be null where `link_to_link_paths` may.
+
+    Index of: `link`. Length: `links`, each `links`.
+    """
 
 
 @dataclass(frozen=True)
@@ -765,23 +999,41 @@ class BoundsModule:
     """Bounds of the configuration space, per DOF: rad or m as `dofs` of `dof_module` says. Every bound is finite."""
 
     bounds: list[list[float]]
-    """Lower and upper bound of each DOF."""
+    """Lower and upper bound of each DOF.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
 
     dof_lower_bounds: list[float]
-    """Lower bound of each DOF: the first elements of `bounds`."""
+    """Lower bound of each DOF: the first elements of `bounds`.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
 
     dof_upper_bounds: list[float]
-    """Upper bound of each DOF: the second elements of `bounds`."""
+    """Upper bound of each DOF: the second elements of `bounds`.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
 
     dof_limited: list[bool]
     """For each DOF, whether the source limits it. A DOF without limits has the bounds [-pi, pi] if it is an angle
-    and [-1, 1] if it is a length; a rotation vector's norm is at most pi."""
+    and [-1, 1] if it is a length; a rotation vector's norm is at most pi.
+
+    Length: `dofs`.
+    """
 
     dof_velocity_limits: list[float | None]
-    """For each DOF, the largest speed (rad/s or m/s); null where the source has none."""
+    """For each DOF, the largest speed (rad/s or m/s); null where the source has none.
+
+    Unit: `rad/s or m/s`. Length: `dofs`.
+    """
 
     dof_effort_limits: list[float | None]
-    """For each DOF, the largest effort (N m or N); null where the source has none."""
+    """For each DOF, the largest effort (N m or N); null where the source has none.
+
+    Unit: `N*m or N`. Length: `dofs`.
+    """
 
 
 @dataclass(frozen=True)
@@ -792,13 +1044,22 @@ class KinematicsSample:
     """Which configuration it is."""
 
     sample_idx: int | None
-    """The number of a sampled configuration; null for the other kinds."""
+    """The number of a sampled configuration; null for the other kinds.
+
+    Index of: `sample`.
+    """
 
     configuration: list[float]
-    """One value per DOF, rad or m."""
+    """One value per DOF, rad or m.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
 
     link_poses: list[Pose]
-    """For each link, its frame's pose in the root link's frame."""
+    """For each link, its frame's pose in the root link's frame.
+
+    Frame: `root`. Length: `links`.
+    """
 
 
 @dataclass(frozen=True)
@@ -815,7 +1076,10 @@ class CompositionBase:
     """A link that carries all parts and belongs to none of them."""
 
     link_idx: int
-    """The link."""
+    """The link.
+
+    Index of: `link or other`.
+    """
 
 
 @dataclass(frozen=True)
@@ -864,7 +1128,10 @@ class PartLink:
     """Its name in the part."""
 
     link_idx: int
-    """The link of this robot."""
+    """The link of this robot.
+
+    Index of: `link or other`.
+    """
 
 
 @dataclass(frozen=True)
@@ -875,7 +1142,10 @@ class PartJoint:
     """Its name in the part."""
 
     joint_idx: int
-    """The joint of this robot."""
+    """The joint of this robot.
+
+    Index of: `joint or other`.
+    """
 
 
 @dataclass(frozen=True)
@@ -883,10 +1153,16 @@ class FrozenJoint:
     """A joint that moved in the part, and is fixed in this robot."""
 
     joint_idx: int
-    """The joint."""
+    """The joint.
+
+    Index of: `joint or other`.
+    """
 
     position: list[float]
-    """Where it was made fixed: a value for each DOF that it had, rad or m."""
+    """Where it was made fixed: a value for each DOF that it had, rad or m.
+
+    Unit: `rad or m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -894,13 +1170,22 @@ class PartAttachment:
     """What a part hangs on."""
 
     part_idx: int | None
-    """The part that carries it; null for the base."""
+    """The part that carries it; null for the base.
+
+    Index of: `part or other`.
+    """
 
     link_idx: int
-    """The link that carries it."""
+    """The link that carries it.
+
+    Index of: `link or other`.
+    """
 
     joint_idx: int
-    """The joint between that link and the part's root link."""
+    """The joint between that link and the part's root link.
+
+    Index of: `joint or other`.
+    """
 
 
 @dataclass(frozen=True)
@@ -924,7 +1209,10 @@ class CompositionModule:
     """The link that carries all parts and belongs to none of them; null where a part is the root."""
 
     parts: list[CompositionPart]
-    """The parts, in the order in which they stand in the URDF. The place in this list is the part's index."""
+    """The parts, in the order in which they stand in the URDF. The place in this list is the part's index.
+
+    Length: `parts`.
+    """
 
 
 @dataclass(frozen=True)
@@ -932,13 +1220,19 @@ class MeshReference:
     """A place in the URDF that names a mesh."""
 
     link_idx: int
-    """The link."""
+    """The link.
+
+    Index of: `link`.
+    """
 
     geometry: GeometryKind
     """Whether a visual or a collision element names it."""
 
     element_idx: int
-    """Which of the link's elements of that kind."""
+    """Which of the link's elements of that kind.
+
+    Index of: `visual or collision`.
+    """
 
     filename: str
     """File name as the URDF has it."""
@@ -1009,7 +1303,10 @@ class PlainMeshesModule:
     """Which geometry is preferred; the other is used for a link that has none of it."""
 
     link_meshes: list[PlainMesh | None]
-    """For each link its mesh, or null for a link without geometry."""
+    """For each link its mesh, or null for a link without geometry.
+
+    Length: `links`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1017,7 +1314,10 @@ class ConvexHullMeshesModule:
     """The convex hull of each link's plain mesh."""
 
     link_hulls: list[MeshFiles | None]
-    """For each link its hull, or null for a link without a plain mesh."""
+    """For each link its hull, or null for a link without a plain mesh.
+
+    Length: `links`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1029,7 +1329,10 @@ class DecompositionMethod:
 
     surface_tolerance: float | None
     """How far a point of the link's surface may lie outside the pieces, metres, where the algorithm promises that;
-    else null."""
+    else null.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1040,7 +1343,10 @@ class ConvexDecompositionMeshesModule:
     """How the pieces were made. Any method may be used, as long as `surface_tolerance` holds (7.10)."""
 
     link_pieces: list[list[MeshFiles]]
-    """For each link its pieces; empty for a link without a plain mesh. The place in the list is the piece index."""
+    """For each link its pieces; empty for a link without a plain mesh. The place in the list is the piece index.
+
+    Length: `links`, each `pieces`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1048,13 +1354,22 @@ class Obb:
     """An oriented bounding box."""
 
     half_extents: list[float]
-    """Half of each side length, metres, along the box's own axes."""
+    """Half of each side length, metres, along the box's own axes.
+
+    Unit: `m`. Frame: `shape`.
+    """
 
     offset_xyz: list[float]
-    """Centre in the link's frame, metres."""
+    """Centre in the link's frame, metres.
+
+    Unit: `m`. Frame: `link`.
+    """
 
     offset_rpy: list[float]
-    """Rotation from the box's axes to the link's: fixed-axis roll, pitch, yaw, radians."""
+    """Rotation from the box's axes to the link's: fixed-axis roll, pitch, yaw, radians.
+
+    Unit: `rad`. Frame: `link`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1062,10 +1377,16 @@ class BoundingSphere:
     """A bounding sphere."""
 
     radius: float
-    """Radius, metres."""
+    """Radius, metres.
+
+    Unit: `m`.
+    """
 
     offset_xyz: list[float]
-    """Centre in the link's frame, metres."""
+    """Centre in the link's frame, metres.
+
+    Unit: `m`. Frame: `link`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1074,16 +1395,28 @@ class LinkShapesApproximationsModule:
     frame."""
 
     full_obbs: list[Obb | None]
-    """For each link, a box that holds its hull; null for a link without a mesh."""
+    """For each link, a box that holds its hull; null for a link without a mesh.
+
+    Length: `links`.
+    """
 
     full_bounding_spheres: list[BoundingSphere | None]
-    """For each link, a sphere that holds its hull; null for a link without a mesh."""
+    """For each link, a sphere that holds its hull; null for a link without a mesh.
+
+    Length: `links`.
+    """
 
     decomposition_obbs: list[list[Obb]]
-    """For each link, a box for each convex piece."""
+    """For each link, a box for each convex piece.
+
+    Length: `links`, each `pieces`.
+    """
 
     decomposition_bounding_spheres: list[list[BoundingSphere]]
-    """For each link, a sphere for each convex piece."""
+    """For each link, a sphere for each convex piece.
+
+    Length: `links`, each `pieces`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1091,22 +1424,40 @@ class LinkShapesMaxDistanceFromOriginModule:
     """The largest distance of any point of a shape from the origin of its link's frame, metres."""
 
     full_convex_hulls_maximum_distances: list[float | None]
-    """For each link, of its convex hull; null for a link without one."""
+    """For each link, of its convex hull; null for a link without one.
+
+    Unit: `m`. Length: `links`.
+    """
 
     full_obbs_maximum_distances: list[float | None]
-    """For each link, of its box; null for a link without one."""
+    """For each link, of its box; null for a link without one.
+
+    Unit: `m`. Length: `links`.
+    """
 
     full_bounding_spheres_maximum_distances: list[float | None]
-    """For each link, of its sphere; null for a link without one."""
+    """For each link, of its sphere; null for a link without one.
+
+    Unit: `m`. Length: `links`.
+    """
 
     decomposition_convex_hulls_maximum_distances: list[list[float]]
-    """For each link, of each convex piece."""
+    """For each link, of each convex piece.
+
+    Unit: `m`. Length: `links`, each `pieces`.
+    """
 
     decomposition_obbs_maximum_distances: list[list[float]]
-    """For each link, of the box of each convex piece."""
+    """For each link, of the box of each convex piece.
+
+    Unit: `m`. Length: `links`, each `pieces`.
+    """
 
     decomposition_bounding_spheres_maximum_distances: list[list[float]]
-    """For each link, of the sphere of each convex piece."""
+    """For each link, of the sphere of each convex piece.
+
+    Unit: `m`. Length: `links`, each `pieces`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1114,10 +1465,16 @@ class PieceShape:
     """A convex piece of a link."""
 
     link_idx: int
-    """The link."""
+    """The link.
+
+    Index of: `link`.
+    """
 
     piece_idx: int
-    """The piece, as in `link_pieces` of `convex_decomposition_meshes_module`."""
+    """The piece, as in `link_pieces` of `convex_decomposition_meshes_module`.
+
+    Index of: `piece`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1125,13 +1482,22 @@ class DistanceStatistics:
     """Square symmetric matrices over one list of shapes, metres."""
 
     mean_distances: list[list[float]]
-    """Mean distance of each pair."""
+    """Mean distance of each pair.
+
+    Unit: `m`. Length: `full_shapes or decomposition_shapes`, each `full_shapes or decomposition_shapes`.
+    """
 
     min_distances: list[list[float]]
-    """Smallest distance of each pair."""
+    """Smallest distance of each pair.
+
+    Unit: `m`. Length: `full_shapes or decomposition_shapes`, each `full_shapes or decomposition_shapes`.
+    """
 
     max_distances: list[list[float]]
-    """Largest distance of each pair."""
+    """Largest distance of each pair.
+
+    Unit: `m`. Length: `full_shapes or decomposition_shapes`, each `full_shapes or decomposition_shapes`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1140,13 +1506,22 @@ class LinkShapesDistanceStatisticsModule:
     metres. A distance is 0 where the shapes touch or overlap."""
 
     num_samples: int
-    """Number of sampled configurations, from the first of the specification's sequence."""
+    """Number of sampled configurations, from the first of the specification's sequence.
+
+    Unit: `1`.
+    """
 
     full_shapes: list[int]
-    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
+
+    Index of: `link`. Length: `full_shapes`.
+    """
 
     decomposition_shapes: list[PieceShape]
-    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
+
+    Length: `decomposition_shapes`.
+    """
 
     full_convex_hulls: DistanceStatistics
     """Between the links' convex hulls."""
@@ -1172,22 +1547,40 @@ class SkipReasons:
     """The reason of each pair, for each kind of shape."""
 
     full_convex_hulls: list[list[SkipReason]]
-    """Between the links' convex hulls."""
+    """Between the links' convex hulls.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_obbs: list[list[SkipReason]]
-    """Between the links' boxes."""
+    """Between the links' boxes.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_bounding_spheres: list[list[SkipReason]]
-    """Between the links' spheres."""
+    """Between the links' spheres.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     decomposition_convex_hulls: list[list[SkipReason]] | None
-    """Between convex pieces; null where the statistics are."""
+    """Between convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_obbs: list[list[SkipReason]] | None
-    """Between the boxes of convex pieces; null where the statistics are."""
+    """Between the boxes of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_bounding_spheres: list[list[SkipReason]] | None
-    """Between the spheres of convex pieces; null where the statistics are."""
+    """Between the spheres of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1196,29 +1589,53 @@ class LinkShapesSimpleSkipsModule:
     nothing, and the reason of the pair."""
 
     full_shapes: list[int]
-    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
+
+    Index of: `link`. Length: `full_shapes`.
+    """
 
     decomposition_shapes: list[PieceShape]
-    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
+
+    Length: `decomposition_shapes`.
+    """
 
     full_convex_hulls_simple_skips: list[list[bool]]
     """Skips between the links' convex hulls: true where both shapes are on one link, or where the largest sampled
-    distance is at most 0.001 m."""
+    distance is at most 0.001 m.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_obbs_simple_skips: list[list[bool]]
-    """Skips between the links' boxes."""
+    """Skips between the links' boxes.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_bounding_spheres_simple_skips: list[list[bool]]
-    """Skips between the links' spheres."""
+    """Skips between the links' spheres.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     decomposition_convex_hulls_simple_skips: list[list[bool]] | None
-    """Skips between convex pieces; null where the statistics are."""
+    """Skips between convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_obbs_simple_skips: list[list[bool]] | None
-    """Skips between the boxes of convex pieces; null where the statistics are."""
+    """Skips between the boxes of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_bounding_spheres_simple_skips: list[list[bool]] | None
-    """Skips between the spheres of convex pieces; null where the statistics are."""
+    """Skips between the spheres of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     reasons: SkipReasons
     """The reason of each pair, for each of the matrices above."""
@@ -1254,28 +1671,52 @@ class LinkShapesSkipsModule:
     """The edits, applied in order. What a person decides is free; the names must exist."""
 
     full_shapes: list[int]
-    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending."""
+    """What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
+
+    Index of: `link`. Length: `full_shapes`.
+    """
 
     decomposition_shapes: list[PieceShape]
-    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order."""
+    """What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
+
+    Length: `decomposition_shapes`.
+    """
 
     full_convex_hulls_skips: list[list[bool]]
-    """Skips between the links' convex hulls."""
+    """Skips between the links' convex hulls.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_obbs_skips: list[list[bool]]
-    """Skips between the links' boxes."""
+    """Skips between the links' boxes.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     full_bounding_spheres_skips: list[list[bool]]
-    """Skips between the links' spheres."""
+    """Skips between the links' spheres.
+
+    Length: `full_shapes`, each `full_shapes`.
+    """
 
     decomposition_convex_hulls_skips: list[list[bool]] | None
-    """Skips between convex pieces; null where the statistics are."""
+    """Skips between convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_obbs_skips: list[list[bool]] | None
-    """Skips between the boxes of convex pieces; null where the statistics are."""
+    """Skips between the boxes of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
     decomposition_bounding_spheres_skips: list[list[bool]] | None
-    """Skips between the spheres of convex pieces; null where the statistics are."""
+    """Skips between the spheres of convex pieces; null where the statistics are.
+
+    Length: `decomposition_shapes`, each `decomposition_shapes`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1283,7 +1724,10 @@ class AngleInput:
     """An angle."""
 
     dof_idx: int
-    """The DOF, which is an angle."""
+    """The DOF, which is an angle.
+
+    Index of: `dof`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1291,13 +1735,22 @@ class LengthInput:
     """A length."""
 
     dof_idx: int
-    """The DOF, which is a length."""
+    """The DOF, which is a length.
+
+    Index of: `dof`.
+    """
 
     middle: float
-    """What becomes 0, metres."""
+    """What becomes 0, metres.
+
+    Unit: `m`.
+    """
 
     half_range: float
-    """How far from that is 1, metres; positive."""
+    """How far from that is 1, metres; positive.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1305,7 +1758,10 @@ class RotationVectorInput:
     """A rotation vector."""
 
     dof_idxs: list[int]
-    """Its three DOFs."""
+    """Its three DOFs.
+
+    Index of: `dof`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1313,10 +1769,16 @@ class ModelLayer:
     """A layer of a network: its values are `weights` times the values before, plus `biases`."""
 
     weights: list[list[float]]
-    """One row for each value of the layer, with one number for each value before it."""
+    """One row for each value of the layer, with one number for each value before it.
+
+    Unit: `1 or m`.
+    """
 
     biases: list[float]
-    """One number for each value of the layer."""
+    """One number for each value of the layer.
+
+    Unit: `1 or m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1324,14 +1786,23 @@ class ModelPair:
     """A pair of links that the network has an output for."""
 
     link_a_idx: int
-    """One link."""
+    """One link.
+
+    Index of: `link`.
+    """
 
     link_b_idx: int
-    """The other, of a higher index."""
+    """The other, of a higher index.
+
+    Index of: `link`.
+    """
 
     margin: float
     """The clearance of the pair is the network's output less this, metres. A clearance of 0 or less means that the
-    pair may be in contact."""
+    pair may be in contact.
+
+    Unit: `m`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1339,10 +1810,16 @@ class LinkPair:
     """A pair of links."""
 
     link_a_idx: int
-    """One link."""
+    """One link.
+
+    Index of: `link`.
+    """
 
     link_b_idx: int
-    """The other, of a higher index."""
+    """The other, of a higher index.
+
+    Index of: `link`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1350,10 +1827,16 @@ class SampleRange:
     """Sampled configurations (SPEC 9.3) that follow each other."""
 
     first_sample_idx: int
-    """The first."""
+    """The first.
+
+    Index of: `sample`.
+    """
 
     num_configurations: int
-    """How many."""
+    """How many.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1363,23 +1846,41 @@ class ModelEvaluation:
     contact, and free otherwise. The model clears a configuration where every clearance is above 0."""
 
     num_colliding: int
-    """Number of configurations in collision."""
+    """Number of configurations in collision.
+
+    Unit: `1`.
+    """
 
     num_missed: int
-    """Number of these that the model clears: the misses."""
+    """Number of these that the model clears: the misses.
+
+    Unit: `1`.
+    """
 
     num_near_contact: int
     """Number of configurations in collision that are near contact: a step of at most 0.05 rad or 0.05 m in each DOF
-    makes them free (SPEC 8.8.10)."""
+    makes them free (SPEC 8.8.10).
+
+    Unit: `1`.
+    """
 
     num_near_contact_missed: int
-    """Number of these that the model clears."""
+    """Number of these that the model clears.
+
+    Unit: `1`.
+    """
 
     num_free: int
-    """Number of free configurations."""
+    """Number of free configurations.
+
+    Unit: `1`.
+    """
 
     num_cleared: int
-    """Number of these that the model clears."""
+    """Number of these that the model clears.
+
+    Unit: `1`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1387,10 +1888,16 @@ class ModelTestVector:
     """What the model gives in a configuration."""
 
     configuration: list[float]
-    """One value for each DOF, rad or m."""
+    """One value for each DOF, rad or m.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
 
     clearances: list[float]
-    """One clearance for each entry of `pairs`, metres."""
+    """One clearance for each entry of `pairs`, metres.
+
+    Unit: `m`. Length: `pairs`.
+    """
 
 
 @dataclass(frozen=True)
@@ -1403,7 +1910,10 @@ class SelfCollisionModelModule:
     """Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines."""
 
     clip_distance: float
-    """Distances from here on were all the same to it, metres."""
+    """Distances from here on were all the same to it, metres.
+
+    Unit: `m`.
+    """
 
     inputs: list[ModelInput]
     """What the network is told of a configuration, in the order of its first layer's columns."""
@@ -1413,7 +1923,10 @@ class SelfCollisionModelModule:
     hyperbolic tangent."""
 
     pairs: list[ModelPair]
-    """The pairs of links that the network has an output for, in that order."""
+    """The pairs of links that the network has an output for, in that order.
+
+    Length: `pairs`.
+    """
 
     other_pairs: list[LinkPair]
     """The pairs of links that are not skipped and have no output: they were never near in training."""

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use serde_json::Value;
+use urdd_format::annotations;
 use urdd_format::registry::Profile;
 use urdd_format::schema::{Subject, Variant};
 
@@ -69,7 +70,11 @@ fn properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
 fn object(schema: &Value, root: &Value, text: &mut String) {
     text.push_str("| key | type | meaning |\n|---|---|---|\n");
     for (key, value) in properties(schema) {
-        let meaning = description(value);
+        let mut meaning = description(value);
+        let says = annotations::sentence(value);
+        if !says.is_empty() {
+            let _ = write!(meaning, " {says}");
+        }
         let _ = writeln!(text, "| `{key}` | {} | {meaning} |", type_of(value, root));
     }
     text.push('\n');

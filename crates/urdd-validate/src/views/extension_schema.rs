@@ -1,9 +1,16 @@
 //! The schema of an extension: used without opening other files, and only if it takes little work. It is as untrusted
 //! as the rest of the URDD.
 
+use std::sync::Arc;
+
+use jsonschema::error::ValidationErrorKind;
+use jsonschema::{ValidationError, ValidationOptions, Validator};
 use serde_json::Value;
 
-use super::schema_work::{affordable_work, schemas_in};
+use super::annotated::{self, Judged};
+use super::counts::Counts;
+use super::schema_parts::{SchemaFault, faults_of_parts};
+use super::schema_work::affordable_work;
 use urdd_directory::json;
 use urdd_directory::root::ReadError;
 use urdd_document::module::Module;
@@ -51,19 +58,11 @@ pub fn read(urdd: &Urdd, module: &Module) -> SchemaFile {
     }
 }
 
-/// A fault of a schema.
-pub struct SchemaFault {
-    /// JSON Pointer into the schema.
-    pub pointer: String,
-    /// The fault.
-    pub message: String,
-}
-
 /// Why a value cannot be used as a schema for a document.
 pub fn faults(schema: &Value, document: Option<&Value>) -> Vec<SchemaFault> {
-    let mut faults = foreign_references(schema);
+    let mut faults = faults_of_parts(schema);
     if faults.is_empty()
-        && let Err(fault) = on_a_large_stack(|| compile(schema).map(|_| ()))
+        && let Err(fault) = on_a_large_stack(|| compile(options(), schema).map(|_| ()))
     {
         faults.push(fault);
     }
@@ -87,26 +86,53 @@ pub struct Violations {
     pub is_first_only: bool,
 }
 
+impl Violations {
+    /// What a message adds where only the first was searched.
+    pub fn more(&self) -> &'static str {
+        match self.is_first_only {
+            true => " (the document is large: there may be more)",
+            false => "",
+        }
+    }
+}
+
 /// The violations by a document of a schema without [`faults`]: at most `limit` places. In a large document, only the
 /// first is searched.
 pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
+    violations_with(options(), schema, document, limit)
+}
+
+/// The same with an annotation that counts as an assertion. Without the annotation, the document has no violations.
+pub fn annotation_violations(
+    schema: &Value,
+    document: &Value,
+    judged: Judged,
+    counts: &Arc<Counts>,
+    limit: usize,
+) -> Violations {
+    let options = annotated::judging(options(), judged, Arc::clone(counts));
+    violations_with(options, schema, document, limit)
+}
+
+fn violations_with(
+    options: ValidationOptions<'_>,
+    schema: &Value,
+    document: &Value,
+    limit: usize,
+) -> Violations {
     on_a_large_stack(|| {
-        let Ok(validator) = compile(schema) else {
+        let Ok(validator) = compile(options, schema) else {
             return Violations::default();
         };
         let Err(first) = validator.validate(document) else {
             return Violations::default();
         };
-        let place = |error: jsonschema::ValidationError<'_>| {
-            let message: String = error.masked().to_string().chars().take(200).collect();
-            (error.instance_path().to_string(), message)
-        };
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {
-            true => vec![place(first)],
+            true => vec![place(&first)],
             false => (validator.iter_errors(document).take(limit))
-                .map(place)
+                .map(|error| place(&error))
                 .collect(),
         };
         Violations {
@@ -116,19 +142,58 @@ pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations 
     })
 }
 
-fn compile(schema: &Value) -> Result<jsonschema::Validator, SchemaFault> {
-    // Compiled without a retriever, so that a reference to another file fails without opening anything.
-    jsonschema::draft202012::options()
-        .with_pattern_options(
-            jsonschema::PatternOptions::regex()
-                .size_limit(PATTERN_BYTES)
-                .dfa_size_limit(PATTERN_BYTES),
-        )
-        .build(schema)
-        .map_err(|error| SchemaFault {
-            pointer: error.instance_path().to_string(),
-            message: error.to_string().chars().take(300).collect(),
-        })
+/// Pointer and message of a violation. Where no alternative of a choice fits, and all that is wrong in one of them is
+/// an annotation, it is that one's.
+fn place(error: &ValidationError<'_>) -> (String, String) {
+    if let ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } =
+        error.kind()
+    {
+        let nearest = context
+            .iter()
+            .find(|errors| errors.iter().all(is_annotation));
+        if let Some(first) = nearest.and_then(|errors| errors.first()) {
+            return place(first);
+        }
+    }
+    let message: String = error.masked().to_string().chars().take(200).collect();
+    (error.instance_path().to_string(), message)
+}
+
+fn is_annotation(error: &ValidationError<'_>) -> bool {
+    match error.kind() {
+        ValidationErrorKind::Custom { .. } => true,
+        ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
+            (context.iter()).any(|errors| errors.iter().all(is_annotation))
+        }
+        _ => false,
+    }
+}
+
+/// Whether a key occurs anywhere.
+pub fn mentions(value: &Value, key: &str) -> bool {
+    match value {
+        Value::Object(map) => {
+            map.contains_key(key) || map.values().any(|value| mentions(value, key))
+        }
+        Value::Array(list) => list.iter().any(|value| mentions(value, key)),
+        _ => false,
+    }
+}
+
+fn options<'i>() -> ValidationOptions<'i> {
+    // Without a retriever, so that a reference to another file fails without opening anything.
+    jsonschema::draft202012::options().with_pattern_options(
+        jsonschema::PatternOptions::regex()
+            .size_limit(PATTERN_BYTES)
+            .dfa_size_limit(PATTERN_BYTES),
+    )
+}
+
+fn compile(options: ValidationOptions<'_>, schema: &Value) -> Result<Validator, SchemaFault> {
+    options.build(schema).map_err(|error| SchemaFault {
+        pointer: error.instance_path().to_string(),
+        message: error.to_string().chars().take(300).collect(),
+    })
 }
 
 /// A browser has no spare thread; its stack size is set at link time (`.cargo/config.toml`).
@@ -150,43 +215,6 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
             Err(error) => std::panic::resume_unwind(Box::new(error.to_string())),
         }
     })
-}
-
-/// References that leave the schema's own file, and constructs that would make references ambiguous.
-fn foreign_references(schema: &Value) -> Vec<SchemaFault> {
-    let mut faults = Vec::new();
-    let mut open = vec![(String::new(), schema)];
-    while let Some((pointer, schema)) = open.pop() {
-        for key in ["$ref", "$dynamicRef"] {
-            if let Some(target) = schema.get(key).and_then(Value::as_str)
-                && !target.starts_with('#')
-            {
-                let shown: String = target.chars().take(80).collect();
-                faults.push(SchemaFault {
-                    pointer: format!("{pointer}/{key}"),
-                    message: format!(
-                        "`{shown}` leads out of this file, and nothing else is opened: put what it names into `$defs`, and refer to it by `#/$defs/...`"
-                    ),
-                });
-            }
-        }
-        if !pointer.is_empty() && schema.get("$id").is_some() {
-            faults.push(SchemaFault {
-                pointer: format!("{pointer}/$id"),
-                message: "only the schema itself may have an `$id`: take this one out, and refer to the part by `#/$defs/...`".to_owned(),
-            });
-        }
-        open.extend(
-            schemas_in(schema).map(|(inner, schema, _)| (pointer.clone() + &inner, schema)),
-        );
-        let definitions = schema.get("$defs").and_then(Value::as_object);
-        for (name, schema) in definitions.into_iter().flatten() {
-            let name = name.replace('~', "~0").replace('/', "~1");
-            open.push((format!("{pointer}/$defs/{name}"), schema));
-        }
-    }
-    faults.sort_by(|a, b| a.pointer.cmp(&b.pointer));
-    faults
 }
 
 #[cfg(test)]

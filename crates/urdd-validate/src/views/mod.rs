@@ -1,9 +1,12 @@
-//! Data that several rules use: texts, schemas of extensions, shapes and pairs of shapes.
+//! Data that several rules use: texts, schemas of extensions and what their annotations say, shapes and pairs of shapes.
 
+pub mod annotated;
+pub mod counts;
 pub mod enclosure;
 pub mod extension_schema;
 pub mod judged;
 pub mod list_lengths;
+pub mod schema_parts;
 pub mod schema_work;
 pub mod shape_pair;
 pub mod shared_meshes;

@@ -1,4 +1,4 @@
-use super::extensions;
+use super::{MAX_PLACES, extensions};
 use crate::rules::prelude::*;
 use crate::views::extension_schema::{self, SchemaFile};
 use urdd_document::schema_check;
@@ -14,9 +14,6 @@ declare_rule! {
     phase Schema, needs [],
 }
 
-/// Maximum number of reported places of a document.
-const MAX_PLACES: usize = 1000;
-
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in extensions(context) {
         let schema = extension_schema::read(context, module);
@@ -28,10 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let violations = extension_schema::violations(&schema, &document.value, MAX_PLACES);
-        let more = match violations.is_first_only {
-            true => " (the document is large: there may be more)",
-            false => "",
-        };
+        let more = violations.more();
         for (pointer, message) in violations.found {
             let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
             let message = format!("the value does not match schema.json: {message}{more}");

@@ -1,12 +1,18 @@
 //! EXT: extension modules.
 
+mod annotated;
 mod document_invalid;
+mod extension_index_out_of_range;
+mod extension_length_differs;
 mod folders;
 mod schema_unusable;
 
 use crate::rule::rules;
 use folders::extensions;
 
+/// Maximum number of reported places of a document.
+const MAX_PLACES: usize = 1000;
+
 rules! {
-    document_invalid, schema_unusable
+    document_invalid, extension_index_out_of_range, extension_length_differs, schema_unusable,
 }

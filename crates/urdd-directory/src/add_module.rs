@@ -1,0 +1,147 @@
+//! Adds a module of one's own to a URDD: its folder, and its entry in `urdd.json`.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use thiserror::Error;
+
+use super::cancellation::Cancellation;
+use super::canonical;
+use super::digest;
+use super::discover::ROOT_METADATA;
+use super::json;
+use super::limits::MAX_DOCUMENT_BYTES;
+use super::rehash::replace;
+use super::root::{ReadError, Root};
+use super::target_lock::TargetLock;
+use super::text_fault::UnreadableText;
+use urdd_format::registry::ModuleKind;
+
+/// Why a module could not be added. Nothing is changed then.
+#[derive(Debug, Error)]
+pub enum AddModuleError {
+    /// A file or folder of this name exists.
+    #[error("{} exists, and is left as it is: take another name, or remove it first", .0.display())]
+    Exists(PathBuf),
+    /// `urdd.json` lists a module of this name.
+    #[error("{ROOT_METADATA} lists `{0}` already: take another name, or remove the entry first")]
+    Listed(String),
+    /// `urdd.json` cannot be read.
+    #[error("{ROOT_METADATA}: {0}")]
+    Metadata(ReadError),
+    /// `urdd.json` is not JSON.
+    #[error("{ROOT_METADATA} is not JSON: {0}; run `urdd validate` for details")]
+    NotJson(#[from] UnreadableText),
+    /// `urdd.json` has no list of modules.
+    #[error("{ROOT_METADATA} has no list `modules`; run `urdd validate` for details")]
+    NoModules,
+    /// The URDD is in an archive.
+    #[error("zip archives are read only; unpack it, add the module, and pack it again")]
+    NotAFolder,
+    /// A file or folder cannot be written.
+    #[error("{}: {error}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// The error of the operating system.
+        error: io::Error,
+    },
+}
+
+/// Writes a folder with these files into `parent`: all of them or none.
+///
+/// # Errors
+/// If something of the folder's name exists, or a file cannot be written.
+pub fn write_folder(
+    parent: &Path,
+    name: &str,
+    files: &[(&str, String)],
+) -> Result<PathBuf, AddModuleError> {
+    let folder = parent.join(name);
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |error| AddModuleError::Write { path, error }
+    };
+    // Of all that create the folder at once, one succeeds.
+    fs::create_dir(&folder).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists => AddModuleError::Exists(folder.clone()),
+        _ => failed(&folder)(error),
+    })?;
+    for (name, text) in files {
+        let path = folder.join(name);
+        if let Err(error) = fs::write(&path, text) {
+            // What was written is of no use alone.
+            let _ = fs::remove_dir_all(&folder);
+            return Err(failed(&path)(error));
+        }
+    }
+    Ok(folder)
+}
+
+/// Writes a module into the folder of a URDD and lists it in `urdd.json`, after the modules of the specification, by
+/// name.
+///
+/// # Errors
+/// If the URDD has or lists a module of this name, `urdd.json` cannot be read, or something cannot be written.
+pub fn add_module(
+    root: &Root,
+    name: &str,
+    version: &str,
+    depends_on: &[ModuleKind],
+    files: &[(&str, String)],
+) -> Result<PathBuf, AddModuleError> {
+    let parent = root.folder().ok_or(AddModuleError::NotAFolder)?;
+    // Without a lock if the parent folder is not writable: then no other run can replace this one.
+    let _lock = fs::canonicalize(parent)
+        .ok()
+        .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
+    let bytes = root
+        .read(ROOT_METADATA, MAX_DOCUMENT_BYTES)
+        .map_err(AddModuleError::Metadata)?;
+    let mut metadata = json::read(&bytes)?.value;
+    let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
+    let modules = modules.ok_or(AddModuleError::NoModules)?;
+    let named = |module: &Value| module["name"].as_str().unwrap_or_default().to_owned();
+    if modules
+        .iter()
+        .any(|module| named(module) == name || module["path"] == name)
+    {
+        return Err(AddModuleError::Listed(name.to_owned()));
+    }
+    let is_after = |module: &Value| {
+        let other = named(module);
+        let is_known = ModuleKind::ALL.iter().any(|kind| kind.name() == other);
+        !is_known && other.as_str() > name
+    };
+    let place = modules.iter().position(is_after).unwrap_or(modules.len());
+    modules.insert(place, entry(name, version, depends_on, files));
+
+    let folder = write_folder(parent, name, files)?;
+    if let Err(error) = replace(parent, canonical::json_string(&metadata).as_bytes()) {
+        let _ = fs::remove_dir_all(&folder);
+        return Err(AddModuleError::Write {
+            path: parent.join(ROOT_METADATA),
+            error,
+        });
+    }
+    Ok(folder)
+}
+
+/// The entry of a module in `urdd.json`.
+fn entry(name: &str, version: &str, depends_on: &[ModuleKind], files: &[(&str, String)]) -> Value {
+    let mut listed: Vec<(String, &String)> = (files.iter())
+        .map(|(file, text)| (format!("{name}/{file}"), text))
+        .collect();
+    listed.sort();
+    let listed = listed.iter().map(|(path, text)| {
+        let (size, sha256) = digest::of_bytes(text.as_bytes());
+        json!({ "path": path, "size": size, "sha256": sha256 })
+    });
+    let depends_on: Vec<&str> = depends_on.iter().map(|kind| kind.name()).collect();
+    json!({
+        "name": name, "version": version, "path": name, "depends_on": depends_on,
+        "files": listed.collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,408 @@
+//! Annotations of schemas (SPEC 11.3 to 11.6): the unit, the frame, what an index counts, how long a list is.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use schemars::Schema;
+use serde_json::{Map, Value};
+
+use super::escape;
+use super::nearest::nearest;
+
+/// The unit of every number in the value.
+pub const UNIT: &str = "x-unit";
+/// The frame of every position, direction and rotation in the value.
+pub const FRAME: &str = "x-frame";
+/// What an integer is an index of.
+pub const INDEX: &str = "x-index";
+/// How many elements a list has.
+pub const LENGTH: &str = "x-length";
+/// The keywords, in the order of the specification.
+pub const KEYWORDS: [&str; 4] = [UNIT, FRAME, INDEX, LENGTH];
+
+/// Symbols of units: SI base units, SI units with names of their own, and two of data.
+pub const UNITS: &[&str] = &[
+    "m", "kg", "s", "A", "K", "mol", "cd", "rad", "sr", "Hz", "N", "Pa", "J", "W", "C", "V", "F",
+    "ohm", "S", "Wb", "T", "H", "lm", "lx", "bit", "byte",
+];
+
+/// Frames, as the specification's table has them.
+pub const FRAMES: &[&str] = &[
+    "world",
+    "root",
+    "link",
+    "parent_link",
+    "joint",
+    "inertial",
+    "shape",
+];
+
+/// Between the words of a choice.
+const OR: &str = " or ";
+
+/// What indices and lengths count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Thing {
+    /// A link of the robot.
+    Link,
+    /// A joint of the robot.
+    Joint,
+    /// A degree of freedom.
+    Dof,
+    /// A `visual` element of a link.
+    Visual,
+    /// A `collision` element of a link.
+    Collision,
+    /// A convex piece of a link.
+    Piece,
+    /// A link that has a shape.
+    FullShape,
+    /// A convex piece of any link.
+    DecompositionShape,
+    /// A part of a composed robot.
+    Part,
+    /// A pair of links with an output of the self-collision model.
+    Pair,
+    /// A sampled configuration.
+    Sample,
+    /// Something else, which the description names.
+    Other,
+}
+
+impl Thing {
+    /// Everything that is counted, in the order of the specification.
+    pub const ALL: &[Thing] = &[
+        Thing::Link,
+        Thing::Joint,
+        Thing::Dof,
+        Thing::Visual,
+        Thing::Collision,
+        Thing::Piece,
+        Thing::FullShape,
+        Thing::DecompositionShape,
+        Thing::Part,
+        Thing::Pair,
+        Thing::Sample,
+        Thing::Other,
+    ];
+
+    /// The word of `x-index`.
+    pub fn index(self) -> &'static str {
+        match self {
+            Thing::Link => "link",
+            Thing::Joint => "joint",
+            Thing::Dof => "dof",
+            Thing::Visual => "visual",
+            Thing::Collision => "collision",
+            Thing::Piece => "piece",
+            Thing::FullShape => "full_shape",
+            Thing::DecompositionShape => "decomposition_shape",
+            Thing::Part => "part",
+            Thing::Pair => "pair",
+            Thing::Sample => "sample",
+            Thing::Other => "other",
+        }
+    }
+
+    /// The word of `x-length`; `None` for what no list has one element for each.
+    pub fn length(self) -> Option<&'static str> {
+        match self {
+            Thing::Link => Some("links"),
+            Thing::Joint => Some("joints"),
+            Thing::Dof => Some("dofs"),
+            Thing::Piece => Some("pieces"),
+            Thing::FullShape => Some("full_shapes"),
+            Thing::DecompositionShape => Some("decomposition_shapes"),
+            Thing::Part => Some("parts"),
+            Thing::Pair => Some("pairs"),
+            Thing::Visual | Thing::Collision | Thing::Sample | Thing::Other => None,
+        }
+    }
+}
+
+/// What the text of an `x-index` names: one thing, or a choice. `None` where a word is unknown.
+pub fn of_index(text: &str) -> Option<Vec<Thing>> {
+    let of_word = |word| {
+        let all = Thing::ALL.iter().copied();
+        all.into_iter().find(|thing| thing.index() == word)
+    };
+    distinct(text.split(OR).map(of_word))
+}
+
+/// What the text of an `x-length` names: one thing, or a choice. `None` where a word is unknown.
+pub fn of_length(text: &str) -> Option<Vec<Thing>> {
+    let of_word = |word| {
+        let all = Thing::ALL.iter().copied();
+        all.into_iter().find(|thing| thing.length() == Some(word))
+    };
+    distinct(text.split(OR).map(of_word))
+}
+
+/// A text may name a thing a thousand times.
+fn distinct(things: impl Iterator<Item = Option<Thing>>) -> Option<Vec<Thing>> {
+    let things: BTreeSet<Thing> = things.collect::<Option<_>>()?;
+    Some(things.into_iter().collect())
+}
+
+/// Whether a text is a unit, or a choice of units: `m`, `kg*m^2`, `N*m*s/rad`, `1/s`, `rad or m`.
+pub fn is_unit(text: &str) -> bool {
+    text.split(OR).all(|unit| {
+        let (above, below) = match unit.split_once('/') {
+            None => (unit, None),
+            Some((above, below)) => (above, Some(below)),
+        };
+        (above == "1" || is_product(above)) && below.is_none_or(is_product)
+    })
+}
+
+fn is_product(text: &str) -> bool {
+    text.split('*').all(|factor| {
+        let (symbol, power) = factor.split_once('^').unwrap_or((factor, "2"));
+        UNITS.contains(&symbol) && matches!(power.as_bytes(), [b'2'..=b'9'])
+    })
+}
+
+/// Whether a text is a frame, or a choice of frames.
+pub fn is_frame(text: &str) -> bool {
+    text.split(OR).all(|word| FRAMES.contains(&word))
+}
+
+/// A fault of one annotation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AnnotationFault {
+    /// The keyword.
+    pub keyword: &'static str,
+    /// The fault, with what to write instead.
+    pub message: String,
+}
+
+impl fmt::Display for AnnotationFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` {}", self.keyword, self.message)
+    }
+}
+
+/// The faults of a schema's own annotations, without those of the schemas in it.
+pub fn faults(schema: &Map<String, Value>) -> Vec<AnnotationFault> {
+    let found = KEYWORDS.iter().filter_map(|keyword| {
+        let message = fault(keyword, schema.get(*keyword)?, schema.get("type"))?;
+        Some(AnnotationFault { keyword, message })
+    });
+    found.collect()
+}
+
+fn fault(keyword: &str, value: &Value, kind: Option<&Value>) -> Option<String> {
+    let Some(text) = value.as_str() else {
+        return Some(format!(
+            "is {}, and must be a string: {}",
+            shown(&value.to_string()),
+            known(keyword)
+        ));
+    };
+    let is_known = match keyword {
+        UNIT => is_unit(text),
+        FRAME => is_frame(text),
+        INDEX => of_index(text).is_some(),
+        _ => of_length(text).is_some(),
+    };
+    if !is_known {
+        let near = text.split(OR).find_map(|word| near(keyword, word));
+        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        return Some(format!(
+            "is `{}`, which is not defined: {near}{}",
+            shown(text),
+            known(keyword)
+        ));
+    }
+    let fits = |words: &[&str]| match kind {
+        Some(Value::String(kind)) => words.contains(&kind.as_str()),
+        Some(Value::Array(kinds)) => (kinds.iter())
+            .filter_map(Value::as_str)
+            .any(|kind| words.contains(&kind)),
+        _ => true,
+    };
+    match keyword {
+        INDEX if !fits(&["integer", "number"]) => Some(
+            "says nothing here: it is about an integer; in a list, put it into `items`".to_owned(),
+        ),
+        LENGTH if !fits(&["array"]) => {
+            Some("says nothing here: it is about a list, `\"type\": \"array\"`".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// A value in a message: escaped and short.
+fn shown(text: &str) -> String {
+    escape::line(&text.chars().take(80).collect::<String>()).to_string()
+}
+
+fn words(keyword: &str) -> Vec<&'static str> {
+    let all = Thing::ALL.iter();
+    match keyword {
+        UNIT => UNITS.to_vec(),
+        FRAME => FRAMES.to_vec(),
+        INDEX => all.map(|thing| thing.index()).collect(),
+        _ => all.filter_map(|thing| thing.length()).collect(),
+    }
+}
+
+fn near(keyword: &str, word: &str) -> Option<String> {
+    match keyword {
+        // Symbols are so short that every word is near one.
+        UNIT => None,
+        _ => nearest(words(keyword).into_iter(), word),
+    }
+}
+
+fn known(keyword: &str) -> String {
+    match keyword {
+        UNIT => {
+            "write SI units such as m, rad, kg*m^2, N*m, m/s, 1/s, 1 for a number without one, or \"rad or m\"".to_owned()
+        }
+        _ => format!(
+            "write {}, or a choice of them joined by \"{OR}\"",
+            words(keyword).join(", ")
+        ),
+    }
+}
+
+/// A transform of a field's schema: `x-length` of a list, of the lists in it, and so on.
+pub(crate) fn lengths(words: &'static [&'static str]) -> impl FnMut(&mut Schema) {
+    move |schema| {
+        let mut at = schema.as_object_mut();
+        for word in words {
+            let Some(list) = at else { return };
+            list.insert(LENGTH.to_owned(), Value::from(*word));
+            at = list.get_mut("items").and_then(Value::as_object_mut);
+        }
+    }
+}
+
+/// What a property's annotations say, in a line for people: "Unit: `m`. Frame: `link`. Length: `links`, each
+/// `pieces`." Empty where they say nothing.
+pub fn sentence(schema: &Value) -> String {
+    let text = |schema: &Value, keyword: &str| {
+        let word = schema.get(keyword).and_then(Value::as_str);
+        word.map(str::to_owned)
+    };
+    let mut lengths = Vec::new();
+    let mut innermost = schema;
+    loop {
+        lengths.extend(text(innermost, LENGTH));
+        match innermost.get("items") {
+            Some(items) => innermost = items,
+            None => break,
+        }
+    }
+    let either = |keyword| text(schema, keyword).or_else(|| text(innermost, keyword));
+    let parts = [
+        either(UNIT).map(|unit| format!("Unit: `{unit}`.")),
+        either(FRAME).map(|frame| format!("Frame: `{frame}`.")),
+        either(INDEX).map(|index| format!("Index of: `{index}`.")),
+        (!lengths.is_empty()).then(|| format!("Length: `{}`.", lengths.join("`, each `"))),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn units_are_products_of_symbols_or_a_choice() {
+        for right in [
+            "1",
+            "m",
+            "rad",
+            "kg*m^2",
+            "N*m",
+            "1/s",
+            "N*m*s/rad",
+            "rad or m",
+            "1 or rad/m or m/rad",
+        ] {
+            assert!(is_unit(right), "{right}");
+        }
+        for wrong in [
+            "",
+            "deg",
+            "mm",
+            "m^1",
+            "m^10",
+            "m^",
+            "^2",
+            "m m",
+            "m*",
+            "/s",
+            "m/",
+            "m/s/s",
+            "m/1",
+            "2",
+            "m or",
+            "rad  or m",
+            "rad or deg",
+            "1*m",
+            "M",
+        ] {
+            assert!(!is_unit(wrong), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_choice_names_all_its_things() {
+        assert_eq!(of_index("link"), Some(vec![Thing::Link]));
+        assert_eq!(
+            of_index("visual or collision"),
+            Some(vec![Thing::Visual, Thing::Collision])
+        );
+        assert_eq!(of_index("links"), None);
+        assert_eq!(of_length("links"), Some(vec![Thing::Link]));
+        assert_eq!(of_length("link"), None);
+        assert_eq!(of_length("samples"), None);
+        assert_eq!(of_length(""), None);
+    }
+
+    #[test]
+    fn faults_say_what_to_write() {
+        let first = |schema: Value| {
+            let found = faults(schema.as_object().expect("an object"));
+            found.first().map(ToString::to_string)
+        };
+        assert_eq!(first(json!({"x-index": "link", "type": "integer"})), None);
+        assert_eq!(first(json!({"x-index": "link"})), None);
+        assert_eq!(
+            first(json!({"x-index": "link", "type": ["number", "null"]})),
+            None
+        );
+        assert_eq!(first(json!({"x-mine": 7})), None);
+        let message = first(json!({"x-index": 7})).expect("a fault");
+        assert!(message.starts_with("`x-index` is 7, and must be a string: write link, joint"));
+        let message = first(json!({"x-length": "link"})).expect("a fault");
+        assert!(message.contains("is `link`, which is not defined: did you mean `links`?"));
+        let message = first(json!({"x-index": "link", "type": "array"})).expect("a fault");
+        assert!(message.contains("put it into `items`"));
+        assert!(first(json!({"x-length": "links", "type": "object"})).is_some());
+        let message = first(json!({"x-unit": "m\u{1b}[2J"})).expect("a fault");
+        assert!(!message.contains('\u{1b}'), "{message}");
+    }
+
+    #[test]
+    fn a_sentence_names_what_is_inside_too() {
+        let pieces = json!({"type": "integer", "x-index": "piece"});
+        let schema = json!({
+            "x-length": "links",
+            "items": {"x-length": "pieces", "items": pieces},
+        });
+        assert_eq!(
+            sentence(&schema),
+            "Index of: `piece`. Length: `links`, each `pieces`."
+        );
+        assert_eq!(
+            sentence(&json!({"x-unit": "m", "x-frame": "link"})),
+            "Unit: `m`. Frame: `link`."
+        );
+        assert_eq!(sentence(&json!({"type": "string"})), "");
+    }
+}
