@@ -23,10 +23,14 @@ def page(robots: Path) -> str:
     return INTRODUCTION + '<div class="robots">\n' + "".join(cards) + "</div>\n"
 
 
+def many(count: int, word: str) -> str:
+    return f"{count} {word}" if count == 1 else f"{count} {word}s"
+
+
 def card(folder: Path) -> str:
     robot = json.loads((folder / "urdf_module/module.json").read_text(encoding="utf-8"))
     dofs = json.loads((folder / "dof_module/module.json").read_text(encoding="utf-8"))["num_dofs"]
-    counts = f"{len(robot['links'])} links · {dofs} DOFs"
+    counts = f"{many(len(robot['links']), 'link')} · {many(dofs, 'DOF')}"
     name = escape(folder.name)
     return (
         f'<a href="../gallery/index.html#r={quote(folder.name)}"><strong>{name}</strong><small>{counts}</small></a>\n'

@@ -62,7 +62,7 @@ def page(name: str, schemas: list[tuple[str, Schema]]) -> str:
         parts.append(fields(schema))
         for title, part in schema.get("$defs", {}).items():
             parts.append(f"\n### {title} {{ #{anchor(version)}-{title} }}\n\n{fields(part, version)}")
-    return "".join(parts).replace("](#DEF-", "](#")
+    return "".join(parts)
 
 
 def fields(schema: Schema, version: str = "") -> str:
