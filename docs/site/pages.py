@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from html import escape
 from pathlib import Path
 
 from text import outside_code
@@ -69,7 +70,11 @@ class Stage:
         """A page of the repository, with links that the site has."""
         lines = []
         for line, text in outside_code(lists(self.root.joinpath(name).read_text(encoding="utf-8"))):
-            lines.append(LINK.sub(lambda found: self.link(name, found), line) if text else line)
+            if text:
+                line = LINK.sub(lambda found: self.link(name, found), line)
+                # mkdocs takes `<!` in code for the beginning of a comment, and finds no anchor after it.
+                line = re.sub(r"`([^`]*<![^`]*)`", lambda found: f"<code>{escape(found.group(1))}</code>", line)
+            lines.append(line)
         return "\n".join(lines) + "\n"
 
     def link(self, page: str, found: re.Match[str]) -> str:

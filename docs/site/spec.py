@@ -27,7 +27,7 @@ def page(spec: str, known: set[str], rules: set[str]) -> str:
         begin = ""
         if clause:
             number, title = clause.groups()
-            begin = f'<span id="{number}"></span>[**{number}{title}**](#{number}){{ .clause }}'
+            begin = f"[**{number}{title}**](#{number}){{ #{number} .clause }}"
             line = line[clause.end() :]
         elif heading:
             # Before the heading: a heading keeps the anchor that GitHub gives it.
