@@ -24,7 +24,9 @@ def output(root: Path, *command: str) -> str | None:
     return done.stdout if done.returncode == 0 else None
 
 
-def faults(root: Path, version: str, workspace: dict[str, dict[str, object]], draft: bool, tag: str | None) -> list[str]:
+def faults(
+    root: Path, version: str, workspace: dict[str, dict[str, object]], draft: bool, tag: str | None
+) -> list[str]:
     """Every reason not to release."""
     found = []
     if not draft:
