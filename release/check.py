@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Says whether this tree can be released: `release/check.py [--draft] [TAG]`.
 
-Prints the version, or every reason why not, each with what to do. Exit status: 0 it can be released, 1 not, 2 wrong usage.
+Prints the version, or every reason why not, each with what to do. Exit status: 0 it can be released, 1 not, 2 wrong
+usage.
 `--draft` accepts a tree with changes, and a changelog that says "unreleased". Needs Python 3.11, git and cargo.
 """
 

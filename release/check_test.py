@@ -44,7 +44,7 @@ class Refusals(unittest.TestCase):
 
     def change(self, name: str, before: str, after: str, commit: bool = True) -> None:
         text = (self.root / name).read_text(encoding="utf-8")
-        self.assertIn(before, text)
+        assert before in text
         self.write(name, text.replace(before, after, 1))
         if commit:
             self.commit()
@@ -68,18 +68,18 @@ class Refusals(unittest.TestCase):
 
     def refused(self, part: str, *words: str) -> None:
         status, said = self.said(*words)
-        self.assertEqual(status, 1, said)
-        self.assertEqual(said.count("error:"), 1, said)
-        self.assertIn(part, said)
+        assert status == 1, said
+        assert said.count("error:") == 1, said
+        assert part in said
 
     def test_a_tree_that_is_ready(self) -> None:
-        self.assertEqual(self.said(), (0, "1.2.3\n"))
-        self.assertEqual(self.said("v1.2.3"), (0, "1.2.3\n"))
+        assert self.said() == (0, "1.2.3\n")
+        assert self.said("v1.2.3") == (0, "1.2.3\n")
 
     def test_changes_that_are_not_committed(self) -> None:
         self.write("new.txt", "x")
         self.refused("not committed (new.txt)")
-        self.assertEqual(self.said("--draft")[0], 0)
+        assert self.said("--draft")[0] == 0
 
     def test_another_tag(self) -> None:
         self.refused("tag the commit of that version as v1.2.3", "v1.2.4")
@@ -91,8 +91,8 @@ class Refusals(unittest.TestCase):
     def test_a_crate_of_another_version(self) -> None:
         self.change("Cargo.toml", 'path = "a", version = "1.2.3"', 'path = "a", version = "1.2.2"')
         status, said = self.said()
-        self.assertEqual(status, 1)
-        self.assertIn("[workspace.dependencies] has urdd-a 1.2.2", said)
+        assert status == 1
+        assert "[workspace.dependencies] has urdd-a 1.2.2" in said
 
     def test_a_changelog_of_another_version(self) -> None:
         self.change("CHANGELOG.md", "## 1.2.3, 2026-01-31", "## 1.3.0, 2026-01-31")
@@ -101,7 +101,7 @@ class Refusals(unittest.TestCase):
     def test_a_changelog_without_a_day(self) -> None:
         self.change("CHANGELOG.md", "2026-01-31", "unreleased")
         self.refused("write the day of the release")
-        self.assertEqual(self.said("--draft")[0], 0)
+        assert self.said("--draft")[0] == 0
 
     def test_a_lock_file_that_is_stale(self) -> None:
         self.change("Cargo.lock", 'version = "1.2.3"', 'version = "1.2.2"')
@@ -110,12 +110,12 @@ class Refusals(unittest.TestCase):
     def test_a_version_that_is_none(self) -> None:
         self.change("Cargo.toml", 'version = "1.2.3"', 'version = "1.2"')
         status, said = self.said()
-        self.assertEqual(status, 1)
-        self.assertIn("not a semantic version", said)
+        assert status == 1
+        assert "not a semantic version" in said
 
     def test_wrong_usage(self) -> None:
         with contextlib.redirect_stderr(io.StringIO()):
-            self.assertEqual(check.main(self.root, ["--daft"]), 2)
+            assert check.main(self.root, ["--daft"]) == 2
 
 
 if __name__ == "__main__":
