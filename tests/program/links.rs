@@ -108,3 +108,19 @@ fn a_link_to_nothing_is_a_fault() {
         assert_eq!(faults(&folder, bad).len(), 1, "{bad}");
     }
 }
+
+#[test]
+fn the_site_has_every_page_of_docs_in_its_menu() {
+    let docs = testkit::repository().join("docs");
+    let settings = fs::read_to_string(docs.join("site/mkdocs.yml")).unwrap();
+    let pages = fs::read_dir(&docs).unwrap().map(|entry| entry.unwrap());
+    let pages = pages.map(|entry| entry.file_name().into_string().unwrap());
+    let pages: Vec<String> = pages.filter(|name| name.ends_with(".md")).collect();
+    assert!(pages.len() > 10, "{pages:?}");
+    for page in pages {
+        assert!(
+            settings.contains(&format!(": docs/{page}\n")),
+            "docs/{page} is not in the site's menu: add it to `nav` in docs/site/mkdocs.yml"
+        );
+    }
+}

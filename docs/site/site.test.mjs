@@ -1,0 +1,97 @@
+// The built site on a plain file server: what a reader does with it. `.ci/site` builds it and runs this.
+
+import assert from "node:assert/strict";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { browser, drawn, repository, tab } from "../../page/test/world.mjs";
+import { serve } from "./serve.mjs";
+
+const picture = process.env.PICTURES;
+let chrome, server;
+
+before(async () => {
+  server = await serve(join(repository, "target/site"));
+  chrome = await browser();
+});
+after(async () => {
+  await chrome?.close();
+  server?.end();
+});
+
+/** A test with a page of its own, without any console error or request elsewhere. */
+function on(name, path, act, options = { colorScheme: "light" }) {
+  test(name, { timeout: 120_000 }, async () => {
+    const { page, faults, close } = await tab(chrome, server.address + path, options);
+    try {
+      await act(page);
+      if (picture) {
+        mkdirSync(picture, { recursive: true });
+        await page.screenshot({ path: join(picture, `${name.replaceAll(/\W+/g, "_")}.png`) });
+      }
+      assert.deepEqual(faults, []);
+    } finally {
+      await close();
+    }
+  });
+}
+
+on("the start page", "", async (page) => {
+  await page.getByRole("heading", { level: 1, name: "urdd" }).waitFor();
+  assert.equal(await page.locator("article img").evaluate((image) => image.naturalWidth > 100), true);
+});
+
+/** Types into the search field, and opens the first page that is found. */
+async function search(page, words) {
+  await page.getByRole("textbox", { name: "Search" }).click();
+  await page.keyboard.type(words);
+  const first = page.locator(".md-search-result__item a").first();
+  await first.waitFor();
+  await first.click();
+}
+
+on("a search for a code finds its rule", "", async (page) => {
+  await search(page, "MSH018");
+  await page.getByRole("heading", { level: 1, name: /^MSH018 / }).waitFor();
+  assert.match(new URL(page.url()).pathname, /\/rules\/MSH018\/$/);
+  await page.getByRole("heading", { level: 2, name: "Cases" }).waitFor();
+  // Its clause in the specification.
+  await page.getByRole("link", { name: /^SPEC \d/ }).click();
+  await page.waitForURL(/\/SPEC\/#\d+(\.\d+)*$/);
+  const target = page.locator(`[id="${new URL(page.url()).hash.slice(1)}"]`);
+  assert.equal(await target.count(), 1);
+});
+
+on("a search for a command finds its page", "", async (page) => {
+  await search(page, "combine recipe");
+  await page.getByRole("heading", { level: 1, name: /combine/i }).waitFor();
+});
+
+on("the specification", "SPEC/#6.2.3", async (page) => {
+  const top = await page.locator('[id="6.2.3"]').evaluate((clause) => clause.getBoundingClientRect().top);
+  assert.ok(top > 0 && top < 300, `clause 6.2.3 is at ${top} px`);
+  await page.getByRole("link", { name: "DOF003", exact: true }).first().click();
+  await page.getByRole("heading", { level: 1, name: /^DOF003 / }).waitFor();
+});
+
+on("the rules", "rules/", async (page) => {
+  const rules = await page.locator("article table tbody tr").count();
+  assert.ok(rules > 150, `${rules} rules`);
+});
+
+on("a schema", "schema/dof_module/", async (page) => {
+  const link = page.getByRole("link", { name: "dof_module/1.0.0.json" });
+  const schema = await page.evaluate(async (address) => (await fetch(address)).json(), await link.evaluate((a) => a.href));
+  assert.equal(schema.$id, "urn:urdd:schema:dof_module:1.0.0");
+});
+
+on("the gallery opens a robot", "robots/", async (page) => {
+  await page.getByRole("link", { name: /welding_arm/ }).click();
+  await drawn(page, "welding_arm");
+});
+
+on("a page in a narrow window", "docs/validate/", async (page) => {
+  await page.getByRole("heading", { level: 1 }).waitFor();
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(wide <= 0, `the page is ${wide} px wider than the window`);
+}, { viewport: { width: 390, height: 800 }, colorScheme: "dark" });
