@@ -242,12 +242,6 @@ fn there_without_what_it_is_for() -> Vec<Case> {
             origin(Value::Null),
             origin(json!([1.0, 0.0, 0.0])),
         ),
-        (
-            "second-inertial-not-read",
-            "<inertial/><inertial><mass value=\"many\"/></inertial>",
-            nothing(),
-            json!({"origin": null, "mass": {"value": 0.0}, "inertia": null}),
-        ),
     ];
     let rows = rows.into_iter().flat_map(|(name, xml, right, other)| {
         [

@@ -2,7 +2,9 @@
 //!
 //! The file is the collision mesh of a link that shows a box, so that only `usable` depends on it.
 
-use serde_json::{Value, json};
+mod scenes;
+
+use serde_json::json;
 use urdd_format::urdf::Link;
 use urdd_validate::code::Code::MSH016;
 
@@ -35,8 +37,8 @@ pub fn cases() -> Vec<Case> {
     let rows = [
         stl_rows(),
         obj_rows(),
-        collada_rows(),
-        gltf_rows(),
+        scenes::collada_rows(),
+        scenes::gltf_rows(),
         others(),
     ];
     let rows = rows.into_iter().flatten();
@@ -219,150 +221,6 @@ fn obj_rows() -> Vec<Row> {
             "obj-named-so-of-other-words",
             "part.obj",
             "a shopping list\n",
-            false,
-        ),
-    ]
-}
-
-/// A COLLADA document of one triangle; `scene` stands where the scene is.
-fn collada(scene: &str) -> String {
-    format!(
-        r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><library_geometries><geometry id="g"><mesh><source id="p"><float_array id="n" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#n" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>{scene}</COLLADA>"##
-    )
-}
-
-fn collada_rows() -> Vec<Row> {
-    let nodes = |nodes: &str| {
-        format!(
-            r##"<library_visual_scenes><visual_scene id="s">{nodes}</visual_scene></library_visual_scenes>"##
-        )
-    };
-    let shown = nodes(r##"<node><instance_geometry url="#g"/></node>"##);
-    let scene = r##"<scene><instance_visual_scene url="#s"/></scene>"##;
-    let whole = collada(&format!("{shown}{scene}"));
-    let looking =
-        nodes(r##"<node><lookat>0 0 0 0 0 1 0 0 2</lookat><instance_geometry url="#g"/></node>"##);
-    let within_itself =
-        r##"<library_nodes><node id="a"><instance_node url="#a"/></node></library_nodes>"##;
-    let within_itself = format!(
-        "{within_itself}{}{scene}",
-        nodes(r##"<node><instance_node url="#a"/><instance_geometry url="#g"/></node>"##)
-    );
-    let changed = |from: &str, to: &str| {
-        assert!(whole.contains(from), "{from}");
-        whole.replace(from, to)
-    };
-    vec![
-        row("collada", "part.dae", whole.clone(), true),
-        row("collada-named-stl", "part.stl", whole.clone(), true),
-        row("collada-that-names-no-scene", "part.dae", collada(&shown), true),
-        row("collada-without-scenes", "part.dae", collada(""), true),
-        row("collada-of-an-empty-scene", "part.dae", collada(&format!("{}{scene}", nodes(""))), false),
-        row("collada-with-a-doctype", "part.dae", format!("<!DOCTYPE COLLADA>{whole}"), false),
-        row("collada-with-text-behind", "part.dae", format!("{whole}end"), false),
-        row("collada-not-well-formed", "part.dae", changed("</mesh>", ""), false),
-        row("collada-of-two-numbers-each", "part.dae", changed(r#"stride="3""#, r#"stride="2""#).replace(r#"<param name="Z" type="float"/>"#, ""), false),
-        row("collada-without-positions", "part.dae", changed(r#"source="#p""#, r#"source="#q""#), false),
-        row("collada-of-an-index-beyond", "part.dae", changed("<p>0 1 2</p>", "<p>0 1 3</p>"), false),
-        row("collada-that-states-more-numbers", "part.dae", changed(r#"count="9""#, r#"count="12""#), true),
-        row("collada-of-a-lookat-along-up", "part.dae", collada(&format!("{looking}{scene}")), false),
-        row("collada-of-a-node-in-itself", "part.dae", collada(&within_itself), false),
-    ]
-}
-
-/// glTF of one triangle, in a buffer of its own.
-fn gltf() -> Value {
-    // The corners of TRIANGLE, as binary32.
-    let base64 = "AAAAAAAAAAAAAAAAAACAPgAAAAAAAAAAAAAAAAAAAD8AAAAA";
-    json!({
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}],
-        "buffers": [{"uri": format!("data:application/octet-stream;base64,{base64}"), "byteLength": 36}],
-    })
-}
-
-fn gltf_rows() -> Vec<Row> {
-    let with = |pointer: &str, value: Value| {
-        let mut gltf = gltf();
-        let (around, key) = pointer.rsplit_once('/').expect("a pointer");
-        let around = gltf.pointer_mut(around).expect("a place");
-        match around {
-            Value::Array(list) => list[key.parse::<usize>().expect("an index")] = value,
-            _ => around[key] = value,
-        }
-        gltf.to_string()
-    };
-    vec![
-        row("gltf", "part.gltf", gltf().to_string(), true),
-        row(
-            "gltf-of-version-1",
-            "part.gltf",
-            with("/asset/version", json!("1.0")),
-            false,
-        ),
-        row(
-            "gltf-of-an-empty-scene",
-            "part.gltf",
-            with("/scenes/0", json!({})),
-            false,
-        ),
-        row(
-            "gltf-of-a-scene-that-is-not-there",
-            "part.gltf",
-            with("/scene", json!(1)),
-            false,
-        ),
-        row(
-            "gltf-of-a-mesh-that-is-not-there",
-            "part.gltf",
-            with("/nodes/0/mesh", json!(1)),
-            false,
-        ),
-        row(
-            "gltf-of-a-buffer-too-short",
-            "part.gltf",
-            with("/accessors/0/count", json!(4)),
-            false,
-        ),
-        row(
-            "gltf-of-a-file-that-is-not-carried",
-            "part.gltf",
-            with("/buffers/0/uri", json!("gone.bin")),
-            false,
-        ),
-        row(
-            "gltf-of-lines",
-            "part.gltf",
-            with("/meshes/0/primitives/0/mode", json!(1)),
-            false,
-        ),
-        row(
-            "gltf-of-a-strip",
-            "part.gltf",
-            with("/meshes/0/primitives/0/mode", json!(5)),
-            true,
-        ),
-        row(
-            "gltf-that-requires-draco",
-            "part.gltf",
-            with("/extensionsRequired", json!(["KHR_draco_mesh_compression"])),
-            false,
-        ),
-        row(
-            "gltf-that-uses-lights",
-            "part.gltf",
-            with("/extensionsUsed", json!(["KHR_lights_punctual"])),
-            true,
-        ),
-        row(
-            "gltf-of-a-node-in-itself",
-            "part.gltf",
-            with("/nodes/0/children", json!([0])),
             false,
         ),
     ]
