@@ -225,13 +225,18 @@ fn other_schemas_have_none() {
     }
 }
 
-/// The number of things that a place may name; `None` where any is right.
-fn numbers(place: &Place, urdd: &Urdd) -> Option<Vec<usize>> {
-    place
-        .things
-        .iter()
-        .map(|thing| urdd.count(*thing, place.link))
-        .collect()
+/// The number of each thing that a place may name; `None` where any number is right.
+fn numbers(place: &Place, things: &[Thing], urdd: &Urdd) -> Option<Vec<usize>> {
+    let numbers = things.iter().map(|thing| urdd.count(*thing, place.link));
+    numbers.collect()
+}
+
+/// The things that a place names. `other` is for what is inside a part's own composition.
+fn of_this_robot(place: &Place) -> Vec<Thing> {
+    let is_foreign = place.pointer.contains("/composition/");
+    let things = place.things.iter().copied();
+    let things = things.filter(|thing| is_foreign || *thing != Thing::Other);
+    things.collect()
 }
 
 #[test]
@@ -253,7 +258,7 @@ fn the_annotations_are_true_of_the_suites_bases() {
                 };
                 *met.entry(format!("{} {}", subject.name(), place.schema))
                     .or_default() += 1;
-                let Some(numbers) = numbers(&place, urdd) else {
+                let Some(numbers) = numbers(&place, &of_this_robot(&place), urdd) else {
                     continue;
                 };
                 let right = |number: &usize| match place.keyword {
@@ -332,8 +337,8 @@ fn the_validator_judges_as_this_test_does() {
                     let value = changed.pointer_mut(&place.pointer).expect("a value");
                     // A list of pieces may have the length of another link's.
                     let is_sure = !place.things.contains(&Thing::Piece) || keyword == INDEX;
-                    let limited =
-                        numbers(place, &urdd).is_some_and(|_| place.things != [Thing::Sample]);
+                    let limited = numbers(place, &place.things, &urdd)
+                        .is_some_and(|_| place.things != [Thing::Sample]);
                     if !is_sure || !limited {
                         continue;
                     }

@@ -129,13 +129,13 @@ fn list(schema: &Value) -> String {
 
 /// The description of a schema and its annotations, as a comment.
 fn comment(schema: &Value, indent: &str, text: &mut String) {
-    let mut words = schema["description"]
-        .as_str()
-        .expect("a description")
-        .to_owned();
-    let says = annotations::sentence(schema);
-    if !says.is_empty() {
-        let _ = write!(words, "\n\n{says}");
+    // The value of a kind of a choice has none: the choice has.
+    let description = schema["description"].as_str().unwrap_or_default();
+    let texts = [description.to_owned(), annotations::sentence(schema)];
+    let words = texts.into_iter().filter(|text| !text.is_empty());
+    let words = words.collect::<Vec<_>>().join("\n\n");
+    if words.is_empty() {
+        return;
     }
     let words = words.replace("*/", "*\\/");
     let _ = writeln!(text, "{indent}/**");
