@@ -38,7 +38,10 @@ fn is_version_1(subject: Subject) -> bool {
     match subject {
         Subject::RootMetadata => true,
         Subject::Module(spec) => spec.profile == Profile::V1,
-        Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => false,
+        Subject::Report
+        | Subject::DiffReport
+        | Subject::ProducerResult
+        | Subject::ValidatorResult => false,
     }
 }
 
