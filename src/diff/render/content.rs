@@ -129,23 +129,23 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
 
 /// A value that differs.
 fn change(depth: usize, change: &ValueChange) -> Line {
-    let unit = match change.unit.as_str() {
-        "" => Vec::new(),
-        unit => vec![words(format!(" {unit}"))],
-    };
     let one = |side: &Option<String>| match side {
         Some(text) if text.is_empty() => words("empty"),
         Some(text) => value(text),
         None => words("absent"),
     };
-    let mut spans = vec![
-        name(&change.field),
-        words(": "),
-        one(&change.before),
-        Span::Arrow,
-        one(&change.after),
-    ];
-    spans.extend(unit);
+    let unit = || match change.unit.as_str() {
+        "" => words(""),
+        unit => words(format!(" {unit}")),
+    };
+    let mut spans = vec![name(&change.field), words(": "), one(&change.before)];
+    if change.after.is_none() {
+        spans.push(unit());
+    }
+    spans.extend([Span::Arrow, one(&change.after)]);
+    if change.after.is_some() {
+        spans.push(unit());
+    }
     Line { depth, spans }
 }
 
@@ -190,17 +190,17 @@ fn links(links: &[LinkDifference]) -> Vec<Line> {
             let mut changes = geometry.changes.iter();
             let is_mesh_changed = changes.any(|change| change.field.ends_with(".mesh"));
             let boxes = [&geometry.bounds_before, &geometry.bounds_after];
-            let text = match boxes {
+            let title = format!("bounding box of the {kind} geometry: ");
+            let mut spans = vec![words(title)];
+            match boxes {
                 [a, b] if a == b && (a.is_none() || !is_mesh_changed) => continue,
-                [a, b] if a == b => "unchanged".to_owned(),
-                [a, b] => format!("{} -> {}", bounds(a.as_ref()), bounds(b.as_ref())),
-            };
-            lines.push(Line {
-                depth: 1,
-                spans: vec![words(format!(
-                    "bounding box of the {kind} geometry: {text}"
-                ))],
-            });
+                [a, b] if a == b => spans.push(words("unchanged")),
+                [a, b] => {
+                    let [a, b] = [a, b].map(|of| words(bounds(of.as_ref())));
+                    spans.extend([a, Span::Arrow, b]);
+                }
+            }
+            lines.push(Line { depth: 1, spans });
         }
     }
     lines
@@ -245,15 +245,15 @@ fn poses(poses: &PoseDifference) -> Line {
         _ => String::new(),
     };
     let count = match poses.links.len() {
-        1 => "1 link is elsewhere, ".to_owned(),
-        count => format!("{count} links are elsewhere, the farthest "),
+        1 => "1 link is elsewhere: ".to_owned(),
+        count => format!("{count} links are elsewhere, the farthest of them "),
     };
     Line {
         depth: 0,
         spans: vec![
             words(count),
             name(&poses.farthest),
-            words(format!(" by {}{angle}", metres(poses.distance))),
+            words(format!(", by {}{angle}", metres(poses.distance))),
         ],
     }
 }

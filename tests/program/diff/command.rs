@@ -41,10 +41,10 @@ fn two_versions() -> Workshop {
     let text = from(&text, "<mass value=\"14\"/>", "");
     let joint = text.find("<joint").unwrap();
     let (head, tail) = text.split_at(joint);
-    let tail = from(tail, "lower=\"", "lower=\"-0.0");
+    let tail = from(tail, "lower=\"-2.9\"", "lower=\"-2.8\"");
     let end = tail.rfind("</robot>").unwrap();
-    let added = "<link name=\"camera\"/><joint name=\"mount\" type=\"revolute\"><parent link=\"forearm\"/>\
-        <child link=\"camera\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>";
+    let added = "<link name=\"lamp\"/><joint name=\"lamp mount\" type=\"revolute\"><parent link=\"forearm\"/>\
+        <child link=\"lamp\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>";
     shop.write(
         "after.urdf",
         &format!("{head}{}{added}</robot>\n", &tail[..end]),

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use roxmltree::{Document, Node};
 
+use super::by_rules::place;
 use super::{Workshop, differences, open, places};
 use testkit::repository;
 use testkit::robots::{made, our_robots};
@@ -11,29 +12,38 @@ use urdd::diff::compare;
 use urdd_geometry::read::read;
 use urdd_geometry::write;
 
+/// A text as XML between single quotes.
+fn escaped(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('\'', "&apos;")
+}
+
 /// Writes an element in another form: attributes in reverse order, numbers spelled otherwise, no white space, comments.
 fn respelled(node: Node, out: &mut String) {
     let tag = node.tag_name().name();
     write!(out, "<!-- {tag} --><{tag}").unwrap();
     let attributes: Vec<_> = node.attributes().collect();
     for attribute in attributes.into_iter().rev() {
-        let words: Vec<String> = attribute
-            .value()
-            .split_whitespace()
-            .map(|word| match (attribute.name(), word.parse::<f64>()) {
-                ("name" | "version", _) | (_, Err(_)) => word.to_owned(),
-                (_, Ok(number)) => format!("{number:e}"),
-            })
-            .collect();
-        let value = match attribute.name() {
-            "name" => attribute.value().to_owned(),
-            _ => words.join("   "),
+        let words: Vec<&str> = attribute.value().split_whitespace().collect();
+        let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
+        // Only the reader of an element knows that it is a number.
+        let is_known = place(node, attribute.name()).is_some() && attribute.name() != "version";
+        let value = match numbers.filter(|it| !it.is_empty() && is_known) {
+            None => escaped(attribute.value()),
+            Some(numbers) => {
+                let words: Vec<String> = numbers.iter().map(|it| format!("{it:e}")).collect();
+                words.join("   ")
+            }
         };
         write!(out, "\n\t{} = '{value}'", attribute.name()).unwrap();
     }
     out.push('>');
-    for child in node.children().filter(Node::is_element) {
-        respelled(child, out);
+    for child in node.children() {
+        match child.text().filter(|_| child.is_text()) {
+            Some(text) => write!(out, " {} ", escaped(text.trim())).unwrap(),
+            None if child.is_element() => respelled(child, out),
+            None => {}
+        }
     }
     write!(out, "</{tag}>").unwrap();
 }

@@ -145,7 +145,9 @@ fn each_pair_that_is_checked_or_skipped_is_named_with_its_kind() {
         let key = format!("{}_skips", kind.key());
         let rows = document[&key].as_array().unwrap();
         for i in 0..rows.len() {
-            for j in i + 1..rows.len() {
+            // Of pieces there are many pairs.
+            let step = if kind.is_of_links() { 1 } else { 3 };
+            for j in (i + 1..rows.len()).step_by(step) {
                 let [a, b] = [i, j].map(|shape| match kind.is_of_links() {
                     true => link(&document["full_shapes"][shape]),
                     false => link(&document["decomposition_shapes"][shape]["link_idx"]),
@@ -163,7 +165,7 @@ fn each_pair_that_is_checked_or_skipped_is_named_with_its_kind() {
         }
     }
     println!("{count} pairs");
-    assert!(count > 150, "{count}");
+    assert!(count > 200, "{count}");
 }
 
 #[test]
