@@ -39,7 +39,7 @@ MODULES = [
     "link_shapes_skips_module",
     "self_collision_model_module",
 ]
-NOT_MODULES = {"root_metadata", "report", "producer_result", "validator_result"}
+NOT_MODULES = {"root_metadata", "report", "diff_report", "producer_result", "validator_result"}
 
 HEAD = '''"""{title}
 

@@ -4,6 +4,7 @@ mod check_collisions;
 mod combine;
 mod configurations;
 mod conformance;
+mod diff;
 mod explain;
 mod export;
 mod foreign;
@@ -53,6 +54,8 @@ enum Command {
     Combine(combine::CombineArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
+    /// Compare two robots by meaning: links, joints, geometry, skipped pairs and findings.
+    Diff(diff::DiffArguments),
     /// Check a robot for self-collisions, and list its nearest pairs of links.
     CheckCollisions(check_collisions::CheckCollisionsArguments),
     /// Show robots in the browser: shapes, joints, distances, skips and findings.
@@ -93,6 +96,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Combine(arguments) => combine::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
+        Command::Diff(arguments) => diff::run(&arguments),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),

@@ -107,9 +107,10 @@ fn table() -> String {
     let mut rows = vec![["id", "profile", "class", "folder"].map(str::to_owned)];
     rows.extend(Subject::all().map(|subject| {
         let (profile, class, folder) = match subject {
-            Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => {
-                (Profile::V1, None, "-")
-            }
+            Subject::Report
+            | Subject::DiffReport
+            | Subject::ProducerResult
+            | Subject::ValidatorResult => (Profile::V1, None, "-"),
             Subject::RootMetadata => (Profile::V1, None, "."),
             Subject::Module(spec) => (spec.profile, spec.kind.class(), spec.kind.folder()),
         };

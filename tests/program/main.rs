@@ -11,6 +11,7 @@ mod cli_schema;
 mod cli_validate;
 mod combine;
 mod conformance;
+mod diff;
 mod directory_sources;
 mod export;
 mod fuzz_findings;

@@ -281,6 +281,8 @@ const PRINTING: &[&[&str]] = &[
     &["validate", "good", "--format", "junit"],
     &["info", "good"],
     &["info", "good", "--format", "json"],
+    &["diff", "good", "robot.urdf"],
+    &["diff", "good", "robot.urdf", "--format", "markdown"],
     &["rehash", "good"],
     &["explain"],
     &["explain", "DOF003"],

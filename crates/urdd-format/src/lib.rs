@@ -29,6 +29,7 @@ pub mod conformance;
 pub mod connections;
 pub mod convex_decomposition_meshes;
 pub mod convex_hull_meshes;
+pub mod diff_report;
 pub mod dof;
 #[doc(hidden)]
 pub mod escape;

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::annotations::KEYWORDS;
 use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
+use super::diff_report::{DIFF_REPORT_VERSION, DiffReport};
 use super::hexadecimal::hexadecimal;
 use super::registry::{MODULES, ModuleSpec, Profile};
 use super::report::{REPORT_VERSION, Report};
@@ -22,6 +23,8 @@ pub enum Subject {
     Module(&'static ModuleSpec),
     /// Output of `urdd validate --format json`.
     Report,
+    /// Output of `urdd diff --format json`.
+    DiffReport,
     /// Output of `urdd conformance producer --format json`.
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
@@ -96,12 +99,13 @@ pub fn released() -> Result<Vec<Release>, SchemaError> {
 
 impl Subject {
     /// Every document with a published schema: the root metadata, the registry in its order, the
-    /// report, and the results of the conformance commands.
+    /// reports, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
         std::iter::once(Subject::RootMetadata)
             .chain(MODULES.iter().map(Subject::Module))
             .chain([
                 Subject::Report,
+                Subject::DiffReport,
                 Subject::ProducerResult,
                 Subject::ValidatorResult,
             ])
@@ -130,6 +134,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => "root_metadata",
             Subject::Report => "report",
+            Subject::DiffReport => "diff_report",
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
@@ -141,6 +146,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => "1.0.0",
             Subject::Report => REPORT_VERSION,
+            Subject::DiffReport => DIFF_REPORT_VERSION,
             Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
             Subject::Module(spec) if spec.version.is_empty() => "unversioned",
             Subject::Module(spec) => spec.version,
@@ -157,6 +163,7 @@ impl Subject {
         let schema = match self {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
             Subject::Report => schemars::schema_for!(Report),
+            Subject::DiffReport => schemars::schema_for!(DiffReport),
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
             Subject::Module(spec) => spec.schema(),
@@ -174,7 +181,10 @@ impl Subject {
         match self {
             Subject::RootMetadata => true,
             Subject::Module(spec) => spec.profile == Profile::V1,
-            Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => false,
+            Subject::Report
+            | Subject::DiffReport
+            | Subject::ProducerResult
+            | Subject::ValidatorResult => false,
         }
     }
 

@@ -53,6 +53,7 @@ mod shape_stages;
 mod shapes;
 mod size;
 mod source;
+mod source_meshes;
 mod stages;
 pub mod train;
 mod urdf;
@@ -72,3 +73,5 @@ pub(crate) use size::MOST_LINKS;
 pub use source::XacroSettings;
 #[doc(hidden)]
 pub use source::read_urdf;
+#[doc(hidden)]
+pub use source_meshes::{SourceMesh, SourceMeshes, open_source};

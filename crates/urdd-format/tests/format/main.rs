@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use testkit::documents::{Choices, arbitrary_json, instance};
 use urdd_format::conformance::{ProducerResult, ValidatorResult};
+use urdd_format::diff_report::DiffReport;
 use urdd_format::registry::ModuleDocument;
 use urdd_format::report::Report;
 use urdd_format::root_metadata::RootMetadata;
@@ -32,6 +33,7 @@ enum Document {
     Root(Box<RootMetadata>),
     Module(ModuleDocument),
     Report(Box<Report>),
+    DiffReport(Box<DiffReport>),
     ProducerResult(Box<ProducerResult>),
     ValidatorResult(Box<ValidatorResult>),
 }
@@ -43,6 +45,9 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
         Subject::Report => Report::deserialize(value).map(|r| Document::Report(Box::new(r))),
+        Subject::DiffReport => {
+            DiffReport::deserialize(value).map(|r| Document::DiffReport(Box::new(r)))
+        }
         Subject::ProducerResult => {
             ProducerResult::deserialize(value).map(|r| Document::ProducerResult(Box::new(r)))
         }

@@ -46,11 +46,11 @@ pub struct MeshCount {
 }
 
 /// A mesh reference in the URDF.
-struct Named<'a> {
-    link: usize,
-    geometry: GeometryKind,
-    element: usize,
-    filename: &'a str,
+pub(crate) struct Named<'a> {
+    pub link: usize,
+    pub geometry: GeometryKind,
+    pub element: usize,
+    pub filename: &'a str,
 }
 
 /// Builds the module.
@@ -285,8 +285,8 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// All mesh references: links ascending, visual before collision, elements ascending.
-fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
+/// The mesh references of a robot: links in order, visual before collision, elements in order.
+pub(crate) fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, of) in robot.links.iter().enumerate() {
         let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());

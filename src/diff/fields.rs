@@ -1,0 +1,180 @@
+//! The values of a part, in one flat list: parts are equal if their lists are.
+
+use std::collections::{HashMap, HashSet};
+
+use urdd_format::diff_report::ValueChange;
+
+/// A value of a part.
+#[derive(Debug, Clone)]
+struct Field {
+    name: String,
+    unit: &'static str,
+    /// Decides whether two values are equal.
+    key: String,
+    /// What people see.
+    shown: String,
+}
+
+/// The values of a part, in order. What is absent has no entry.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Fields(Vec<Field>);
+
+impl Fields {
+    /// Adds a text.
+    pub fn text(&mut self, name: impl Into<String>, value: Option<&str>) {
+        if let Some(value) = value {
+            self.keyed(name, "", value.to_owned(), value.to_owned());
+        }
+    }
+
+    /// Adds a number.
+    pub fn number(&mut self, name: impl Into<String>, unit: &'static str, value: Option<f64>) {
+        self.numbers(name, unit, value.map(|value| [value]));
+    }
+
+    /// Adds several numbers as one value.
+    pub fn numbers<const N: usize>(
+        &mut self,
+        name: impl Into<String>,
+        unit: &'static str,
+        value: Option<[f64; N]>,
+    ) {
+        if let Some(value) = value {
+            let text = numbers(&value);
+            self.keyed(name, unit, text.clone(), text);
+        }
+    }
+
+    /// Adds a value that is compared by another text than the one that people see.
+    pub fn keyed(
+        &mut self,
+        name: impl Into<String>,
+        unit: &'static str,
+        key: String,
+        shown: String,
+    ) {
+        self.0.push(Field {
+            name: name.into(),
+            unit,
+            key,
+            shown,
+        });
+    }
+
+    /// The same values, by name.
+    pub fn sorted(mut self) -> Self {
+        self.0.sort_by(|a, b| a.name.cmp(&b.name));
+        self
+    }
+
+    /// One text for all values: equal exactly if the values are.
+    pub fn key(&self) -> String {
+        let fields = self.0.iter();
+        let texts = fields.map(|field| format!("{:?}={:?}", field.name, field.key));
+        texts.collect::<Vec<_>>().join(";")
+    }
+
+    /// The values on one line, for people.
+    pub fn summary(&self) -> String {
+        let fields = self.0.iter();
+        let texts = fields.map(|field| match field.unit {
+            "" => format!("{} {}", field.name, field.shown)
+                .trim_end()
+                .to_owned(),
+            unit => format!("{} {} {unit}", field.name, field.shown),
+        });
+        texts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The value with a name, as people see it.
+    pub fn shown(&self, name: &str) -> Option<&str> {
+        let field = self.0.iter().find(|field| field.name == name)?;
+        Some(&field.shown)
+    }
+}
+
+/// The values in which two parts differ: in the order of the first, then those that only the second has. `prefix` goes
+/// before their names. Several values of an element (`limit.lower`, `limit.upper`) that only one part has are one value
+/// (`limit`).
+pub(super) fn compare(prefix: &str, before: &Fields, after: &Fields) -> Vec<ValueChange> {
+    let (before, after) = (&whole(before, after), &whole(after, before));
+    let by_name: HashMap<&str, &Field> = after.0.iter().map(|f| (f.name.as_str(), f)).collect();
+    let names: HashSet<&str> = before.0.iter().map(|field| field.name.as_str()).collect();
+    let change = |name: &str, before: Option<&Field>, after: Option<&Field>| ValueChange {
+        field: format!("{prefix}{name}"),
+        before: before.map(|field| field.shown.clone()),
+        after: after.map(|field| field.shown.clone()),
+        unit: after.or(before).map_or("", |field| field.unit).to_owned(),
+    };
+    let mut changes = Vec::new();
+    for field in &before.0 {
+        let other = by_name.get(field.name.as_str()).copied();
+        if other.is_none_or(|other| other.key != field.key) {
+            changes.push(change(&field.name, Some(field), other));
+        }
+    }
+    let new = after.0.iter().filter(|f| !names.contains(f.name.as_str()));
+    changes.extend(new.map(|field| change(&field.name, None, Some(field))));
+    changes
+}
+
+/// Elements that are one value where only one part has them.
+const ELEMENTS: [&str; 6] = [
+    "inertial",
+    "limit",
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "material",
+];
+
+/// The element that a value belongs to, if it is one of [`ELEMENTS`].
+fn element(name: &str) -> Option<&str> {
+    let (element, _) = name.split_once('.')?;
+    ELEMENTS.contains(&element).then_some(element)
+}
+
+/// The values, with one for each element that the other part does not have.
+fn whole(fields: &Fields, other: &Fields) -> Fields {
+    let there: HashSet<&str> = other.0.iter().filter_map(|f| element(&f.name)).collect();
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    for name in fields.0.iter().filter_map(|field| element(&field.name)) {
+        *counts.entry(name).or_default() += 1;
+    }
+    let mut whole = Fields::default();
+    let mut done: HashSet<&str> = HashSet::new();
+    for field in &fields.0 {
+        let name = element(&field.name);
+        let Some(name) = name.filter(|it| !there.contains(it) && counts.get(it) > Some(&1)) else {
+            whole.0.push(field.clone());
+            continue;
+        };
+        if done.insert(name) {
+            let mut inside = Fields::default();
+            for field in fields.0.iter().filter(|f| element(&f.name) == Some(name)) {
+                let short = field.name[name.len() + 1..].to_owned();
+                inside.0.push(Field {
+                    name: short,
+                    ..field.clone()
+                });
+            }
+            whole.keyed(name, "", inside.key(), inside.summary());
+        }
+    }
+    whole
+}
+
+/// Numbers as one text: each in its shortest form that reads back as the same number; -0 is 0.
+pub(super) fn numbers(values: &[f64]) -> String {
+    let texts: Vec<String> = values.iter().map(|value| number(*value)).collect();
+    texts.join(" ")
+}
+
+fn number(value: f64) -> String {
+    let size = value.abs();
+    match size {
+        0.0 => "0".to_owned(),
+        _ if (1e-5..1e15).contains(&size) => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}

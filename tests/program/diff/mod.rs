@@ -1,0 +1,118 @@
+//! `urdd diff`: each change is named at its place, and nothing else is.
+
+mod bad_input;
+mod by_rules;
+mod command;
+mod findings;
+mod same;
+mod single_changes;
+mod urdd_changes;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use testkit::repository;
+use urdd::diff::{Options, Side, compare};
+use urdd_format::diff_report::{DiffReport, Presence, ValueChange};
+
+/// A folder with our robots' meshes, for changed URDFs.
+struct Workshop {
+    folder: tempfile::TempDir,
+}
+
+impl Workshop {
+    fn new() -> Workshop {
+        let folder = tempfile::tempdir().unwrap();
+        let robots = repository().join("conformance/robots");
+        for (path, bytes) in testkit::files::below(&robots) {
+            let is_needed = path.starts_with("meshes/") || path == "package.xml";
+            if is_needed || path.ends_with(".urdf") {
+                let file = folder.path().join(path);
+                fs::create_dir_all(file.parent().unwrap()).unwrap();
+                fs::write(file, bytes).unwrap();
+            }
+        }
+        Workshop { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn text(&self, robot: &str) -> String {
+        fs::read_to_string(self.path(&format!("{robot}.urdf"))).unwrap()
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.path(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+}
+
+/// Without findings.
+fn quick() -> Options {
+    Options {
+        without_findings: true,
+        ..Options::default()
+    }
+}
+
+fn open(path: &Path) -> Side {
+    Side::open(path, &quick()).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+fn differences(before: &Path, after: &Path) -> DiffReport {
+    compare(&open(before), &open(after))
+}
+
+/// Adds a part that differs, and its fields.
+fn add(places: &mut Vec<String>, part: &str, presence: Presence, changes: &[ValueChange]) {
+    if presence != Presence::Changed {
+        places.push(format!("{part}/{presence}"));
+    }
+    places.extend(
+        changes
+            .iter()
+            .map(|change| format!("{part}/{}", change.field)),
+    );
+}
+
+/// Every difference of a report as `list/part/field` or `list/part/presence`, without what follows from others: poses.
+fn places(report: &DiffReport) -> Vec<String> {
+    let mut places = Vec::new();
+    add(&mut places, "robot/", Presence::Changed, &report.robot);
+    for link in &report.links {
+        let name = format!("links/{}", link.name);
+        add(&mut places, &name, link.presence, &link.changes);
+        for geometry in &link.geometry {
+            add(&mut places, &name, Presence::Changed, &geometry.changes);
+        }
+    }
+    for (list, parts) in [
+        ("joints", &report.joints),
+        ("materials", &report.materials),
+        ("other", &report.other_elements),
+    ] {
+        for part in parts {
+            let name = format!("{list}/{}", part.name);
+            add(&mut places, &name, part.presence, &part.changes);
+        }
+    }
+    for dof in &report.dofs {
+        let name = format!("dofs/{}", dof.name);
+        add(&mut places, &name, dof.presence, &dof.changes);
+        if dof.presence == Presence::Changed && dof.index_before != dof.index_after {
+            places.push(format!("{name}/index"));
+        }
+    }
+    for pair in report.pairs.iter().flatten() {
+        let [a, b] = &pair.links;
+        let kinds = pair.shapes.join(",");
+        places.push(format!("pairs/{a}-{b}/{}/{kinds}", pair.change));
+    }
+    for module in report.modules.iter().flatten() {
+        places.push(format!("modules/{}/{}", module.name, module.presence));
+    }
+    places
+}
