@@ -179,23 +179,25 @@ fn every_field_says_unit_frame_index_and_length() {
             lacks("x-index or x-unit");
         }
         if is(schema, "array") && !has(LENGTH) && schema.get("maxItems").is_none() {
-            match FREE.contains(&name.as_str()) {
-                true => drop(free.insert(name.clone())),
-                false => drop(lacks(LENGTH)),
+            if FREE.contains(&name.as_str()) {
+                free.insert(name.clone());
+            } else {
+                lacks(LENGTH);
             }
         }
         let is_number = is(schema, "number") || is(&schema["items"], "number");
         if is_number && FRAMED.contains(&key.as_str()) && !field.frame {
-            match NOT_FRAMED.contains(&name.as_str()) {
-                true => drop(unframed.insert(name.clone())),
-                false => drop(lacks(FRAME)),
+            if NOT_FRAMED.contains(&name.as_str()) {
+                unframed.insert(name.clone());
+            } else {
+                lacks(FRAME);
             }
         }
         let faults = schema
             .as_object()
             .map(annotations::faults)
             .unwrap_or_default();
-        assert_eq!(faults, [], "{name}");
+        assert!(faults.is_empty(), "{name}: {faults:?}");
         seen += KEYWORDS.iter().filter(|keyword| has(keyword)).count();
     });
     assert_eq!(
@@ -203,10 +205,18 @@ fn every_field_says_unit_frame_index_and_length() {
         BTreeSet::new(),
         "annotate them in crates/urdd-format/src"
     );
-    assert_eq!(free, FREE.iter().map(|name| (*name).to_owned()).collect());
+    assert_eq!(
+        free,
+        FREE.iter()
+            .map(|name| (*name).to_owned())
+            .collect::<BTreeSet<String>>()
+    );
     assert_eq!(
         unframed,
-        NOT_FRAMED.iter().map(|name| (*name).to_owned()).collect()
+        NOT_FRAMED
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect::<BTreeSet<String>>()
     );
     assert!(seen > 150, "{seen} annotations");
 }
@@ -304,6 +314,7 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let findings = run.report.urdds.into_iter().flat_map(|urdd| urdd.findings);
     findings
+        .filter(|finding| finding.code.starts_with("EXT"))
         .map(|finding| {
             let file = finding.file.unwrap_or_default();
             let pointer = finding.pointer.unwrap_or_default();
@@ -331,9 +342,16 @@ fn the_validator_judges_as_this_test_does() {
                     continue;
                 };
                 let mut places = walk(&subject.schema(Variant::Strict), document);
+                let mut of_schema: BTreeMap<String, usize> = BTreeMap::new();
                 // What is inside first: pointers stay right.
                 places.reverse();
                 for place in places.iter().filter(|place| place.keyword == keyword) {
+                    // A few of each annotation: a rule stops at a thousand places.
+                    let number = of_schema.entry(place.schema.clone()).or_insert(0);
+                    *number += 1;
+                    if *number > 3 {
+                        continue;
+                    }
                     let value = changed.pointer_mut(&place.pointer).expect("a value");
                     // A list of pieces may have the length of another link's.
                     let is_sure = !place.things.contains(&Thing::Piece) || keyword == INDEX;

@@ -22,7 +22,11 @@ pub struct Urdd {
 impl Urdd {
     fn new(name: &str, documents: impl Iterator<Item = (String, Value)>) -> Urdd {
         let found = documents.filter_map(|(name, document)| {
-            let name = if name == ROOT { "root_metadata" } else { &name };
+            let name = if name == ROOT {
+                "root_metadata"
+            } else {
+                name.as_str()
+            };
             let mut all = Subject::all().filter(|subject| subject.is_annotated());
             Some((all.find(|subject| subject.name() == name)?, document))
         });

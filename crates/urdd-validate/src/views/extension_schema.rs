@@ -130,9 +130,10 @@ fn violations_with(
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {
-            true => vec![place(&first)],
-            false => (validator.iter_errors(document).take(limit))
-                .map(|error| place(&error))
+            true => places(&first).into_iter().take(1).collect(),
+            false => (validator.iter_errors(document))
+                .flat_map(|error| places(&error))
+                .take(limit)
                 .collect(),
         };
         Violations {
@@ -142,28 +143,28 @@ fn violations_with(
     })
 }
 
-/// Pointer and message of a violation. Where no alternative of a choice fits, and all that is wrong in one of them is
-/// an annotation, it is that one's.
-fn place(error: &ValidationError<'_>) -> (String, String) {
+/// Pointers and messages of a violation. Where no alternative of a choice fits, and all that is wrong in one of them
+/// are annotations, they are those.
+fn places(error: &ValidationError<'_>) -> Vec<(String, String)> {
     if let ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } =
         error.kind()
+        && let Some(nearest) = context.iter().find(|errors| are_annotations(errors))
     {
-        let nearest = context
-            .iter()
-            .find(|errors| errors.iter().all(is_annotation));
-        if let Some(first) = nearest.and_then(|errors| errors.first()) {
-            return place(first);
-        }
+        return nearest.iter().flat_map(places).collect();
     }
     let message: String = error.masked().to_string().chars().take(200).collect();
-    (error.instance_path().to_string(), message)
+    vec![(error.instance_path().to_string(), message)]
+}
+
+fn are_annotations(errors: &[ValidationError<'_>]) -> bool {
+    !errors.is_empty() && errors.iter().all(is_annotation)
 }
 
 fn is_annotation(error: &ValidationError<'_>) -> bool {
     match error.kind() {
         ValidationErrorKind::Custom { .. } => true,
         ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } => {
-            (context.iter()).any(|errors| errors.iter().all(is_annotation))
+            context.iter().any(|errors| are_annotations(errors))
         }
         _ => false,
     }
