@@ -110,10 +110,10 @@ pub(super) fn difference(
 fn changes(before: &[Element], after: &[Element], kind: GeometryKind) -> Vec<ValueChange> {
     let mut partner: Vec<Option<usize>> = vec![None; before.len()];
     let mut taken = vec![false; after.len()];
-    let steps: [&dyn Fn(&Element) -> Option<String>; 3] = [
-        &|element| Some(element.key()),
-        &|element| element.name.clone(),
-        &|_| Some(String::new()),
+    let steps: [fn(&Element) -> Option<String>; 3] = [
+        |element| Some(element.key()),
+        |element| element.name.clone(),
+        |_| Some(String::new()),
     ];
     for key in steps {
         let mut free: HashMap<String, VecDeque<usize>> = HashMap::new();

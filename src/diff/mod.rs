@@ -4,6 +4,8 @@
 //! values with URDF's defaults filled in (`fields`), so that formatting, the order of attributes, and how a number is
 //! written make no difference.
 
+mod count;
+mod dof_state;
 mod dofs;
 mod fields;
 mod findings;
@@ -13,6 +15,7 @@ mod links;
 mod materials;
 mod mesh;
 mod modules;
+mod open;
 mod order;
 mod origin;
 mod other_elements;
@@ -67,25 +70,8 @@ pub fn compare(before: &Side, after: &Side) -> DiffReport {
         findings: findings::differences(before, after),
         notes,
     };
-    report.same = count(&report) == 0;
+    report.same = count::count(&report) == 0;
     report
-}
-
-/// Number of differences: entries of all lists but the notes.
-pub(crate) fn count(report: &DiffReport) -> usize {
-    let lists = [
-        report.robot.len(),
-        report.links.len(),
-        report.joints.len(),
-        report.materials.len(),
-        report.other_elements.len(),
-        usize::from(report.poses.is_some()),
-        report.dofs.len(),
-        report.pairs.as_ref().map_or(0, Vec::len),
-        report.modules.as_ref().map_or(0, Vec::len),
-        report.findings.as_ref().map_or(0, Vec::len),
-    ];
-    lists.iter().sum()
 }
 
 /// Differences of the robot itself.

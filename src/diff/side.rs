@@ -1,13 +1,12 @@
 //! One of the two robots, opened.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::dofs::DofState;
+use super::dof_state::DofState;
 use super::shapes::Shapes;
-use super::{side_urdd, side_urdf};
-use urdd_directory::discover::{DiscoverError, Found, discover};
+use urdd_directory::discover::DiscoverError;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Robot;
 use urdd_document::urdd::Urdd;
@@ -17,8 +16,6 @@ use urdd_format::index::Count;
 use urdd_format::report::{self, Kind};
 use urdd_format::urdf::UrdfModule;
 use urdd_generate::{GenerateError, Settings as UrdfSettings};
-use urdd_validate::settings::Settings as ValidateSettings;
-use urdd_validate::{ValidateError, validate};
 
 /// How robots are compared.
 #[derive(Debug, Default)]
@@ -89,46 +86,6 @@ pub struct Side {
 }
 
 impl Side {
-    /// Opens a URDF (a file whose name ends in `.urdf`), or a URDD: a folder or a zip archive.
-    ///
-    /// # Errors
-    /// If the path has no robot, or one that cannot be read.
-    pub fn open(path: &Path, options: &Options) -> Result<Side, DiffError> {
-        let shown = path.display().to_string();
-        let extension = path.extension().unwrap_or_default();
-        let is_urdf = extension.eq_ignore_ascii_case("urdf") && !path.is_dir();
-        if is_urdf && path.exists() {
-            let mut side = side_urdf::open(path, shown, options)?;
-            side.validation = validation(path, options)?;
-            return Ok(side);
-        }
-        let found = discover(path).map_err(DiffError::Discover)?;
-        let found = match found.as_slice() {
-            [one] => one,
-            several => {
-                let first = several
-                    .first()
-                    .map(|found| found.path.display().to_string());
-                return Err(DiffError::Several {
-                    path: shown,
-                    count: several.len(),
-                    first: first.unwrap_or_default(),
-                });
-            }
-        };
-        let Found { path, closed, .. } = found;
-        if let Some(error) = closed {
-            let reason = error.to_string();
-            return Err(DiffError::NoRobot {
-                path: shown,
-                reason,
-            });
-        }
-        let mut side = side_urdd::open(path, shown)?;
-        side.validation = validation(path, options)?;
-        Ok(side)
-    }
-
     pub(super) fn has_quaternions(&self) -> bool {
         has_quaternions(self.robot.version.as_deref())
     }
@@ -154,19 +111,4 @@ impl Side {
             verdict: self.validation.as_ref().map(|urdd| urdd.verdict),
         }
     }
-}
-
-fn validation(path: &Path, options: &Options) -> Result<Option<report::Urdd>, DiffError> {
-    if options.without_findings {
-        return Ok(None);
-    }
-    let settings = ValidateSettings {
-        cancellation: options.urdf.cancellation.clone(),
-        ..ValidateSettings::default()
-    };
-    let run = validate(&[path], &settings).map_err(|error| match error {
-        ValidateError::Discover(error) => DiffError::Discover(error),
-        _ => DiffError::Cancelled,
-    })?;
-    Ok(run.report.urdds.into_iter().next())
 }

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::dofs;
+use super::dof_state;
 use super::shapes::{Place, Shapes, shapes};
 use super::side::{DiffError, Side};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
@@ -45,7 +45,7 @@ pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
     };
     let view = of_urdf(&robot);
     let mut notes = Vec::new();
-    let dofs = dofs::of_urdd(&urdd, &view, &mut notes);
+    let dofs = dof_state::of_urdd(&urdd, &view, &mut notes);
     Ok(Side {
         path: shown,
         kind: Kind::Urdd,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::dofs;
+use super::dof_state;
 use super::shapes::shapes;
 use super::side::{DiffError, Options, Side};
 use urdd_document::robot::of_urdf;
@@ -24,7 +24,7 @@ pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side
     Ok(Side {
         path: shown,
         kind: Kind::Urdf,
-        dofs: dofs::of_robot(&view),
+        dofs: dof_state::of_robot(&view),
         view,
         shapes,
         robot: source.robot,

@@ -1,6 +1,6 @@
 //! What the renderings say: sections of lines. How a name or value is set apart is theirs.
 
-use crate::diff::count;
+use crate::diff::count::count;
 use urdd_format::diff_report::{
     DiffBox, DiffReport, DiffSide, DofDifference, FindingDifference, LinkDifference,
     ModuleDifference, PairChange, PairDifference, PartDifference, PoseDifference, Presence,

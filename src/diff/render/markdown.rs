@@ -47,8 +47,9 @@ fn line(spans: &[Span]) -> String {
 /// A code span: its fence is longer than any run of backticks in the text.
 fn code(text: &str) -> String {
     let text = escape::line(text);
-    let end = text.floor_char_boundary(MAX_VALUE_BYTES);
-    let (text, rest) = text.split_at(end);
+    let mut starts = text.char_indices().map(|(at, _)| at);
+    let end = starts.find(|at| *at > MAX_VALUE_BYTES);
+    let (text, rest) = text.split_at(end.unwrap_or(text.len()));
     let more = if rest.is_empty() { "" } else { " …" };
     if text.is_empty() {
         return "(empty)".to_owned();

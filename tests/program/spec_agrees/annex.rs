@@ -15,7 +15,10 @@ pub fn tables() -> String {
     for subject in Subject::all() {
         match subject {
             Subject::Module(spec) if spec.profile != Profile::V1 => continue,
-            Subject::Report | Subject::ProducerResult | Subject::ValidatorResult => continue,
+            Subject::Report
+            | Subject::DiffReport
+            | Subject::ProducerResult
+            | Subject::ValidatorResult => continue,
             _ => {}
         }
         let schema = subject.schema(Variant::Strict);
