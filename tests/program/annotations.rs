@@ -313,14 +313,22 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
     fixture.write_to(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let findings = run.report.urdds.into_iter().flat_map(|urdd| urdd.findings);
-    findings
-        .filter(|finding| finding.code.starts_with("EXT"))
-        .map(|finding| {
-            let file = finding.file.unwrap_or_default();
-            let pointer = finding.pointer.unwrap_or_default();
-            (finding.code, format!("{file} {pointer}"))
-        })
-        .collect()
+    let of_extensions = findings.filter(|finding| finding.code.starts_with("EXT"));
+    let mut found = BTreeSet::new();
+    for finding in of_extensions {
+        // Further places of the same kind are folded into one finding.
+        let others = finding.places.into_iter();
+        let others = others.map(|place| (place.file, place.pointer));
+        for (file, pointer) in others.chain([(finding.file, finding.pointer)]) {
+            let place = format!(
+                "{} {}",
+                file.unwrap_or_default(),
+                pointer.unwrap_or_default()
+            );
+            found.insert((finding.code.clone(), place));
+        }
+    }
+    found
 }
 
 /// EXT003 and EXT004 find what this test finds, in the modules of the suite's own robots as extensions.

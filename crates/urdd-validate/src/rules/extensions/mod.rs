@@ -8,10 +8,7 @@ mod folders;
 mod schema_unusable;
 
 use crate::rule::rules;
-use folders::extensions;
-
-/// Maximum number of reported places of a document.
-const MAX_PLACES: usize = 1000;
+use folders::{MAX_PLACES, extensions};
 
 rules! {
     document_invalid, extension_index_out_of_range, extension_length_differs, schema_unusable,
