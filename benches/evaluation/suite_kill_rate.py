@@ -6,7 +6,7 @@ Copies the sources, puts the mistakes of `suite_mistakes.py` into the copy, each
 it once (`URDD_MISTAKE=17` switches the mistake 17 on). The shipped sources hold nothing of it. Then it exports the suite
 and has every mistaken validator judge every URDD in it. A mistake is noticed by *verdict* where a URDD is accepted that
 must be rejected, or the other way round, or where the program fails; and by *codes* where also the printed code of the
-case's rule is missing, or printed where it must not be, as `urdd conformance validator --codes` scores them.
+case's rule is missing, or is printed where it must not be.
 `--check` only looks whether each text is still in its file. Standard library alone.
 """
 

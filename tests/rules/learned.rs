@@ -51,7 +51,7 @@ fn count(key: &str, by: i64) -> Value {
 
 /// A model padded with rows and columns that nothing depends on, up to this many weights and biases. It starts with 18
 /// inputs, 4 hidden values and 5 outputs.
-fn padded(numbers: usize) -> impl Fn(&mut Fixture) + Clone {
+pub fn padded(numbers: usize) -> impl Fn(&mut Fixture) + Clone {
     move |fixture: &mut Fixture| {
         let before = 18 * 4 + 4 + 4 * 5 + 5;
         // One more hidden value takes 18 weights, a bias, and 5 weights.
@@ -515,6 +515,15 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             LRN010,
+            "five-more-cleared",
+            false,
+            &[(
+                "/evaluation/num_cleared",
+                count("/evaluation/num_cleared", 5),
+            )],
+        ),
+        case(
+            LRN010,
             "four-more-cleared",
             false,
             &[(
@@ -554,6 +563,27 @@ pub fn cases() -> Vec<Case> {
             true,
             fixture,
             as_drafted,
+        ),
+        // Counts may be off by five.
+        changed(
+            LRN012,
+            "200-collisions",
+            false,
+            || {
+                fixture_with(Said {
+                    reach: ENOUGH,
+                    ..Said::default()
+                })
+            },
+            |fixture| {
+                let colliding = fixture.get(MODEL, "/evaluation/num_colliding");
+                let off = colliding.as_i64().expect("a count") - 200;
+                assert!((1..=5).contains(&off), "{off}");
+                let free = fixture.get(MODEL, "/evaluation/num_free").as_i64();
+                fixture.set(MODEL, "/evaluation/num_colliding", json!(200));
+                let free = free.expect("a count") + off;
+                fixture.set(MODEL, "/evaluation/num_free", json!(free));
+            },
         ),
         changed(
             LRN012,
