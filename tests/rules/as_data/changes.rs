@@ -195,7 +195,7 @@ impl Work {
             {
                 match repetition(after) {
                     Some((short, repeat)) => {
-                        if before != short {
+                        if *before != *short {
                             self.push(path, edit(&before, &short));
                         }
                         self.push(path, repeat);
@@ -299,7 +299,14 @@ fn repetition(bytes: &[u8]) -> Option<(Vec<u8>, Action)> {
         let rest = &bytes[start + times * period..];
         let short = [&bytes[..start + period], rest].concat();
         let text = text.to_owned();
-        Some((short, Action::Repeat { at: start, text, times }))
+        Some((
+            short,
+            Action::Repeat {
+                at: start,
+                text,
+                times,
+            },
+        ))
     })
 }
 

@@ -10,7 +10,7 @@ use super::{Number, Sides, least, most, number, sides, there};
 use crate::bounds::bound;
 use crate::chain::turned;
 use crate::dof::star;
-use testkit::fixture::{Fixture, toy_robot};
+use testkit::fixture::{Fixture, URDF, toy_robot};
 use testkit::robot::{Robot, limit};
 
 const CHAIN: &str = "chain_module";
@@ -54,13 +54,19 @@ fn becomes(f: &mut Fixture, other: Fixture) {
     *f = other;
 }
 
-/// An axis of this length.
+/// An axis of this length. The modules are those of an axis of 1.
 fn axis_of(f: &mut Fixture, length: f64) {
-    let mut robot = star(&[("j", JointType::Revolute)]);
-    robot.joint_mut("j").axis = Some(Axis {
-        xyz: Some([0.0, 0.0, length]),
-    });
-    becomes(f, Fixture::core(&robot));
+    let of = |length: f64| {
+        let mut robot = star(&[("j", JointType::Revolute)]);
+        robot.joint_mut("j").axis = Some(Axis {
+            xyz: Some([0.0, 0.0, length]),
+        });
+        Fixture::core(&robot)
+    };
+    let (mut other, urdf) = (of(1.0), of(length));
+    *other.doc_mut("urdf_module") = urdf.doc("urdf_module").clone();
+    other.put_file(URDF, urdf.file(URDF));
+    becomes(f, other);
 }
 
 fn toy_core() -> Fixture {
@@ -387,10 +393,11 @@ fn agreement() -> Vec<Number> {
             "5.6",
             "Two unit axes agree when the length of their difference is at most 1e-9",
             ("1e-9", 1e-9),
+            // This joint turns by 0.25 rad at most, so that its poses agree too.
             vec![most(
                 CHN009,
                 Fixture::toy,
-                |f, by| add(f, CHAIN, "/joints_in_chain/1/axis/0", by),
+                |f, by| add(f, CHAIN, "/joints_in_chain/12/axis/1", by),
                 1e-9,
             )],
         ),
@@ -419,6 +426,19 @@ fn agreement() -> Vec<Number> {
                     1e-9,
                 ),
                 most(
+                    SHP004,
+                    crate::shapes::fits::lone_box,
+                    |f, by| {
+                        let list = "/full_obbs_maximum_distances/0";
+                        let old = f
+                            .get(crate::shapes::REACH, list)
+                            .as_f64()
+                            .expect("a number");
+                        f.set(crate::shapes::REACH, list, json!(old * (1.0 + by)));
+                    },
+                    1e-9,
+                ),
+                most(
                     URD013,
                     Fixture::toy,
                     |f, by| add(f, "urdf_module", "/links/1/inertial/mass/value", by),
@@ -436,6 +456,15 @@ fn agreement() -> Vec<Number> {
                 Fixture::toy,
                 |f, by| bound(f, 2, -by, 0.2),
                 1e-12,
+            )],
+        ),
+        number(
+            "rotation-vector",
+            "5.6",
+            "not longer than pi times 1 + 1e-9",
+            ("1e-9", 1e-9),
+            vec![Sides::Elsewhere(
+                "of a billion sampled rotation vectors one is as long",
             )],
         ),
         number(

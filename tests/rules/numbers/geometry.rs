@@ -7,7 +7,7 @@ use urdd_geometry::write;
 use urdd_validate::code::Code::*;
 
 use super::{Number, least, most, number, there, wide};
-use crate::mesh_files::{ALL, BASE, grow_piece, lone_box, path, put, read, rewrite};
+use crate::mesh_files::{ALL, BASE, change_gltf, grow_piece, lone_box, path, put, read, rewrite};
 use crate::meshes::{HULLS, ORIGINAL, PIECES, PLAIN, boxy, robot_of};
 use testkit::fixture::{Fixture, ROOT};
 use testkit::robot::*;
@@ -84,24 +84,16 @@ fn tilt_normal(f: &mut Fixture, by: f64) {
     f.put_file(&path, bytes);
 }
 
-/// Makes a normal of the GLB of a plain mesh longer.
-fn longer_normal(f: &mut Fixture, by: f64) {
-    let path = path(f, PLAIN, BASE, "glb");
-    let mut bytes = f.file(&path).to_vec();
-    let four = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four")) as usize;
-    let binary = 20 + four(12) + 8;
-    let gltf: Value = serde_json::from_slice(&bytes[20..binary - 8]).expect("JSON");
-    let accessor = &gltf["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
-    let accessor = &gltf["accessors"][accessor.as_u64().expect("normals") as usize];
-    let view = &gltf["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];
-    let offset = |of: &Value| of["byteOffset"].as_u64().unwrap_or(0) as usize;
-    let first = binary + offset(view) + offset(accessor);
-    for at in [first, first + 4, first + 8] {
-        let old = f32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
-        let new = (f64::from(old) * (1.0 + by)) as f32;
-        bytes[at..at + 4].copy_from_slice(&new.to_le_bytes());
-    }
-    f.put_file(&path, bytes);
+/// A cube whose corners are at this distance from its middle, and are its normals too.
+fn normals_of(f: &mut Fixture, length: f64) {
+    *f = box_of([2.0 * length / 3.0_f64.sqrt(); 3]);
+    change_gltf(f, PLAIN, |gltf| {
+        gltf["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(0);
+    });
+}
+
+fn unit_cube() -> Fixture {
+    box_of([2.0 / 3.0_f64.sqrt(); 3])
 }
 
 /// A link that shows a mesh file, a box of 0.1 m.
@@ -256,7 +248,10 @@ pub fn numbers() -> Vec<Number> {
             "7.6",
             "of unit length to 1e-3",
             ("1e-3", 1e-3),
-            vec![most(MSH013, Fixture::toy, longer_normal, 1e-3)],
+            vec![
+                most(MSH013, unit_cube, |f, by| normals_of(f, 1.0 + by), 1e-3),
+                most(MSH013, unit_cube, |f, by| normals_of(f, 1.0 - by), 1e-3),
+            ],
         ),
         number(
             "resolution",

@@ -189,7 +189,7 @@ fn cases_are_just_on_each_side() {
                     band,
                     ..
                 } => {
-                    let unit = if *at >= 2.0 { 1.0 } else { 0.0 };
+                    let unit: f64 = if *at >= 2.0 { 1.0 } else { 0.0 };
                     let near = |size: f64| (size - at).abs() <= unit.max(JUST * at.abs());
                     let just = (near(*beyond) && near(*within)) == band.is_empty();
                     let just = just && beyond != within;

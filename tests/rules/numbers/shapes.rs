@@ -5,7 +5,6 @@ use urdd_validate::code::Code::*;
 
 use super::documents::add;
 use super::{Number, Sides, most, number, sides, there, wide};
-use crate::learned::padded;
 use crate::meshes::{boxy, robot_of};
 use crate::shapes::fits::{BOXY, lone_box, move_sphere, turn_box};
 use crate::shapes::{
@@ -94,10 +93,6 @@ fn mean_above(f: &mut Fixture, by: f64) {
     );
 }
 
-fn weights(f: &mut Fixture, numbers: f64) {
-    padded(numbers as usize)(f);
-}
-
 fn clearance(f: &mut Fixture, by: f64) {
     let clip = value(f, MODEL, "/clip_distance");
     let old = value(f, MODEL, "/test_vectors/1/clearances/0");
@@ -165,18 +160,6 @@ fn fits() -> Vec<Number> {
             ("1e-6", 1e-6),
             vec![most(SHP021, lone_box, |f, by| hull_reach(f, -by), 1e-6)],
         ),
-        number(
-            "reach-of-a-box",
-            "8.3",
-            "Both agree as other numbers do in 5.6",
-            ("5.6", 5.6),
-            vec![most(
-                SHP004,
-                lone_box,
-                |f, by| scale(f, REACH, "/full_obbs_maximum_distances/0", by),
-                1e-9,
-            )],
-        ),
     ]
 }
 
@@ -214,7 +197,9 @@ fn distances() -> Vec<Number> {
             "8.4",
             "up to 500 pieces",
             ("500", 500.0),
-            vec![Sides::Elsewhere("no case yet: 500 pieces are 1,500 mesh files")],
+            vec![Sides::Elsewhere(
+                "no case yet: 500 pieces are 1,500 mesh files",
+            )],
         ),
         number(
             "samples",
@@ -338,13 +323,8 @@ fn learned() -> Vec<Number> {
             "8.8.4",
             "at most 65,536 weights and biases",
             ("65,536", 65_536.0),
-            // Layers of the model have 101 numbers and 24 more for each hidden value.
-            vec![sides(
-                LRN005,
-                model,
-                weights,
-                65_536.0,
-                [65_550.0, 65_536.0],
+            vec![Sides::Elsewhere(
+                "cases of 2 MB: tests/rules/learned.rs judges models of 65,525 and 65,549",
             )],
         ),
         number(
@@ -420,7 +400,10 @@ fn learned() -> Vec<Number> {
             "8.8.9",
             "by one for every 10,000 begun",
             ("10,000", 10_000.0),
-            vec![there("LRN010/six-more-cleared", "LRN010/five-more-cleared")],
+            vec![there(
+                "LRN010/five-more-cleared",
+                "LRN010/four-more-cleared",
+            )],
         ),
         number(
             "near-contact",

@@ -63,7 +63,8 @@ fn numerals(text: &str, clauses: &BTreeSet<&str>) -> Vec<String> {
     let words = text.split(|c: char| c.is_whitespace() || "()[]{}|;:/\"*".contains(c));
     let mut words = words.filter(|word| !word.is_empty()).peekable();
     while let Some(word) = words.next() {
-        let counts = matches!(words.peek(), Some(&"%" | &"times"));
+        let next = words.peek().map(|next| next.trim_matches([',', '.']));
+        let counts = matches!(next, Some("%" | "times"));
         let word = word.trim_matches(|c: char| ".,?!".contains(c));
         let word = word.trim_start_matches(['-', '+', '±', '=', '<', '>']);
         let number = word.starts_with(|c: char| c.is_ascii_digit());
@@ -116,7 +117,8 @@ fn every_entry_is_in_its_clause() {
             "{id}: {written:?} is not in {words:?}"
         );
         let value = read(written);
-        let agrees = value.is_some_and(|value| (value - number.value).abs() <= 1e-12 * value.abs());
+        let near = |value: f64| (value - number.value).abs() <= 1e-12 * value.abs();
+        let agrees = value.is_some_and(|value| value == number.value || near(value));
         assert!(
             agrees,
             "{id}: {written:?} is {value:?}, and not {}",
