@@ -103,17 +103,6 @@ fn codes(fixture: &Fixture) -> Vec<String> {
 mod flattering {
     use super::*;
 
-    /// As many weights and biases as SPEC 8.8.4 allows, and as few more as this model can have.
-    #[test]
-    fn as_large_as_may_be() {
-        for (numbers, expected) in [(65_536, vec![]), (65_550, vec!["LRN005"])] {
-            let mut model = fixture();
-            padded(numbers)(&mut model);
-            model.seal();
-            assert_eq!(codes(&model), expected, "{numbers}");
-        }
-    }
-
     /// Weights that nothing depends on made the validator count only some of the configurations.
     #[test]
     fn padded_with_dead_weights() {

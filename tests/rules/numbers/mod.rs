@@ -2,8 +2,10 @@
 //! side of it. [`list`] is the one list; its cases are made from it. [`not_limits`] has the numbers of the clauses that
 //! are none of these. Tests fail for a number that is in neither, and for an entry that a clause no longer states.
 
+mod agreement;
 mod documents;
 mod geometry;
+mod learned;
 mod limits_of_files;
 mod not_limits;
 mod primitives;
@@ -126,11 +128,13 @@ pub fn number(
 
 /// The list.
 pub fn list() -> Vec<Number> {
-    let mut list = documents::numbers();
+    let mut list = agreement::numbers();
+    list.extend(documents::numbers());
     list.extend(limits_of_files::numbers());
     list.extend(geometry::numbers());
     list.extend(primitives::numbers());
     list.extend(shapes::numbers());
+    list.extend(learned::numbers());
     list
 }
 
