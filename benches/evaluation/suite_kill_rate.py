@@ -170,7 +170,7 @@ def main() -> None:
     urdd = build(work, given.target.resolve())
     suite = ROOT / "target" / "suite_kill_rate_cases"
     shutil.rmtree(suite, ignore_errors=True)
-    subprocess.run([str(urdd), "conformance", "export", str(suite)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([urdd, "conformance", "export", suite], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     cases = json.loads((suite / "suite.json").read_text())["cases"]
     _, wrong = faults(cases, judged(urdd, suite, cases, 0))
     if wrong:
