@@ -27,6 +27,7 @@ SCRIPTS: dict[str, tuple[list[str], list[str] | None]] = {
     "lines.py": (["sources", "urdd"], None),
     "decomposition.py": (["robots", "peers", "urdd"], None),
     "kill_rate.py": (["urdd"], None),
+    "suite_kill_rate.py": ([], None),
 }
 
 

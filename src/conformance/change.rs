@@ -10,6 +10,9 @@ use super::tree::{FilePath, Node, Tree};
 use urdd_directory::canonical;
 use urdd_directory::json;
 
+/// Largest text that a repetition makes, bytes.
+const MAX_REPEATED: usize = 1 << 27;
+
 /// A change of one file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
@@ -50,6 +53,15 @@ pub enum Action {
         remove: usize,
         /// Bytes to insert, in base64.
         insert_base64: String,
+    },
+    /// Repeats a text, so that a large file is a small case.
+    Repeat {
+        /// Offset of its first byte.
+        at: usize,
+        /// The text, which is there once.
+        text: String,
+        /// How often it is there afterwards.
+        times: usize,
     },
     /// Writes this text to the file.
     Write(String),
@@ -146,6 +158,23 @@ impl Change {
                 let outside = || ChangeError::Outside(file());
                 let end = at.checked_add(*remove).filter(|end| *end <= bytes.len());
                 bytes.splice(*at..end.ok_or_else(outside)?, insert);
+                tree.put(file(), bytes);
+                Ok(())
+            }
+            Action::Repeat { at, text, times } => {
+                let mut bytes = self.bytes(tree)?.to_vec();
+                let end = at.checked_add(text.len());
+                let there = end.and_then(|end| bytes.get(*at..end));
+                let (true, Some(end)) = (there == Some(text.as_bytes()), end) else {
+                    return Err(ChangeError::NotThere {
+                        file: file(),
+                        from: text.clone(),
+                    });
+                };
+                if text.len().saturating_mul(*times) > MAX_REPEATED {
+                    return Err(ChangeError::Outside(file()));
+                }
+                bytes.splice(*at..end, text.repeat(*times).into_bytes());
                 tree.put(file(), bytes);
                 Ok(())
             }

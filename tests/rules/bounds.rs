@@ -13,7 +13,7 @@ use testkit::robot::{Robot, limit};
 const BOUNDS: &str = "bounds_module";
 
 /// Bounds of a DOF, in all three places.
-fn bound(fixture: &mut Fixture, dof: usize, lower: f64, upper: f64) {
+pub fn bound(fixture: &mut Fixture, dof: usize, lower: f64, upper: f64) {
     fixture.set(BOUNDS, &format!("/bounds/{dof}"), json!([lower, upper]));
     fixture.set(BOUNDS, &format!("/dof_lower_bounds/{dof}"), json!(lower));
     fixture.set(BOUNDS, &format!("/dof_upper_bounds/{dof}"), json!(upper));

@@ -29,7 +29,7 @@ fn negate(fixture: &mut Fixture, pointer: &str) {
 }
 
 /// A robot of two links, connected by a joint with this rotation.
-fn turned(rpy: [f64; 3]) -> Fixture {
+pub fn turned(rpy: [f64; 3]) -> Fixture {
     let mut robot = star(&[("j", JointType::Continuous)]);
     robot.joint_mut("j").origin = Some(Origin {
         xyz: None,

@@ -14,7 +14,11 @@ const CONNECTIONS: &str = "connections_module";
 
 /// A base with so many links attached that explicit paths may be omitted.
 fn large() -> Fixture {
-    let names: Vec<String> = (0..300).map(|i| format!("j{i}")).collect();
+    of_links(301)
+}
+
+fn of_links(links: usize) -> Fixture {
+    let names: Vec<String> = (1..links).map(|i| format!("j{}", i - 1)).collect();
     let joints: Vec<(&str, JointType)> = names
         .iter()
         .map(|name| (name.as_str(), JointType::Fixed))
@@ -119,7 +123,15 @@ pub fn cases() -> Vec<Case> {
         invalid(CON006, "one-left-out", |f| {
             f.set(CONNECTIONS, "/link_connection_paths", Value::Null);
         }),
+        changed(CON006, "300-links", true, || of_links(300), leave_out),
         changed(CON006, "301-links", false, large, leave_out),
+        changed(
+            CON006,
+            "a-line-of-180-links",
+            true,
+            || Fixture::core(&line(180)),
+            leave_out,
+        ),
         // In a line of 180 links, the paths contain less than 2,000,000 links.
         changed(
             CON006,

@@ -103,6 +103,13 @@ pub fn cases() -> Vec<Case> {
             "\"samples\"",
             "\"x_a\": 1e999, \"samples\"",
         ),
+        // The middle between the largest number and 2^1024 is 1.79769313486231581e308.
+        replace(
+            JSN005,
+            "just-beyond-binary64",
+            "\"samples\"",
+            "\"x_a\": 1.7976931348623159e308, \"samples\"",
+        ),
         near_miss(JSN005, "largest", |f| {
             f.set(
                 "kinematics_samples_module",

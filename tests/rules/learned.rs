@@ -515,6 +515,15 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             LRN010,
+            "five-more-cleared",
+            true,
+            &[(
+                "/evaluation/num_cleared",
+                count("/evaluation/num_cleared", 5),
+            )],
+        ),
+        case(
+            LRN010,
             "four-more-cleared",
             false,
             &[(
@@ -554,6 +563,27 @@ pub fn cases() -> Vec<Case> {
             true,
             fixture,
             as_drafted,
+        ),
+        // Counts may be off by five.
+        changed(
+            LRN012,
+            "200-collisions",
+            false,
+            || {
+                fixture_with(Said {
+                    reach: ENOUGH,
+                    ..Said::default()
+                })
+            },
+            |fixture| {
+                let colliding = fixture.get(MODEL, "/evaluation/num_colliding");
+                let off = colliding.as_i64().expect("a count") - 200;
+                assert!((1..=5).contains(&off), "{off}");
+                let free = fixture.get(MODEL, "/evaluation/num_free").as_i64();
+                fixture.set(MODEL, "/evaluation/num_colliding", json!(200));
+                let free = free.expect("a count") + off;
+                fixture.set(MODEL, "/evaluation/num_free", json!(free));
+            },
         ),
         changed(
             LRN012,

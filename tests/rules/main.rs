@@ -25,6 +25,7 @@ mod legacy_robot;
 mod mesh_files;
 mod meshes;
 mod messages;
+mod numbers;
 mod one_case;
 mod schema;
 mod shapes;
@@ -157,6 +158,7 @@ fn cases() -> Vec<Case> {
         learned::cases(),
         legacy::cases(),
         legacy_core::cases(),
+        numbers::cases(),
     ]
     .into_iter()
     .flatten()

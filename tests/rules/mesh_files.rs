@@ -14,10 +14,10 @@ use testkit::fixture::{Fixture, ROOT};
 use testkit::robot::*;
 
 /// The base: a box of 0.4 by 0.4 by 0.1 m around its link's origin, which is also its only piece.
-const BASE: usize = 1;
+pub const BASE: usize = 1;
 
 /// The path of the entry of a link, or of its first piece.
-fn entry(module: &str, link: usize) -> String {
+pub fn entry(module: &str, link: usize) -> String {
     match module {
         PLAIN => format!("/link_meshes/{link}/files"),
         HULLS => format!("/link_hulls/{link}"),
@@ -25,12 +25,12 @@ fn entry(module: &str, link: usize) -> String {
     }
 }
 
-fn path(f: &Fixture, module: &str, link: usize, format: &str) -> String {
+pub fn path(f: &Fixture, module: &str, link: usize, format: &str) -> String {
     text(f, module, &format!("{}/{format}", entry(module, link)))
 }
 
 /// A mesh, as read from its OBJ file.
-fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
+pub fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
     let obj = String::from_utf8(f.file(&path(f, module, link, "obj")).to_vec()).expect("text");
     let mut mesh = Mesh::default();
     for line in obj.lines() {
@@ -53,7 +53,7 @@ fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
     mesh
 }
 
-fn put(f: &mut Fixture, module: &str, link: usize, format: &str, mesh: &Mesh) {
+pub fn put(f: &mut Fixture, module: &str, link: usize, format: &str, mesh: &Mesh) {
     let parts = [Part::from(mesh.clone())];
     let bytes = match format {
         "stl" => write::stl(&parts),
@@ -65,7 +65,7 @@ fn put(f: &mut Fixture, module: &str, link: usize, format: &str, mesh: &Mesh) {
 }
 
 /// Changes a mesh in some of its formats.
-fn rewrite(f: &mut Fixture, module: &str, formats: &[&str], change: impl Fn(&mut Mesh)) {
+pub fn rewrite(f: &mut Fixture, module: &str, formats: &[&str], change: impl Fn(&mut Mesh)) {
     let mut mesh = read(f, module, BASE);
     change(&mut mesh);
     for format in formats {
@@ -73,7 +73,7 @@ fn rewrite(f: &mut Fixture, module: &str, formats: &[&str], change: impl Fn(&mut
     }
 }
 
-const ALL: &[&str] = &["stl", "obj", "glb"];
+pub const ALL: &[&str] = &["stl", "obj", "glb"];
 
 /// The next binary32.
 fn up(x: f64) -> f64 {
@@ -99,7 +99,7 @@ pub fn bare() -> Fixture {
 }
 
 /// Changes the JSON of a GLB.
-fn change_gltf(f: &mut Fixture, module: &str, change: impl Fn(&mut Value)) {
+pub fn change_gltf(f: &mut Fixture, module: &str, change: impl Fn(&mut Value)) {
     let path = path(f, module, BASE, "glb");
     let bytes = f.file(&path).to_vec();
     let length = |at: usize| {
@@ -122,12 +122,12 @@ fn change_gltf(f: &mut Fixture, module: &str, change: impl Fn(&mut Value)) {
 }
 
 /// A box that is its own only piece, and a link without a shape.
-fn lone_box() -> Fixture {
+pub fn lone_box() -> Fixture {
     Fixture::full(&robot_of(vec![link("a"), boxy("b")]))
 }
 
 /// Makes the piece of the lone box larger, and its box and sphere with it.
-fn grow_piece(f: &mut Fixture, factor: f64) {
+pub fn grow_piece(f: &mut Fixture, factor: f64) {
     const APPROXIMATIONS: &str = "link_shapes_approximations_module";
     const REACH: &str = "link_shapes_max_distance_from_origin_module";
     let mut mesh = read(f, PIECES, BASE);

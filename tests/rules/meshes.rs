@@ -62,7 +62,7 @@ pub fn text(fixture: &Fixture, module: &str, pointer: &str) -> String {
 }
 
 /// Gives a file another name, in the document too.
-fn rename(fixture: &mut Fixture, module: &str, pointer: &str, new: &str) {
+pub fn rename(fixture: &mut Fixture, module: &str, pointer: &str, new: &str) {
     let old = text(fixture, module, pointer);
     let bytes = fixture.file(&old).to_vec();
     fixture.remove_file(&old);

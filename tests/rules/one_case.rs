@@ -1,5 +1,6 @@
 //! `URDD_CASE=SRC009 cargo test --test rules asked_for` judges these cases at once, from the closures, before any of
 //! them is data. The value is a code or a prefix of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
+//! `URDD_CASE=numbers` selects those that are made from the list of numbers.
 //!
 //! `URDD_RULE=mute` runs them with a rule that finds nothing: every invalid case must fail. `URDD_RULE=alarm` runs them
 //! with a rule that always finds something: every near miss must fail.
@@ -119,6 +120,9 @@ pub fn asked_for() -> Option<String> {
 
 /// The cases whose code/name has this prefix.
 pub fn beginning_with(start: &str) -> Vec<Case> {
+    if start == "numbers" {
+        return crate::numbers::cases();
+    }
     let mut cases = cases();
     cases.retain(|case| format!("{}/{}", case.code, case.name).starts_with(start));
     cases
@@ -133,7 +137,12 @@ fn a_case_that_is_asked_for_is_judged() {
         !cases.is_empty(),
         "no case in tests/rules begins with {start:?}; write the code, or code/name"
     );
-    let faults: Vec<String> = cases.iter().filter_map(|case| fault(case, stand)).collect();
+    // A case that cannot be made is told beside the others.
+    let judged = |case: &Case| {
+        let fault = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| fault(case, stand)));
+        fault.unwrap_or_else(|_| Some(format!("{}/{}: cannot be made", case.code, case.name)))
+    };
+    let faults: Vec<String> = cases.iter().filter_map(judged).collect();
     assert!(
         faults.is_empty(),
         "{} of {} cases are judged wrong:\n\n{}\n",

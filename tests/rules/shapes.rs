@@ -1,7 +1,7 @@
 //! SHP.
 
 mod distances;
-mod fits;
+pub mod fits;
 
 use serde_json::{Value, json};
 use urdd_format::link_shapes_skips::SkipEdit;
@@ -14,13 +14,13 @@ use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::robot::*;
 
-const APPROXIMATIONS: &str = "link_shapes_approximations_module";
-const REACH: &str = "link_shapes_max_distance_from_origin_module";
-const STATISTICS: &str = "link_shapes_distance_statistics_module";
-const SIMPLE: &str = "link_shapes_simple_skips_module";
-const SKIPS: &str = "link_shapes_skips_module";
+pub const APPROXIMATIONS: &str = "link_shapes_approximations_module";
+pub const REACH: &str = "link_shapes_max_distance_from_origin_module";
+pub const STATISTICS: &str = "link_shapes_distance_statistics_module";
+pub const SIMPLE: &str = "link_shapes_simple_skips_module";
+pub const SKIPS: &str = "link_shapes_skips_module";
 
-fn number(fixture: &Fixture, module: &str, pointer: &str) -> f64 {
+pub fn number(fixture: &Fixture, module: &str, pointer: &str) -> f64 {
     fixture.get(module, pointer).as_f64().expect("a number")
 }
 
@@ -31,7 +31,13 @@ fn scale(fixture: &mut Fixture, module: &str, pointer: &str, factor: f64) {
 }
 
 /// Sets both elements of a pair.
-fn set_pair(fixture: &mut Fixture, module: &str, matrix: &str, (i, j): (usize, usize), to: Value) {
+pub fn set_pair(
+    fixture: &mut Fixture,
+    module: &str,
+    matrix: &str,
+    (i, j): (usize, usize),
+    to: Value,
+) {
     fixture.set(module, &format!("{matrix}/{i}/{j}"), to.clone());
     fixture.set(module, &format!("{matrix}/{j}/{i}"), to);
 }
@@ -54,7 +60,7 @@ fn pair_that_is(fixture: &Fixture, reason: &str) -> (usize, usize) {
 }
 
 /// Two boxes that stay 0.9 m apart.
-fn two_boxes() -> Fixture {
+pub fn two_boxes() -> Fixture {
     Fixture::full(&robot_of(vec![boxy("a"), boxy("b")]))
 }
 
@@ -71,6 +77,22 @@ fn sliding(apart: f64, lower: f64, upper: f64) -> Fixture {
         ..joint("slide", JointType::Prismatic, "b", "c")
     };
     Fixture::full_with_edits(&robot, Vec::new())
+}
+
+/// The smallest distance of the boxes in samples is that at the bound, within the tolerance of distances.
+fn just_never(f: &mut Fixture) {
+    let min = number(f, STATISTICS, "/full_obbs/min_distances/0/1");
+    assert!((0.001..0.004).contains(&min), "{min}");
+    let near = 0.001_005;
+    if min - near < 2e-5 {
+        set_pair(
+            f,
+            STATISTICS,
+            "/full_obbs/min_distances",
+            (0, 1),
+            json!(near),
+        );
+    }
 }
 
 fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
@@ -405,6 +427,53 @@ fn skips() -> Vec<Case> {
                 set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(true));
             },
         ),
+        // Distances agree to 1e-5 of twice the reach and both boxes' sizes: 3e-5 m here.
+        changed(
+            SHP026,
+            "just-apart-at-zero",
+            true,
+            || sliding(0.10105, -0.3, 0.3),
+            |f| {
+                set_pair(f, SIMPLE, "/reasons/full_obbs", (0, 1), json!("Default"));
+                set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(true));
+            },
+        ),
+        changed(
+            SHP026,
+            "just-touching-at-zero-and-not-default",
+            true,
+            || sliding(0.10095, -0.3, 0.3),
+            |f| {
+                assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Default"));
+                set_pair(f, SIMPLE, "/reasons/full_obbs", (0, 1), json!("None"));
+                set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(false));
+            },
+        ),
+        changed(
+            SHP026,
+            "just-touching-at-zero",
+            false,
+            || sliding(0.10095, -0.3, 0.3),
+            |_| {},
+        ),
+        // Apart by 1.005 mm and 5 mm more.
+        changed(
+            SHP012,
+            "just-never-said-to-be-none",
+            true,
+            || sliding(0.101005, 0.0, 0.005),
+            |f| {
+                just_never(f);
+                set_pair(f, SIMPLE, "/reasons/full_obbs", (0, 1), json!("None"));
+            },
+        ),
+        changed(
+            SHP012,
+            "just-never",
+            false,
+            || sliding(0.101005, 0.0, 0.005),
+            just_never,
+        ),
         // 0 is out of bounds: at the nearest bound, the boxes are in contact.
         changed(
             SHP026,
@@ -475,6 +544,18 @@ fn legacy_cases() -> Vec<Case> {
     vec![
         legacy(SHP004, "legacy-sphere-too-small", true, reach(0.49)),
         legacy(SHP004, "legacy-sphere-too-large", true, reach(0.501)),
+        legacy(
+            SHP004,
+            "legacy-sphere-just-too-small",
+            true,
+            reach(0.5 - 0.5 * 0.00503),
+        ),
+        legacy(
+            SHP004,
+            "legacy-sphere-just-tessellated",
+            false,
+            reach(0.5 - 0.5 * 0.00497),
+        ),
         legacy(SHP004, "legacy-sphere-tessellated", false, reach(0.499)),
         legacy(SHP006, "legacy-edit-of-one-element", true, {
             matrices(0.3, false, [[true, true], [false, true]])

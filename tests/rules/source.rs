@@ -118,7 +118,7 @@ fn limits() -> Vec<Case> {
     ]
 }
 
-fn of(mass: f64, [ixx, iyy, izz]: [f64; 3]) -> Option<Inertial> {
+pub fn of(mass: f64, [ixx, iyy, izz]: [f64; 3]) -> Option<Inertial> {
     Some(Inertial {
         origin: None,
         mass: Some(Mass { value: mass }),

@@ -193,7 +193,15 @@ impl Work {
             if let (Some(Node::File(before)), Node::File(after)) =
                 (self.tree.nodes.get(path).cloned(), node)
             {
-                self.push(path, edit(&before, after));
+                match repetition(after) {
+                    Some((short, repeat)) => {
+                        if *before != *short {
+                            self.push(path, edit(&before, &short));
+                        }
+                        self.push(path, repeat);
+                    }
+                    None => self.push(path, edit(&before, after)),
+                }
             }
         }
     }
@@ -207,11 +215,17 @@ impl Work {
         for (path, node) in &new.nodes {
             if let (None, Node::File(bytes)) = (self.tree.nodes.get(path), node) {
                 let alike = |(_, other): &(&FilePath, &Node)| *other == node;
-                let action = match self.tree.nodes.iter().find(alike) {
-                    Some((other, _)) if bytes.len() >= SHORT => Action::CopyOf(other.clone()),
-                    _ => written(bytes),
-                };
-                self.push(path, action);
+                match (self.tree.nodes.iter().find(alike), repetition(bytes)) {
+                    (Some((other, _)), _) if bytes.len() >= SHORT => {
+                        let other = other.clone();
+                        self.push(path, Action::CopyOf(other));
+                    }
+                    (_, Some((short, repeat))) => {
+                        self.push(path, written(&short));
+                        self.push(path, repeat);
+                    }
+                    _ => self.push(path, written(bytes)),
+                }
             }
         }
         for (path, node) in &new.nodes {
@@ -252,6 +266,64 @@ fn written(bytes: &[u8]) -> Action {
         Ok(text) => Action::Write(text.to_owned()),
         Err(_) => Action::WriteBase64(STANDARD.encode(bytes)),
     }
+}
+
+/// Fewer bytes than this are not written as a repetition, and longer texts are not looked for.
+const LONG: usize = 16_384;
+const MAX_PERIOD: usize = 32;
+
+/// A long run of one text in a file: the file with that text once, and the action that repeats it.
+fn repetition(bytes: &[u8]) -> Option<(Vec<u8>, Action)> {
+    if bytes.len() < LONG {
+        return None;
+    }
+    (1..=MAX_PERIOD).find_map(|period| {
+        let mut start = 0;
+        let mut at = 0;
+        while at + period < bytes.len() {
+            if bytes[at] == bytes[at + period] {
+                at += 1;
+                continue;
+            }
+            if at - start >= LONG {
+                break;
+            }
+            at += 1;
+            start = at;
+        }
+        if at - start < LONG {
+            return None;
+        }
+        let times = (at + period - start) / period;
+        let text = std::str::from_utf8(&bytes[start..start + period]).ok()?;
+        let rest = &bytes[start + times * period..];
+        let short = [&bytes[..start + period], rest].concat();
+        let text = text.to_owned();
+        Some((
+            short,
+            Action::Repeat {
+                at: start,
+                text,
+                times,
+            },
+        ))
+    })
+}
+
+#[test]
+fn repetitions_are_short_and_right() {
+    let large = format!("<a>{}</a>", "<b/>".repeat(100_000)).into_bytes();
+    let (short, repeat) = repetition(&large).expect("a run");
+    assert!(short.len() < 20, "{}", short.len());
+    let mut tree = Tree::default();
+    tree.put("file".into(), short);
+    let change = Change {
+        file: "file".into(),
+        action: repeat,
+    };
+    change.apply(&mut tree).expect("it fits");
+    assert_eq!(tree.file("file"), Some(large.as_slice()));
+    assert!(change.apply(&mut Tree::default()).is_err(), "no file");
 }
 
 /// The shortest change that gives a file other bytes.

@@ -11,15 +11,15 @@ use testkit::fixture::Fixture;
 use testkit::robot::*;
 
 /// One box; the second link is only a frame, without distances.
-fn lone_box() -> Fixture {
+pub fn lone_box() -> Fixture {
     Fixture::full(&robot_of(vec![boxy("a"), link("b")]))
 }
 
 /// Half extents of the box that [`boxy`] shows.
-const BOXY: [f64; 3] = [0.05, 0.1, 0.15];
+pub const BOXY: [f64; 3] = [0.05, 0.1, 0.15];
 
 /// Turns the box of the lone box about z, and enlarges it to fit.
-fn turn_box(f: &mut Fixture, angle: f64) {
+pub fn turn_box(f: &mut Fixture, angle: f64) {
     let ([a, b, c], (sin, cos)) = (BOXY, angle.sin_cos());
     let half = [a * cos + b * sin, a * sin + b * cos, c];
     let reach = half.iter().map(|h| h * h).sum::<f64>().sqrt();
@@ -29,7 +29,7 @@ fn turn_box(f: &mut Fixture, angle: f64) {
 }
 
 /// Moves the centre of the sphere of the lone box along z, and enlarges it to fit.
-fn move_sphere(f: &mut Fixture, shift: f64) {
+pub fn move_sphere(f: &mut Fixture, shift: f64) {
     let [a, b, c] = BOXY;
     let radius = (a * a + b * b + (c + shift) * (c + shift)).sqrt();
     let sphere = json!({ "radius": radius, "offset_xyz": [0.0, 0.0, shift] });

@@ -181,9 +181,8 @@ fn primitives(
             let on = corners
                 .iter()
                 .all(|p| primitive.distance(*p).abs() <= tolerance);
-            let inside = -primitive.distance(middle);
             if on
-                && inside <= primitive.sag(PRIMITIVE_SAG) + tolerance
+                && primitive.depth(vectors) <= primitive.sag(PRIMITIVE_SAG) + tolerance
                 && primitive.faces_outward(vectors, tolerance)
             {
                 on_any = true;

@@ -97,15 +97,51 @@ impl Primitive {
         }
     }
 
-    /// An upper bound of the distance of its points from the link's origin, m, and of its size.
+    /// The largest depth of a triangle inside the surface, m, if its corners are on the surface. Spheres are deepest
+    /// nearest to their centre, which is inside the triangle or at the middle of an edge; sides of cylinders at the
+    /// middle of an edge across them.
+    pub fn depth(&self, [a, b, c]: [Vector3<f64>; 3]) -> f64 {
+        let normal = (b - a).cross(&(c - a));
+        let nearest = |p: Vector3<f64>| p - normal * ((p - a).dot(&normal) / normal.norm_squared());
+        let mut places = vec![
+            (a + b + c) / 3.0,
+            (a + b) / 2.0,
+            (b + c) / 2.0,
+            (c + a) / 2.0,
+        ];
+        if let Shape::Sphere { .. } | Shape::Capsule { .. } = self.shape {
+            let half = match self.shape {
+                Shape::Capsule { half, .. } => self.rotation * Vector3::z() * half,
+                _ => Vector3::zeros(),
+            };
+            let centres = [self.position - half, self.position + half].map(nearest);
+            let is_inside = |p: &Vector3<f64>| {
+                let edges = [(a, b), (b, c), (c, a)];
+                let mut sides = edges
+                    .iter()
+                    .map(|(u, v)| (v - u).cross(&(p - u)).dot(&normal));
+                sides.all(|side| side >= 0.0)
+            };
+            places.extend(centres.into_iter().filter(is_inside));
+        }
+        let depths = places.into_iter().map(|place| -self.distance(place.into()));
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The largest absolute coordinate of its points in the link's frame, and of its origin, m.
     pub fn extent(&self) -> f64 {
-        let size = match self.shape {
-            Shape::Box(half) => half.norm(),
-            Shape::Cylinder { radius, half } => radius.hypot(half),
-            Shape::Capsule { radius, half } => radius + half,
-            Shape::Sphere { radius } => radius,
+        let along = |axis: usize| {
+            let row = self.rotation.row(axis);
+            let across = (1.0 - row[2] * row[2]).max(0.0).sqrt();
+            match self.shape {
+                Shape::Box(half) => (0..3).map(|i| (row[i] * half[i]).abs()).sum(),
+                Shape::Cylinder { radius, half } => row[2].abs() * half + across * radius,
+                Shape::Capsule { radius, half } => row[2].abs() * half + radius,
+                Shape::Sphere { radius } => radius,
+            }
         };
-        self.position.norm() + size
+        let ends = (0..3).map(|axis| self.position[axis].abs() + along(axis));
+        ends.fold(0.0, f64::max)
     }
 
     /// Its name.
