@@ -47,7 +47,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "position",
             "5.6",
-            "within 1e-9 of the robot's *reach*",
+            "at most 1e-9 of the robot's *reach*",
             ("1e-9", 1e-9),
             vec![
                 // Travel counts: the larger absolute limit of a prismatic joint.
@@ -122,7 +122,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "number",
             "5.6",
-            "within 1e-9 of the larger absolute value, or within 1e-12",
+            "at most 1e-9 of the larger absolute value, or by at most 1e-12",
             ("1e-9", 1e-9),
             vec![
                 most(
@@ -167,7 +167,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "small-number",
             "5.6",
-            "or within 1e-12",
+            "or by at most 1e-12",
             ("1e-12", 1e-12),
             vec![most(
                 BND003,

@@ -145,7 +145,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "mimic-limit",
             "6.1.7",
-            "to 1e-6 of the largest. [SRC002]",
+            "to 1e-6 of the larger absolute value of its two limits",
             ("1e-6", 1e-6),
             // The tip goes from -0.3 to 0.1; the larger limit is 1.
             vec![most(
@@ -187,7 +187,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "unit-quaternion",
             "6.3.4",
-            "unit within 1e-9",
+            "of a norm within 1e-9 of 1",
             ("1e-9", 1e-9),
             vec![
                 most(
@@ -234,7 +234,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "unit-quaternion-of-a-pose",
             "9.2",
-            "unit within 1e-9",
+            "of a norm within 1e-9 of 1",
             ("1e-9", 1e-9),
             vec![most(
                 KIN003,
@@ -252,7 +252,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "negative-w",
             "9.2",
-            "as low as -1e-9",
+            "w not below -1e-9",
             ("1e-9", 1e-9),
             vec![most(KIN003, star_of_one, negative_quaternion, 1e-9)],
         ),
@@ -294,7 +294,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "validators-archives",
             "13.1",
-            "come to 4 GiB, and to no more than 64 MiB and 250 times",
+            "come to 4 GiB, and to no more than 64 MiB plus 250 times",
             ("64 MiB", 67_108_864.0),
             vec![Sides::Elsewhere(
                 "limits of this project's validator, and no rule's: docs/security.md",
@@ -303,10 +303,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "triangles-of-a-robot",
             "13.3",
-            "At most 20 million triangles of a file are read, more are an error. A URDD is made of at most 3 million \
-             triangles a link and 10 million a robot, since a URDF of some bytes names a mesh, or a sphere, as often as \
-             it likes. 4096 materials are told apart. Polygons that are not convex are cut by ears up to 10,000 corners \
-             each and 500 million",
+            "A file of more than 20 million triangles, instances counted, is not a mesh (7.5). The generator of this project makes URDDs of at most 3 million triangles a link and 10 million a robot and refuses others, since a URDF of some bytes names a mesh, or a sphere, as often as it likes. 4096 materials are told apart. Polygons that are not convex are cut by ears up to 10,000 corners each and 500 million",
             ("10,000", 10_000.0),
             vec![Sides::Elsewhere(
                 "limits of this project's programs, and no rule's: docs/security.md",

@@ -328,7 +328,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "coverage",
             "7.10",
-            "no more than `surface_tolerance` of `method` and no more than 5 % of the diagonal",
+            "the smaller of `surface_tolerance` of `method` and 5 % of the diagonal",
             ("5 %", 0.05),
             vec![
                 most(MSH022, lone_box, without_a_promise, 0.05 * DIAGONAL),

@@ -101,7 +101,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "tolerance-of-a-count",
             "8.8.9",
-            "by one for every 10,000 begun",
+            "by n / 10,000, rounded up",
             ("10,000", 10_000.0),
             vec![there(
                 "LRN010/five-more-cleared",

@@ -239,9 +239,39 @@ pub fn numbers() -> Vec<Number> {
             )],
         ),
         number(
+            "thin-for-a-normal",
+            "7.6",
+            "8 * 2^-23 / 1e-3 of its largest absolute coordinate",
+            ("8 * 2^-23", 8.0 * (-23_f64).exp2()),
+            vec![Sides::Elsewhere(
+                "no case yet: crates/urdd-validate/src/solids/stl_records.rs judges it",
+            )],
+        ),
+        number(
+            "corners-of-a-fan",
+            "7.8",
+            "One of more than 10,000 corners",
+            ("10,000", 10_000.0),
+            vec![Sides::Elsewhere("crates/urdd-geometry tests the limit")],
+        ),
+        number(
+            "visits-of-nodes",
+            "7.5",
+            "More than 100,000 visits of nodes, or 200 nodes in one another",
+            ("100,000", 100_000.0),
+            vec![Sides::Elsewhere("crates/urdd-geometry tests the limits")],
+        ),
+        number(
+            "offset-of-an-input",
+            "7.5",
+            "a whole number below 1,024",
+            ("1,024", 1_024.0),
+            vec![Sides::Elsewhere("crates/urdd-geometry tests the limit")],
+        ),
+        number(
             "collada-limits",
             "13.2",
-            "a COLLADA file with more than 256 levels, 4,000,000 nodes, 256 attributes of one element, 64 prefixes",
+            "a COLLADA file with more than 256 levels, 4,000,000 nodes (elements, texts, comments and instructions), 256 attributes of one element, 64 prefixes",
             ("256", 256.0),
             vec![Sides::Elsewhere(
                 "crates/urdd-xml tests the limits of both kinds of XML",

@@ -244,7 +244,7 @@ fn distances() -> Vec<Number> {
         number(
             "contact-in-samples",
             "8.6",
-            "more than 0.001 m, and the tolerance of 8.5, apart in others",
+            "more than 0.001 m plus the tolerance of 8.5 in another",
             ("0.001", 0.001),
             vec![there(
                 "SHP025/legacy-stale",
