@@ -463,15 +463,15 @@ fn hostile_annotations_of_extensions() {
             .collect::<serde_json::Map<_, _>>()
     );
     let cases = [
-        // A million wrong indices: one is named.
+        // Very many wrong indices: one is named.
         (
             json!({"items": is_link}),
-            json!(vec![4_000_000_000_u32; 1_000_000]),
+            json!(vec![4_000_000_000_u32; 200_000]),
             "EXT003",
         ),
         (
             json!({"x-length": "links"}),
-            json!(vec![0; 1_000_000]),
+            json!(vec![0; 200_000]),
             "EXT004",
         ),
         // Every level of lists has the wrong length.

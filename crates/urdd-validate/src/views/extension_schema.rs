@@ -99,7 +99,7 @@ impl Violations {
 /// The violations by a document of a schema without [`faults`]: at most `limit` places. In a large document, only the
 /// first is searched.
 pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
-    violations_with(options(), schema, document, limit)
+    violations_with(options(), None, schema, document, limit)
 }
 
 /// The same with an annotation that counts as an assertion. Without the annotation, the document has no violations.
@@ -111,11 +111,12 @@ pub fn annotation_violations(
     limit: usize,
 ) -> Violations {
     let options = annotated::judging(options(), judged, Arc::clone(counts));
-    violations_with(options, schema, document, limit)
+    violations_with(options, Some(judged), schema, document, limit)
 }
 
 fn violations_with(
     options: ValidationOptions<'_>,
+    judged: Option<Judged>,
     schema: &Value,
     document: &Value,
     limit: usize,
@@ -130,9 +131,9 @@ fn violations_with(
         let is_first_only =
             affordable_work(schema, document).is_none_or(|work| work > WORK_FOR_ALL_VIOLATIONS);
         let found = match is_first_only {
-            true => places(&first).into_iter().take(1).collect(),
+            true => places(&first, judged).into_iter().take(1).collect(),
             false => (validator.iter_errors(document))
-                .flat_map(|error| places(&error))
+                .flat_map(|error| places(&error, judged))
                 .take(limit)
                 .collect(),
         };
@@ -145,14 +146,22 @@ fn violations_with(
 
 /// Pointers and messages of a violation. Where no alternative of a choice fits, and all that is wrong in one of them
 /// are annotations, they are those.
-fn places(error: &ValidationError<'_>) -> Vec<(String, String)> {
+fn places(error: &ValidationError<'_>, judged: Option<Judged>) -> Vec<(String, String)> {
     if let ValidationErrorKind::AnyOf { context } | ValidationErrorKind::OneOfNotValid { context } =
         error.kind()
         && let Some(nearest) = context.iter().find(|errors| are_annotations(errors))
     {
-        return nearest.iter().flat_map(places).collect();
+        let nearest = nearest.iter();
+        return nearest.flat_map(|error| places(error, judged)).collect();
     }
-    let message: String = error.masked().to_string().chars().take(200).collect();
+    let mut message: String = error.masked().to_string().chars().take(200).collect();
+    if let Some(judged) = judged.filter(|_| !is_annotation(error)) {
+        // Of a keyword around it, such as `contains`.
+        message = format!(
+            "`{}` of schema.json is not met: {message}",
+            judged.keyword()
+        );
+    }
     vec![(error.instance_path().to_string(), message)]
 }
 

@@ -34,6 +34,7 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
         let more = violations.more();
         for (pointer, message) in violations.found {
             let actual = document.pointer(&pointer).map(|value| match value {
+                Value::Array(list) if list.len() == 1 => "1 element".to_owned(),
                 Value::Array(list) => format!("{} elements", list.len()),
                 value => schema_check::excerpt(value),
             });
