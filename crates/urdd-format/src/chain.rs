@@ -11,10 +11,10 @@ module! {
     /// `dof_module`, this is all that forward kinematics needs.
     pub struct ChainModule {
         /// Every link, in link order.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub links_in_chain: Vec<LinkInChain>,
         /// Every joint, in joint order.
-        #[schemars(transform = lengths(&["joints"]))]
+        #[schemars(transform = lengths("joints"))]
         pub joints_in_chain: Vec<JointInChain>,
         /// Links by their depth below the root: level 0 is the root alone; each level ascending.
         pub kinematic_hierarchy: Vec<Vec<LinkIdx>>,

@@ -14,7 +14,7 @@ module! {
         pub base: Option<CompositionBase>,
         /// The parts, in the order in which they stand in the URDF. The place in this list is the part's
         /// index.
-        #[schemars(transform = lengths(&["parts"]))]
+        #[schemars(transform = lengths("parts"))]
         pub parts: Vec<CompositionPart>,
     }
 }

@@ -8,7 +8,7 @@ module! {
     /// The convex hull of each link's plain mesh.
     pub struct ConvexHullMeshesModule {
         /// For each link its hull, or null for a link without a plain mesh.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub link_hulls: Vec<Option<MeshFiles>>,
     }
 }

@@ -11,17 +11,17 @@ module! {
         /// Number of DOFs: the length of a configuration vector.
         pub num_dofs: Count,
         /// For each DOF, its joint.
-        #[schemars(transform = lengths(&["dofs"]))]
+        #[schemars(transform = lengths("dofs"))]
         pub dof_idx_to_joint_idx_mapping: Vec<JointIdx>,
         /// For each joint, its DOFs, ascending; empty for fixed and for mimic joints.
-        #[schemars(transform = lengths(&["joints"]))]
+        #[schemars(transform = lengths("joints"))]
         pub joint_idx_to_dof_idxs_mapping: Vec<Vec<DofIdx>>,
         /// For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics
         /// are resolved.
-        #[schemars(transform = lengths(&["joints"]))]
+        #[schemars(transform = lengths("joints"))]
         pub joint_idx_to_mimic_mapping: Vec<Option<ResolvedMimic>>,
         /// What each DOF is.
-        #[schemars(transform = lengths(&["dofs"]))]
+        #[schemars(transform = lengths("dofs"))]
         pub dofs: Vec<Dof>,
     }
 }

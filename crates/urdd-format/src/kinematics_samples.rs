@@ -22,10 +22,10 @@ object! {
         /// The number of a sampled configuration; null for the other kinds.
         pub sample_idx: Option<SampleIdx>,
         /// One value per DOF, rad or m.
-        #[schemars(transform = lengths(&["dofs"]), extend("x-unit" = "rad or m"))]
+        #[schemars(transform = lengths("dofs"), extend("x-unit" = "rad or m"))]
         pub configuration: Vec<f64>,
         /// For each link, its frame's pose in the root link's frame.
-        #[schemars(transform = lengths(&["links"]), extend("x-frame" = "root"))]
+        #[schemars(transform = lengths("links"), extend("x-frame" = "root"))]
         pub link_poses: Vec<Pose>,
     }
 }

@@ -8,16 +8,16 @@ module! {
     /// the link's frame.
     pub struct LinkShapesApproximationsModule {
         /// For each link, a box that holds its hull; null for a link without a mesh.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub full_obbs: Vec<Option<Obb>>,
         /// For each link, a sphere that holds its hull; null for a link without a mesh.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub full_bounding_spheres: Vec<Option<BoundingSphere>>,
         /// For each link, a box for each convex piece.
-        #[schemars(transform = lengths(&["links", "pieces"]))]
+        #[schemars(transform = lengths("links pieces"))]
         pub decomposition_obbs: Vec<Vec<Obb>>,
         /// For each link, a sphere for each convex piece.
-        #[schemars(transform = lengths(&["links", "pieces"]))]
+        #[schemars(transform = lengths("links pieces"))]
         pub decomposition_bounding_spheres: Vec<Vec<BoundingSphere>>,
     }
 }

@@ -12,10 +12,10 @@ module! {
         /// Number of sampled configurations, from the first of the specification's sequence.
         pub num_samples: Count,
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        #[schemars(transform = lengths(&["full_shapes"]))]
+        #[schemars(transform = lengths("full_shapes"))]
         pub full_shapes: Vec<LinkIdx>,
         /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        #[schemars(transform = lengths(&["decomposition_shapes"]))]
+        #[schemars(transform = lengths("decomposition_shapes"))]
         pub decomposition_shapes: Vec<PieceShape>,
         /// Between the links' convex hulls.
         pub full_convex_hulls: DistanceStatistics,
@@ -36,13 +36,13 @@ object! {
     /// Square symmetric matrices over one list of shapes, metres.
     pub struct DistanceStatistics {
         /// Mean distance of each pair.
-        #[schemars(transform = lengths(&["full_shapes or decomposition_shapes", "full_shapes or decomposition_shapes"]), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub mean_distances: Vec<Vec<f64>>,
         /// Smallest distance of each pair.
-        #[schemars(transform = lengths(&["full_shapes or decomposition_shapes", "full_shapes or decomposition_shapes"]), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub min_distances: Vec<Vec<f64>>,
         /// Largest distance of each pair.
-        #[schemars(transform = lengths(&["full_shapes or decomposition_shapes", "full_shapes or decomposition_shapes"]), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub max_distances: Vec<Vec<f64>>,
     }
 }

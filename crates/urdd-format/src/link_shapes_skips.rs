@@ -16,28 +16,28 @@ module! {
         /// The edits, applied in order. What a person decides is free; the names must exist.
         pub edits: Vec<SkipEdit>,
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        #[schemars(transform = lengths(&["full_shapes"]))]
+        #[schemars(transform = lengths("full_shapes"))]
         pub full_shapes: Vec<LinkIdx>,
         /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        #[schemars(transform = lengths(&["decomposition_shapes"]))]
+        #[schemars(transform = lengths("decomposition_shapes"))]
         pub decomposition_shapes: Vec<PieceShape>,
         /// Skips between the links' convex hulls.
-        #[schemars(transform = lengths(&["full_shapes", "full_shapes"]))]
+        #[schemars(transform = lengths("full_shapes full_shapes"))]
         pub full_convex_hulls_skips: Vec<Vec<bool>>,
         /// Skips between the links' boxes.
-        #[schemars(transform = lengths(&["full_shapes", "full_shapes"]))]
+        #[schemars(transform = lengths("full_shapes full_shapes"))]
         pub full_obbs_skips: Vec<Vec<bool>>,
         /// Skips between the links' spheres.
-        #[schemars(transform = lengths(&["full_shapes", "full_shapes"]))]
+        #[schemars(transform = lengths("full_shapes full_shapes"))]
         pub full_bounding_spheres_skips: Vec<Vec<bool>>,
         /// Skips between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths(&["decomposition_shapes", "decomposition_shapes"]))]
+        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
         pub decomposition_convex_hulls_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths(&["decomposition_shapes", "decomposition_shapes"]))]
+        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
         pub decomposition_obbs_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths(&["decomposition_shapes", "decomposition_shapes"]))]
+        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
         pub decomposition_bounding_spheres_skips: Option<Vec<Vec<bool>>>,
     }
 }

@@ -11,7 +11,7 @@ module! {
         /// Which geometry is preferred; the other is used for a link that has none of it.
         pub preferred_geometry: GeometryKind,
         /// For each link its mesh, or null for a link without geometry.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub link_meshes: Vec<Option<PlainMesh>>,
     }
 }

@@ -38,7 +38,7 @@ module! {
         /// its hyperbolic tangent.
         pub layers: Vec<ModelLayer>,
         /// The pairs of links that the network has an output for, in that order.
-        #[schemars(transform = lengths(&["pairs"]))]
+        #[schemars(transform = lengths("pairs"))]
         pub pairs: Vec<ModelPair>,
         /// The pairs of links that are not skipped and have no output: they were never near in training.
         pub other_pairs: Vec<LinkPair>,
@@ -193,10 +193,10 @@ object! {
     /// What the model gives in a configuration.
     pub struct ModelTestVector {
         /// One value for each DOF, rad or m.
-        #[schemars(transform = lengths(&["dofs"]), extend("x-unit" = "rad or m"))]
+        #[schemars(transform = lengths("dofs"), extend("x-unit" = "rad or m"))]
         pub configuration: Vec<f64>,
         /// One clearance for each entry of `pairs`, metres.
-        #[schemars(transform = lengths(&["pairs"]), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("pairs"), extend("x-unit" = "m"))]
         pub clearances: Vec<f64>,
     }
 }

@@ -14,10 +14,10 @@ module! {
         /// The URDF format version that the file states (`<robot version>`).
         pub version: Option<String>,
         /// Links in the order of the file. The place in this list is the link index.
-        #[schemars(transform = lengths(&["links"]))]
+        #[schemars(transform = lengths("links"))]
         pub links: Vec<Link>,
         /// Joints in the order of the file. The place in this list is the joint index.
-        #[schemars(transform = lengths(&["joints"]))]
+        #[schemars(transform = lengths("joints"))]
         pub joints: Vec<Joint>,
         /// Materials declared at the top of the file, in its order.
         pub materials: Vec<Material>,

@@ -99,7 +99,7 @@ impl Violations {
 /// The violations by a document of a schema without [`faults`]: at most `limit` places. In a large document, only the
 /// first is searched.
 pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
-    violations_with(options(), None, schema, document, limit)
+    violations_with(None, schema, document, limit)
 }
 
 /// The same with an annotation that counts as an assertion. Without the annotation, the document has no violations.
@@ -110,18 +110,21 @@ pub fn annotation_violations(
     counts: &Arc<Counts>,
     limit: usize,
 ) -> Violations {
-    let options = annotated::judging(options(), judged, Arc::clone(counts));
-    violations_with(options, Some(judged), schema, document, limit)
+    violations_with(Some((judged, counts)), schema, document, limit)
 }
 
 fn violations_with(
-    options: ValidationOptions<'_>,
-    judged: Option<Judged>,
+    asserted: Option<(Judged, &Arc<Counts>)>,
     schema: &Value,
     document: &Value,
     limit: usize,
 ) -> Violations {
+    let judged = asserted.map(|(judged, _)| judged);
     on_a_large_stack(|| {
+        let options = match asserted {
+            Some((judged, counts)) => annotated::judging(options(), judged, Arc::clone(counts)),
+            None => options(),
+        };
         let Ok(validator) = compile(options, schema) else {
             return Violations::default();
         };
