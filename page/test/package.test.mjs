@@ -26,7 +26,15 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
     writeFileSync(join(project, "package.json"), `{ "type": "module", "private": true }`);
     does(project, "npm", "install", "--offline", "--no-audit", "--no-fund", join(folder, tarball));
     const installed = readdirSync(join(project, "node_modules/urdd")).sort();
-    const files = ["LICENSE-APACHE", "LICENSE-MIT", "README.md", "index.d.ts", "index.mjs", "module.mjs", "modules.d.ts"];
+    const files = [
+      "LICENSE-APACHE",
+      "LICENSE-MIT",
+      "README.md",
+      "index.d.ts",
+      "index.mjs",
+      "module.mjs",
+      "modules.d.ts",
+    ];
     assert.deepEqual(installed, [...files, "package.json", "protocol.d.ts", "urdd.wasm"]);
     // TypeScript, so that the types are held too; Node runs what is left without them.
     const program = `
