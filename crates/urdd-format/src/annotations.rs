@@ -267,11 +267,11 @@ fn known(keyword: &str) -> String {
     }
 }
 
-/// A transform of a field's schema: `x-length` of a list, of the lists in it, and so on, with spaces between.
+/// A transform of a field's schema: `x-length` of a list, of the lists in it, and so on, with `, ` between.
 pub(crate) fn lengths(words: &'static str) -> impl FnMut(&mut Schema) {
     move |schema| {
         let mut at = schema.as_object_mut();
-        for word in words.split(' ') {
+        for word in words.split(", ") {
             let Some(list) = at else { return };
             list.insert(LENGTH.to_owned(), Value::from(word));
             at = list.get_mut("items").and_then(Value::as_object_mut);

@@ -12,15 +12,15 @@ module! {
         #[schemars(transform = lengths("links"))]
         pub root_paths: Vec<LinkPath>,
         /// Element (i, j) is the lowest link that lies above (or is) both i and j.
-        #[schemars(transform = lengths("links links"))]
+        #[schemars(transform = lengths("links, links"))]
         pub lowest_common_ancestors: Vec<Vec<LinkIdx>>,
         /// Element (i, j) is the path from link i to link j. May be null above 300 links, and where
         /// the paths hold more than 2,000,000 links together.
-        #[schemars(transform = lengths("links links"))]
+        #[schemars(transform = lengths("links, links"))]
         pub link_to_link_paths: Option<Vec<Vec<LinkPath>>>,
         /// Element (i, j), where j is a descendant of i: the links from i (exclusive) to j (inclusive);
         /// where i is j: `[i]`; else null. The whole may be null where `link_to_link_paths` may.
-        #[schemars(transform = lengths("links links"))]
+        #[schemars(transform = lengths("links, links"))]
         pub link_connection_paths: Option<Vec<Vec<Option<Vec<LinkIdx>>>>>,
     }
 }

@@ -11,7 +11,7 @@ module! {
         pub method: DecompositionMethod,
         /// For each link its pieces; empty for a link without a plain mesh. The place in the list is
         /// the piece index.
-        #[schemars(transform = lengths("links pieces"))]
+        #[schemars(transform = lengths("links, pieces"))]
         pub link_pieces: Vec<Vec<MeshFiles>>,
     }
 }

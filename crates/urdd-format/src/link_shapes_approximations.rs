@@ -14,10 +14,10 @@ module! {
         #[schemars(transform = lengths("links"))]
         pub full_bounding_spheres: Vec<Option<BoundingSphere>>,
         /// For each link, a box for each convex piece.
-        #[schemars(transform = lengths("links pieces"))]
+        #[schemars(transform = lengths("links, pieces"))]
         pub decomposition_obbs: Vec<Vec<Obb>>,
         /// For each link, a sphere for each convex piece.
-        #[schemars(transform = lengths("links pieces"))]
+        #[schemars(transform = lengths("links, pieces"))]
         pub decomposition_bounding_spheres: Vec<Vec<BoundingSphere>>,
     }
 }

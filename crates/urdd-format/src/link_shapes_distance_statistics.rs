@@ -36,13 +36,13 @@ object! {
     /// Square symmetric matrices over one list of shapes, metres.
     pub struct DistanceStatistics {
         /// Mean distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub mean_distances: Vec<Vec<f64>>,
         /// Smallest distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub min_distances: Vec<Vec<f64>>,
         /// Largest distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
         pub max_distances: Vec<Vec<f64>>,
     }
 }

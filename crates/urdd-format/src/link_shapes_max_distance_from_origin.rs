@@ -16,13 +16,13 @@ module! {
         #[schemars(transform = lengths("links"), extend("x-unit" = "m"))]
         pub full_bounding_spheres_maximum_distances: Vec<Option<f64>>,
         /// For each link, of each convex piece.
-        #[schemars(transform = lengths("links pieces"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("links, pieces"), extend("x-unit" = "m"))]
         pub decomposition_convex_hulls_maximum_distances: Vec<Vec<f64>>,
         /// For each link, of the box of each convex piece.
-        #[schemars(transform = lengths("links pieces"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("links, pieces"), extend("x-unit" = "m"))]
         pub decomposition_obbs_maximum_distances: Vec<Vec<f64>>,
         /// For each link, of the sphere of each convex piece.
-        #[schemars(transform = lengths("links pieces"), extend("x-unit" = "m"))]
+        #[schemars(transform = lengths("links, pieces"), extend("x-unit" = "m"))]
         pub decomposition_bounding_spheres_maximum_distances: Vec<Vec<f64>>,
     }
 }

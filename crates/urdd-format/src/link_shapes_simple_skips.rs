@@ -17,22 +17,22 @@ module! {
         pub decomposition_shapes: Vec<PieceShape>,
         /// Skips between the links' convex hulls: true where both shapes are on one link, or where
         /// the largest sampled distance is at most 0.001 m.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_convex_hulls_simple_skips: Vec<Vec<bool>>,
         /// Skips between the links' boxes.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_obbs_simple_skips: Vec<Vec<bool>>,
         /// Skips between the links' spheres.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_bounding_spheres_simple_skips: Vec<Vec<bool>>,
         /// Skips between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_convex_hulls_simple_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_obbs_simple_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_bounding_spheres_simple_skips: Option<Vec<Vec<bool>>>,
         /// The reason of each pair, for each of the matrices above.
         pub reasons: SkipReasons,
@@ -43,22 +43,22 @@ object! {
     /// The reason of each pair, for each kind of shape.
     pub struct SkipReasons {
         /// Between the links' convex hulls.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_convex_hulls: Vec<Vec<SkipReason>>,
         /// Between the links' boxes.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_obbs: Vec<Vec<SkipReason>>,
         /// Between the links' spheres.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_bounding_spheres: Vec<Vec<SkipReason>>,
         /// Between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_convex_hulls: Option<Vec<Vec<SkipReason>>>,
         /// Between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_obbs: Option<Vec<Vec<SkipReason>>>,
         /// Between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_bounding_spheres: Option<Vec<Vec<SkipReason>>>,
     }
 }

@@ -22,22 +22,22 @@ module! {
         #[schemars(transform = lengths("decomposition_shapes"))]
         pub decomposition_shapes: Vec<PieceShape>,
         /// Skips between the links' convex hulls.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_convex_hulls_skips: Vec<Vec<bool>>,
         /// Skips between the links' boxes.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_obbs_skips: Vec<Vec<bool>>,
         /// Skips between the links' spheres.
-        #[schemars(transform = lengths("full_shapes full_shapes"))]
+        #[schemars(transform = lengths("full_shapes, full_shapes"))]
         pub full_bounding_spheres_skips: Vec<Vec<bool>>,
         /// Skips between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_convex_hulls_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_obbs_skips: Option<Vec<Vec<bool>>>,
         /// Skips between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes decomposition_shapes"))]
+        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
         pub decomposition_bounding_spheres_skips: Option<Vec<Vec<bool>>>,
     }
 }
