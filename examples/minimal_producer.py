@@ -2,7 +2,8 @@
 """A minimal URDD producer: a URDF in, a URDD of conformance class Core out.
 
 Written from SPEC.md and the published schemas, with Python's standard library alone, to show how little it takes.
-Numbers in brackets are clauses of SPEC.md.
+Numbers in brackets are clauses of SPEC.md. It repairs nothing: a URDF that has no URDD as it is [6.1.3 to 6.1.8], and
+any with a DOCTYPE, is refused, with exit status 1 and nothing at out_dir.
 
     python3 minimal_producer.py robot.urdf out_dir
 """
@@ -27,12 +28,28 @@ MODULES = {  # each module, with the modules that it is derived from, in the ord
 }
 
 
+class Refused(Exception):
+    """Why a URDF has no URDD."""
+
+
+def demand(condition, why):
+    if not condition:
+        raise Refused(why)
+
+
 # ---- XML. Unknown elements are kept as they stand in the file [6.1.1], so we ask expat where elements begin and end.
+
+MAX_BYTES, MAX_LEVELS, MAX_ELEMENTS, MAX_ATTRIBUTES, MAX_PREFIXES = 64 << 20, 256, 500_000, 256, 64  # [6.1.8]
+
 
 class Element:
     def __init__(self, tag, attributes):
         self.tag, self.attributes, self.children, self.xml = tag, attributes, [], None
         self.get = attributes.get
+
+    def required(self, key):
+        demand(key in self.attributes, f"<{self.tag}> without {key}")
+        return self.attributes[key]
 
     def all(self, tag):
         return [child for child in self.children if child.tag == tag]
@@ -45,16 +62,25 @@ class Element:
 
 
 def parse_xml(data):
-    declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)""", data)
-    encoding = declared[1].decode().lower() if declared else "utf-8"
-    data = data.decode("utf-8-sig" if encoding == "utf-8" else encoding).encode("utf-8")
+    demand(len(data) <= MAX_BYTES, f"more than {MAX_BYTES} bytes")
+    data = data.decode("utf-8-sig").encode()
+    declared = re.match(rb"""<\?xml\s+version\s*=\s*["']([^"']*)["'](?:\s+encoding\s*=\s*["']([^"']*))?""", data)
+    if declared:
+        demand(re.fullmatch(rb"1\.[0-9]+", declared[1]), f"XML of version {declared[1]!r}")
+        demand(re.fullmatch(rb"(?i)utf-?8", declared[2] or b"utf-8"), f"the encoding {declared[2]!r}")
     start_tag = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""")
-    parser, stack, top = expat.ParserCreate("utf-8"), [], Element("", {})
+    parser, stack, top, prefixes = expat.ParserCreate("utf-8"), [], Element("", {}), set()
+    count = 0
 
     def start(tag, attributes):
+        nonlocal count
+        count += 1
         element = Element(tag, attributes)
         (stack[-1][0] if stack else top).children.append(element)
         stack.append((element, parser.CurrentByteIndex))
+        prefixes.update(key for key in attributes if key.startswith("xmlns:"))
+        demand(len(stack) <= MAX_LEVELS and count <= MAX_ELEMENTS, "too many levels or elements")
+        demand(len(attributes) <= MAX_ATTRIBUTES and len(prefixes) <= MAX_PREFIXES, "too many attributes or prefixes")
 
     def end(_tag):
         element, begin = stack.pop()
@@ -62,20 +88,29 @@ def parse_xml(data):
         closed = opening[0].endswith(b"/>")
         element.xml = data[begin:opening.end() if closed else data.index(b">", parser.CurrentByteIndex) + 1].decode()
 
+    def document_type(*_):
+        raise Refused("a DOCTYPE")
+
     parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.StartDoctypeDeclHandler = document_type
     parser.Parse(data, True)
+    expat.ParserCreate("utf-8", " ").Parse(data, True)  # once more, for namespaces
     return top.children[0]
 
 
 # ---- urdf_module: all of the URDF; what it leaves out is null [6.1]
 
+NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?|[+-]?(?i:inf|infinity|nan)")
+
+
 def vector(element, key, count):
-    """`count` numbers of an attribute; null where it is absent, or where one is not finite [6.1.2]."""
+    """`count` numbers of an attribute; null where it is absent, or where one is not finite [6.1.8]."""
     if element is None or element.get(key) is None:
         return None
-    values = [float(word) for word in element.get(key).split()]
-    if len(values) != count:
-        raise ValueError(f"<{element.tag} {key}={element.get(key)!r}>: {count} number(s) wanted")
+    words = re.findall(r"[^ \t\r\n]+", element.get(key))
+    demand(len(words) == count and all(map(NUMBER.fullmatch, words)),
+           f"<{element.tag} {key}={element.get(key)!r}>: {count} number(s) wanted")
+    values = [float(word) for word in words]
     return values if all(map(math.isfinite, values)) else None
 
 
@@ -83,6 +118,13 @@ def numbers(element, keys):
     if element is None:
         return None
     return {key: (vector(element, key, 1) or [None])[0] for key in keys.split()}
+
+
+def size(shape, key, count):
+    shape.required(key)
+    values = vector(shape, key, count)
+    demand(values, f"<{shape.tag} {key}={shape.get(key)!r}> is not finite")
+    return values
 
 
 def complete(value):
@@ -99,14 +141,12 @@ def read_origin(parent):
 def read_geometry(geometry):
     for shape in geometry.children if geometry else []:
         if shape.tag == "mesh":
-            value = {"filename": shape.get("filename"), "scale": vector(shape, "scale", 3)}
-            return {"Mesh": value} if value["filename"] is not None else None
+            return {"Mesh": {"filename": shape.required("filename"), "scale": vector(shape, "scale", 3)}}
         if shape.tag == "box":
-            size = vector(shape, "size", 3)
-            return size and {"Box": {"size": size}}
+            return {"Box": {"size": size(shape, "size", 3)}}
         if shape.tag in ("cylinder", "capsule", "sphere"):
-            value = complete(numbers(shape, "radius" if shape.tag == "sphere" else "radius length"))
-            return value and {shape.tag.capitalize(): value}
+            keys = ["radius"] if shape.tag == "sphere" else ["radius", "length"]
+            return {shape.tag.capitalize(): {key: size(shape, key, 1)[0] for key in keys}}
     return None
 
 
@@ -124,32 +164,38 @@ def read_part(element):  # a visual or collision element
     return part
 
 
+PARTS = "inertial visual collision"
+
+
 def read_link(element):
     inertial = element.first("inertial")
     return {
-        "name": element.attributes["name"],
+        "name": element.required("name"),
         "inertial": inertial and {"origin": read_origin(inertial),
                                   "mass": complete(numbers(inertial.first("mass"), "value")),
                                   "inertia": numbers(inertial.first("inertia"), "ixx ixy ixz iyy iyz izz")},
         "visual": [read_part(part) for part in element.all("visual")],
         "collision": [read_part(part) for part in element.all("collision")],
-        "unknown_elements": element.others("inertial visual collision"),
+        "unknown_elements": element.others(PARTS),
     }
 
 
 def read_joint(element):
-    axis, mimic = element.first("axis"), element.first("mimic")
+    axis, mimic, kind = element.first("axis"), element.first("mimic"), element.required("type")
+    demand(kind in TYPES, f"the joint type {kind!r}")
+    for end in ("parent", "child"):
+        demand(element.first(end), f"a joint without {end}")
     soft = "soft_lower_limit soft_upper_limit k_position k_velocity"
     return {
-        "name": element.attributes["name"],
-        "joint_type": element.attributes["type"].capitalize(),
+        "name": element.required("name"),
+        "joint_type": kind.capitalize(),
         "origin": read_origin(element),
-        "parent": {"link": element.first("parent").attributes["link"]},
-        "child": {"link": element.first("child").attributes["link"]},
+        "parent": {"link": element.first("parent").required("link")},
+        "child": {"link": element.first("child").required("link")},
         "axis": axis and {"xyz": vector(axis, "xyz", 3)},
         "limit": numbers(element.first("limit"), "lower upper effort velocity acceleration deceleration jerk"),
         "dynamics": numbers(element.first("dynamics"), "damping friction"),
-        "mimic": mimic and {"joint": mimic.attributes["joint"], **numbers(mimic, "multiplier offset")},
+        "mimic": mimic and {"joint": mimic.required("joint"), **numbers(mimic, "multiplier offset")},
         "safety_controller": numbers(element.first("safety_controller"), soft),
         "calibration": numbers(element.first("calibration"), "rising falling"),
         "unknown_elements": element.others(
@@ -157,9 +203,19 @@ def read_joint(element):
     }
 
 
+def has_quaternions(version):  # [6.1.9]
+    parts = re.fullmatch(r"[ \t\r\n]*([0-9]+)\.([0-9]+)[ \t\r\n]*", version or "")
+    return parts is not None and tuple(map(int, parts.groups())) >= (1, 1)
+
+
 def urdf_module(robot):
+    demand(robot.tag == "robot", f"the root element is {robot.tag!r}")
+    if has_quaternions(robot.get("version")):
+        parts = [part for link in robot.all("link") for part in link.children if part.tag in PARTS.split()]
+        for origin in (part.first("origin") for part in parts + robot.all("joint")):
+            demand(not origin or None in (origin.get("rpy"), origin.get("quat_xyzw")), "an origin with two rotations")
     return {
-        "name": robot.attributes["name"],
+        "name": robot.required("name"),
         "version": robot.get("version"),
         "links": [read_link(element) for element in robot.all("link")],
         "joints": [read_joint(element) for element in robot.all("joint")],
@@ -177,6 +233,9 @@ DOFS_OF_TYPE = {  # what follows the joint's name [6.2.5]; all but /trans_… an
 }
 
 
+TYPES = [name.lower() for name in DOFS_OF_TYPE]
+
+
 def is_mimic(joint):
     return joint["mimic"] is not None and joint["joint_type"] != "Fixed"
 
@@ -185,8 +244,9 @@ def resolve_mimic(joint, by_name, depth=0):
     """(joint at the end of the chain, multiplier, offset) [5.10]"""
     if not is_mimic(joint):
         return joint, 1.0, 0.0
-    if depth > len(by_name):
-        raise ValueError(f"mimic joints go in a circle at {joint['name']!r}")
+    demand(depth <= len(by_name), f"mimic joints go in a circle at {joint['name']!r}")
+    demand(joint["mimic"]["joint"] in by_name, f"{joint['name']!r} follows a joint that is not there")
+    demand(len(DOFS_OF_TYPE[joint["joint_type"]]) == 1, f"{joint['name']!r} follows another, and has several DOFs")
     end, multiplier, offset = resolve_mimic(by_name[joint["mimic"]["joint"]], by_name, depth + 1)
     own = 1.0 if joint["mimic"]["multiplier"] is None else joint["mimic"]["multiplier"]
     return end, own * multiplier, own * offset + (joint["mimic"]["offset"] or 0.0)
@@ -202,8 +262,12 @@ def dof_module(urdf):
                          "quantity": "Length" if length else "Angle"})
         dofs_of_joint.append(list(range(first, len(dofs))))
     place = {joint["name"]: idx for idx, joint in enumerate(urdf["joints"])}
+    demand(len(place) == len(urdf["joints"]), "two joints of one name")
     for joint in urdf["joints"]:
         end, multiplier, offset = resolve_mimic(joint, {j["name"]: j for j in urdf["joints"]})
+        demand(not is_mimic(joint) or len(DOFS_OF_TYPE[end["joint_type"]]) < 2,
+               f"{joint['name']!r} follows several DOFs")
+        demand(math.isfinite(multiplier) and math.isfinite(offset), f"the mimic of {joint['name']!r} is not finite")
         driver = (dofs_of_joint[place[end["name"]]] or [None])[0]
         resolved = {"dof_idx": driver, "multiplier": multiplier, "offset": offset}
         mimics.append(resolved if is_mimic(joint) else None)
@@ -248,9 +312,11 @@ def chain_module(urdf):
     links = [{"name": name, "link_idx": idx, "parent_joint_idx": None, "parent_link_idx": None,
               "children_joint_idxs": [], "children_link_idxs": []} for idx, name in enumerate(names)]
     joints = []
-    version = re.fullmatch(r"(\d+)\.(\d+)", (urdf["version"] or "").strip())
-    quaternions = version is not None and tuple(map(int, version.groups())) >= (1, 1)
+    quaternions = has_quaternions(urdf["version"])
+    demand(len(set(names)) == len(names), "two links of one name")
     for idx, joint in enumerate(urdf["joints"]):
+        for end in ("parent", "child"):
+            demand(joint[end]["link"] in names, f"{joint['name']!r}: the link {joint[end]['link']!r} is not there")
         parent, child = (names.index(joint[end]["link"]) for end in ("parent", "child"))
         origin, axis = joint["origin"] or {}, None
         x, y, z, w = quaternions and origin.get("quat_xyzw") or [0.0] * 4
@@ -261,6 +327,7 @@ def chain_module(urdf):
             rotation = multiply(turn((0, 0, 1), yaw), multiply(turn((0, 1, 0), pitch), turn((1, 0, 0), roll)))
         if joint["joint_type"] in ("Revolute", "Continuous", "Prismatic", "Planar"):
             axis = (joint["axis"] or {}).get("xyz") or [1.0, 0.0, 0.0]  # [5.7]
+            demand(2.0**-1022 <= sum(c * c for c in axis) < math.inf, f"the axis of {joint['name']!r} has no direction")
             axis = [c / math.hypot(*axis) for c in axis]
         joints.append({"joint_name": joint["name"], "joint_idx": idx,
                        "parent_link_name": names[parent], "parent_link_idx": parent,
@@ -268,12 +335,12 @@ def chain_module(urdf):
                        "origin": write_pose(origin.get("xyz") or [0.0] * 3, rotation), "axis": axis})
         links[parent]["children_joint_idxs"].append(idx)
         links[parent]["children_link_idxs"] = sorted(links[parent]["children_link_idxs"] + [child])
+        demand(links[child]["parent_joint_idx"] is None, f"the link {names[child]!r} is the child of two joints")
         links[child].update(parent_joint_idx=idx, parent_link_idx=parent)
     levels = [[link["link_idx"] for link in links if link["parent_joint_idx"] is None]]
     while below := sorted(child for idx in levels[-1] for child in links[idx]["children_link_idxs"]):
         levels.append(below)
-    if len(levels[0]) != 1 or sorted(sum(levels, [])) != list(range(len(links))):
-        raise ValueError("links and joints are no tree with one root")
+    demand(len(levels[0]) == 1 and sorted(sum(levels, [])) == list(range(len(links))), "not a tree with one root")
     return {"links_in_chain": links, "joints_in_chain": joints,
             "kinematic_hierarchy": levels, "root_idx": levels[0][0]}
 
@@ -389,8 +456,10 @@ def kinematics_samples_module(dof, chain, bounds):
         q = [value(i) for i in every]
         for i in vectors:
             q[i:i + 3] = rotation_vector(i)
-        samples.append({"kind": kind, "sample_idx": k, "configuration": q,
-                        "link_poses": forward_kinematics(chain, dof, q)})
+        poses = forward_kinematics(chain, dof, q)
+        demand(all(map(math.isfinite, sum((pose["position"] + pose["quaternion_wxyz"] for pose in poses), []))),
+               f"a pose in the configuration {kind} is not finite")
+        samples.append({"kind": kind, "sample_idx": k, "configuration": q, "link_poses": poses})
 
     add("Zero", None, lambda i: 0.0, lambda i: [0.0, 0.0, 0.0])
     add("Middle", None, lambda i: (lower[i] + upper[i]) / 2, lambda i: [0.0, 0.0, 0.0])
@@ -459,4 +528,7 @@ def main(urdf_path, out_dir):
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    main(*sys.argv[1:])
+    try:
+        main(*sys.argv[1:])
+    except (Refused, UnicodeDecodeError, expat.ExpatError) as why:
+        sys.exit(f"{sys.argv[1]}: refused: {why}")

@@ -15,14 +15,20 @@ import sys
 import tomllib
 from pathlib import Path
 
-# Besides Cargo.toml, the files that state the version. Python's is taken from Cargo.toml.
-PACKAGES = ["wasm/npm/package.json", "release/schemas/package.json"]
+# Besides Cargo.toml, the files that state the version of the program. The crates have another (docs/promises.md).
+PACKAGES = ["python/Cargo.toml", "wasm/npm/package.json", "release/schemas/package.json"]
 
 
 def output(root: Path, *command: str) -> str | None:
     """What a command prints; None if it fails."""
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     return done.stdout if done.returncode == 0 else None
+
+
+def stated(path: Path) -> str:
+    """The version in a Cargo.toml or a package.json."""
+    text = path.read_text(encoding="utf-8")
+    return str(json.loads(text)["version"] if path.suffix == ".json" else tomllib.loads(text)["package"]["version"])
 
 
 def faults(
@@ -37,14 +43,16 @@ def faults(
         elif changed:
             names = ", ".join(line[3:] for line in changed.splitlines()[:5])
             found.append(f"the tree has changes that are not committed ({names}): commit or remove them")
-    if re.fullmatch(r"\d+\.\d+\.\d+(-[0-9A-Za-z.]+)?", version) is None:
-        found.append(f"Cargo.toml: the version `{version}` is not a semantic version, such as 1.2.3")
+    crates = str(workspace["package"]["version"])
+    for number in (version, crates):
+        if re.fullmatch(r"\d+\.\d+\.\d+(-[0-9A-Za-z.]+)?", number) is None:
+            found.append(f"Cargo.toml: the version `{number}` is not a semantic version, such as 1.2.3")
     for name, dependency in workspace["dependencies"].items():
         own = dependency.get("version") if name.startswith("urdd-") and isinstance(dependency, dict) else None
-        if own is not None and own != version:
-            found.append(f"Cargo.toml: [workspace.dependencies] has {name} {own}, not {version}: write {version} there")
+        if own is not None and own != crates:
+            found.append(f"Cargo.toml: [workspace.dependencies] has {name} {own}, not {crates}: write {crates} there")
     for package in PACKAGES:
-        own = json.loads((root / package).read_text(encoding="utf-8"))["version"]
+        own = stated(root / package)
         if own != version:
             found.append(f"{package}: the version is {own}, Cargo.toml has {version}: write {version} there")
     found += changelog(root, version, draft)
@@ -76,7 +84,7 @@ def main(root: Path, words: list[str]) -> int:
         print(__doc__, file=sys.stderr)
         return 2
     workspace = tomllib.loads((root / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]
-    version = str(workspace["package"]["version"])
+    version = stated(root / "Cargo.toml")
     found = faults(root, version, workspace, draft, tags[0] if tags else None)
     for fault in found:
         print(f"error: {fault}", file=sys.stderr)

@@ -12,12 +12,16 @@ from pathlib import Path
 
 import check
 
-CARGO = """[workspace]
+CARGO = """[package]
+name = "urdd"
+version = "1.2.3"
+edition = "2024"
+[workspace]
 members = ["a"]
 [workspace.package]
-version = "1.2.3"
+version = "0.4.0"
 [workspace.dependencies]
-urdd-a = { path = "a", version = "1.2.3" }
+urdd-a = { path = "a", version = "0.4.0" }
 serde = "1.0"
 """
 
@@ -29,9 +33,11 @@ class Refusals(unittest.TestCase):
         self.root = Path(folder.name)
         self.write("Cargo.toml", CARGO)
         self.write("a/Cargo.toml", '[package]\nname = "urdd-a"\nversion.workspace = true\nedition = "2024"\n')
-        self.write("a/src/lib.rs", "")
+        for library in ("src/lib.rs", "a/src/lib.rs"):
+            self.write(library, "")
         for package in check.PACKAGES:
-            self.write(package, json.dumps({"version": "1.2.3"}))
+            toml = '[package]\nname = "urdd"\nversion = "1.2.3"\n'
+            self.write(package, toml if package.endswith(".toml") else json.dumps({"version": "1.2.3"}))
         self.write("CHANGELOG.md", "# Changelog\n\n## 1.2.3, 2026-01-31\n\n- x\n\n## 1.2.2, 2025-01-31\n")
         self.git("init", "--quiet")
         self.cargo("generate-lockfile", "--offline")
@@ -88,11 +94,15 @@ class Refusals(unittest.TestCase):
         self.change("wasm/npm/package.json", "1.2.3", "1.2.2")
         self.refused("wasm/npm/package.json: the version is 1.2.2", "--draft")
 
+    def test_a_python_package_of_another_version(self) -> None:
+        self.change("python/Cargo.toml", "1.2.3", "0.4.0")
+        self.refused("python/Cargo.toml: the version is 0.4.0", "--draft")
+
     def test_a_crate_of_another_version(self) -> None:
-        self.change("Cargo.toml", 'path = "a", version = "1.2.3"', 'path = "a", version = "1.2.2"')
+        self.change("Cargo.toml", 'path = "a", version = "0.4.0"', 'path = "a", version = "0.3.9"')
         status, said = self.said()
         assert status == 1
-        assert "[workspace.dependencies] has urdd-a 1.2.2" in said
+        assert "[workspace.dependencies] has urdd-a 0.3.9, not 0.4.0" in said
 
     def test_a_changelog_of_another_version(self) -> None:
         self.change("CHANGELOG.md", "## 1.2.3, 2026-01-31", "## 1.3.0, 2026-01-31")
@@ -104,7 +114,7 @@ class Refusals(unittest.TestCase):
         assert self.said("--draft")[0] == 0
 
     def test_a_lock_file_that_is_stale(self) -> None:
-        self.change("Cargo.lock", 'version = "1.2.3"', 'version = "1.2.2"')
+        self.change("Cargo.lock", 'version = "0.4.0"', 'version = "0.3.9"')
         self.refused("Cargo.lock does not fit")
 
     def test_a_version_that_is_none(self) -> None:

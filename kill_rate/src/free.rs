@@ -197,6 +197,28 @@ pub const PERMITTED: &[Permitted] = &[
         clause: "6.6.6",
         permits: |_, to| to.is_number(),
     },
+    Permitted {
+        module: "named_configurations_module",
+        field: "/configurations",
+        change: "fewer, or in another order: a person decides which there are",
+        clause: "6.7.1",
+        permits: |from, to| match (from.as_array(), to.as_array()) {
+            (Some(from), Some(to)) => {
+                let is_first = |(place, one): (usize, &Value)| {
+                    from.contains(one) && !to[..place].contains(one)
+                };
+                to.iter().enumerate().all(is_first)
+            }
+            _ => false,
+        },
+    },
+    Permitted {
+        module: "named_configurations_module",
+        field: "/configurations/*/name",
+        change: "to another name: a person decides",
+        clause: "6.7.2",
+        permits: |_, to| to.as_str().is_some_and(|name| !name.is_empty()),
+    },
 ];
 
 const DROPPED: &str = "to other names, each once: the part's links and joints are not here";
@@ -278,6 +300,12 @@ pub const FIELD_TOLERANCES: &[FieldTolerance] = &[
     FieldTolerance {
         module: "kinematics_samples_module",
         field: "/samples/*/configuration",
+        tolerance: Tolerance::Absolute(4e-9),
+        clause: "5.6, of the bounds' size",
+    },
+    FieldTolerance {
+        module: "named_configurations_module",
+        field: "/configurations/*/configuration",
         tolerance: Tolerance::Absolute(4e-9),
         clause: "5.6, of the bounds' size",
     },

@@ -7,6 +7,7 @@ import type { Engine } from "./engine/client";
 import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
+import { namedOf } from "./configurations";
 import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
@@ -88,7 +89,9 @@ export class App {
       });
       if (turn !== this.opening) return null;
       this.revision = source.kind === "url" ? source.revision : null;
-      const robot = new RobotModel(entry, source, about, files, await partsOf(this.engine, files));
+      const parts = await partsOf(this.engine, files);
+      const named = await namedOf(this.engine, files, about.dofs?.length ?? 0);
+      const robot = new RobotModel(entry, source, about, files, parts, named);
       if (robot.links.length === 0) throw new Error(why(robot));
       const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
       const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;

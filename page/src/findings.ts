@@ -47,6 +47,8 @@ export interface Place {
   expected: string | null;
   actual: string | null;
   message: string | null;
+  /** Other places to look at; their message says what is there. */
+  related: Place[];
 }
 
 export function places(finding: Finding): Place[] {

@@ -1,6 +1,7 @@
 /** An open robot: the engine's data, and what the page derives from it. */
 
 import type { About, Dof, FileEntry, Joint, Link, RobotSource } from "./engine/protocol";
+import type { NamedConfiguration } from "./configurations";
 import type { RobotPart } from "./parts";
 
 /** An entry of `robots.json`. */
@@ -66,6 +67,8 @@ export class RobotModel {
     readonly files: FileEntry[],
     /** The parts that it was combined from. */
     readonly parts: RobotPart[] = [],
+    /** The configurations that a person named. */
+    readonly named: NamedConfiguration[] = [],
   ) {
     this.links = about.links;
     this.joints = about.joints;

@@ -28,6 +28,7 @@ MODULES = [
     "bounds_module",
     "kinematics_samples_module",
     "composition_module",
+    "named_configurations_module",
     "original_meshes_module",
     "plain_meshes_module",
     "convex_hull_meshes_module",

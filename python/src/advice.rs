@@ -62,10 +62,16 @@ pub fn of_generate(error: &GenerateError) -> String {
                 "nothing was written: strict=True rejects assumptions that change the robot";
             format!("{}\n{words}", shown(notes.iter().map(ToString::to_string)))
         }
-        GenerateError::Edits { file, at, fault } => {
+        GenerateError::Edits {
+            file,
+            at,
+            lost,
+            fault,
+        } => {
             let at = at.map_or_else(String::new, |at| format!(":{at}"));
-            let words = "a new run would lose the user's edits of skips. Correct the file, or discard all its edits: \
-                drop_edits=True";
+            let words = format!(
+                "a new run would lose the user's {lost}. Correct the file, or discard all its edits: drop_edits=True"
+            );
             format!("{}{at}: {}; {words}", file.display(), of_edits(fault))
         }
         GenerateError::Geometry { file, reason } => {

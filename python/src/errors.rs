@@ -174,6 +174,7 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
             file,
             at: Some(at),
             fault,
+            ..
         } => places.push((
             file.display().to_string(),
             at.line,

@@ -133,6 +133,19 @@ impl Robot {
         Ok(self.names(py, |robot| robot.dof_units())?.to_vec())
     }
 
+    /// The names and values of the configurations that a person named.
+    fn named_configurations<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
+        let named = self.ask(py, |robot, _| Ok(robot.named_configurations()?.to_vec()))?;
+        let array = |values: Vec<f64>| PyArray1::from_vec(py, values);
+        let named = named.into_iter();
+        Ok(named
+            .map(|named| (named.name.to_string(), array(named.configuration)))
+            .collect())
+    }
+
     /// The index of a link.
     fn link(&self, py: Python<'_>, name: &str) -> PyResult<usize> {
         self.read(py)?;

@@ -44,6 +44,21 @@ def test_its_status_says_what_came_of_it(urdds: Path, tmp_path: Path) -> None:
     assert report["urdds"][0]["verdict"] == "pass"
 
 
+def test_named_configurations(tmp_path: Path) -> None:
+    path = tmp_path / "gripper"
+    urdd.generate(ROBOTS / "gripper.urdf", path, modules=["core"])
+    assert urdd.load(path).named_configurations == {}
+    for words in (["open", "motor=0.5"], ["shut"]):
+        made = run("configurations", "set", path, *words)
+        assert (made.returncode, made.stderr) == (0, "")
+    named = urdd.load(path).named_configurations
+    assert {name: values.tolist() for name, values in named.items()} == {"open": [0.5], "shut": [0.0]}
+    assert list(named) == ["open", "shut"]
+    refused = run("configurations", "set", path, "wide", "motor=5")
+    assert refused.returncode == 2
+    assert "its bounds are 0 and 4" in refused.stderr
+
+
 def test_generate(tmp_path: Path) -> None:
     made = run("generate", ROBOTS / "gripper.urdf", "-o", tmp_path / "gripper", "--modules", "core")
     assert made.returncode == 0, made.stderr

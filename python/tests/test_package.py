@@ -22,6 +22,70 @@ from urdd._options import MakingOptions, options_of
 
 PYTHON = REPOSITORY / "python"
 
+#: What a program may import from `urdd` until 2.0.0.
+PUBLIC = [
+    "Box",
+    "CollisionModel",
+    "CombineError",
+    "CombineNote",
+    "Combined",
+    "ConfigurationError",
+    "ConvexMesh",
+    "Export",
+    "ExportError",
+    "Frame",
+    "GenerateError",
+    "Generated",
+    "InverseSolution",
+    "Job",
+    "LearnedPair",
+    "MeshError",
+    "MeshKind",
+    "ModuleMissingError",
+    "ModuleUnusableError",
+    "MujocoRobot",
+    "Note",
+    "ObstacleDistance",
+    "ObstacleError",
+    "ObstaclePair",
+    "OpenError",
+    "Pair",
+    "PairDistance",
+    "PinocchioRobot",
+    "Proximity",
+    "PybulletRobot",
+    "Rate",
+    "Robot",
+    "Rule",
+    "SKIP_REASONS",
+    "ShapeKind",
+    "Shown",
+    "ShownByViser",
+    "SkipReason",
+    "Skips",
+    "Spheres",
+    "UnknownNameError",
+    "UrddError",
+    "ValidationError",
+    "Visual",
+    "World",
+    "WorldProximity",
+    "__version__",
+    "combine",
+    "errors",
+    "explain",
+    "export",
+    "find_urdfs",
+    "generate",
+    "generate_text",
+    "load",
+    "modules",
+    "num_threads",
+    "report",
+    "set_num_threads",
+    "validate",
+]
+
 
 def version_of(manifest: Path, key: str = "version") -> str:
     found = re.search(rf'^{key} = "(.+)"$', manifest.read_text(encoding="utf-8"), re.MULTILINE)
@@ -30,10 +94,10 @@ def version_of(manifest: Path, key: str = "version") -> str:
 
 
 def test_versions_are_equal() -> None:
-    crate = version_of(REPOSITORY / "Cargo.toml")
-    assert re.search(r"^version\.workspace = true$", (PYTHON / "Cargo.toml").read_text(encoding="utf-8"), re.MULTILINE)
-    assert urdd.__version__ == crate
-    assert importlib.metadata.version("urdd") == crate
+    program = version_of(REPOSITORY / "Cargo.toml")
+    assert version_of(PYTHON / "Cargo.toml") == program
+    assert urdd.__version__ == program
+    assert importlib.metadata.version("urdd") == program
 
 
 def test_licences_are_those_of_the_repository() -> None:
@@ -50,6 +114,10 @@ def test_the_typed_modules_are_made_of_the_schemas() -> None:
     script = PYTHON / "scripts" / "make_types.py"
     made = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True, check=False)
     assert made.returncode == 0, made.stderr
+
+
+def test_the_public_names_are_these() -> None:
+    assert sorted(urdd.__all__) == PUBLIC
 
 
 def test_every_public_name_is_documented() -> None:

@@ -7,10 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::foreign;
 use super::output;
+use super::packages::PackageArguments;
 use super::signals::Signals;
 use crate::diff::{DiffError, Options, Side, compare, markdown, text};
-use urdd_format::escape;
-use urdd_generate::{Packages, Settings};
 use urdd_validate::report;
 
 /// Exit status: the robots differ.
@@ -40,14 +39,8 @@ pub struct DiffArguments {
     #[arg(long)]
     no_findings: bool,
 
-    /// For a URDF: folder of a ROS package. May be repeated.
-    #[arg(long = "package", value_name = "NAME=PATH")]
-    packages: Vec<String>,
-
-    /// For a URDF: additional folder that mesh files may be read from, besides those of the robot and its packages. May be
-    /// repeated.
-    #[arg(long = "allow-folder", value_name = "DIR")]
-    allowed_folders: Vec<PathBuf>,
+    #[command(flatten)]
+    packages: PackageArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -68,7 +61,7 @@ pub fn run(arguments: &DiffArguments) -> ExitCode {
 fn diff(arguments: &DiffArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
     let options = Options {
-        urdf: settings(arguments, &signals)?,
+        urdf: arguments.packages.settings(&signals)?,
         without_findings: arguments.no_findings,
     };
     let open = |path: &PathBuf| {
@@ -100,25 +93,4 @@ fn diff(arguments: &DiffArguments) -> Result<u8, String> {
         }
     }
     Ok(if found.same { 0 } else { DIFFERENT })
-}
-
-fn settings(arguments: &DiffArguments, signals: &Signals) -> Result<Settings, String> {
-    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
-    for argument in &arguments.packages {
-        let added = packages.add(argument);
-        added.map_err(|error| format!("--package: {}", escape::line(&error.to_string())))?;
-    }
-    for folder in &arguments.allowed_folders {
-        if !folder.is_dir() {
-            let folder = folder.display().to_string();
-            let folder = escape::line(&folder);
-            return Err(format!("--allow-folder: {folder} is not a folder"));
-        }
-    }
-    Ok(Settings {
-        packages,
-        allowed_folders: arguments.allowed_folders.clone(),
-        cancellation: signals.cancellation(),
-        ..Settings::default()
-    })
 }

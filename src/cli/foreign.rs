@@ -18,7 +18,7 @@ pub fn advice(error: &DiscoverError) -> String {
     };
     match of_file(Path::new(path)) {
         Some(advice) => format!("{}: {advice}", escape::line(path)),
-        None => text,
+        None => format!("{}: {NEITHER}", escape::line(path)),
     }
 }
 
@@ -27,7 +27,7 @@ fn of_file(path: &Path) -> Option<&'static str> {
     let by_name = match extension.to_ascii_lowercase().as_str() {
         "xacro" => Some(
             "this is a xacro file; `urdd generate` expands it and generates a URDD, \
-             or `xacro FILE > robot.urdf` writes a URDF that can be validated",
+             or `xacro FILE > robot.urdf` writes a URDF",
         ),
         "sdf" | "world" => Some(SDF),
         "srdf" => Some(
@@ -46,6 +46,8 @@ fn of_file(path: &Path) -> Option<&'static str> {
     by_name.or_else(|| by_content(path))
 }
 
+const NEITHER: &str = "this is a file, but neither a URDF (its name would end in .urdf) nor a URDD \
+    (a folder that holds urdd.json or the module folders, or a zip archive of one)";
 const SDF: &str = "this is SDF; URDDs are generated from URDF: convert it (for example with `sdf2urdf`), then `urdd generate`";
 const MJCF: &str = "this is MJCF, the format of MuJoCo; URDDs are generated from URDF: look for the original URDF, \
     or convert it, then `urdd generate`";
@@ -61,7 +63,7 @@ fn by_content(path: &Path) -> Option<&'static str> {
         Some(SDF)
     } else if head.contains("<robot") {
         Some(
-            "this looks like a URDF; name it .urdf to validate it on its own, or use `urdd generate` to generate a URDD from it",
+            "this looks like a URDF; give it a name that ends in .urdf, or use `urdd generate` to generate a URDD from it",
         )
     } else {
         None

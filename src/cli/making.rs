@@ -1,17 +1,17 @@
 //! The arguments that `urdd generate` and `urdd combine` share: how to generate a URDD.
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 
 use super::generate_output::Format;
+use super::packages::PackageArguments;
 use super::signals::Signals;
 use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_generate::train::Effort;
-use urdd_generate::{MeshFormats, Packages, Pieces, Selection, Settings, XacroSettings};
+use urdd_generate::{MeshFormats, Pieces, Selection, Settings, XacroSettings};
 
 /// How a URDD is made.
 #[derive(Args)]
@@ -21,14 +21,8 @@ pub(super) struct MakingArguments {
     #[arg(long, value_name = "MODULES", value_delimiter = ',')]
     modules: Vec<String>,
 
-    /// Folder of a ROS package. May be repeated.
-    #[arg(long = "package", value_name = "NAME=PATH")]
-    packages: Vec<String>,
-
-    /// Additional folder that mesh files and the parts of a recipe may be read from, besides those of the robot, its
-    /// packages and the recipe. May be repeated.
-    #[arg(long = "allow-folder", value_name = "DIR")]
-    allowed_folders: Vec<PathBuf>,
+    #[command(flatten)]
+    packages: PackageArguments,
 
     /// Elements that the geometry of links is taken from. A link without any of them uses the other kind.
     #[arg(long, value_enum, default_value_t = Preferred::Visual)]
@@ -79,7 +73,8 @@ pub(super) struct MakingArguments {
     #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
     xacro_timeout: u32,
 
-    /// Drops the edits of skips in the URDD that is replaced. By default, a new run keeps them, or stops if it cannot.
+    /// Drops the edits of skips and the named configurations in the URDD that is replaced. By default, a new run keeps them,
+    /// or stops if it cannot.
     #[arg(long)]
     drop_edits: bool,
 
@@ -164,25 +159,8 @@ impl MakingArguments {
             false => Selection::parse(self.modules.iter().map(String::as_str))
                 .map_err(|error| format!("--modules: {}", escape::line(&error.to_string())))?,
         };
-        let mut packages = Packages::from_environment(|name| std::env::var_os(name));
-        for argument in &self.packages {
-            packages
-                .add(argument)
-                .map_err(|error| format!("--package: {}", escape::line(&error.to_string())))?;
-        }
-        for folder in &self.allowed_folders {
-            if !folder.is_dir() {
-                let folder = folder.display().to_string();
-                return Err(format!(
-                    "--allow-folder: {} is not a folder",
-                    escape::line(&folder)
-                ));
-            }
-        }
         Ok(Settings {
             selection,
-            packages,
-            allowed_folders: self.allowed_folders.clone(),
             preferred_geometry: match self.geometry {
                 Preferred::Visual => GeometryKind::Visual,
                 Preferred::Collision => GeometryKind::Collision,
@@ -209,8 +187,7 @@ impl MakingArguments {
                 reasons.map(SkippedReason::from).collect()
             }),
             force: self.force,
-            donors: Vec::new(),
-            cancellation: signals.cancellation(),
+            ..self.packages.settings(signals)?
         })
     }
 }

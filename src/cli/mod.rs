@@ -5,6 +5,7 @@ mod combine;
 mod configurations;
 mod conformance;
 mod diff;
+mod editing;
 mod explain;
 mod export;
 mod foreign;
@@ -12,8 +13,10 @@ mod generate;
 mod generate_output;
 mod info;
 mod making;
+mod named_configurations;
 mod new_extension;
 mod output;
+mod packages;
 mod rehash;
 mod schema;
 mod shapes;
@@ -64,6 +67,8 @@ enum Command {
     Export(export::ExportArguments),
     /// Import edits of the skips from an SRDF.
     Skips(skips::SkipsArguments),
+    /// List, set and remove named configurations: home, ready.
+    Configurations(named_configurations::ConfigurationsArguments),
     /// Explain a rule, or list all rules.
     Explain(explain::ExplainArguments),
     /// Show what a URDD contains, without validating it.
@@ -101,6 +106,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::View(arguments) => view::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::Skips(arguments) => skips::run(&arguments),
+        Command::Configurations(arguments) => named_configurations::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Rehash(arguments) => rehash::run(&arguments),

@@ -31,9 +31,9 @@ pub struct NewExtensionArguments {
 pub fn run(arguments: &NewExtensionArguments) -> Result<String, String> {
     let name = &arguments.name;
     let module = format!("x_{name}_module");
-    if !is_extension(&module) || is_extension(name) {
+    if !is_extension(&module) || name.starts_with("x_") || name.ends_with("_module") {
         return Err(format!(
-            "`{}` is not a name of an extension: write your name and what it is about, in lower-case letters, digits and `_`, such as acme_gripper",
+            "`{}` is not a name of an extension: write your name, `_`, and what it is about, in lower-case letters, digits and `_`, such as acme_gripper; `x_` and `_module` are added",
             escape::line(name)
         ));
     }

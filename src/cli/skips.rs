@@ -5,19 +5,12 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
-use super::{output, shapes};
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::read_error::ReadError;
+use super::editing::{self, Edited};
+use super::output;
 use urdd_directory::regular;
-use urdd_directory::replacement::Replacement;
-use urdd_directory::root::Root;
 use urdd_export::{ImportedSkips, import_srdf};
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
-
-/// Maximum number of attempts while another program writes to the URDD.
-const MAX_TRIES: usize = 5;
 
 /// Maximum size of an SRDF, in bytes.
 const MAX_SRDF_BYTES: u64 = 16 << 20;
@@ -64,45 +57,18 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
     let bytes = regular::read(srdf, MAX_SRDF_BYTES).map_err(|error| of_srdf(&error))?;
     let text = String::from_utf8(bytes).map_err(|_| of_srdf(&"it is not UTF-8"))?;
-    if !urdd.is_dir() {
-        return Err(of_urdd(
-            &"not a folder; edits are written into the folder of a URDD",
-        ));
-    }
-    for _ in 0..MAX_TRIES {
-        let before = state(urdd).map_err(|error| of_urdd(&error))?;
-        let robot = shapes::open(urdd)?;
-        let imported = import_srdf(&robot, &text, force).map_err(|error| of_srdf(&error))?;
+    editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
+        let imported = import_srdf(robot, &text, force).map_err(|error| of_srdf(&error))?;
         if imported.added == 0 {
-            return Ok(told(&shown(urdd), &imported, false));
+            return Ok(Edited::unchanged(told(&shown(urdd), &imported, false)));
         }
         let edited = robot.with_skip_edits(imported.edits.clone(), None);
         let edited = edited.map_err(|error| of_urdd(&error))?;
-        // Takes the lock here. Other programs may have written before.
-        let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
-        if state(urdd).map_err(|error| of_urdd(&error))? != before {
-            continue;
-        }
-        replacement
-            .stage(&edited.files)
-            .map_err(|error| error.to_string())?;
-        replacement.commit().map_err(|error| error.to_string())?;
-        return Ok(told(&shown(urdd), &imported, edited.model_is_stale));
-    }
-    Err(of_urdd(
-        &"another program keeps writing into this folder; nothing was written",
-    ))
-}
-
-/// The files that the edits depend on.
-fn state(urdd: &Path) -> Result<Vec<Vec<u8>>, ReadError> {
-    let root = Root::open_folder(urdd)?;
-    let module = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());
-    let read = |path: &str| match root.read(path, MAX_DOCUMENT_BYTES) {
-        Err(ReadError::Missing) => Ok(Vec::new()),
-        read => read,
-    };
-    [ROOT_METADATA, &module].map(read).into_iter().collect()
+        Ok(Edited {
+            files: edited.files,
+            told: told(&shown(urdd), &imported, edited.model_is_stale),
+        })
+    })
 }
 
 fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {

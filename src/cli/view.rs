@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::generate_output::{Format, Printer};
 use super::output;
+use super::packages::PackageArguments;
 use super::signals::Signals;
 use crate::view::{
     Collection, ExportError, Making, Server, Shown, Temporary, export, may_hold_page, page_with,
@@ -18,7 +19,7 @@ use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::{Job, Observer, caught};
-use urdd_generate::{Packages, Progress, Settings};
+use urdd_generate::{Progress, Settings};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -46,14 +47,8 @@ pub struct ViewArguments {
     #[arg(long, value_name = "DIR|FILE.html", conflicts_with_all = ["port", "no_open"])]
     export: Option<PathBuf>,
 
-    /// For a URDF: folder of a ROS package. May be repeated.
-    #[arg(long = "package", value_name = "NAME=PATH")]
-    packages: Vec<String>,
-
-    /// For a URDF: additional folder that mesh files may be read from, besides those of the robot and its packages. May be
-    /// repeated.
-    #[arg(long = "allow-folder", value_name = "DIR")]
-    allowed_folders: Vec<PathBuf>,
+    #[command(flatten)]
+    packages: PackageArguments,
 }
 
 /// Runs `urdd view`.
@@ -88,7 +83,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
             None => collection.add(path).map_err(usage)?,
         }
     }
-    let settings = settings(arguments, &signals)?;
+    let settings = arguments.packages.settings(&signals).map_err(usage)?;
     if let Some(folder) = &arguments.export {
         for robot in &wanted {
             let is_made = make(robot, &settings);
@@ -222,20 +217,6 @@ fn want(urdf: PathBuf, folder: &Path, collection: &mut Collection) -> Wanted {
         target,
         shown,
     }
-}
-
-fn settings(arguments: &ViewArguments, signals: &Signals) -> Result<Settings, Failure> {
-    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
-    for argument in &arguments.packages {
-        let added = packages.add(argument);
-        added.map_err(|error| usage(format!("--package: {error}")))?;
-    }
-    Ok(Settings {
-        packages,
-        allowed_folders: arguments.allowed_folders.clone(),
-        cancellation: signals.cancellation(),
-        ..Settings::default()
-    })
 }
 
 /// Reports a robot's progress to the terminal and the page.

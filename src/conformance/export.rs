@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::catalogue::{CATALOGUE, Catalogue, ItemKind, items};
 use super::data::{self, INVALID, ROBOTS, URDD, VALID, VECTORS};
+use super::refused::{self, REFUSED};
 use super::suite::{CaseError, Suite, SuiteError};
 use super::tree::{Tree, TreeError};
 use super::valid;
@@ -83,6 +84,7 @@ pub fn export(folder: &Path) -> Result<Exported, ExportError> {
     let robots = folder.join(ROBOTS);
     valid::write_robots(&robots)?;
     Tree::carried(VECTORS).write(&folder.join(VECTORS))?;
+    refused::tree(&refused::all(&suite)?).write(&folder.join(REFUSED))?;
     let never = Cancellation::default();
     let other_bytes = write_valid(&valid::robots(), &robots, &folder.join(VALID), &never)?;
     let left_out = write_cases(&suite, folder)?;

@@ -1,6 +1,6 @@
 //! Runs an external command with a time limit, and ends all its child processes with it.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, ExitStatus};
@@ -8,8 +8,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use super::printed_codes::Scan;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_generate::process::{Ended, PAUSE, Running};
+use urdd_validate::code::Code;
 
 /// Length of the output tail that is kept, bytes.
 const TAIL: usize = 2000;
@@ -49,6 +51,24 @@ pub struct Ran {
     pub stdout: String,
     /// The end of its standard error.
     pub stderr: String,
+    /// The codes of rules in all of its output.
+    pub codes: BTreeSet<Code>,
+}
+
+/// What interpreters and runtimes (Python, Node.js, the JVM, Go, Rust) print of an uncaught exception or a panic.
+const CRASHES: &[&str] = &[
+    "Traceback (most recent call last)",
+    "\nNode.js v",
+    "Exception in thread \"",
+    "\ngoroutine 1 [",
+    "' panicked at ",
+];
+
+impl Ran {
+    /// Whether it seems to have crashed, so that its exit status says nothing.
+    pub fn looks_crashed(&self) -> bool {
+        CRASHES.iter().any(|words| self.stderr.contains(words))
+    }
 }
 
 /// A command with arguments, in which each `{word}` is a placeholder for a path.
@@ -118,6 +138,7 @@ impl Template {
                     end: End::NotStarted(error.to_string()),
                     stdout: String::new(),
                     stderr: String::new(),
+                    codes: BTreeSet::new(),
                 });
             }
         };
@@ -129,10 +150,14 @@ impl Template {
             Ok(Ended::TimeLimit | Ended::Enough) => End::TimeLimit,
             Err(error) => End::Signal(error.to_string()),
         };
+        let (stdout, mut codes) = stdout.map(Tail::finish).unwrap_or_default();
+        let (stderr, more) = stderr.map(Tail::finish).unwrap_or_default();
+        codes.extend(more);
         Ok(Ran {
             end,
-            stdout: stdout.map(Tail::text).unwrap_or_default(),
-            stderr: stderr.map(Tail::text).unwrap_or_default(),
+            stdout,
+            stderr,
+            codes,
         })
     }
 }
@@ -144,35 +169,39 @@ fn end(status: ExitStatus) -> End {
     }
 }
 
-/// The end of a stream, read concurrently so that the command never blocks on a full pipe.
+/// The end of a stream, and the codes in it. It is read concurrently so that the command never blocks on a full pipe.
 struct Tail {
-    kept: Arc<Mutex<VecDeque<u8>>>,
+    kept: Arc<Mutex<(VecDeque<u8>, Scan)>>,
     reader: JoinHandle<()>,
 }
 
 impl Tail {
     fn of(mut stream: impl Read + Send + 'static) -> Tail {
-        let kept = Arc::new(Mutex::new(VecDeque::new()));
+        let kept = Arc::new(Mutex::new((VecDeque::new(), Scan::default())));
         let shared = kept.clone();
         let reader = thread::spawn(move || {
             let mut piece = [0; 4096];
             while let Ok(read @ 1..) = stream.read(&mut piece) {
                 let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                kept.extend(&piece[..read]);
-                let over = kept.len().saturating_sub(TAIL);
-                kept.drain(..over);
+                let (tail, scan) = &mut *kept;
+                scan.read(&piece[..read]);
+                tail.extend(&piece[..read]);
+                let over = tail.len().saturating_sub(TAIL);
+                tail.drain(..over);
             }
         });
         Tail { kept, reader }
     }
 
-    fn text(self) -> String {
+    fn finish(self) -> (String, BTreeSet<Code>) {
         let start = Instant::now();
         while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
             thread::sleep(PAUSE);
         }
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        String::from_utf8_lossy(kept.make_contiguous()).into_owned()
+        let (tail, scan) = &mut *kept;
+        let text = String::from_utf8_lossy(tail.make_contiguous()).into_owned();
+        (text, std::mem::take(scan).finish())
     }
 }
 
@@ -202,6 +231,8 @@ mod tests {
         assert!(matches!(run("kill -9 $$", 20_000).end, End::Signal(_)));
         let long = run("yes | head -c 100000; echo end", 20_000);
         assert!(long.stdout.len() <= TAIL && long.stdout.ends_with("end\n"));
+        let codes = run("echo DOF003; yes | head -c 100000; echo CHN001 >&2", 20_000).codes;
+        assert_eq!(codes, [Code::DOF003, Code::CHN001].into());
     }
 
     #[test]

@@ -7,21 +7,23 @@ use std::time::Duration;
 use rayon::prelude::*;
 
 use super::data::{self, ROBOTS};
+use super::examined::{codes, examine};
 use super::process::{End, Ran, Template};
+use super::refused::{self, REFUSED, Refused};
 use super::run_error::{RunError, with_threads};
 use super::skips::{Skip, SkipError};
+use super::suite::Suite;
 use super::valid;
 use super::workplace::Workplace;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::conformance::{
-    ClassScore, ModuleScore, ModuleStatus, ProducerResult, RobotModule, RobotScore, ScoreStatus,
+    ClassScore, ModuleScore, ModuleStatus, ProducerResult, RefusedScore, RobotModule, RobotScore,
+    ScoreStatus,
 };
 use urdd_format::index::Count;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_format::report::{Finding, Severity, Tool, Urdd, Verdict};
 use urdd_format::root_metadata::ConformanceClass;
-use urdd_validate::settings::Settings;
-use urdd_validate::validate;
 
 /// Settings of a producer run.
 #[derive(Debug, Clone)]
@@ -30,7 +32,7 @@ pub struct Plan {
     pub command: Template,
     /// The conformance class to require.
     pub class: ConformanceClass,
-    /// The robots; empty for all of the suite.
+    /// The robots, those to refuse too; empty for all of the suite.
     pub robots: Vec<String>,
     /// Time limit per robot.
     pub limit: Duration,
@@ -51,6 +53,8 @@ pub enum Event<'a> {
     Start(usize),
     /// A robot is scored. Called from any thread.
     Scored(&'a RobotScore),
+    /// A robot to refuse is scored. Called from any thread.
+    Refused(&'a RefusedScore),
 }
 
 /// Form of a line in a producer's skip list.
@@ -62,32 +66,44 @@ pub const SKIP_FORM: &str = "`robot  # reason`, or `robot module  # reason`";
 /// If a robot or a module does not exist, the working folder cannot be created, or the run is cancelled.
 pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ProducerResult, RunError> {
     data::check()?;
-    let names = chosen(&plan.robots)?;
-    check_skips(&plan.skips)?;
+    let suite = Suite::carried()?;
+    let to_refuse = refused::all(&suite)?;
+    check_skips(&plan.skips, &to_refuse)?;
+    let (names, to_refuse) = chosen(&plan.robots, to_refuse)?;
     let folder = Workplace::new(plan.keep.as_deref())?;
-    observe(&Event::Start(names.len()));
+    observe(&Event::Start(names.len() + to_refuse.len()));
     let one = |name: &String| {
         let done = robot(plan, name, &folder.path().join(name))?;
         observe(&Event::Scored(&done.0));
         Ok(done)
     };
-    let all = || -> Result<Vec<(RobotScore, BTreeSet<usize>)>, RunError> {
-        names.par_iter().map(one).collect()
+    let refuse = |urdf: &Refused| {
+        let folder = folder.path().join(REFUSED).join(&urdf.id);
+        let done = refused(plan, urdf, &folder)?;
+        observe(&Event::Refused(&done.0));
+        Ok(done)
     };
-    let done = with_threads(plan.jobs, all)?;
-    let (robots, used): (Vec<RobotScore>, Vec<BTreeSet<usize>>) = done.into_iter().unzip();
-    let used: BTreeSet<usize> = used.into_iter().flatten().collect();
+    type Done<Score> = Vec<(Score, BTreeSet<usize>)>;
+    let all = || -> Result<(Done<RobotScore>, Done<RefusedScore>), RunError> {
+        let robots: Result<_, RunError> = names.par_iter().map(one).collect();
+        let refused: Result<_, RunError> = to_refuse.par_iter().map(refuse).collect();
+        Ok((robots?, refused?))
+    };
+    let (robots, refused) = with_threads(plan.jobs, all)?;
+    let (robots, used): (Vec<RobotScore>, Vec<BTreeSet<usize>>) = robots.into_iter().unzip();
+    let (refused, more): (Vec<RefusedScore>, Vec<BTreeSet<usize>>) = refused.into_iter().unzip();
+    let used: BTreeSet<usize> = used.into_iter().chain(more).flatten().collect();
     let ran = |skip: &&Skip| {
-        skip.words
-            .first()
-            .is_some_and(|robot| names.contains(robot))
+        skip.words.first().is_some_and(|robot| {
+            names.contains(robot) || to_refuse.iter().any(|urdf| urdf.id == *robot)
+        })
     };
     let unused = plan.skips.iter().filter(ran);
     let unused = unused.filter(|skip| !used.contains(&skip.line));
     let stale_skips: Vec<String> = unused.map(Skip::what).collect();
-    let failed = robots
-        .iter()
-        .any(|robot| robot.status == ScoreStatus::Failed);
+    let robots_done = robots.iter().map(|robot| robot.status);
+    let mut done = robots_done.chain(refused.iter().map(|urdf| urdf.status));
+    let failed = done.any(|status| status == ScoreStatus::Failed);
     Ok(ProducerResult {
         tool: Tool {
             name: env!("CARGO_PKG_NAME").to_owned(),
@@ -100,30 +116,36 @@ pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ProducerRes
         classes: classes(plan.class, &robots),
         modules: modules(plan.class, &robots),
         robots,
+        refused,
         stale_skips,
     })
 }
 
-fn chosen(asked: &[String]) -> Result<Vec<String>, RunError> {
-    let all = valid::robots();
+/// The robots that were asked for, and the URDFs to refuse.
+fn chosen(
+    asked: &[String],
+    mut to_refuse: Vec<Refused>,
+) -> Result<(Vec<String>, Vec<Refused>), RunError> {
+    let mut robots = valid::robots();
     if asked.is_empty() {
-        return Ok(all);
+        return Ok((robots, to_refuse));
     }
-    match asked.iter().find(|robot| !all.contains(robot)) {
-        Some(unknown) => Err(RunError::UnknownRobot(unknown.clone(), all.join(", "))),
-        None => Ok(all
-            .into_iter()
-            .filter(|robot| asked.contains(robot))
-            .collect()),
+    let is_known =
+        |name: &&String| robots.contains(name) || to_refuse.iter().any(|urdf| urdf.id == **name);
+    if let Some(unknown) = asked.iter().find(|name| !is_known(name)) {
+        return Err(RunError::UnknownRobot(unknown.clone(), robots.join(", ")));
     }
+    robots.retain(|robot| asked.contains(robot));
+    to_refuse.retain(|urdf| asked.contains(&urdf.id));
+    Ok((robots, to_refuse))
 }
 
-fn check_skips(skips: &[Skip]) -> Result<(), RunError> {
+fn check_skips(skips: &[Skip], to_refuse: &[Refused]) -> Result<(), RunError> {
     let robots = valid::robots();
     let is_module = |word: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == word);
     for skip in skips {
         let known = match skip.words.as_slice() {
-            [robot] => robots.contains(robot),
+            [robot] => robots.contains(robot) || to_refuse.iter().any(|urdf| urdf.id == *robot),
             [robot, module] => robots.contains(robot) && is_module(module),
             _ => false,
         };
@@ -132,6 +154,29 @@ fn check_skips(skips: &[Skip]) -> Result<(), RunError> {
         }
     }
     Ok(())
+}
+
+/// Runs the command on a URDF to refuse. Also returns the lines of the skip list that took effect.
+fn refused(
+    plan: &Plan,
+    urdf: &Refused,
+    folder: &Path,
+) -> Result<(RefusedScore, BTreeSet<usize>), RunError> {
+    let (urdf_path, out) = urdf.write(folder)?;
+    let paths: [(&str, &Path); 2] = [("urdf", &urdf_path), ("out", &out)];
+    let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
+    let mut score = urdf.score(ran, &out, plan.class, &plan.cancellation);
+    plan.cancellation.check()?;
+    let own = |skip: &&Skip| skip.words.first() == Some(&urdf.id);
+    let mut used = BTreeSet::new();
+    for skip in plan.skips.iter().filter(own) {
+        if score.status != ScoreStatus::Passed {
+            score.status = ScoreStatus::Skipped;
+            score.skipped_since = Some(skip.reason.clone());
+            used.insert(skip.line);
+        }
+    }
+    Ok((score, used))
 }
 
 /// Whether a class requires a module.
@@ -152,7 +197,7 @@ fn robot(
     let paths: [(&str, &Path); 2] = [("urdf", &urdf), ("out", &out)];
     let ran = plan.command.run(&paths, plan.limit, &plan.cancellation)?;
     let examined = match ran.end {
-        End::Status(0) => examine(&out, plan),
+        End::Status(0) => examine(&out, plan.class, &plan.cancellation),
         _ => Err(None),
     };
     plan.cancellation.check()?;
@@ -162,35 +207,6 @@ fn robot(
         (score.stdout, score.stderr) = (None, None);
     }
     Ok((score, used))
-}
-
-/// The validator's result, or the reason why there is none.
-fn examine(out: &PathBuf, plan: &Plan) -> Result<Urdd, Option<String>> {
-    if !out.is_dir() {
-        return Err(Some("the command created no folder at {out}".to_owned()));
-    }
-    let settings = Settings {
-        class: Some(plan.class),
-        cancellation: plan.cancellation.clone(),
-        ..Settings::default()
-    };
-    let run = validate(&[out], &settings).map_err(|error| {
-        let text = error.to_string();
-        Some(text.replace(&out.display().to_string(), "{out}"))
-    })?;
-    let mut urdds = run.report.urdds;
-    match (urdds.pop(), urdds.is_empty()) {
-        (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
-        (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
-        _ => Err(Some(
-            "{out} itself must be the URDD: one URDD, without a folder around it".to_owned(),
-        )),
-    }
-}
-
-fn folder_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default();
-    name.to_string_lossy().into_owned()
 }
 
 fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<String>>) -> RobotScore {
@@ -250,11 +266,6 @@ fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<Strin
         codes: codes(of_none),
         modules,
     }
-}
-
-fn codes<'a>(findings: impl Iterator<Item = &'a Finding>) -> Vec<String> {
-    let codes: BTreeSet<&str> = findings.map(|finding| finding.code.as_str()).collect();
-    codes.into_iter().map(str::to_owned).collect()
 }
 
 /// An error on one line, with its location.

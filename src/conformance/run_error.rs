@@ -23,7 +23,10 @@ pub enum RunError {
     #[error("the suite is damaged: {0}")]
     Case(#[from] CaseError),
     /// The robot does not exist.
-    #[error("there is no robot `{0}`; the robots are {1}")]
+    #[error(
+        "there is no robot `{0}`; the robots are {1}, and those to refuse, such as `URD005/link-held-by-two-joints` \
+         (`urdd conformance export` writes them into `refused`)"
+    )]
     UnknownRobot(String, String),
     /// No case matches the version and the ids.
     #[error("no case to run; `urdd conformance export` writes all cases, and their list")]

@@ -4,29 +4,31 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use rayon::prelude::*;
 use semver::Version;
 use serde::Serialize;
 
-use super::case::Verdict;
+use super::case::{Case, Verdict};
 use super::catalogue::{Item, ItemKind, items};
 use super::data::{ROBOTS, URDD, VALID};
 use super::export::write_valid;
+use super::printed_codes;
 use super::process::{End, Ran, Template};
 use super::run_error::{RunError, with_threads};
 use super::skips::{Skip, SkipError};
 use super::suite::Suite;
+use super::tally::Tally;
 use super::tree::TreeError;
 use super::valid;
-use super::workplace::Workplace;
+use super::workplace::{Workplace, relative};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
-use urdd_format::index::Count;
+use urdd_format::conformance::{CaseFault, GroupScore, ValidatorResult, WrongCase};
 use urdd_format::registry::Profile;
 use urdd_format::report::Tool;
+use urdd_validate::code::Code;
 
 /// Settings of a validator run.
 #[derive(Debug, Clone)]
@@ -68,6 +70,17 @@ pub struct Judged<'a> {
     pub crashed: bool,
     /// The end of its standard error.
     pub stderr: &'a str,
+    /// The codes of rules that it printed.
+    pub codes: Vec<&'static str>,
+}
+
+/// A URDD to judge.
+struct Chosen<'a> {
+    item: Item,
+    /// `None` for valid URDDs.
+    case: Option<&'a Case>,
+    /// Whether `{dir}` is relative to the current folder.
+    is_relative: bool,
 }
 
 /// Progress of a validator run.
@@ -90,21 +103,24 @@ pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # r
 /// If there is nothing to run, the working folder cannot be created, or the run is cancelled.
 pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ValidatorResult, RunError> {
     let suite = Suite::carried()?;
-    let all = items(&suite);
+    let all = urdds(&suite);
     check_skips(&plan.skips, &all)?;
     let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
-    let chosen = all.into_iter().filter(|item| {
+    let chosen = all.into_iter().filter(|Chosen { item, .. }| {
         item.spec_versions.matches(&plan.spec_version)
             && (plan.only.is_empty() || begins(item))
             && (plan.legacy || !is_legacy(item))
     });
-    let chosen: Vec<Item> = chosen.collect();
+    let chosen: Vec<Chosen> = chosen.collect();
     if chosen.is_empty() {
         return Err(RunError::NoCase);
     }
     let folder = Workplace::new(plan.keep.as_deref())?;
     observe(&Event::Start(chosen.len()));
-    let is_chosen = |robot: &String| chosen.iter().any(|item| item.id == valid::id(robot));
+    let is_chosen = |robot: &String| {
+        let mut folders = chosen.iter().map(|urdd| &urdd.item.folder);
+        folders.any(|folder| *folder == valid::id(robot))
+    };
     let names: Vec<String> = valid::robots().into_iter().filter(is_chosen).collect();
     if !names.is_empty() {
         let robots = folder.path().join(ROBOTS);
@@ -117,16 +133,17 @@ pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ValidatorRe
             }
         })?;
     }
-    let judge = |item: &Item| -> Result<Option<Ran>, RunError> {
-        let ran = judge(plan, &suite, item, folder.path())?;
+    let judge = |urdd: &Chosen| -> Result<Option<Ran>, RunError> {
+        let ran = judge(plan, &suite, urdd, &folder)?;
         match &ran {
             Some(ran) => observe(&Event::Judged(Judged {
-                id: &item.id,
-                expected: item.verdict,
-                fault: fault(plan, item.verdict, &ran.end),
+                id: &urdd.item.id,
+                expected: urdd.item.verdict,
+                fault: fault(plan, urdd.item.verdict, &ran.end),
                 end: ran.end.to_string(),
                 crashed: looks_crashed(plan, ran),
                 stderr: &ran.stderr,
+                codes: ran.codes.iter().copied().map(Code::as_str).collect(),
             })),
             None => observe(&Event::NotRun),
         }
@@ -137,7 +154,45 @@ pub fn run(plan: &Plan, observe: &(dyn Fn(&Event) + Sync)) -> Result<ValidatorRe
         None => all(),
         Some(jobs) => with_threads(jobs, all),
     };
-    Ok(scored(plan, &chosen, ran?))
+    let items: Vec<Item> = chosen.into_iter().map(|urdd| urdd.item).collect();
+    Ok(scored(plan, &items, ran?))
+}
+
+/// Every URDD of the suite, and two of them again with a relative `{dir}`: one to accept, one to reject.
+fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
+    let case_of = |item: &Item| suite.cases.iter().find(|case| case.id() == item.id);
+    let urdd = |item: Item| Chosen {
+        case: case_of(&item),
+        item,
+        is_relative: false,
+    };
+    let mut urdds: Vec<Chosen> = items(suite).into_iter().map(urdd).collect();
+    for (verdict, id, title) in [
+        (Verdict::Accept, "relative/valid", "a valid URDD"),
+        (Verdict::Reject, "relative/invalid", "a URDD with a fault"),
+    ] {
+        let fits = |urdd: &&Chosen| urdd.item.verdict == verdict && !is_legacy(&urdd.item);
+        let Some(Chosen { item, case, .. }) = urdds.iter().find(fits) else {
+            continue;
+        };
+        let folder = match case {
+            Some(_) => format!("{id}/{URDD}"),
+            None => item.folder.clone(),
+        };
+        let again = Item {
+            id: id.to_owned(),
+            title: format!("{title}, of which {{dir}} is a relative path"),
+            folder,
+            code: None,
+            ..item.clone()
+        };
+        urdds.push(Chosen {
+            item: again,
+            case: *case,
+            is_relative: true,
+        });
+    }
+    urdds
 }
 
 fn is_legacy(item: &Item) -> bool {
@@ -145,21 +200,32 @@ fn is_legacy(item: &Item) -> bool {
 }
 
 /// Runs the command on one URDD; `None` if this operating system cannot represent it.
-fn judge(plan: &Plan, suite: &Suite, item: &Item, folder: &Path) -> Result<Option<Ran>, RunError> {
+fn judge(
+    plan: &Plan,
+    suite: &Suite,
+    urdd: &Chosen,
+    folder: &Workplace,
+) -> Result<Option<Ran>, RunError> {
     plan.cancellation.check()?;
-    let path = folder.join(&item.folder);
-    let case = suite.cases.iter().find(|case| case.id() == item.id);
-    if let Some(case) = case {
+    let path = folder.path().join(&urdd.item.folder);
+    if let Some(case) = urdd.case {
         match suite.tree(case)?.write(&path) {
             Ok(()) => {}
             Err(TreeError::Unsupported(_)) => return Ok(None),
             Err(error) => return Err(error.into()),
         }
     }
+    let shown = match urdd.is_relative {
+        true => relative(&path),
+        false => Some(path.clone()),
+    };
+    let Some(shown) = shown else {
+        return Ok(None);
+    };
     let ran = plan
         .command
-        .run(&[("dir", &path)], plan.limit, &plan.cancellation)?;
-    if let (Some(_), Some(around), None) = (case, path.parent(), &plan.keep) {
+        .run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
+    if let (Some(_), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(URDD));
         fs::remove_dir_all(around).map_err(|error| RunError::Remove {
             path: around.to_owned(),
@@ -183,17 +249,9 @@ fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
     }
 }
 
-/// Output of crashing interpreters (Python, Node.js, the JVM). They exit with status 1, which is then not a verdict.
-const CRASHES: &[&str] = &[
-    "Traceback (most recent call last)",
-    "\nNode.js v",
-    "Exception in thread \"",
-];
-
 /// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
 fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
-    ran.end == End::Status(plan.reject_status)
-        && CRASHES.iter().any(|words| ran.stderr.contains(words))
+    ran.end == End::Status(plan.reject_status) && ran.looks_crashed()
 }
 
 fn covers(skip: &Skip, item: &Item) -> bool {
@@ -206,44 +264,11 @@ fn family(code: &str) -> &str {
     code.get(..3).unwrap_or(code)
 }
 
-fn check_skips(skips: &[Skip], items: &[Item]) -> Result<(), SkipError> {
-    let unknown = |skip: &&Skip| !items.iter().any(|item| covers(skip, item));
+fn check_skips(skips: &[Skip], urdds: &[Chosen]) -> Result<(), SkipError> {
+    let unknown = |skip: &&Skip| !urdds.iter().any(|urdd| covers(skip, &urdd.item));
     match skips.iter().find(unknown) {
         Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
         None => Ok(()),
-    }
-}
-
-/// Running counts of case results.
-#[derive(Default, Clone, Copy)]
-struct Tally {
-    of: u32,
-    right: u32,
-    missed: u32,
-    false_alarms: u32,
-    undecided: u32,
-}
-
-impl Tally {
-    fn add(&mut self, fault: Option<CaseFault>) {
-        self.of += 1;
-        let place = match fault {
-            None => &mut self.right,
-            Some(CaseFault::Missed) => &mut self.missed,
-            Some(CaseFault::FalseAlarm) => &mut self.false_alarms,
-            Some(CaseFault::Undecided) => &mut self.undecided,
-        };
-        *place += 1;
-    }
-
-    fn score(self) -> CaseScore {
-        CaseScore {
-            of: Count(self.of),
-            right: Count(self.right),
-            missed: Count(self.missed),
-            false_alarms: Count(self.false_alarms),
-            undecided: Count(self.undecided),
-        }
     }
 }
 
@@ -255,6 +280,9 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
     let mut codes: BTreeMap<&str, Tally> = BTreeMap::new();
     let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
     let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
+    let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
+    let printed = printed.filter_map(|(item, ran)| Some((item, &ran.as_ref()?.codes)));
+    let printed_codes = printed_codes::score(printed);
     for (item, ran) in items.iter().zip(ran) {
         let Some(ran) = ran else {
             not_run.push(item.id.clone());
@@ -318,6 +346,7 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
         legacy: legacy.score(),
         families: groups(families),
         codes: groups(codes),
+        printed_codes,
         wrong,
         crashed,
         not_run,

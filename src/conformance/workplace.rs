@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use tempfile::TempDir;
 
@@ -63,4 +63,21 @@ impl Workplace {
             Workplace::Kept(path) => path,
         }
     }
+}
+
+/// A path relative to the current folder; `None` if one of the two cannot be found, or they are on different drives.
+pub fn relative(path: &Path) -> Option<PathBuf> {
+    // `..` of a symbolic link leads to the folder around its target.
+    let here = std::env::current_dir().ok()?.canonicalize().ok()?;
+    let path = path.canonicalize().ok()?;
+    let (mut up, mut down) = (here.components().peekable(), path.components().peekable());
+    while up.peek().is_some() && up.peek() == down.peek() {
+        up.next();
+        down.next();
+    }
+    let is_name = |part: &Component| matches!(part, Component::Normal(_));
+    let (up, down): (Vec<_>, Vec<_>) = (up.collect(), down.collect());
+    let all = up.iter().chain(&down).all(is_name);
+    let climb = up.iter().map(|_| Component::ParentDir);
+    all.then(|| climb.chain(down.iter().copied()).collect())
 }

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet, VecDeque};
 
 use super::fields::{Fields, compare};
+use super::shapes::mesh_at;
 use super::side::Side;
 use super::{materials, origin};
 use urdd_format::diff_report::{DiffBox, GeometryDifference, ValueChange};
@@ -13,22 +14,8 @@ use urdd_geometry::mesh::Bounds;
 /// Mesh file names that at least one of the robots has no content for: elements with these are compared by name.
 pub(super) fn compared_by_name<'a>(before: &'a Side, after: &'a Side) -> HashSet<&'a str> {
     let unread = |side: &'a Side| {
-        let links = side.robot.links.iter().enumerate();
-        links.flat_map(move |(link, of)| {
-            let kinds = [GeometryKind::Visual, GeometryKind::Collision];
-            kinds.into_iter().flat_map(move |kind| {
-                let names = elements(of, kind).enumerate();
-                names.filter_map(move |(index, element)| match element.geometry {
-                    Some(Geometry::Mesh(mesh)) => {
-                        match side.shapes.meshes.get(&(link, kind, index)) {
-                            Some(Ok(_)) => None,
-                            _ => Some(mesh.filename.as_str()),
-                        }
-                    }
-                    _ => None,
-                })
-            })
-        })
+        let unread = side.shapes.meshes.iter().filter(|(_, mesh)| mesh.is_err());
+        unread.filter_map(|(place, _)| Some(mesh_at(&side.view, *place)?.1.filename.as_str()))
     };
     unread(before).chain(unread(after)).collect()
 }

@@ -93,6 +93,8 @@ fn notes(before: &Side, after: &Side) -> Vec<String> {
     for (word, side) in [("A", before), ("B", after)] {
         notes.extend(side.notes.iter().map(|note| format!("{word}: {note}")));
         notes.extend(side.shapes.unread().map(|note| format!("{word}: {note}")));
+        let reason = side.validation.as_ref().and_then(|it| it.reason.as_ref());
+        notes.extend(reason.map(|why| format!("{word}: not validated: {why}")));
         if side.shapes.is_cut {
             notes.push(format!(
                 "{word}: bounding boxes of some links are left out: too many vertices"

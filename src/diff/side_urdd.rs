@@ -1,17 +1,15 @@
 //! Opens a URDD.
 
 use std::collections::HashMap;
-use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::dof_state;
-use super::shapes::{Place, Shapes, shapes};
+use super::shapes::{Place, Shapes, mesh_at, shapes};
 use super::side::{DiffError, Side};
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::root::Root;
+use urdd_directory::path::beside;
 use urdd_document::legacy_urdf::of_legacy;
-use urdd_document::mesh_files::{Absence, MeshFiles};
+use urdd_document::mesh_files::MeshFiles;
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_document::urdd::Urdd;
 use urdd_format::meshes::GeometryKind;
@@ -66,12 +64,9 @@ fn read_shapes(urdd: &Urdd, view: &Robot) -> Shapes {
     let paths = paths(urdd, view);
     let by_name: HashMap<&str, File> = paths
         .iter()
-        .filter_map(|((link, kind, index), file)| {
-            let element = view.links.get(*link)?.elements(*kind).get(*index)?;
-            match &element.geometry {
-                Some(Geometry::Mesh(mesh)) => Some((mesh.filename.as_str(), file.clone())),
-                _ => None,
-            }
+        .filter_map(|(place, file)| {
+            let (_, mesh) = mesh_at(view, *place)?;
+            Some((mesh.filename.as_str(), file.clone()))
         })
         .collect();
     let mut files: Vec<(Place, Result<File, String>)> = Vec::new();
@@ -133,50 +128,11 @@ fn paths(urdd: &Urdd, view: &Robot) -> HashMap<Place, File> {
 
 /// Reads a mesh file. Files that it names are read from the URDD alone.
 fn scene(urdd: &Urdd, profile: Profile, path: &str) -> Result<Arc<Scene>, String> {
-    let bytes = bytes(urdd, profile, path)?;
-    let (folder, name) = path.rsplit_once('/').unwrap_or(("", path));
-    let mut fetch = |side: &str| self::bytes(urdd, profile, &beside(folder, side)?).ok();
+    let mut files = MeshFiles::new(urdd);
+    let bytes = files.read(profile, path);
+    let bytes = bytes.map_err(|absence| format!("{path}: {absence}"))?;
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let mut fetch = |named: &str| files.read(profile, &beside(path, named)?).ok();
     let scene = read(&bytes, name, &mut fetch).map_err(|error| error.to_string())?;
     Ok(Arc::new(scene))
-}
-
-fn bytes(urdd: &Urdd, profile: Profile, path: &str) -> Result<Vec<u8>, String> {
-    if profile == Profile::V1 {
-        let root: &Root = urdd.root();
-        let bytes = root.read(path, MAX_DOCUMENT_BYTES);
-        return bytes.map_err(|error| format!("{path}: {error}"));
-    }
-    let (file, _) = MeshFiles::new(urdd)
-        .open(profile, path)
-        .map_err(|absence| match absence {
-            Absence::Missing => format!("{path}: there is no such file"),
-            Absence::NoSibling(name) => {
-                format!("{path}: there is no URDD `{name}` beside this one")
-            }
-            Absence::Other(error) => format!("{path}: {error}"),
-        })?;
-    let mut bytes = Vec::new();
-    file.take(MAX_DOCUMENT_BYTES)
-        .read_to_end(&mut bytes)
-        .map_err(|error| format!("{path}: {error}"))?;
-    Ok(bytes)
-}
-
-/// The path of a file that a mesh in a folder names; `None` if it is not relative or leads out of the URDD.
-fn beside(folder: &str, name: &str) -> Option<String> {
-    let name = name.replace('\\', "/");
-    if name.starts_with('/') {
-        return None;
-    }
-    let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
-    for part in name.split('/') {
-        match part {
-            "" | "." => {}
-            ".." => {
-                parts.pop()?;
-            }
-            part => parts.push(part),
-        }
-    }
-    Some(parts.join("/"))
 }

@@ -101,7 +101,7 @@ fn string(schema: &Value, choices: &mut Choices) -> Value {
         return json!(choices.one(&["", "base_link", "Fixed", "x_", "\u{1f916}/ ä\n", "1.0"]));
     };
     let hash = "0123456789abcdef".repeat(4);
-    let candidates = ["1.0.0", "0.12.999999999", &hash];
+    let candidates = ["home", "1.0.0", "0.12.999999999", &hash];
     let matching: Vec<&str> = candidates
         .into_iter()
         .filter(|text| jsonschema::is_valid(&json!({ "pattern": pattern }), &json!(text)))

@@ -36,6 +36,8 @@ const FREE: &[&str] = &[
     "kinematics_samples_module samples",
     "link_shapes_skips_module edits",
     "link_shapes_skips_module skipped_reasons",
+    "named_configurations_module configurations",
+    "named_configurations_module positions",
     "original_meshes_module files",
     "original_meshes_module references",
     "original_meshes_module side_files",
@@ -82,6 +84,7 @@ const FRAMED: &[&str] = &[
 const NOT_FRAMED: &[&str] = &[
     // Joint values.
     "composition_module position",
+    "named_configurations_module position",
     // The sphere's; its centre has a frame.
     "link_shapes_approximations_module radius",
 ];
@@ -141,7 +144,7 @@ fn each_field<'a>(
 }
 
 fn each_field_of_all(mut see: impl FnMut(&Field<'_>)) {
-    for subject in Subject::all().filter(|subject| subject.is_annotated()) {
+    for subject in Subject::all().filter(|subject| subject.is_version_1()) {
         let schema = subject.schema(Variant::Strict);
         let root = Field {
             subject,
@@ -223,7 +226,7 @@ fn every_field_says_unit_frame_index_and_length() {
 
 #[test]
 fn other_schemas_have_none() {
-    for subject in Subject::all().filter(|subject| !subject.is_annotated()) {
+    for subject in Subject::all().filter(|subject| !subject.is_version_1()) {
         let text = subject.text(Variant::Strict);
         for keyword in KEYWORDS {
             assert!(
@@ -281,7 +284,7 @@ fn the_annotations_are_true_of_the_suites_bases() {
     }
     // Each annotation was met by data.
     let mut unmet = BTreeSet::new();
-    for subject in Subject::all().filter(|subject| subject.is_annotated()) {
+    for subject in Subject::all().filter(|subject| subject.is_version_1()) {
         for place in walk::annotated(&subject.schema(Variant::Strict)) {
             let name = format!("{} {place}", subject.name());
             if !met.contains_key(&name) {
@@ -297,7 +300,7 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
     let mut fixture = urdd.fixture.clone().expect("a fixture");
     for (name, document) in documents {
         let subject =
-            Subject::all().find(|subject| subject.name() == *name && subject.is_annotated());
+            Subject::all().find(|subject| subject.name() == *name && subject.is_version_1());
         let folder = format!("x_own_{name}");
         let schema = subject
             .expect("a module")

@@ -6,7 +6,6 @@
 mod annotations;
 mod architecture;
 mod bad_input;
-mod circles;
 mod cli_schema;
 mod cli_validate;
 mod combine;

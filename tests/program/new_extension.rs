@@ -146,6 +146,8 @@ fn names_that_no_extension_may_have_are_refused() {
         "acme-gripper",
         "../a_b",
         "a_b/c",
+        "x_acme_gripper",
+        "acme_gripper_module",
         "x_acme_gripper_module",
         "a_\u{1b}[2J",
     ] {

@@ -1,5 +1,5 @@
 //! The reports for other programs: the properties that these programs rely on. (`.ci/run` checks SARIF against its
-//! schema and third-party Rust types in `sarif_check/`, and JUnit against the schema of Jenkins.)
+//! schema and third-party Rust types in `checks/`, and JUnit against the schema of Jenkins.)
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -257,4 +257,61 @@ fn files_get_the_format_of_their_ending() {
         let written = fs::read_to_string(root.join(file)).expect("a report");
         assert_eq!(written, text(root, format, &["robots"]), "{file}");
     }
+}
+
+/// A URDF with two axes in a joint.
+const TWO_AXES: &str = r#"<robot name="r">
+  <link name="base"/>
+  <link name="tip"/>
+  <joint name="j" type="continuous">
+    <parent link="base"/>
+    <child link="tip"/>
+    <axis xyz="1 0 0"/><axis
+      xyz="0 1 0"/>
+  </joint>
+</robot>
+"#;
+
+#[test]
+fn a_finding_says_what_to_see_besides_and_what_mends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("r.urdf"), TWO_AXES).expect("written");
+    let report = text(folder.path(), "json", &["r.urdf"]);
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let finding = &report["urdds"][0]["findings"][0];
+    assert_eq!(finding["code"], "SRC008");
+    let place = &finding["places"][0];
+    assert_eq!((&place["line"], &place["column"]), (&json!(7), &json!(24)));
+    assert_eq!(place["written_at"], Value::Null);
+    let first = &place["related"][0];
+    assert_eq!((&first["line"], &first["column"]), (&json!(7), &json!(5)));
+
+    // The fix, made by hand: of line 7 what is before column 24, of line 8 what is from column 20 on.
+    let fix = &place["fixes"][0];
+    let edit = json!({
+        "file": "r.urdf", "line": 7, "column": 24, "end_line": 8, "end_column": 20, "text": "",
+    });
+    assert_eq!(fix["is_safe"], false, "others take the last");
+    assert_eq!(fix["edits"], json!([edit]));
+    let mended = TWO_AXES.replace("<axis\n      xyz=\"0 1 0\"/>", "");
+    fs::write(folder.path().join("mended.urdf"), mended).expect("written");
+    let mended = text(folder.path(), "json", &["mended.urdf"]);
+    let mended: Value = serde_json::from_str(&mended).expect("JSON");
+    assert_eq!(mended["urdds"][0]["findings"], json!([]));
+
+    let log = sarif(folder.path(), &["r.urdf"]);
+    let result = &results(&log)[0];
+    let related = &result["relatedLocations"][0];
+    assert_eq!(related["physicalLocation"]["region"]["startColumn"], 5);
+    assert_eq!(related["message"]["text"], first["message"]);
+    let change = &result["fixes"][0]["artifactChanges"][0];
+    assert_eq!(change["artifactLocation"]["uri"], "r.urdf");
+    let deleted = json!({"startLine": 7, "startColumn": 24, "endLine": 8, "endColumn": 20});
+    assert_eq!(change["replacements"][0]["deletedRegion"], deleted);
+
+    let human = text(folder.path(), "human", &["r.urdf"]);
+    assert!(
+        human.contains("see 7:5: the first, which counts"),
+        "{human}"
+    );
 }

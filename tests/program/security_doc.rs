@@ -1,4 +1,4 @@
-//! The promises of docs/security.md: each names tests, and they exist.
+//! The promises of docs/security.md and docs/promises.md: each names tests, and they exist.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -34,13 +34,20 @@ fn every_promise_names_tests_that_exist() {
     for folder in ["src", "crates", "tests", "python/tests"] {
         tests_below(&root.join(folder), &mut tests);
     }
-    let page = fs::read_to_string(root.join("docs/security.md")).unwrap();
+    let page = |name: &str| fs::read_to_string(root.join("docs").join(name)).unwrap();
+    let (security, promises) = (page("security.md"), page("promises.md"));
+    // What follows the table of promises names no tests.
+    let (promises, _) = promises.split_once("\n## ").unwrap();
     let is_row = |line: &&str| {
-        line.starts_with('|') && !line.starts_with("|---") && !line.starts_with("| input |")
+        let is_heading = line.starts_with("| input |") || line.starts_with("| what |");
+        line.starts_with('|') && !line.starts_with("|---") && !is_heading
     };
-    let rows: Vec<Vec<&str>> = page.lines().filter(is_row).map(cells).collect();
-    assert!(rows.len() > 40, "{} rows", rows.len());
-    for row in rows {
+    let rows = |page| str::lines(page).filter(is_row).map(cells);
+    let (security, promises): (Vec<_>, Vec<_>) =
+        (rows(&security).collect(), rows(promises).collect());
+    assert!(security.len() > 40, "{} rows", security.len());
+    assert!(promises.len() > 8, "{} rows", promises.len());
+    for row in security.into_iter().chain(promises) {
         assert_eq!(row.len(), 4, "{row:?}");
         let held_by = row[3];
         if held_by == "the same" || held_by.starts_with("by construction: ") {

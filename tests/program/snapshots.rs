@@ -36,6 +36,47 @@ fn the_list_of_rules() {
     insta::assert_snapshot!("rules", lines);
 }
 
+/// A word that works goes on working (docs/promises.md).
+#[test]
+fn every_word_of_the_command_line() {
+    let mut lines = Vec::new();
+    words(&mut Vec::new(), &mut lines);
+    insta::assert_snapshot!("command_line", lines.join("\n"));
+}
+
+/// The long options of a command, and then its subcommands.
+fn words(command: &mut Vec<String>, lines: &mut Vec<String>) {
+    let arguments: Vec<&str> = command
+        .iter()
+        .map(String::as_str)
+        .chain(["--help"])
+        .collect();
+    let help = urdd(&arguments);
+    let mut section = "";
+    let (mut options, mut commands) = (Vec::<String>::new(), Vec::new());
+    for line in help.lines() {
+        if !line.is_empty() && !line.starts_with(' ') {
+            section = line;
+        }
+        let words: Vec<&str> = line.split_whitespace().take(2).collect();
+        if section == "Commands:" && line.starts_with("  ") && !line.starts_with("   ") {
+            commands.push(words[0].to_owned());
+        }
+        let long = words.iter().find(|word| word.starts_with("--"));
+        if let (Some(long), true) = (long, section == "Options:")
+            && !options.iter().any(|known| known == long)
+        {
+            options.push((*long).to_owned());
+        }
+    }
+    lines.push(format!("urdd {} {}", command.join(" "), options.join(" ")));
+    for next in commands.into_iter().filter(|next| next != "help") {
+        command.push(next);
+        words(command, lines);
+        command.pop();
+    }
+}
+
 #[test]
 fn the_report_on_the_examples() {
     let report = urdd(&["validate", "examples/urdds"]);

@@ -143,6 +143,9 @@ fn tables(
         invalid(CHN005, "level-missing", |f| {
             f.remove(CHAIN, "/kinematic_hierarchy/3");
         }),
+        invalid(CHN005, "another-link-on-the-deepest-level", |f| {
+            f.set(CHAIN, "/kinematic_hierarchy/6/0", json!(7));
+        }),
         invalid(CHN005, "level-descends", |f| {
             let level = f.doc_mut(CHAIN).pointer_mut("/kinematic_hierarchy/1");
             level

@@ -445,6 +445,12 @@ pub fn cases() -> Vec<Case> {
             }
             add_extension(f);
         }),
+        invalid(DIR027, "listed-files-beyond-ascii", |f| {
+            for name in ["\u{e4}.bin", "\u{c4}.bin"] {
+                f.put_file(&format!("{EXTENSION}/{name}"), name.as_bytes());
+            }
+            add_extension(f);
+        }),
         invalid(DIR027, "metadata", |f| f.put_file("URDD.json", *b"{}\n")),
         invalid(DIR027, "module", |f| {
             f.put_file("DOF_module/notes.txt", *b"hello\n");

@@ -361,6 +361,19 @@ pub fn cases() -> Vec<Case> {
                 json!(row)
             })],
         ),
+        case(
+            LRN004,
+            "sum-beyond-binary64-by-its-bias",
+            true,
+            &[
+                ("/layers/0/weights/0", {
+                    let mut row = vec![0.0; 18];
+                    row[0] = 1.7e308;
+                    json!(row)
+                }),
+                ("/layers/0/biases/0", json!(-1.7e308)),
+            ],
+        ),
         // Nothing depends on the fourth value.
         case(
             LRN004,

@@ -25,6 +25,7 @@ mod legacy_robot;
 mod mesh_files;
 mod meshes;
 mod messages;
+mod named_configurations;
 mod numbers;
 mod one_case;
 mod schema;
@@ -156,6 +157,7 @@ fn cases() -> Vec<Case> {
         shapes::cases(),
         kinematics::cases(),
         learned::cases(),
+        named_configurations::cases(),
         legacy::cases(),
         legacy_core::cases(),
         numbers::cases(),

@@ -299,6 +299,9 @@ fn links() -> Vec<Case> {
         invalid(MSH009, "another-name", |f| {
             f.set(ORIGINAL, "/references/0/filename", json!("turret.stl"));
         }),
+        invalid(MSH009, "visual-said-to-be-collision", |f| {
+            f.set(ORIGINAL, "/references/2/geometry", json!("Collision"));
+        }),
         legacy(MSH009, "another-links-mesh", true, || {
             let mut robot = LegacyRobot::new("robot", 0.0);
             robot.doc(ORIGINAL)["link_mesh_relative_paths"][1] =
@@ -366,6 +369,10 @@ fn links() -> Vec<Case> {
         invalid(MSH012, "unsorted", |f| {
             let first = f.remove(ORIGINAL, "/files/0");
             f.set(ORIGINAL, "/files/-", first);
+        }),
+        invalid(MSH012, "listed-twice", |f| {
+            let last = f.get(ORIGINAL, "/files/1").clone();
+            f.set(ORIGINAL, "/files/-", last);
         }),
         changed(
             MSH012,

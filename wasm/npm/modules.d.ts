@@ -1323,6 +1323,58 @@ export interface CompositionModule extends Extensible {
 }
 
 /**
+ * A configuration that a person named.
+ */
+export interface NamedConfiguration extends Extensible {
+  /**
+   * Its name; unique in the module, and not empty.
+   */
+  name: string;
+  /**
+   * The positions that the person set, in DOF order. What a person decides is free; the names must
+   * exist.
+   */
+  positions: DofPosition[];
+  /**
+   * What follows: one value per DOF, rad or m. A DOF without an entry in `positions` has its value in
+   * the default configuration.
+   *
+   * Unit: `rad or m`. Length: `dofs`.
+   */
+  configuration: number[];
+}
+
+/**
+ * The position of a DOF.
+ */
+export interface DofPosition extends Extensible {
+  /**
+   * Name of the DOF, as in `dofs` of `dof_module`.
+   */
+  dof_name: string;
+  /**
+   * Its position, rad or m.
+   *
+   * Unit: `rad or m`.
+   */
+  position: number;
+}
+
+/**
+ * Configurations that a person named: `home`, `ready`, `retract`.
+ */
+export interface NamedConfigurationsModule extends Extensible {
+  /**
+   * The configurations, in the order in which the person added them.
+   */
+  configurations: NamedConfiguration[];
+  /**
+   * The JSON Schema that this document follows, for editors.
+   */
+  $schema?: string;
+}
+
+/**
  * A place in the URDF that names a mesh.
  */
 export interface MeshReference extends Extensible {
@@ -2231,6 +2283,7 @@ export interface Documents {
   bounds_module: BoundsModule;
   kinematics_samples_module: KinematicsSamplesModule;
   composition_module: CompositionModule;
+  named_configurations_module: NamedConfigurationsModule;
   original_meshes_module: OriginalMeshesModule;
   plain_meshes_module: PlainMeshesModule;
   convex_hull_meshes_module: ConvexHullMeshesModule;

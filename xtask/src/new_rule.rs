@@ -309,7 +309,7 @@ declare_rule! {{
     /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: why it matters, and what to do.
-    {code} "{name}", {severity}, clause "{clause}", since "0.2.0",
+    {code} "{name}", {severity}, clause "{clause}", since "1.0.0",
     phase References, {judges}needs [{need}],
 }}
 

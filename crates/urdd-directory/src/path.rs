@@ -75,6 +75,23 @@ pub fn portable(name: &str) -> String {
     }
 }
 
+/// The path of a file that a mesh names (SPEC 7.5): from the mesh's own folder, with portable names. `None` if it leads
+/// out of the root.
+pub fn beside(mesh: &str, named: &str) -> Option<String> {
+    let mut parts: Vec<String> = mesh.split('/').map(str::to_owned).collect();
+    parts.pop();
+    for part in named.replace('\\', "/").split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop()?;
+            }
+            name => parts.push(portable(name)),
+        }
+    }
+    Some(parts.join("/"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,5 +133,17 @@ mod tests {
             assert_eq!(portable(name), part);
             assert_eq!(check(part), Ok(()));
         }
+    }
+
+    #[test]
+    fn what_a_mesh_names_is_found_from_its_folder() {
+        let of = |named| beside("m/meshes/arm/base.obj", named);
+        assert_eq!(of("base.mtl").as_deref(), Some("m/meshes/arm/base.mtl"));
+        assert_eq!(of("./../tex\\a.png").as_deref(), Some("m/meshes/tex/a.png"));
+        assert_eq!(
+            of("/tex//a:b.png").as_deref(),
+            Some("m/meshes/arm/tex/a_b.png")
+        );
+        assert_eq!(of("../../../../a.png"), None);
     }
 }

@@ -48,6 +48,16 @@ pub enum NoUrdf {
     },
 }
 
+impl NoUrdf {
+    /// Whether the file is there, and too large.
+    pub fn is_too_large(&self) -> bool {
+        let NoUrdf::Unreadable { error, .. } = self else {
+            return false;
+        };
+        matches!(error, ReadError::TooLarge { .. })
+    }
+}
+
 /// Reads the source URDF.
 ///
 /// # Errors

@@ -3,20 +3,26 @@
 
 use std::collections::HashMap;
 
+use thiserror::Error;
+
 use crate::urdd::Urdd;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::path;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::OpenFile;
 use urdd_format::registry::Profile;
 
 /// Why a mesh file is not available.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Absence {
     /// The file does not exist.
+    #[error("there is no such file")]
     Missing,
     /// The path leads into a sibling URDD of this name, which does not exist.
+    #[error("it is in the URDD `{}`, which is not beside this one", .0.escape_debug())]
     NoSibling(String),
     /// The path is invalid, or the file cannot be read. Other rules report this.
+    #[error(transparent)]
     Other(ReadError),
 }
 
@@ -63,9 +69,28 @@ impl<'a> MeshFiles<'a> {
     /// # Errors
     /// Why it is not available.
     pub fn open(&mut self, profile: Profile, path: &str) -> Result<(OpenFile, u64), Absence> {
+        self.at(profile, path, Root::open_file)
+    }
+
+    /// The bytes of the file at a path.
+    ///
+    /// # Errors
+    /// Why it is not available, or too large.
+    pub fn read(&mut self, profile: Profile, path: &str) -> Result<Vec<u8>, Absence> {
+        self.at(profile, path, |root, path| {
+            root.read(path, MAX_DOCUMENT_BYTES)
+        })
+    }
+
+    fn at<T>(
+        &mut self,
+        profile: Profile,
+        path: &str,
+        get: impl FnOnce(&Root, &str) -> Result<T, ReadError>,
+    ) -> Result<T, Absence> {
         path::check(path).map_err(|fault| Absence::Other(ReadError::Path(fault)))?;
-        let opened = match self.own(profile, path) {
-            Some(own) => self.urdd.root().open_file(own),
+        let got = match self.own(profile, path) {
+            Some(own) => get(self.urdd.root(), own),
             None => {
                 let (folder, rest) = path.split_once('/').ok_or(Absence::Missing)?;
                 let urdd = self.urdd;
@@ -74,12 +99,12 @@ impl<'a> MeshFiles<'a> {
                     .entry(folder.to_owned())
                     .or_insert_with(|| urdd.root().sibling(folder));
                 match sibling {
-                    Some(root) => root.open_file(rest),
+                    Some(root) => get(root, rest),
                     None => return Err(Absence::NoSibling(folder.to_owned())),
                 }
             }
         };
-        opened.map_err(|error| match error {
+        got.map_err(|error| match error {
             ReadError::Missing => Absence::Missing,
             other => Absence::Other(other),
         })

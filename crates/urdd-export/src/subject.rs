@@ -11,6 +11,7 @@ use super::pairs::{LinkPair, pairs};
 use urdd_document::mimics::Mimics;
 use urdd_document::robot::{Robot as View, of_urdf};
 use urdd_document::tree::Tree;
+use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
 
@@ -104,7 +105,7 @@ impl<'a> Subject<'a> {
             "{} of robot `{}`, made by urdd {} from the URDD `{}`.",
             self.format.name(),
             self.urdf.name,
-            env!("CARGO_PKG_VERSION"),
+            PROGRAM_VERSION,
             self.robot.folder_name(),
         )];
         if let Some(source) = self.robot.source()? {

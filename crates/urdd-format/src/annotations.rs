@@ -122,25 +122,21 @@ impl Thing {
 
 /// What the text of an `x-index` names: one thing, or a choice. `None` where a word is unknown.
 pub fn of_index(text: &str) -> Option<Vec<Thing>> {
-    let of_word = |word| {
-        let all = Thing::ALL.iter().copied();
-        all.into_iter().find(|thing| thing.index() == word)
-    };
-    distinct(text.split(OR).map(of_word))
+    named(text, |thing| Some(thing.index()))
 }
 
 /// What the text of an `x-length` names: one thing, or a choice. `None` where a word is unknown.
 pub fn of_length(text: &str) -> Option<Vec<Thing>> {
-    let of_word = |word| {
-        let all = Thing::ALL.iter().copied();
-        all.into_iter().find(|thing| thing.length() == Some(word))
-    };
-    distinct(text.split(OR).map(of_word))
+    named(text, Thing::length)
 }
 
-/// A text may name a thing a thousand times.
-fn distinct(things: impl Iterator<Item = Option<Thing>>) -> Option<Vec<Thing>> {
-    let things: BTreeSet<Thing> = things.collect::<Option<_>>()?;
+fn named(text: &str, word_of: fn(Thing) -> Option<&'static str>) -> Option<Vec<Thing>> {
+    let of_word = |word| {
+        let mut all = Thing::ALL.iter().copied();
+        all.find(|thing| word_of(*thing) == Some(word))
+    };
+    // A text may name a thing a thousand times.
+    let things: BTreeSet<Thing> = text.split(OR).map(of_word).collect::<Option<_>>()?;
     Some(things.into_iter().collect())
 }
 

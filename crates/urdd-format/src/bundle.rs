@@ -10,7 +10,7 @@ use super::schema::{Subject, Variant};
 pub fn bundle(variant: Variant) -> Value {
     let mut definitions = Map::new();
     let mut properties = Map::new();
-    for subject in Subject::all().filter(|subject| subject.is_annotated()) {
+    for subject in Subject::all().filter(|subject| subject.is_version_1()) {
         let name = match subject {
             Subject::RootMetadata => "urdd.json",
             subject => subject.name(),

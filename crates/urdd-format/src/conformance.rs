@@ -23,6 +23,8 @@ module! {
         pub passed: bool,
         /// Every robot, by name.
         pub robots: Vec<RobotScore>,
+        /// Every URDF that a producer must refuse or repair, by name.
+        pub refused: Vec<RefusedScore>,
         /// The class that was asked for, and those below it.
         pub classes: Vec<ClassScore>,
         /// Every module that the class asks for or that a URDD has, in the specification's order.
@@ -53,6 +55,49 @@ object! {
         pub codes: Vec<String>,
         /// Its modules.
         pub modules: Vec<RobotModule>,
+    }
+}
+
+object! {
+    /// A URDF that has no URDD as it is: a producer refuses it, or repairs it and carries the repaired text.
+    pub struct RefusedScore {
+        /// Its name: the rule that every URDD of it would break, a slash and a name.
+        pub robot: String,
+        /// What came of it.
+        pub status: ScoreStatus,
+        /// Why it is skipped; else null.
+        pub skipped_since: Option<String>,
+        /// What the command did.
+        pub outcome: RefusedOutcome,
+        /// How the command ended.
+        pub end: String,
+        /// The last part of what it printed to standard output; null where this passed.
+        pub stdout: Option<String>,
+        /// The last part of what it printed to standard error; null where this passed.
+        pub stderr: Option<String>,
+        /// Why the URDD could not be examined; else null.
+        pub unreadable: Option<String>,
+        /// Codes of the errors in the URDD that it wrote, sorted.
+        pub codes: Vec<String>,
+    }
+}
+
+string_enum! {
+    /// What a producer did with a URDF that has no URDD as it is.
+    pub enum RefusedOutcome {
+        /// It ended with another exit status than 0, said why, and left nothing at the output.
+        Refused = "refused",
+        /// It wrote a URDD without errors, which carries the repaired text.
+        Repaired = "repaired",
+        /// It ended with exit status 0, without a URDD that passes and carries its source.
+        Written = "written",
+        /// It ended with another exit status than 0, and something is at the output.
+        LeftOver = "left_over",
+        /// It ended with another exit status than 0, and did not say why.
+        Silent = "silent",
+        /// It did not start, ended by a signal or at the time limit, or printed what an interpreter prints of an uncaught
+        /// exception.
+        Crashed = "crashed",
     }
 }
 
@@ -147,6 +192,8 @@ module! {
         pub families: Vec<GroupScore>,
         /// Sums by code.
         pub codes: Vec<GroupScore>,
+        /// The codes that the command printed; null where it printed none for any case. They decide nothing above.
+        pub printed_codes: Option<PrintedCodes>,
         /// Every case that was judged incorrectly, by id.
         pub wrong: Vec<WrongCase>,
         /// Cases that were rejected by a command that seems to have crashed: it printed what an interpreter prints of an
@@ -182,6 +229,21 @@ object! {
         pub name: String,
         /// The score.
         pub score: CaseScore,
+    }
+}
+
+object! {
+    /// How many cases have the right code among those that the command printed: the case's own where it is to be
+    /// rejected, and not that one where it is a near miss. Other codes count nothing. Legacy cases are left out.
+    pub struct PrintedCodes {
+        /// All that were run, except valid URDDs and cases of warnings and informations.
+        pub of: Count,
+        /// Those with the right code.
+        pub right: Count,
+        /// Ids of cases to be rejected, whose code was not printed.
+        pub missing: Vec<String>,
+        /// Ids of near misses, whose code was printed.
+        pub extra: Vec<String>,
     }
 }
 

@@ -44,6 +44,7 @@ pub mod link_shapes_max_distance_from_origin;
 pub mod link_shapes_simple_skips;
 pub mod link_shapes_skips;
 pub mod meshes;
+pub mod named_configurations;
 #[doc(hidden)]
 pub mod nearest;
 #[doc(hidden)]

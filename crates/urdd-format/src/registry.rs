@@ -10,6 +10,9 @@ use super::*;
 /// Version of the specification that this crate implements.
 pub const SPEC_VERSION: &str = "1.0.0";
 
+/// Version of the program and the packages `urdd`, as they state it in what they write. Crates have another.
+pub const PROGRAM_VERSION: &str = "1.0.0";
+
 /// Format family of a (module, version).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Profile {
@@ -90,6 +93,8 @@ kinds! {
     KinematicsSamples = "kinematics_samples_module" in "", None, needs [Dof, Chain, Bounds];
     /// How the robot was composed of others. Composed robots only.
     Composition = "composition_module" in "", None, needs [Urdf];
+    /// Configurations that a person named. Optional.
+    NamedConfigurations = "named_configurations_module" in "", None, needs [Dof, Bounds];
     /// Mesh files as the URDF names them.
     OriginalMeshes = "original_meshes_module" in "mesh_modules/", Some(Geometry), needs [Urdf];
     /// One mesh per link.
@@ -163,6 +168,7 @@ modules! {
     Bounds(bounds::BoundsModule): Bounds @ "1.0.0", V1;
     KinematicsSamples(kinematics_samples::KinematicsSamplesModule): KinematicsSamples @ "1.0.0", V1;
     Composition(composition::CompositionModule): Composition @ "1.0.0", V1;
+    NamedConfigurations(named_configurations::NamedConfigurationsModule): NamedConfigurations @ "1.0.0", V1;
     OriginalMeshes(original_meshes::OriginalMeshesModule): OriginalMeshes @ "1.0.0", V1;
     PlainMeshes(plain_meshes::PlainMeshesModule): PlainMeshes @ "1.0.0", V1;
     ConvexHullMeshes(convex_hull_meshes::ConvexHullMeshesModule): ConvexHullMeshes @ "1.0.0", V1;

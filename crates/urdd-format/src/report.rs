@@ -252,8 +252,8 @@ object! {
         pub severity: Severity,
         /// The severity that the rule has without settings.
         pub default_severity: Severity,
-        /// Clause of the specification.
-        pub clause: String,
+        /// Clause of the specification; null where the rule is about robots and not about URDDs.
+        pub clause: Option<String>,
         /// What it does to users of the URDD.
         pub consequence: Consequence,
         /// The module; null where it is about none.
@@ -299,6 +299,8 @@ object! {
         pub line: Option<Count>,
         /// Column in the line, in characters, from 1.
         pub column: Option<Count>,
+        /// The place in a .xacro file that it was made from; null where that is not known.
+        pub written_at: Option<WrittenAt>,
         /// What should be there.
         pub expected: Option<String>,
         /// What is there.
@@ -309,6 +311,55 @@ object! {
         pub message: Option<String>,
         /// By how much it is off.
         pub magnitude: Option<Magnitude>,
+        /// Other places to look at, such as the first of two elements of which one is too many; `message` says what is
+        /// there.
+        pub related: Vec<Place>,
+        /// Changes that mend it, each by itself, the best first.
+        pub fixes: Vec<Fix>,
+    }
+}
+
+object! {
+    /// The place in a .xacro file that a part of a URDF was made from.
+    pub struct WrittenAt {
+        /// The file, as seen from the URDF's folder, with forward slashes.
+        pub file: String,
+        /// Line in the file, from 1; null where only the file is known.
+        pub line: Option<Count>,
+        /// Column in the line, in characters, from 1.
+        pub column: Option<Count>,
+        /// The macro that holds it; null outside of macros.
+        pub macro_name: Option<String>,
+    }
+}
+
+object! {
+    /// A change of files that mends a place of a finding.
+    pub struct Fix {
+        /// What it does, as a command: "remove the second `<axis>`".
+        pub message: String,
+        /// Whether it is the one right answer, so that a program may make it without asking.
+        pub is_safe: bool,
+        /// What to change. No two of them overlap.
+        pub edits: Vec<TextEdit>,
+    }
+}
+
+object! {
+    /// A text in place of another.
+    pub struct TextEdit {
+        /// The file, relative to the URDD's root or the URDF's folder, with forward slashes.
+        pub file: String,
+        /// Line of the first character that goes, from 1.
+        pub line: Count,
+        /// Its column in the line, in characters, from 1.
+        pub column: Count,
+        /// Line of the first character that stays.
+        pub end_line: Count,
+        /// Its column.
+        pub end_column: Count,
+        /// What is put there; empty to remove only.
+        pub text: String,
     }
 }
 

@@ -173,11 +173,12 @@ impl Subject {
             Variant::Open => ":open",
         };
         let id = format!("urn:urdd:schema:{}:{}{suffix}", self.name(), self.version());
-        published(schema, id, variant, self.is_annotated())
+        published(schema, id, variant, self.is_version_1())
     }
 
-    /// Whether its schema says units, frames, indices and lengths (SPEC 11.3). Legacy schemas are frozen without.
-    pub fn is_annotated(self) -> bool {
+    /// Whether it is a document of a URDD of version 1. Only the schemas of these say units, frames, indices and lengths
+    /// (SPEC 11.3).
+    pub fn is_version_1(self) -> bool {
         match self {
             Subject::RootMetadata => true,
             Subject::Module(spec) => spec.profile == Profile::V1,

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use super::donor::edits::Decisions;
 use urdd_format::composition::CompositionModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::named_configurations::ConfigurationEdit;
 
 /// The inputs of a composed robot besides its URDF.
 #[derive(Debug, Clone)]
@@ -16,6 +17,8 @@ pub struct Composed {
     pub folder: PathBuf,
     /// The skip edits of its parts. The edits of the URDD that is replaced follow them.
     pub edits: Vec<SkipEdit>,
+    /// The named configurations of its parts. Those of the URDD that is replaced take precedence.
+    pub configurations: Vec<ConfigurationEdit>,
     /// The skip reasons to use when no URDD is replaced and the settings give none.
     pub skipped_reasons: Option<Vec<SkippedReason>>,
     /// How the robot was composed: the content of its `composition_module`.
@@ -23,7 +26,7 @@ pub struct Composed {
 }
 
 impl Composed {
-    /// The user's decisions about skips: those of the parts, then `there`, those of the URDD that is replaced; without one
+    /// The user's decisions: those of the parts, then `there`, those of the URDD that is replaced; without one
     /// `is_new` is true.
     pub(super) fn decisions(&self, is_new: bool, mut there: Decisions) -> Decisions {
         if let (true, Some(reasons)) = (is_new, &self.skipped_reasons) {
@@ -36,6 +39,13 @@ impl Composed {
         let own: HashSet<_> = self.edits.iter().map(words).collect();
         there.edits.retain(|edit| !own.contains(&words(edit)));
         there.edits.splice(..0, self.edits.iter().cloned());
+        let names: HashSet<_> = there.configurations.iter().map(|edit| &edit.name).collect();
+        let new = self.configurations.iter();
+        let new: Vec<_> = new
+            .filter(|edit| !names.contains(&edit.name))
+            .cloned()
+            .collect();
+        there.configurations.extend(new);
         there
     }
 }

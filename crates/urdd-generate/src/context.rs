@@ -5,6 +5,7 @@ use super::error::GenerateError;
 use super::fault::Fault;
 use super::kinematics_samples::SamplesError;
 use super::meshes::names::mesh_files;
+use super::named::Named;
 use super::note::{Note, NoteKind};
 use super::progress::Progress;
 use super::settings::Settings;
@@ -36,6 +37,8 @@ pub(crate) struct Context<'a> {
     pub samples: KinematicsSamplesModule,
     /// The user's edits of the skips.
     pub edits: Edits,
+    /// The user's named configurations.
+    pub named: Named,
 }
 
 /// The fault of a robot whose poses cannot be computed; names the joint above the link where it shows.
@@ -75,6 +78,7 @@ impl<'a> Context<'a> {
         let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
             .map_err(|error| refused(no_poses(&error, &chain)))?;
         Ok(Context {
+            named: Named::of(&decisions.configurations, &dof, &bounds),
             edits: Edits::of(decisions, &chain),
             source,
             settings,

@@ -51,7 +51,7 @@ pub enum GenerateError {
     },
     /// The user's edits in the URDD that is to be replaced would be lost.
     #[error(
-        "{}{}: {fault}; a new run would lose a person's edits of skips in it. Correct the file, or drop all its edits: `--drop-edits`",
+        "{}{}: {fault}; a new run would lose a person's {lost} in it. Correct the file, or drop all its edits: `--drop-edits`",
         file.display(),
         at.map(|at| format!(":{at}")).unwrap_or_default()
     )]
@@ -60,6 +60,8 @@ pub enum GenerateError {
         file: PathBuf,
         /// The position in the file.
         at: Option<Position>,
+        /// What would be lost: `edits of skips` or `named configurations`.
+        lost: &'static str,
         /// Why they would be lost.
         fault: EditsFault,
     },
@@ -164,6 +166,9 @@ pub enum EditsFault {
     /// An edit is invalid.
     #[error("this edit cannot be used: {0}")]
     Edit(String),
+    /// A named configuration is invalid.
+    #[error("this configuration cannot be used: {}", escape::line(.0))]
+    Configuration(String),
     /// An edit names a link that the URDD does not have.
     #[error("this edit names the link `{}`, but the robot of this URDD has no such link", escape::line(.0))]
     UnknownLink(String),

@@ -39,6 +39,8 @@ mod mesh_stages;
 mod meshes;
 mod metadata;
 mod modules;
+mod named;
+mod named_configurations;
 pub mod note;
 mod pose;
 #[doc(hidden)]

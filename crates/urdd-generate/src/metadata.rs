@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 
 use super::error::GenerateError;
 use urdd_directory::writer::sha256;
-use urdd_format::registry::{ModuleKind, SPEC_VERSION};
+use urdd_format::registry::{ModuleKind, PROGRAM_VERSION, SPEC_VERSION};
 use urdd_format::root_metadata::{
     ConformanceClass, FileEntry, Generator, ModuleEntry, RootMetadata, Source, Version,
 };
@@ -58,7 +58,7 @@ pub(super) fn inputs<'a>(
 ) -> String {
     let mut text = format!(
         "{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n",
-        env!("CARGO_PKG_VERSION"),
+        PROGRAM_VERSION,
         kind.name()
     );
     let needed = kind.depends_on().iter().map(|kind| kind.name());
@@ -104,7 +104,7 @@ pub(super) fn document(
         conformance_class: class(&made),
         generator: Some(Generator {
             name: GENERATOR.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: PROGRAM_VERSION.to_owned(),
         }),
         source: Some(Source::Urdf(source)),
         modules: made.iter().map(|entry| entry.module.clone()).collect(),

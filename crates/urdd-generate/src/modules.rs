@@ -50,6 +50,8 @@ impl<'a> Modules<'a> {
         root: Root,
     ) -> Self {
         let composition = context.composition.map(|_| ModuleKind::Composition);
+        let has_named = !context.named.configurations.is_empty();
+        let named = has_named.then_some(ModuleKind::NamedConfigurations);
         Modules {
             context,
             selected: context
@@ -57,6 +59,7 @@ impl<'a> Modules<'a> {
                 .selection
                 .kinds()
                 .chain(composition)
+                .chain(named)
                 .collect(),
             replaced,
             writer,

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::composed::Composed;
 use super::context::Context;
 use super::donor::edits::{self, Decisions};
-use super::donor::{Donor, others};
+use super::donor::{Donor, configurations, others};
 use super::error::GenerateError;
 use super::meshes::MeshCount;
 use super::metadata;
@@ -123,7 +123,10 @@ fn make(
     let replaced = replaced.as_ref();
     let decisions = match settings.drop_edits {
         true => Decisions::default(),
-        false => edits::read(target, &settings.selection, replaced)?,
+        false => Decisions {
+            configurations: configurations::read(target, replaced)?,
+            ..edits::read(target, &settings.selection, replaced)?
+        },
     };
     let decisions = match composed {
         Some(composed) => composed.decisions(replaced.is_none(), decisions),

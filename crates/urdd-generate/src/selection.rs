@@ -21,9 +21,9 @@ fn known() -> String {
     names.chain(classes).collect::<Vec<_>>().join(", ")
 }
 
-/// The modules of version 1 that cannot be selected: those that no stage makes, and the composition module, which every
-/// composed robot gets.
-const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition];
+/// The modules of version 1 that cannot be selected: the composition module, which every composed robot gets, and the named
+/// configurations, which every robot with such configurations gets.
+const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition, ModuleKind::NamedConfigurations];
 
 /// The modules of version 1 that can be selected, in the order of the specification.
 pub(crate) fn kinds() -> Vec<ModuleKind> {

@@ -35,7 +35,7 @@ pub struct Settings {
     pub xacro: XacroSettings,
     /// Whether a missing mesh, or any assumption that changes the robot, is an error.
     pub strict: bool,
-    /// Whether to drop the skip edits of the URDD that is replaced.
+    /// Whether to drop the skip edits and the named configurations of the URDD that is replaced.
     pub drop_edits: bool,
     /// Whether to write into a folder that has other content.
     pub force: bool,

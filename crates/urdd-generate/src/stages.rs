@@ -10,6 +10,7 @@ use super::error::GenerateError;
 use super::made::{Made, made, streamed};
 use super::meshes::MeshCount;
 use super::modules::Modules;
+use super::named_configurations::named_configurations;
 use super::note::NoteKind;
 use super::shapes::ConvexMeshes;
 use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
@@ -29,6 +30,7 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     modules.add(Kind::Bounds, |_| made(&context.bounds))?;
     modules.add(Kind::KinematicsSamples, |_| made(&context.samples))?;
     modules.add(Kind::Composition, |_| made(&context.composition))?;
+    modules.add(Kind::NamedConfigurations, |_| named_configurations(context))?;
 
     let original = modules.add(Kind::OriginalMeshes, |_| meshes::original(context))?;
     let count = original.as_ref().map(|original| original.count);

@@ -1,4 +1,4 @@
-//! Tessellation of box, cylinder, sphere and capsule.
+//! Box, cylinder, sphere and capsule: their extents, and their tessellation.
 //!
 //! All meshes are closed, face outward and are centred at the origin. The axis is along z, as in URDF and `MuJoCo`.
 //! Every vertex is on the true surface. Vertices on the coordinate axes are exact, so extents are exact. The flat faces
@@ -14,8 +14,55 @@
 //! The sphere is an icosahedron with each face split in four, three times. Among bodies with as many vertices it is
 //! nearly the roundest; a sphere of meridians and parallels crowds its vertices at the poles.
 
+use nalgebra::Matrix3;
+
 use super::mesh::Mesh;
 use super::vector::{dot, norm};
+
+/// A shape of URDF, centred at the origin, its axis along z. Lengths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Primitive {
+    /// A box with half of its edge lengths along x, y and z.
+    Box([f64; 3]),
+    /// A cylinder with half of its length.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Half of the length.
+        half: f64,
+    },
+    /// A capsule with half of the length of its cylinder.
+    Capsule {
+        /// Radius.
+        radius: f64,
+        /// Half of the length of its cylinder.
+        half: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Radius.
+        radius: f64,
+    },
+}
+
+impl Primitive {
+    /// Half of the extents along x, y and z, metres, after a rotation.
+    #[must_use]
+    pub fn half_extents(&self, rotation: &Matrix3<f64>) -> [f64; 3] {
+        [0, 1, 2].map(|axis| {
+            let row = rotation.row(axis);
+            match *self {
+                Primitive::Box(half) => (0..3).map(|i| (row[i] * half[i]).abs()).sum(),
+                // A disk whose normal has the component n along an axis reaches radius * sqrt(1 - n²) along it.
+                Primitive::Cylinder { radius, half } => {
+                    row[2].abs() * half + radius * (1.0 - row[2] * row[2]).max(0.0).sqrt()
+                }
+                Primitive::Capsule { radius, half } => row[2].abs() * half + radius,
+                Primitive::Sphere { radius } => radius,
+            }
+        })
+    }
+}
 
 /// Vertices of a circle.
 pub const SEGMENTS: usize = 32;
@@ -221,4 +268,32 @@ fn unit(vector: [f64; 3]) -> [f64; 3] {
 
 fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
     nalgebra::Matrix3::from_columns(&[a.into(), b.into(), c.into()]).determinant()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    /// The extents agree with those of tessellated shapes, up to the tessellation.
+    #[test]
+    fn extents_are_those_of_the_surfaces() {
+        let (radius, half) = (0.3, 0.25);
+        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
+        for (shape, mut mesh) in [
+            (Primitive::Box([0.1, 0.2, 0.3]), cuboid([0.2, 0.4, 0.6])),
+            (Primitive::Cylinder { radius, half }, cylinder(0.3, 0.5)),
+            (Primitive::Capsule { radius, half }, capsule(0.3, 0.5)),
+            (Primitive::Sphere { radius }, sphere(0.3)),
+        ] {
+            mesh.transform(&turn.to_homogeneous());
+            let (found, bounds) = (shape.half_extents(turn.matrix()), mesh.bounds().unwrap());
+            for (axis, reach) in found.into_iter().enumerate() {
+                for end in [-bounds.min[axis], bounds.max[axis]] {
+                    let beyond = reach - end;
+                    assert!((-1e-12..0.004).contains(&beyond), "{shape:?}: {found:?}");
+                }
+            }
+        }
+    }
 }

@@ -77,12 +77,24 @@ pub enum RobotError {
     /// Unknown name.
     #[error("there is no {what} `{}`{}", .name.escape_debug(), nearest_text(.nearest.as_deref()))]
     Unknown {
-        /// Kind of name: `link`, `joint`, `DOF` or `kind of shapes`.
+        /// Kind of name: `link`, `joint`, `DOF`, `configuration` or `kind of shapes`.
         what: &'static str,
         /// The name.
         name: String,
         /// The most similar known name.
         nearest: Option<String>,
+    },
+    /// A position beyond the bounds of a limited DOF.
+    #[error("the DOF `{}` cannot be at {position}: its bounds are {lower} and {upper}", .dof.escape_debug())]
+    OutOfBounds {
+        /// The DOF.
+        dof: String,
+        /// The position, rad or m.
+        position: f64,
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
     },
     /// Index out of range.
     #[error("{what} {index} is out of range: there are {count}")]

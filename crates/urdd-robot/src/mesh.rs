@@ -1,13 +1,10 @@
 //! Mesh files: hulls, convex pieces and visual meshes.
 
-use std::io::Read;
-
 use rayon::prelude::*;
 
 use super::Robot;
 use super::error::RobotError;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_document::mesh_files::{Absence, MeshFiles};
+use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{self, Format, MeshPath};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
@@ -128,17 +125,9 @@ fn fault(path: &str, reason: String) -> RobotError {
 
 fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
     let fail = |reason: String| fault(path, reason);
-    let (file, size) = MeshFiles::new(part)
-        .open(profile, path)
-        .map_err(|absence| fail(why_absent(absence)))?;
-    if size > MAX_DOCUMENT_BYTES {
-        let limit = MAX_DOCUMENT_BYTES;
-        return Err(fail(format!("it has {size} bytes, more than {limit}")));
-    }
-    let mut bytes = Vec::new();
-    file.take(MAX_DOCUMENT_BYTES)
-        .read_to_end(&mut bytes)
-        .map_err(|error| fail(format!("it cannot be read: {error}")))?;
+    let bytes = MeshFiles::new(part)
+        .read(profile, path)
+        .map_err(|absence| fail(absence.to_string()))?;
     let options = Options {
         gltf_up: GltfUp::Keep,
         ..Options::default()
@@ -149,17 +138,4 @@ fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> 
             None => error.fault.to_string(),
         })
     })
-}
-
-fn why_absent(absence: Absence) -> String {
-    match absence {
-        Absence::Missing => "there is no such file".to_owned(),
-        Absence::NoSibling(name) => {
-            format!(
-                "it is in the URDD `{}`, which is not beside this one",
-                name.escape_debug()
-            )
-        }
-        Absence::Other(error) => error.to_string(),
-    }
 }

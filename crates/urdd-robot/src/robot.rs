@@ -10,6 +10,7 @@ use urdd_directory::root::Root;
 use urdd_directory::source::Source;
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
+use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::{ModuleKind, Profile};
 
 /// A robot, described by a URDD.
@@ -20,6 +21,7 @@ pub struct Robot {
     pub(super) root: Root,
     motion: OnceLock<Result<Arc<Motion>, RobotError>>,
     configurations: OnceLock<Result<Arc<Configurations>, RobotError>>,
+    pub(super) named: OnceLock<Result<Vec<NamedConfiguration>, RobotError>>,
 }
 
 impl Robot {
@@ -46,6 +48,7 @@ impl Robot {
             root,
             motion: OnceLock::new(),
             configurations: OnceLock::new(),
+            named: OnceLock::new(),
         }
     }
 

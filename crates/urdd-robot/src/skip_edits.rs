@@ -1,17 +1,11 @@
 //! The effect of a user's skip edits on a URDD.
 
-use std::collections::BTreeMap;
-
 use super::Robot;
+use super::edited_files::Files;
 use super::error::RobotError;
 use super::robot::usable;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
-use urdd_directory::canonical;
-use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::file_entry;
-use urdd_directory::json;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_format::link_shapes_skips::{LinkShapesSkipsModule, SkipEdit, SkippedReason};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::skips::skips_module;
@@ -26,7 +20,7 @@ pub struct EditedSkips {
     pub module: LinkShapesSkipsModule,
     /// Changed files by path relative to the root: the module's JSON and YAML, and `urdd.json` with their sizes and
     /// hashes.
-    pub files: BTreeMap<String, Vec<u8>>,
+    pub files: Files,
     /// Whether the URDD has a self-collision model. It was trained with the previous skips and must be regenerated.
     pub model_is_stale: bool,
 }
@@ -73,9 +67,7 @@ impl Robot {
         let reasons = skipped_reasons.unwrap_or_else(|| now.skipped_reasons.clone());
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let module = skips_module(simple, reasons, edits, &names);
-        let mut files = module_files(&module)?;
-        let metadata = self.metadata_with(&files)?;
-        files.insert(ROOT_METADATA.to_owned(), metadata);
+        let files = self.edited_files(SKIPS, serde_json::to_value(&module))?;
         let model = ModuleKind::SelfCollisionModel;
         let model_is_stale = self.part_as_it_is(&[model])?.module(model).is_some();
         Ok(EditedSkips {
@@ -84,28 +76,4 @@ impl Robot {
             model_is_stale,
         })
     }
-
-    /// `urdd.json`, updated with the sizes and hashes of these files.
-    fn metadata_with(&self, files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>, RobotError> {
-        let text = self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
-        let text = text.map_err(|error| RobotError::Metadata(error.to_string()))?;
-        let document =
-            json::read(&text).map_err(|error| RobotError::Metadata(error.to_string()))?;
-        let mut metadata = document.value;
-        file_entry::reseal(&mut metadata, |path| files.get(path).map(Vec::as_slice));
-        Ok(canonical::json_string(&metadata).into_bytes())
-    }
-}
-
-fn module_files(module: &LinkShapesSkipsModule) -> Result<BTreeMap<String, Vec<u8>>, RobotError> {
-    let document = serde_json::to_value(module);
-    let document = document.map_err(|error| RobotError::Unusable {
-        module: SKIPS,
-        reason: error.to_string(),
-    })?;
-    let file = |name: &str, text: String| (format!("{}/{name}", SKIPS.folder()), text.into_bytes());
-    Ok(BTreeMap::from([
-        file("module.json", canonical::json_string(&document)),
-        file("module.yaml", canonical::yaml_string(&document)),
-    ]))
 }

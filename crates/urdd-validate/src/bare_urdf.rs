@@ -1,7 +1,6 @@
 //! Validates a URDF without a URDD, with the rules that need only the source: whether it describes one tree, whether
 //! its names resolve, and what is unusual about it.
 
-use crate::code::Code;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -85,9 +84,8 @@ fn is_for_urdf(rule: &Rule) -> bool {
     match rule.judges {
         Judges::Robot | Judges::Source => true,
         Judges::AsItStands | Judges::Derived => {
-            // URD011 says itself what it needs: a URDF that is too large is there, and not read.
-            let of_urdf = rule.code == Code::URD011 || rule.needs.contains(&Need::CarriedUrdf);
-            of_urdf && !rule.needs.iter().any(module)
+            let urdf = |need: &Need| matches!(need, Need::CarriedUrdf | Need::UrdfFile);
+            rule.needs.iter().any(urdf) && !rule.needs.iter().any(module)
         }
     }
 }

@@ -2,7 +2,7 @@
 //! URDDs alone, not on the order of their examination.
 
 use super::engine::Check;
-use super::finding::bytes;
+use super::memory::bytes;
 use urdd_format::report::Place;
 
 /// Approximate memory limit for the places of a run, in bytes, and the lower limit for each URDD.

@@ -242,7 +242,10 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             Some(_) => None,
             None => Some(SkipReason::NoRootMetadata),
         },
-        Need::CarriedUrdf => context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf),
+        Need::UrdfFile if matches!(context.urdf(), Err(why) if why.is_too_large()) => None,
+        Need::CarriedUrdf | Need::UrdfFile => {
+            context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf)
+        }
         Need::All(needs) => needs
             .iter()
             .find_map(|need| unmet(context, *need, outcomes)),

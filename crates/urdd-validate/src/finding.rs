@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::memory::bytes;
 use super::part::{Part, Why};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
@@ -11,7 +12,7 @@ use urdd_directory::position::Position;
 use urdd_document::entries::Entry;
 use urdd_document::module::Module;
 use urdd_format::index::Count;
-use urdd_format::report::Magnitude;
+use urdd_format::report::{Fix, Magnitude};
 
 pub use urdd_format::report::Place;
 
@@ -19,7 +20,7 @@ pub use urdd_format::report::Place;
 pub const KEPT_PLACES: usize = 10_000;
 /// Maximum number of findings of a rule in a URDD, and of bytes of their further places; the rest are counted.
 const KEPT_FINDINGS: usize = 10_000;
-const KEPT_BYTES: usize = 2 << 20;
+const KEPT_BYTES: usize = 4 << 20;
 
 /// A fault found by a rule.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,6 +126,21 @@ impl Finding {
     /// Adds a faulty mesh.
     pub fn part(mut self, part: impl Into<Option<Part>>) -> Self {
         self.parts.extend(part.into());
+        self
+    }
+
+    /// Adds another place to look at: that of a finding, whose message says what is there.
+    pub fn related(mut self, other: Finding) -> Self {
+        self.place.related.push(Place {
+            message: Some(other.message),
+            ..other.place
+        });
+        self
+    }
+
+    /// Adds a change that mends it.
+    pub fn fix(mut self, fix: Fix) -> Self {
+        self.place.fixes.push(fix);
         self
     }
 
@@ -320,23 +336,6 @@ fn without_indices(pointer: &str) -> String {
         })
         .collect();
     parts.join("/")
-}
-
-/// Approximate memory of a place without its texts, in bytes. A constant, so that a report is the same on every machine.
-const PLACE: usize = 184;
-
-/// Approximate memory of a place, in bytes.
-pub(super) fn bytes(place: &Place) -> usize {
-    let texts = [
-        &place.file,
-        &place.pointer,
-        &place.subject,
-        &place.message,
-        &place.expected,
-        &place.actual,
-    ];
-    let texts = texts.into_iter().flatten().map(String::len);
-    PLACE + texts.sum::<usize>()
 }
 
 #[cfg(test)]

@@ -34,6 +34,7 @@ mod fold;
 pub mod learned;
 mod locate;
 mod memo;
+mod memory;
 mod model_verified;
 mod names;
 mod needs;

@@ -11,18 +11,29 @@ use urdd_directory::position::{self, LineIndex, Position};
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 
-/// Completes the places of findings.
+/// Completes the places of findings, and then those related to them.
 pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
+    fn own(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
+        std::iter::once(&mut finding.place).chain(&mut finding.more)
+    }
+    let names = Names::new(context);
+    let places = findings.iter_mut().flat_map(own);
+    complete(context, &names, places);
+    let related = findings.iter_mut().flat_map(own);
+    complete(
+        context,
+        &names,
+        related.flat_map(|place| &mut place.related),
+    );
+}
+
+fn complete<'a>(context: &Context, names: &Names, places: impl Iterator<Item = &'a mut Place>) {
     let mut by_file: BTreeMap<String, Vec<&mut Place>> = BTreeMap::new();
-    let places = findings
-        .iter_mut()
-        .flat_map(|finding| std::iter::once(&mut finding.place).chain(&mut finding.more));
     for place in places {
         if let (Some(file), Some(_)) = (&place.file, &place.pointer) {
             by_file.entry(file.clone()).or_default().push(place);
         }
     }
-    let names = Names::new(context);
     for (file, mut places) in by_file {
         let urdf = context.urdf().ok().filter(|urdf| urdf.path == file);
         if let Some((text, kind)) = json_text(context, &file) {

@@ -41,8 +41,10 @@ pub enum Need {
     SourceRobot,
     /// `urdd.json` exists and fits its schema.
     RootMetadata,
-    /// The source URDF is carried. (URD011 checks whether it can be read.)
+    /// The source URDF is carried and not too large. (URD011 checks whether it is a robot.)
     CarriedUrdf,
+    /// The source URDF is carried, even if it is too large to be read.
+    UrdfFile,
     /// The other rule ran and found nothing.
     Passed(Code),
     /// The other rule found nothing, or did not apply.
@@ -157,7 +159,8 @@ pub const fn of_family(code: &str) -> Consequence {
         | [b'C', b'H', b'N', ..]
         | [b'C', b'O', b'N', ..]
         | [b'B', b'N', b'D', ..]
-        | [b'K', b'I', b'N', ..] => Consequence::WrongMotion,
+        | [b'K', b'I', b'N', ..]
+        | [b'C', b'N', b'F', ..] => Consequence::WrongMotion,
         [b'M', b'S', b'H', ..] => Consequence::MissingGeometry,
         [b'S', b'H', b'P', ..] => Consequence::Collisions,
         [b'S', b'R', b'C', ..] => Consequence::Looseness,

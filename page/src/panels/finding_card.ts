@@ -89,6 +89,7 @@ function placeRow(app: App, place: Place): HTMLElement {
         place.actual !== null && h("dt", {}, "found"),
         place.actual !== null && h("dd", {}, name(place.actual)),
       ),
+    place.related.length > 0 && h("ul", { class: "places" }, ...place.related.map((other) => placeRow(app, other))),
     text,
   );
 }

@@ -15,6 +15,7 @@ import {
   UNIT_NAMES,
 } from "../ui/format";
 import type { RobotModel } from "../model";
+import type { NamedConfiguration } from "../configurations";
 import { Player } from "../play";
 import { refine } from "../ui/slider";
 
@@ -63,8 +64,14 @@ export function joints(app: App): HTMLElement {
     undo,
     redo,
   );
+  const named = h("div", {
+    class: "actions",
+    id: "named-configurations",
+    role: "group",
+    "aria-label": "Named configurations",
+  });
   const empty = h("p", { class: "empty" });
-  const panel = h("div", { class: "panel" }, actions, sample, list, empty);
+  const panel = h("div", { class: "panel" }, actions, named, sample, list, empty);
 
   const group = (robot: RobotModel, joint: number): HTMLElement => {
     const found = robot.joints[joint];
@@ -164,6 +171,13 @@ export function joints(app: App): HTMLElement {
     const moving = robot?.joints.flatMap((joint, index) => ((joint.dofs?.length ?? 0) > 0 ? [index] : [])) ?? [];
     fill(list, ...(robot ? moving.map((joint) => group(robot, joint)) : []));
     actions.hidden = !robot?.moves;
+    named.hidden = !robot?.moves || robot.named.length === 0;
+    const preset = ({ name: shown, q }: NamedConfiguration): HTMLButtonElement =>
+      button(name(shown), "A named configuration of this URDD", () => {
+        player.stop();
+        app.move(q);
+      });
+    fill(named, ...(robot?.named ?? []).map(preset));
     play.hidden = !robot?.files.some(({ path }) => path === "kinematics_samples_module/module.json");
     empty.hidden = moving.length > 0;
     empty.textContent = !robot

@@ -130,7 +130,7 @@ def generate(
         xacro: also expands macros in .urdf files.
         xacro_arguments: arguments of the xacro file, by name.
         xacro_timeout: time limit of the program xacro, seconds.
-        drop_edits: discards the edits of skips in the URDD that is replaced.
+        drop_edits: discards the edits of skips and the named configurations in the URDD that is replaced.
         force: writes to a folder that contains something other than a URDD of this program.
         progress: called with the name of each module before it is generated, the number of finished modules, and the
             number of all modules; at the end with all finished. Slow modules also report ``"MODULE: step"``, with the

@@ -52,6 +52,12 @@ class RobotKinematics(RobotDescription):
         """(dofs,): every DOF at its upper bound."""
         return self._core.configuration("upper")
 
+    @property
+    def named_configurations(self) -> dict[str, Floats]:
+        """(dofs,) for each configuration that a person named, such as ``home``, in the order in which they were added.
+        Empty without ``named_configurations_module``."""
+        return dict(self._core.named_configurations())
+
     def random(self, n: int | None = None, seed: int = 0) -> Floats:
         """Random configurations, uniform within the bounds: (dofs,), or (n, dofs).
 

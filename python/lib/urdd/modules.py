@@ -35,6 +35,7 @@ __all__ = [
     "DistanceStatistics",
     "Dof",
     "DofModule",
+    "DofPosition",
     "Dynamics",
     "FileEntry",
     "FrozenJoint",
@@ -73,6 +74,8 @@ __all__ = [
     "ModelTestVector",
     "ModuleEntry",
     "Modules",
+    "NamedConfiguration",
+    "NamedConfigurationsModule",
     "Obb",
     "Origin",
     "OriginalMesh",
@@ -1213,6 +1216,46 @@ class CompositionModule:
 
     Length: `parts`.
     """
+
+
+@dataclass(frozen=True)
+class NamedConfiguration:
+    """A configuration that a person named."""
+
+    name: str
+    """Its name; unique in the module, and not empty."""
+
+    positions: list[DofPosition]
+    """The positions that the person set, in DOF order. What a person decides is free; the names must exist."""
+
+    configuration: list[float]
+    """What follows: one value per DOF, rad or m. A DOF without an entry in `positions` has its value in the default
+    configuration.
+
+    Unit: `rad or m`. Length: `dofs`.
+    """
+
+
+@dataclass(frozen=True)
+class DofPosition:
+    """The position of a DOF."""
+
+    dof_name: str
+    """Name of the DOF, as in `dofs` of `dof_module`."""
+
+    position: float
+    """Its position, rad or m.
+
+    Unit: `rad or m`.
+    """
+
+
+@dataclass(frozen=True)
+class NamedConfigurationsModule:
+    """Configurations that a person named: `home`, `ready`, `retract`."""
+
+    configurations: list[NamedConfiguration]
+    """The configurations, in the order in which the person added them."""
 
 
 @dataclass(frozen=True)
@@ -2391,6 +2434,27 @@ def _composition_module(v: Any) -> CompositionModule:
     )
 
 
+def _named_configuration(v: Any) -> NamedConfiguration:
+    return NamedConfiguration(
+        name=v["name"],
+        positions=[_dof_position(x) for x in v["positions"]],
+        configuration=v["configuration"],
+    )
+
+
+def _dof_position(v: Any) -> DofPosition:
+    return DofPosition(
+        dof_name=v["dof_name"],
+        position=v["position"],
+    )
+
+
+def _named_configurations_module(v: Any) -> NamedConfigurationsModule:
+    return NamedConfigurationsModule(
+        configurations=[_named_configuration(x) for x in v["configurations"]],
+    )
+
+
 def _mesh_reference(v: Any) -> MeshReference:
     return MeshReference(
         link_idx=int(v["link_idx"]),
@@ -2715,6 +2779,11 @@ class Modules(Reading):
         """How this robot was combined from others, its parts. The robot itself is defined by the URDF that the URDD
         carries; this module says which part each of its links and joints came from."""
         return self._read("composition_module", _composition_module)
+
+    @property
+    def named_configurations(self) -> NamedConfigurationsModule:
+        """Configurations that a person named: `home`, `ready`, `retract`."""
+        return self._read("named_configurations_module", _named_configurations_module)
 
     @property
     def original_meshes(self) -> OriginalMeshesModule:

@@ -13,6 +13,7 @@ __all__ = [
     "CheckStatus",
     "Consequence",
     "Finding",
+    "Fix",
     "Kind",
     "LinkNotVerified",
     "Magnitude",
@@ -26,10 +27,12 @@ __all__ = [
     "Skipped",
     "StaleIgnore",
     "Status",
+    "TextEdit",
     "Tool",
     "Totals",
     "Urdd",
     "Verdict",
+    "WrittenAt",
     "read_report",
 ]
 
@@ -208,8 +211,8 @@ class Finding:
     default_severity: Severity
     """The severity that the rule has without settings."""
 
-    clause: str
-    """Clause of the specification."""
+    clause: str | None
+    """Clause of the specification; null where the rule is about robots and not about URDDs."""
 
     consequence: Consequence
     """What it does to users of the URDD."""
@@ -284,6 +287,9 @@ class Place:
     column: int | None
     """Column in the line, in characters, from 1."""
 
+    written_at: WrittenAt | None
+    """The place in a .xacro file that it was made from; null where that is not known."""
+
     expected: str | None
     """What should be there."""
 
@@ -298,6 +304,67 @@ class Place:
 
     magnitude: Magnitude | None
     """By how much it is off."""
+
+    related: list[Place]
+    """Other places to look at, such as the first of two elements of which one is too many; `message` says what is
+    there."""
+
+    fixes: list[Fix]
+    """Changes that mend it, each by itself, the best first."""
+
+
+@dataclass(frozen=True)
+class WrittenAt:
+    """The place in a .xacro file that a part of a URDF was made from."""
+
+    file: str
+    """The file, as seen from the URDF's folder, with forward slashes."""
+
+    line: int | None
+    """Line in the file, from 1; null where only the file is known."""
+
+    column: int | None
+    """Column in the line, in characters, from 1."""
+
+    macro_name: str | None
+    """The macro that holds it; null outside of macros."""
+
+
+@dataclass(frozen=True)
+class Fix:
+    """A change of files that mends a place of a finding."""
+
+    message: str
+    """What it does, as a command: "remove the second `<axis>`"."""
+
+    is_safe: bool
+    """Whether it is the one right answer, so that a program may make it without asking."""
+
+    edits: list[TextEdit]
+    """What to change. No two of them overlap."""
+
+
+@dataclass(frozen=True)
+class TextEdit:
+    """A text in place of another."""
+
+    file: str
+    """The file, relative to the URDD's root or the URDF's folder, with forward slashes."""
+
+    line: int
+    """Line of the first character that goes, from 1."""
+
+    column: int
+    """Its column in the line, in characters, from 1."""
+
+    end_line: int
+    """Line of the first character that stays."""
+
+    end_column: int
+    """Its column."""
+
+    text: str
+    """What is put there; empty to remove only."""
 
 
 @dataclass(frozen=True)
@@ -472,11 +539,42 @@ def _place(v: Any) -> Place:
         pointer=v["pointer"],
         line=None if v["line"] is None else int(v["line"]),
         column=None if v["column"] is None else int(v["column"]),
+        written_at=None if v["written_at"] is None else _written_at(v["written_at"]),
         expected=v["expected"],
         actual=v["actual"],
         subject=v["subject"],
         message=v["message"],
         magnitude=None if v["magnitude"] is None else _magnitude(v["magnitude"]),
+        related=[_place(x) for x in v["related"]],
+        fixes=[_fix(x) for x in v["fixes"]],
+    )
+
+
+def _written_at(v: Any) -> WrittenAt:
+    return WrittenAt(
+        file=v["file"],
+        line=None if v["line"] is None else int(v["line"]),
+        column=None if v["column"] is None else int(v["column"]),
+        macro_name=v["macro_name"],
+    )
+
+
+def _fix(v: Any) -> Fix:
+    return Fix(
+        message=v["message"],
+        is_safe=v["is_safe"],
+        edits=[_text_edit(x) for x in v["edits"]],
+    )
+
+
+def _text_edit(v: Any) -> TextEdit:
+    return TextEdit(
+        file=v["file"],
+        line=int(v["line"]),
+        column=int(v["column"]),
+        end_line=int(v["end_line"]),
+        end_column=int(v["end_column"]),
+        text=v["text"],
     )
 
 

@@ -2,17 +2,16 @@
 
 use std::fmt::Display;
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, IsTerminal, Read, Write};
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use serde_json::Value;
 
+use super::follow::{Follow, cannot_write};
 use crate::cli::output;
 use crate::cli::signals::Signals;
 use crate::conformance::skips::{self, Skip};
@@ -105,24 +104,7 @@ impl RunArguments {
                 Some((path.clone(), file))
             }
         };
-        let bar = ProgressBar::with_draw_target(
-            None,
-            match std::io::stderr().is_terminal() {
-                true => ProgressDrawTarget::stderr(),
-                false => ProgressDrawTarget::hidden(),
-            },
-        );
-        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} {eta}") {
-            bar.set_style(style);
-        }
-        Ok(Follow {
-            bar,
-            state: Mutex::new(State {
-                log,
-                wrong: 0,
-                failed: None,
-            }),
-        })
+        Ok(Follow::new(log))
     }
 
     /// An error if the log would overwrite another file.
@@ -194,57 +176,4 @@ pub fn run(result: impl FnOnce(&Signals) -> Result<bool, String>) -> ExitCode {
         return ExitCode::from(status);
     }
     output::ended(result.map(|passed| if passed { PASSED } else { FAILED }))
-}
-
-fn cannot_write(file: &Path, error: &std::io::Error) -> String {
-    format!("{}: cannot be written: {error}", file.display())
-}
-
-/// A progress bar on a terminal, and the log.
-pub struct Follow {
-    bar: ProgressBar,
-    state: Mutex<State>,
-}
-
-struct State {
-    log: Option<(PathBuf, File)>,
-    wrong: usize,
-    /// Why the log could not be written.
-    failed: Option<String>,
-}
-
-impl Follow {
-    /// Sets the number of items to run.
-    pub fn start(&self, of: usize) {
-        self.bar.set_length(of as u64);
-        self.bar.tick();
-    }
-
-    /// Records a finished item.
-    pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.wrong += usize::from(wrong);
-        if let (Some(result), Some((path, file))) = (result, &mut state.log) {
-            // A single write, so that an interrupted run leaves complete lines.
-            let line = serde_json::to_string(result).map_err(std::io::Error::from);
-            let written = line.and_then(|line| file.write_all((line + "\n").as_bytes()));
-            if let Err(error) = written {
-                let message = cannot_write(path, &error);
-                state.log = None;
-                state.failed = Some(message);
-            }
-        }
-        if state.wrong > 0 {
-            self.bar.set_message(format!("{} wrong", state.wrong));
-        }
-        self.bar.inc(1);
-    }
-
-    /// Ends the run.
-    pub fn finish(self) -> Result<(), String> {
-        self.bar.finish_and_clear();
-        let state = self.state.into_inner();
-        let state = state.unwrap_or_else(PoisonError::into_inner);
-        state.failed.map_or(Ok(()), Err)
-    }
 }

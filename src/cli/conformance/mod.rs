@@ -2,6 +2,7 @@
 
 mod common;
 mod export;
+mod follow;
 mod producer;
 mod validator;
 

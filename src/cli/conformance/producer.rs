@@ -10,22 +10,25 @@ use crate::cli::signals::Signals;
 use crate::cli::words::Class;
 use crate::conformance::process::Template;
 use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
-use urdd_format::conformance::{ModuleStatus, ProducerResult, RobotScore, ScoreStatus};
+use urdd_format::conformance::{
+    ModuleStatus, ProducerResult, RefusedOutcome, RefusedScore, RobotScore, ScoreStatus,
+};
 
 /// Arguments of `urdd conformance producer`.
 #[derive(Args)]
 #[command(
     after_help = "In COMMAND, {urdf} stands for a URDF file and {out} for the folder to write its URDD into; the \
-    command runs once for each robot.\n\nExit status: 0 every robot passed or is skipped; 1 a robot failed, or a \
-    skip is stale; 2 usage error; 129, 130 or \
-    143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
+    command runs once for each robot. Some URDFs have no URDD as they are: the command must refuse them (end with \
+    another exit status than 0, say why, and leave nothing at {out}), or repair them (write a valid URDD that carries \
+    the repaired text).\n\nExit status: 0 every robot passed or is skipped; 1 a robot failed, or a skip is stale; 2 \
+    usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ProducerArguments {
     /// The required conformance class.
     #[arg(long, value_name = "CLASS", default_value = "core", ignore_case = true)]
     class: Class,
 
-    /// Runs only this robot. May be repeated.
+    /// Runs only this robot, such as `gripper`, or `URD005/link-held-by-two-joints` of those to refuse. May be repeated.
     #[arg(long = "robot", value_name = "NAME")]
     robots: Vec<String>,
 
@@ -55,6 +58,7 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Stri
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
         Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
+        Event::Refused(urdf) => follow.done(urdf.status == ScoreStatus::Failed, Some(urdf)),
     };
     let result = run_producer(&plan, &observe).map_err(|error| error.to_string());
     follow.finish()?;
@@ -68,6 +72,9 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Stri
 fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
     for robot in &result.robots {
         one(robot, out)?;
+    }
+    for urdf in &result.refused {
+        to_refuse(urdf, out)?;
     }
     writeln!(out)?;
     for class in &result.classes {
@@ -92,11 +99,48 @@ fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
             module.of.get()
         )?;
     }
+    if !result.refused.is_empty() {
+        let refused = result.refused.iter();
+        let passed = refused.filter(|urdf| urdf.status == ScoreStatus::Passed);
+        let (passed, of) = (passed.count(), result.refused.len());
+        writeln!(out, "URDFs to refuse: {passed} of {of} refused or repaired")?;
+    }
     for stale in &result.stale_skips {
         writeln!(out, "stale skip, remove it: {stale}")?;
     }
     let verdict = if result.passed { "passed" } else { "FAILED" };
     writeln!(out, "{verdict}")
+}
+
+fn to_refuse(urdf: &RefusedScore, out: &mut String) -> std::fmt::Result {
+    match (urdf.status, &urdf.skipped_since) {
+        (ScoreStatus::Passed, _) => return Ok(()),
+        (ScoreStatus::Failed, _) => writeln!(out, "{} FAILED", urdf.robot)?,
+        (ScoreStatus::Skipped, reason) => {
+            let reason = reason.as_deref().unwrap_or_default();
+            writeln!(out, "{} skipped ({reason})", urdf.robot)?;
+        }
+    }
+    let fault = match urdf.outcome {
+        RefusedOutcome::Refused | RefusedOutcome::Repaired => return Ok(()),
+        RefusedOutcome::Written => "neither refused nor repaired",
+        RefusedOutcome::LeftOver => "refused, but something is at {out}",
+        RefusedOutcome::Silent => "refused, but did not say why",
+        RefusedOutcome::Crashed => "crashed, or did not end by itself",
+    };
+    writeln!(out, "  {fault}: {}", urdf.end)?;
+    if urdf.outcome == RefusedOutcome::Crashed {
+        for line in urdf.stderr.iter().flat_map(|text| text.lines()) {
+            writeln!(out, "    {line}")?;
+        }
+    }
+    if let Some(reason) = &urdf.unreadable {
+        writeln!(out, "  {reason}")?;
+    }
+    if !urdf.codes.is_empty() {
+        writeln!(out, "  the URDD: {}", urdf.codes.join(" "))?;
+    }
+    Ok(())
 }
 
 fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {

@@ -10,7 +10,7 @@ use super::common::{self, RunArguments};
 use crate::cli::signals::Signals;
 use crate::conformance::process::Template;
 use crate::conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
-use urdd_format::conformance::{CaseFault, CaseScore, ValidatorResult};
+use urdd_format::conformance::{CaseFault, CaseScore, PrintedCodes, ValidatorResult};
 use urdd_format::registry::SPEC_VERSION;
 
 /// Arguments of `urdd conformance validator`.
@@ -18,7 +18,9 @@ use urdd_format::registry::SPEC_VERSION;
 #[command(
     after_help = "In COMMAND, {dir} stands for the folder of a URDD; the command runs once for each case. Exit status 0 \
     accepts, 1 (or --reject-status) rejects. Anything else, including a signal or the time limit, is not a verdict and \
-    counts as wrong.\n\nExit status: 0 every verdict is right or skipped; 1 a verdict is wrong, or a skip is stale; \
+    counts as wrong. Reject what breaks a MUST of the specification, and nothing else: a URDD with warnings is to be \
+    accepted. Codes of rules that the command prints, such as DOF003, are scored apart and decide nothing.\n\nExit \
+    status: 0 every verdict is right or skipped; 1 a verdict is wrong, or a skip is stale; \
     2 usage error; 129, 130 or 143 stopped by a signal: SIGHUP, SIGINT, SIGTERM."
 )]
 pub struct ValidatorArguments {
@@ -111,6 +113,9 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     if result.legacy.of.get() > 0 {
         writeln!(out, "legacy: {}", score(&result.legacy))?;
     }
+    if let Some(printed) = &result.printed_codes {
+        codes(printed, out)?;
+    }
     if let Some(first) = result.crashed.first() {
         writeln!(
             out,
@@ -124,6 +129,32 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     }
     let verdict = if result.passed { "passed" } else { "FAILED" };
     writeln!(out, "{verdict}")
+}
+
+/// Most cases that are named in a line.
+const MAX_NAMED: usize = 10;
+
+fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {
+    writeln!(
+        out,
+        "printed codes: {} of {} right",
+        printed.right.get(),
+        printed.of.get()
+    )?;
+    for (cases, what) in [
+        (&printed.missing, "not printed"),
+        (&printed.extra, "printed for a near miss"),
+    ] {
+        let named: Vec<&str> = cases.iter().take(MAX_NAMED).map(String::as_str).collect();
+        let more = match cases.len().saturating_sub(MAX_NAMED) {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        if !named.is_empty() {
+            writeln!(out, "  {what}: {}{more}", named.join(", "))?;
+        }
+    }
+    Ok(())
 }
 
 fn score(score: &CaseScore) -> String {

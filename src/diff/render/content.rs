@@ -149,41 +149,41 @@ fn change(depth: usize, change: &ValueChange) -> Line {
     Line { depth, spans }
 }
 
-/// A line of names after a word.
-fn list<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<Line> {
-    let mut spans = Vec::new();
-    for text in names {
-        spans.push(words(if spans.is_empty() {
-            format!("{word}: ")
-        } else {
-            ", ".to_owned()
-        }));
-        spans.push(name(text));
-    }
-    (!spans.is_empty()).then_some(Line { depth: 0, spans })
+/// The parts that only one of the robots has: a line of those removed, a line of those added.
+fn in_one<'a>(parts: impl Iterator<Item = (Presence, &'a str)> + Clone) -> Vec<Line> {
+    let list = |word: &str, presence: Presence| {
+        let mut spans = Vec::new();
+        for (_, text) in parts.clone().filter(|part| part.0 == presence) {
+            spans.push(words(if spans.is_empty() {
+                format!("{word}: ")
+            } else {
+                ", ".to_owned()
+            }));
+            spans.push(name(text));
+        }
+        (!spans.is_empty()).then_some(Line { depth: 0, spans })
+    };
+    let lines = [
+        list("removed", Presence::Removed),
+        list("added", Presence::Added),
+    ];
+    lines.into_iter().flatten().collect()
+}
+
+/// The name of a part that both robots have, and the values that differ.
+fn in_both<'a>(part: &str, changes: &'a [ValueChange]) -> impl Iterator<Item = Line> + use<'a> {
+    let spans = vec![name(part)];
+    let changes = changes.iter().map(|it| change(1, it));
+    std::iter::once(Line { depth: 0, spans }).chain(changes)
 }
 
 fn links(links: &[LinkDifference]) -> Vec<Line> {
-    let of = |presence: Presence| {
-        let links = links.iter().filter(move |link| link.presence == presence);
-        links.map(|link| link.name.as_str())
-    };
-    let mut lines: Vec<Line> = [
-        list("removed", of(Presence::Removed)),
-        list("added", of(Presence::Added)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let mut lines = in_one(links.iter().map(|it| (it.presence, it.name.as_str())));
     for link in links
         .iter()
         .filter(|link| link.presence == Presence::Changed)
     {
-        lines.push(Line {
-            depth: 0,
-            spans: vec![name(&link.name)],
-        });
-        lines.extend(link.changes.iter().map(|it| change(1, it)));
+        lines.extend(in_both(&link.name, &link.changes));
         for geometry in &link.geometry {
             lines.extend(geometry.changes.iter().map(|it| change(1, it)));
             let kind = geometry.geometry.as_str().to_lowercase();
@@ -215,26 +215,12 @@ fn bounds(of: Option<&DiffBox>) -> String {
 }
 
 fn parts(parts: &[PartDifference]) -> Vec<Line> {
-    let of = |presence: Presence| {
-        let parts = parts.iter().filter(move |part| part.presence == presence);
-        parts.map(|part| part.name.as_str())
-    };
-    let mut lines: Vec<Line> = [
-        list("removed", of(Presence::Removed)),
-        list("added", of(Presence::Added)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let mut lines = in_one(parts.iter().map(|it| (it.presence, it.name.as_str())));
     for part in parts
         .iter()
         .filter(|part| part.presence == Presence::Changed)
     {
-        lines.push(Line {
-            depth: 0,
-            spans: vec![name(&part.name)],
-        });
-        lines.extend(part.changes.iter().map(|it| change(1, it)));
+        lines.extend(in_both(&part.name, &part.changes));
     }
     lines
 }
@@ -259,17 +245,7 @@ fn poses(poses: &PoseDifference) -> Line {
 }
 
 fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
-    let of = |presence: Presence| {
-        let dofs = dofs.iter().filter(move |dof| dof.presence == presence);
-        dofs.map(|dof| dof.name.as_str())
-    };
-    let mut lines: Vec<Line> = [
-        list("removed", of(Presence::Removed)),
-        list("added", of(Presence::Added)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let mut lines = in_one(dofs.iter().map(|it| (it.presence, it.name.as_str())));
     let both = || dofs.iter().filter(|dof| dof.presence == Presence::Changed);
     let mut moved = Vec::new();
     for dof in both().filter(|dof| dof.index_before != dof.index_after) {
@@ -288,11 +264,7 @@ fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
         });
     }
     for dof in both().filter(|dof| !dof.changes.is_empty()) {
-        lines.push(Line {
-            depth: 0,
-            spans: vec![name(&dof.name)],
-        });
-        lines.extend(dof.changes.iter().map(|it| change(1, it)));
+        lines.extend(in_both(&dof.name, &dof.changes));
     }
     lines
 }

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use testkit::files;
-use testkit::fixture::{Fixture, ROOT};
+use testkit::fixture::{Fixture, ROOT, toy_robot};
 use urdd_format::annotations::Thing;
+use urdd_format::registry::ModuleKind;
 use urdd_format::schema::Subject;
 
 /// The documents of a URDD.
@@ -27,7 +28,7 @@ impl Urdd {
             } else {
                 name.as_str()
             };
-            let mut all = Subject::all().filter(|subject| subject.is_annotated());
+            let mut all = Subject::all().filter(|subject| subject.is_version_1());
             Some((all.find(|subject| subject.name() == name)?, document))
         });
         Urdd {
@@ -126,5 +127,15 @@ pub fn bases() -> Vec<Urdd> {
     let found = documents.into_iter();
     found
         .map(|(name, documents)| Urdd::new(&name, documents.into_iter()))
+        .chain([with_named_configurations()])
         .collect()
+}
+
+/// The suite has this module in its cases, and in none of its bases.
+fn with_named_configurations() -> Urdd {
+    let home = json!({ "name": "home", "positions": [], "configuration": vec![0.0; 18] });
+    let document = json!({ "configurations": [home] });
+    let kind = ModuleKind::NamedConfigurations;
+    let fixture = Fixture::core_with(&toy_robot(), kind, document);
+    Urdd::of_fixture("named configurations", fixture)
 }

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod command;
+mod configurations;
 mod elements;
 mod legacy;
 mod making;

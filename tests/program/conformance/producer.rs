@@ -1,6 +1,10 @@
 //! `urdd conformance producer`, with the reference generator as the producer under test.
 
+use std::collections::BTreeSet;
 use std::fs;
+
+use urdd::conformance::refused;
+use urdd::conformance::suite::Suite;
 
 use crate::conformance::{conformance, result, stderr};
 
@@ -165,6 +169,147 @@ fn the_python_example_passes() {
     assert_eq!(status, 0, "{result:#}");
     assert_eq!(result["robots"].as_array().map(Vec::len), Some(9));
     assert_eq!(result["classes"][0]["passed"], 9);
+    let refused = result["refused"].as_array().expect("a list");
+    assert_eq!(refused.len(), to_refuse().len());
+    for urdf in refused {
+        // It repairs nothing.
+        assert_eq!(urdf["outcome"], "refused", "{urdf:#}");
+    }
+}
+
+fn to_refuse() -> Vec<String> {
+    let suite = Suite::carried().expect("the suite reads");
+    let all = refused::all(&suite).expect("no damaged case");
+    all.into_iter().map(|urdf| urdf.id).collect()
+}
+
+/// Also that the reference generator refuses or repairs each, and that there is one for each clause.
+#[test]
+fn what_has_no_urdd_is_refused_or_repaired() {
+    let names = to_refuse();
+    assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
+    let codes: BTreeSet<&str> = names.iter().map(|name| &name[..6]).collect();
+    let rules = (2..=12).map(|rule| format!("URD{rule:03}"));
+    let expected: BTreeSet<String> = rules.chain(["DOF007".into(), "KIN001".into()]).collect();
+    assert_eq!(codes, expected.iter().map(String::as_str).collect());
+
+    let line = format!("URDFs to refuse: {0} of {0}", names.len());
+    let page = include_str!("../../../conformance/README.md");
+    assert!(
+        page.contains(&line),
+        "conformance/README.md does not say `{line}`: write it"
+    );
+
+    let asked: Vec<&str> = names.iter().flat_map(|name| ["--robot", name]).collect();
+    let start = ["producer", "--format", "json", "--jobs", "2"];
+    let command = [
+        "--",
+        URDD,
+        "generate",
+        "--modules",
+        "core",
+        "{urdf}",
+        "-o",
+        "{out}",
+    ];
+    let (status, result) = result(&[&start[..], &asked, &command].concat());
+    assert_eq!(status, 0, "{result:#}");
+    let refused = result["refused"].as_array().expect("a list");
+    assert_eq!(refused.len(), names.len());
+    let count = |outcome: &str| {
+        let found = refused.iter().filter(|urdf| urdf["outcome"] == outcome);
+        found.count()
+    };
+    assert!(count("refused") > 20 && count("repaired") > 3);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_disorderly_refusal_fails() {
+    let run = |script: &str, more: &[&str]| {
+        let robot = "URD005/link-held-by-two-joints";
+        let start = [
+            "producer",
+            "--format",
+            "json",
+            "--robot",
+            robot,
+            "--timeout",
+            "10",
+        ];
+        let command = ["--", "sh", "-c", script, "sh", "{urdf}", "{out}", URDD];
+        let (status, result) = result(&[&start[..], more, &command].concat());
+        assert_eq!(result["robots"], serde_json::json!([]));
+        assert_eq!(result["passed"], status == 0);
+        (status, result["refused"][0].clone())
+    };
+    // `sound` is a URDF that has a URDD: in place of the other it stands for a repaired one.
+    let sound = "conformance/robots/single_link.urdf";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let made = folder.path().join("made");
+    let shown = made.to_str().expect("UTF-8");
+    let arguments = ["generate", "--modules", "core", sound, "-o", shown];
+    let output = crate::program::output(&arguments, testkit::repository());
+    assert!(output.status.success(), "{}", stderr(&output));
+    let metadata = fs::read(made.join("urdd.json")).expect("urdd.json");
+    let mut metadata: serde_json::Value = serde_json::from_slice(&metadata).expect("JSON");
+    metadata["source"] = serde_json::Value::Null;
+    fs::write(made.join("urdd.json"), metadata.to_string()).expect("written");
+    fs::remove_file(made.join("single_link.urdf")).expect("the source");
+    let without_source = format!("cp -r {shown} $2");
+    for (script, status, outcome) in [
+        ("echo two parents >&2; exit 3", 0, "refused"),
+        ("echo two parents; exit 1", 0, "refused"),
+        (
+            &format!("$3 generate --modules core {sound} -o $2"),
+            0,
+            "repaired",
+        ),
+        (&without_source, 1, "written"),
+        ("mkdir $2", 1, "written"),
+        ("true", 1, "written"),
+        ("echo two parents >&2; mkdir $2; exit 3", 1, "left_over"),
+        (
+            "echo two parents >&2; ln -s nowhere $2; exit 3",
+            1,
+            "left_over",
+        ),
+        ("exit 3", 1, "silent"),
+        (
+            "echo 'Traceback (most recent call last):' >&2; exit 1",
+            1,
+            "crashed",
+        ),
+        ("kill -9 $$", 1, "crashed"),
+        ("sleep 60", 1, "crashed"),
+    ] {
+        let found = run(script, &[]);
+        assert_eq!(
+            (found.0, &found.1["outcome"]),
+            (status, &outcome.into()),
+            "{script}: {found:#?}"
+        );
+    }
+    let (_, urdf) = run(&without_source, &[]);
+    let why = urdf["unreadable"].as_str().unwrap_or_default();
+    assert!(why.contains("carries no source"), "{urdf:#}");
+    // A URDD of another robot's URDF, which has faults.
+    let stale = "cp -r conformance/valid/single_link $2";
+    let (_, urdf) = run(stale, &[]);
+    assert_eq!(urdf["outcome"], "written");
+    assert!(
+        urdf["codes"]
+            .as_array()
+            .is_some_and(|codes| !codes.is_empty()),
+        "{urdf:#}"
+    );
+
+    let file = folder.path().join("skips");
+    fs::write(&file, "URD005/link-held-by-two-joints # soon\n").expect("written");
+    let skip = ["--skip", file.to_str().expect("UTF-8")];
+    let (status, urdf) = run("exit 3", &skip);
+    assert_eq!((status, &urdf["skipped_since"]), (0, &"soon".into()));
+    assert_eq!(run("echo two parents; exit 3", &skip).0, 1, "a stale skip");
 }
 
 #[test]

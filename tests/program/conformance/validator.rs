@@ -3,6 +3,8 @@
 use std::fs;
 
 use serde_json::{Value, json};
+use urdd::conformance::catalogue::{ItemKind, items};
+use urdd::conformance::suite::Suite;
 
 use crate::conformance::{conformance, result, stderr};
 
@@ -65,6 +67,89 @@ fn verdicts_are_told_apart() {
     assert_eq!(none["totals"]["undecided"], json!(of));
     let end = none["wrong"][0]["end"].as_str().expect("text");
     assert!(end.contains("could not be started"), "{end}");
+}
+
+#[test]
+fn printed_codes_are_scored_apart() {
+    let cases = ["DOF001", "SRC001", "LEG001", "valid/single_link"];
+    let (_, right) = run(&cases, &[], &[URDD, "validate", "{dir}"]);
+    let codes = &right["printed_codes"];
+    assert_eq!(codes["right"], codes["of"], "{codes:#}");
+    assert_eq!(
+        (&codes["missing"], &codes["extra"]),
+        (&json!([]), &json!([]))
+    );
+    // Without valid URDDs, legacy cases, and cases of a SHOULD.
+    let suite = Suite::carried().expect("the suite reads");
+    let of = |code: &str, kind| {
+        let items = items(&suite).into_iter();
+        let items = items.filter(|item| item.code.as_deref() == Some(code) && item.kind == kind);
+        let items = items.filter(|item| item.profile == "1.0");
+        items.map(|item| item.id).collect::<Vec<String>>()
+    };
+    let missing = of("DOF001", ItemKind::Invalid);
+    let near = ["DOF001", "SRC001", "LEG001"].map(|code| of(code, ItemKind::NearMiss).len());
+    assert_eq!(codes["of"], missing.len() + near.iter().sum::<usize>());
+
+    // The right verdicts with wrong codes pass. The paths that it prints are not codes.
+    let script = "echo \"in $1: DOF002, SRC001\"; exec \"$0\" validate --quiet --format json \"$1\" > /dev/null";
+    let (status, wrong) = run(&cases, &[], &["sh", "-c", script, URDD, "{dir}"]);
+    assert_eq!((status, &wrong["totals"]), (0, &right["totals"]));
+    assert_eq!(wrong["printed_codes"]["missing"], json!(missing));
+    let extra = of("SRC001", ItemKind::NearMiss);
+    assert_eq!(wrong["printed_codes"]["extra"], json!(extra));
+    let (_, silent) = shell(&cases, "exit 1");
+    assert_eq!(silent["printed_codes"], Value::Null);
+
+    let start = ["validator", "--case", "DOF001", "--"];
+    let said = |script| {
+        let command = ["sh", "-c", script, "sh", "{dir}"];
+        let output = conformance(&[&start[..], &command].concat());
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let shown = said("echo DOF002; exit 1");
+    assert!(
+        shown.contains("printed codes: ") && shown.contains("not printed: DOF001/"),
+        "{shown}"
+    );
+    assert!(!said("exit 1").contains("printed codes"));
+}
+
+#[test]
+fn some_paths_are_relative() {
+    let absolute = "case \"$1\" in /*) ;; *) exit 1;; esac; exec \"$0\" validate --quiet \"$1\"";
+    let relative = ["relative", "valid/single_link", "DOF001"];
+    let (status, found) = run(&relative, &[], &["sh", "-c", absolute, URDD, "{dir}"]);
+    let wrong: Vec<&Value> = found["wrong"].as_array().into_iter().flatten().collect();
+    assert_eq!((status, wrong.len()), (1, 1), "{found:#}");
+    assert_eq!(
+        (&wrong[0]["id"], &wrong[0]["fault"]),
+        (&json!("relative/valid"), &json!("false_alarm"))
+    );
+    let accepted = "case \"$1\" in /*) ;; *) exit 0;; esac; exec \"$0\" validate --quiet \"$1\"";
+    let (_, found) = run(&relative, &[], &["sh", "-c", accepted, URDD, "{dir}"]);
+    assert_eq!(found["wrong"][0]["id"], "relative/invalid", "{found:#}");
+    let (status, found) = run(&["relative"], &[], &[URDD, "validate", "{dir}"]);
+    assert_eq!(
+        (status, &found["totals"]["right"]),
+        (0, &json!(2)),
+        "{found:#}"
+    );
+    // Also for a folder that is kept, from the repository's folder.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let kept = folder.path().join("kept");
+    let keep = ["--keep", kept.to_str().expect("UTF-8")];
+    assert_eq!(run(&["relative"], &keep, &[URDD, "validate", "{dir}"]).0, 0);
+    assert!(kept.join("relative/invalid/robot/urdd.json").is_file());
+}
+
+#[test]
+fn a_line_every_ten_seconds_where_no_terminal_is() {
+    let start = ["validator", "--case", "valid/single_link", "--", "sh", "-c"];
+    let said = stderr(&conformance(
+        &[&start[..], &["sleep 11", "sh", "{dir}"]].concat(),
+    ));
+    assert_eq!(said, "0 of 1, 0 wrong\n");
 }
 
 #[test]

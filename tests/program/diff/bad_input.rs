@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::command::diff;
 use super::{Workshop, differences, open, places};
 use testkit::robots::our_robots;
-use urdd::diff::{compare, markdown, text};
+use urdd::diff::{Options, Side, compare, markdown, text};
 
 #[test]
 fn what_is_no_robot_is_refused_with_advice() {
@@ -23,6 +23,8 @@ fn what_is_no_robot_is_refused_with_advice() {
     let bomb = "<!DOCTYPE robot [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;'>]><robot name='&b;'/>";
     shop.write("bomb.urdf", bomb);
     shop.write("deep.urdf", &"<robot>".repeat(100_000));
+    fs::write(shop.path("junk.urdf"), b"\x7fELF\x02\0\xff").unwrap();
+    shop.write("robot.txt", "a robot");
     fs::create_dir(shop.path("folder")).unwrap();
     fs::create_dir(shop.path("folder.urdf")).unwrap();
     fs::create_dir_all(shop.path("urdd/urdf_module")).unwrap();
@@ -38,6 +40,8 @@ fn what_is_no_robot_is_refused_with_advice() {
         ("robot.xacro", "xacro"),
         ("bomb.urdf", "bomb.urdf:1:"),
         ("deep.urdf", "deep.urdf:1:"),
+        ("junk.urdf", "not a text file: its byte 5 is 0"),
+        ("robot.txt", "neither a URDF"),
         ("folder", "no URDD here"),
         ("folder.urdf", "no URDD here"),
         ("urdd", "module.json"),
@@ -68,6 +72,17 @@ fn a_pipe_is_refused_without_waiting() {
     let (status, _, err) = diff(shop.folder.path(), &["pipe.urdf", "welding_arm.urdf"]);
     assert_eq!(status, 2);
     assert!(err.contains("not a regular file"), "{err}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_robot_that_cannot_be_validated_has_a_note() {
+    let shop = Workshop::new();
+    let robot = shop.write("a\u{1b}.urdf", "<robot name='a'><link name='b'/></robot>");
+    let side = Side::open(&robot, &Options::default()).unwrap();
+    let notes =
+        ["A", "B"].map(|word| format!("{word}: not validated: the path has a control character"));
+    assert_eq!(compare(&side, &side).notes, notes);
 }
 
 #[test]

@@ -8,6 +8,8 @@ mod same;
 mod single_changes;
 mod urdd_changes;
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -64,6 +66,20 @@ fn open(path: &Path) -> Side {
 
 fn differences(before: &Path, after: &Path) -> DiffReport {
     compare(&open(before), &open(after))
+}
+
+/// The first and the last change of each kind: the others repeat what these show.
+fn few<Change>(changes: impl IntoIterator<Item = (String, Change)>) -> Vec<Change> {
+    let mut kinds: BTreeMap<String, (Change, Option<Change>)> = BTreeMap::new();
+    for (kind, change) in changes {
+        match kinds.entry(kind) {
+            Entry::Vacant(entry) => _ = entry.insert((change, None)),
+            Entry::Occupied(mut entry) => entry.get_mut().1 = Some(change),
+        }
+    }
+    let both = kinds.into_values();
+    both.flat_map(|(first, last)| std::iter::once(first).chain(last))
+        .collect()
 }
 
 /// Adds a part that differs, and its fields.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node};
 
 use super::by_rules::{is_default, place};
-use super::{Workshop, open, places};
+use super::{Workshop, few, open, places};
 use testkit::robots::our_robots;
 use urdd::diff::{Side, compare};
 
@@ -36,10 +36,36 @@ fn elements<'a>(document: &'a Document<'a>) -> impl Iterator<Item = Node<'a, 'a>
     document.descendants().filter(Node::is_element)
 }
 
+/// Elements of the same kind have the same tags around them, and are in a joint of the same type.
+fn kind(node: Node) -> String {
+    let around: Vec<Node> = node.ancestors().filter(Node::is_element).collect();
+    let tags = around.iter().map(|node| {
+        let joint_type = node.attribute("type").unwrap_or_default();
+        format!("{}{joint_type}", node.tag_name().name())
+    });
+    tags.collect::<Vec<_>>().join("<")
+}
+
+/// The same, with the tags inside and whether they have values that are not the default.
+fn kind_with_values(node: Node) -> String {
+    let mut text = kind(node);
+    for inside in node.descendants().filter(Node::is_element) {
+        text.push('>');
+        text.push_str(inside.tag_name().name());
+        for attribute in inside.attributes() {
+            let place = place(inside, attribute.name());
+            let is_default = place.is_some_and(|it| is_default(&it.field, attribute.value()));
+            text.push_str(if is_default { " default" } else { " other" });
+        }
+    }
+    text
+}
+
 #[test]
 fn each_number_is_named_at_its_place() {
     let mut count = 0;
     each_robot(|shop, before, text, document| {
+        let mut numbers = Vec::new();
         for node in elements(document) {
             for attribute in node.attributes() {
                 let words: Vec<&str> = attribute.value().split_whitespace().collect();
@@ -47,90 +73,101 @@ fn each_number_is_named_at_its_place() {
                 if words.is_empty() || !words.iter().all(is_number) {
                     continue;
                 }
-                let Some(place) = place(node, attribute.name()) else {
+                if place(node, attribute.name()).is_none() {
                     continue;
-                };
+                }
                 for (index, word) in words.iter().enumerate() {
-                    let number: f64 = word.parse().unwrap();
-                    // So small that only an exact comparison finds it; an axis changes its direction.
-                    let step = if place.field == "axis" {
-                        0.5
-                    } else {
-                        f64::EPSILON
-                    };
-                    let number = if number == 0.0 {
-                        1e-12 + step
-                    } else {
-                        number * (1.0 + step)
-                    };
-                    let mut words: Vec<String> = words.iter().map(|w| (*w).to_owned()).collect();
-                    words[index] = number.to_string();
-                    let is_scaled = place.field == "axis"
-                        && words.iter().filter(|w| w.parse() != Ok(0.0)).count() == 1;
-                    let text = replaced(text, attribute.range_value(), &words.join(" "));
-                    let found = changed(shop, before, &text).expect("a robot");
-                    let expected = if is_scaled {
-                        vec![]
-                    } else {
-                        vec![place.text()]
-                    };
-                    assert_eq!(found, expected, "{}", words.join(" "));
-                    count += 1;
+                    let is_zero = word.parse() == Ok(0.0);
+                    let kind = format!("{} {} {index} {is_zero}", kind(node), attribute.name());
+                    numbers.push((kind, (node, attribute, words.clone(), index)));
                 }
             }
         }
+        for (node, attribute, words, index) in few(numbers) {
+            let place = place(node, attribute.name()).unwrap();
+            let number: f64 = words[index].parse().unwrap();
+            // So small that only an exact comparison finds it; an axis changes its direction.
+            let step = if place.field == "axis" {
+                0.5
+            } else {
+                f64::EPSILON
+            };
+            let number = if number == 0.0 {
+                1e-12 + step
+            } else {
+                number * (1.0 + step)
+            };
+            let mut words: Vec<String> = words.iter().map(|w| (*w).to_owned()).collect();
+            words[index] = number.to_string();
+            let is_scaled =
+                place.field == "axis" && words.iter().filter(|w| w.parse() != Ok(0.0)).count() == 1;
+            let text = replaced(text, attribute.range_value(), &words.join(" "));
+            let found = changed(shop, before, &text).expect("a robot");
+            let expected = if is_scaled {
+                vec![]
+            } else {
+                vec![place.text()]
+            };
+            assert_eq!(found, expected, "{}", words.join(" "));
+            count += 1;
+        }
     });
     println!("{count} numbers");
-    assert!(count > 2_000, "{count}");
+    assert!(count > 500, "{count}");
 }
 
 #[test]
 fn each_attribute_that_is_removed_is_named_or_was_the_default() {
     let (mut named, mut default, mut refused) = (0, 0, 0);
     each_robot(|shop, before, text, document| {
-        for node in elements(document) {
-            for attribute in node.attributes() {
-                let name = attribute.name();
-                let Some(place) = place(node, name) else {
-                    continue;
-                };
-                let range = attribute.range();
-                let Some(found) = changed(shop, before, &replaced(text, range, "")) else {
-                    refused += 1;
-                    continue;
-                };
-                let other = match name {
-                    // One of the two that is absent is 0, where the other is there.
-                    "lower" => node.attribute("upper"),
-                    "upper" => node.attribute("lower"),
-                    _ => Some(""),
-                };
-                if is_default(&place.field, attribute.value()) && other.is_some() {
-                    assert_eq!(found, Vec::<String>::new(), "{}", place.text());
-                    default += 1;
-                    continue;
-                }
-                // The shape itself is gone with an attribute that it needs.
-                let element = place.field.split('.').next().unwrap();
-                let prefix = format!("{}/{}/{element}", place.list, place.part);
-                // A joint that follows no more has a DOF of its own, and later ones move.
-                let is_dof = |place: &String| element == "mimic" && place.starts_with("dofs/");
-                let is_named = |place: &String| place.starts_with(&prefix) || is_dof(place);
-                assert!(!found.is_empty(), "{} is not named", place.text());
-                assert!(found.iter().all(is_named), "{}: {found:?}", place.text());
-                named += 1;
+        let attributes = elements(document).flat_map(|node| {
+            let attributes = node.attributes();
+            attributes.filter_map(move |attribute| {
+                let place = place(node, attribute.name())?;
+                let is_default = is_default(&place.field, attribute.value());
+                let kind = format!("{} {} {is_default}", kind(node), attribute.name());
+                Some((kind, (node, attribute, place)))
+            })
+        });
+        for (node, attribute, place) in few(attributes) {
+            let name = attribute.name();
+            let range = attribute.range();
+            let Some(found) = changed(shop, before, &replaced(text, range, "")) else {
+                refused += 1;
+                continue;
+            };
+            let other = match name {
+                // One of the two that is absent is 0, where the other is there.
+                "lower" => node.attribute("upper"),
+                "upper" => node.attribute("lower"),
+                _ => Some(""),
+            };
+            if is_default(&place.field, attribute.value()) && other.is_some() {
+                assert_eq!(found, Vec::<String>::new(), "{}", place.text());
+                default += 1;
+                continue;
             }
+            // The shape itself is gone with an attribute that it needs.
+            let element = place.field.split('.').next().unwrap();
+            let prefix = format!("{}/{}/{element}", place.list, place.part);
+            // A joint that follows no more has a DOF of its own, and later ones move.
+            let is_dof = |place: &String| element == "mimic" && place.starts_with("dofs/");
+            let is_named = |place: &String| place.starts_with(&prefix) || is_dof(place);
+            assert!(!found.is_empty(), "{} is not named", place.text());
+            assert!(found.iter().all(is_named), "{}: {found:?}", place.text());
+            named += 1;
         }
     });
     println!("{named} named, {default} defaults, {refused} refused");
-    assert!(named > 300 && default > 100 && refused > 100);
+    assert!(named > 100 && default > 30 && refused > 50);
 }
 
 #[test]
 fn each_element_that_is_removed_is_named_or_had_defaults_alone() {
     let (mut named, mut default, mut refused) = (0, 0, 0);
     each_robot(|shop, before, text, document| {
-        for node in elements(document).filter(|node| !node.has_tag_name("robot")) {
+        let elements = elements(document).filter(|node| !node.has_tag_name("robot"));
+        for node in few(elements.map(|node| (kind_with_values(node), node))) {
             let Some(found) = changed(shop, before, &replaced(text, node.range(), "")) else {
                 refused += 1;
                 continue;
@@ -188,7 +225,7 @@ fn each_element_that_is_removed_is_named_or_had_defaults_alone() {
         }
     });
     println!("{named} named, {default} defaults, {refused} refused");
-    assert!(named > 300 && refused > 100);
+    assert!(named > 100 && default > 10 && refused > 30);
 }
 
 #[test]
@@ -196,7 +233,8 @@ fn each_name_that_is_changed_is_one_part_gone_and_one_new() {
     let mut count = 0;
     each_robot(|shop, before, text, document| {
         let robot = document.root_element();
-        for part in robot.children().filter(Node::is_element) {
+        let parts = robot.children().filter(Node::is_element);
+        for part in few(parts.map(|part| (kind(part), part))) {
             let list = match part.tag_name().name() {
                 "link" => "links",
                 "joint" => "joints",
@@ -253,5 +291,5 @@ fn each_name_that_is_changed_is_one_part_gone_and_one_new() {
         }
     });
     println!("{count} names");
-    assert!(count > 100, "{count}");
+    assert!(count > 50, "{count}");
 }

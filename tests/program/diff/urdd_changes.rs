@@ -1,49 +1,62 @@
 //! Single changes inside the modules of a URDD: each is named, and nothing else is.
 
+use std::collections::BTreeSet;
+use std::fs;
+
 use serde_json::{Value, json};
 
-use super::{open, places};
+use super::{few, open, places};
 use testkit::fixture::Fixture;
-use testkit::folder::Folder;
 use urdd::diff::{Side, compare};
 use urdd_format::shape_kind::ShapeKind;
 
 struct Bench {
     fixture: Fixture,
-    folder: Folder,
+    folder: tempfile::TempDir,
     before: Side,
-    _kept: tempfile::TempDir,
 }
 
 impl Bench {
     fn new() -> Bench {
-        let fixture = Fixture::toy();
-        let kept = tempfile::tempdir().unwrap();
-        fixture.write_to(kept.path());
+        let mut fixture = Fixture::toy();
+        // Reading YAML takes most of the time, and urdd diff does not compare it.
+        fixture
+            .files
+            .retain(|path, _| !path.ends_with("/module.yaml"));
+        let folder = tempfile::tempdir().unwrap();
+        let before = folder.path().join("before");
+        fixture.write_to(&before);
+        fixture.write_to(&folder.path().join("after"));
         Bench {
-            before: open(kept.path()),
+            before: open(&before),
             fixture,
-            folder: Folder::new(),
-            _kept: kept,
+            folder,
         }
     }
 
-    /// The places that differ after values of a module are set.
-    fn changed(&mut self, module: &str, values: &[(String, Value)]) -> Vec<String> {
-        let old: Vec<Value> = values
-            .iter()
-            .map(|(pointer, _)| self.fixture.get(module, pointer).clone())
-            .collect();
+    /// The places that differ after values of a module are set. Hashes of documents stay: they make no
+    /// difference.
+    fn changed(&self, module: &str, values: &[(String, Value)]) -> Vec<String> {
+        let mut document = self.fixture.doc(module).clone();
         for (pointer, new) in values {
-            self.fixture.set(module, pointer, new.clone());
+            *document.pointer_mut(pointer).unwrap() = new.clone();
         }
-        self.fixture.seal();
-        let after = open(self.folder.put(&self.fixture));
-        for ((pointer, _), old) in values.iter().zip(old) {
-            self.fixture.set(module, pointer, old);
-        }
-        places(&compare(&self.before, &after))
+        let after = self.folder.path().join("after");
+        let path = format!("{}/module.json", self.fixture.folder(module));
+        fs::write(after.join(&path), document.to_string()).unwrap();
+        let found = places(&compare(&self.before, &open(&after)));
+        fs::write(after.join(&path), self.fixture.file(&path)).unwrap();
+        found
     }
+}
+
+/// The pointer without the indices of lists: those of numbers of the same kind are alike.
+fn pattern(pointer: &str) -> String {
+    let words = pointer.split('/').map(|word| match word.parse::<usize>() {
+        Ok(_) => "*",
+        Err(_) => word,
+    });
+    words.collect::<Vec<_>>().join("/")
 }
 
 /// Pointers to all numbers below a value.
@@ -66,44 +79,55 @@ fn numbers(value: &Value, pointer: &str, found: &mut Vec<String>) {
 
 #[test]
 fn each_number_of_the_robot_is_named_at_its_part() {
-    let mut bench = Bench::new();
-    let mut pointers = Vec::new();
+    let bench = Bench::new();
     let document = bench.fixture.doc("urdf_module").clone();
+    let part = |pointer: &str| {
+        let words: Vec<&str> = pointer.split('/').collect();
+        (
+            words[1].to_owned(),
+            &document[words[1]][words[2].parse::<usize>().unwrap()],
+        )
+    };
+    let mut pointers = Vec::new();
     numbers(&document, "", &mut pointers);
+    // The elements of a vector are kinds of their own, and so are joints of another type.
+    let few = few(pointers.into_iter().map(|pointer| {
+        let last = pointer.rsplit('/').next().unwrap();
+        let joint_type = &part(&pointer).1["joint_type"];
+        (
+            format!("{} {last} {joint_type}", pattern(&pointer)),
+            pointer,
+        )
+    }));
     let mut count = 0;
-    for pointer in &pointers {
-        let parts: Vec<&str> = pointer.split('/').collect();
-        let (list, index) = (parts[1], parts[2]);
-        let name = &document[list][index.parse::<usize>().unwrap()]["name"];
-        let prefix = format!("{list}/{}/", name.as_str().unwrap());
-        let old = document.pointer(pointer).unwrap().as_f64().unwrap();
-        let found = bench.changed("urdf_module", &[(pointer.clone(), json!(old + 0.37))]);
+    for pointer in few {
+        let (list, part) = part(&pointer);
+        let prefix = format!("{list}/{}/", part["name"].as_str().unwrap());
+        let old = document.pointer(&pointer).unwrap().as_f64().unwrap();
         // The bounds of the module do not follow from the joint any more: they stay, which is no difference.
-        let is_limit = pointer.contains("/limit/");
+        let found = bench.changed("urdf_module", &[(pointer.clone(), json!(old + 0.37))]);
         let others: Vec<&String> = found.iter().filter(|it| !it.starts_with(&prefix)).collect();
         let same_direction = pointer.contains("/axis/") && found.is_empty();
-        assert!(
-            others.is_empty(),
-            "{pointer} (limit: {is_limit}): {found:?}"
-        );
+        assert!(others.is_empty(), "{pointer}: {found:?}");
         assert!(found.len() == 1 || same_direction, "{pointer}: {found:?}");
         count += 1;
     }
     println!("{count} numbers");
-    assert!(count > 150, "{count}");
+    assert!(count > 100, "{count}");
 }
 
 #[test]
 fn each_bound_is_named_at_its_dof() {
-    let mut bench = Bench::new();
-    let names: Vec<String> = bench.fixture.doc("dof_module")["dofs"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|dof| dof["name"].as_str().unwrap().to_owned())
-        .collect();
+    let bench = Bench::new();
+    let dofs = bench.fixture.doc("dof_module")["dofs"].clone();
+    let dofs = dofs.as_array().unwrap().iter().enumerate();
+    let limited = bench.fixture.get("bounds_module", "/dof_limited").clone();
+    let few = few(dofs.map(|(index, dof)| {
+        let kind = format!("{} {}", dof["quantity"], limited[index]);
+        (kind, (index, dof["name"].as_str().unwrap().to_owned()))
+    }));
     let mut count = 0;
-    for (index, name) in names.iter().enumerate() {
+    for (index, name) in few {
         for (pointer, field) in [
             (format!("/bounds/{index}/0"), "lower"),
             (format!("/bounds/{index}/1"), "upper"),
@@ -117,22 +141,18 @@ fn each_bound_is_named_at_its_dof() {
             count += 1;
         }
         let pointer = format!("/dof_limited/{index}");
-        let old = bench
-            .fixture
-            .get("bounds_module", &pointer)
-            .as_bool()
-            .unwrap();
+        let old = limited[index].as_bool().unwrap();
         let found = bench.changed("bounds_module", &[(pointer, json!(!old))]);
         assert_eq!(found, [format!("dofs/{name}/limited")]);
         count += 1;
     }
     println!("{count} bounds");
-    assert!(count > 70, "{count}");
+    assert!(count >= 40, "{count}");
 }
 
 #[test]
 fn each_pair_that_is_checked_or_skipped_is_named_with_its_kind() {
-    let mut bench = Bench::new();
+    let bench = Bench::new();
     let module = "link_shapes_skips_module";
     let document = bench.fixture.doc(module).clone();
     let urdf = bench.fixture.doc("urdf_module").clone();
@@ -140,37 +160,41 @@ fn each_pair_that_is_checked_or_skipped_is_named_with_its_kind() {
         let index = usize::try_from(index.as_u64().unwrap()).unwrap();
         urdf["links"][index]["name"].as_str().unwrap().to_owned()
     };
-    let mut count = 0;
+    let mut changes = Vec::new();
     for kind in ShapeKind::ALL {
         let key = format!("{}_skips", kind.key());
         let rows = document[&key].as_array().unwrap();
-        for i in 0..rows.len() {
-            // Of pieces there are many pairs.
-            let step = if kind.is_of_links() { 1 } else { 3 };
-            for j in (i + 1..rows.len()).step_by(step) {
+        for (i, row) in rows.iter().enumerate() {
+            for (j, skip) in row.as_array().unwrap().iter().enumerate().skip(i + 1) {
                 let [a, b] = [i, j].map(|shape| match kind.is_of_links() {
                     true => link(&document["full_shapes"][shape]),
                     false => link(&document["decomposition_shapes"][shape]["link_idx"]),
                 });
-                let old = rows[i][j].as_bool().unwrap();
-                let at = |i: usize, j: usize| (format!("/{key}/{i}/{j}"), json!(!old));
-                let found = bench.changed(module, &[at(i, j), at(j, i)]);
-                assert_eq!(found.len(), 1, "{key} {i} {j}: {found:?}");
-                let [gained, lost, pieces] = ["gained", "lost", "pieces"]
-                    .map(|word| format!("pairs/{a}-{b}/{word}/{}", kind.name()));
-                let is_right = found[0] == pieces || found[0] == if old { gained } else { lost };
-                assert!(is_right, "{key} {i} {j}: {found:?}");
-                count += 1;
+                let old = skip.as_bool().unwrap();
+                let alike = format!("{key} {old} {}", a == b);
+                changes.push((alike, (kind, key.clone(), [i, j], [a, b], old)));
             }
         }
     }
+    let mut words = BTreeSet::new();
+    let mut count = 0;
+    for (kind, key, [i, j], [a, b], old) in few(changes) {
+        let at = |i: usize, j: usize| (format!("/{key}/{i}/{j}"), json!(!old));
+        let found = bench.changed(module, &[at(i, j), at(j, i)]);
+        let right = [if old { "gained" } else { "lost" }, "pieces"]
+            .into_iter()
+            .find(|word| found == [format!("pairs/{a}-{b}/{word}/{}", kind.name())]);
+        words.insert(right.unwrap_or_else(|| panic!("{key} {i} {j}: {found:?}")));
+        count += 1;
+    }
+    assert_eq!(Vec::from_iter(words), ["gained", "lost", "pieces"]);
     println!("{count} pairs");
-    assert!(count > 200, "{count}");
+    assert!(count >= 20, "{count}");
 }
 
 #[test]
 fn each_number_of_a_derived_module_is_named_by_its_module() {
-    let mut bench = Bench::new();
+    let bench = Bench::new();
     let mut count = 0;
     for module in [
         "chain_module",
@@ -182,12 +206,11 @@ fn each_number_of_a_derived_module_is_named_by_its_module() {
         "link_shapes_distance_statistics_module",
         "link_shapes_simple_skips_module",
     ] {
-        let mut pointers = Vec::new();
         let document = bench.fixture.doc(module).clone();
+        let mut pointers = Vec::new();
         numbers(&document, "", &mut pointers);
-        let step = pointers.len().div_ceil(40);
-        for pointer in pointers.iter().step_by(step.max(1)) {
-            let old = document.pointer(pointer).unwrap();
+        for pointer in few(pointers.into_iter().map(|it| (pattern(&it), it))) {
+            let old = document.pointer(&pointer).unwrap();
             let new = match old.as_u64() {
                 Some(old) => json!(old + 1),
                 None => json!(old.as_f64().unwrap() + 0.37),
@@ -198,7 +221,7 @@ fn each_number_of_a_derived_module_is_named_by_its_module() {
         }
     }
     println!("{count} numbers");
-    assert!(count > 150, "{count}");
+    assert!(count > 30, "{count}");
 }
 
 #[test]
@@ -206,7 +229,9 @@ fn a_module_that_is_gone_is_named() {
     let mut bench = Bench::new();
     bench.fixture.remove_module("kinematics_samples_module");
     bench.fixture.seal();
-    let after = open(bench.folder.put(&bench.fixture));
+    let after = bench.folder.path().join("without");
+    bench.fixture.write_to(&after);
+    let after = open(&after);
     assert_eq!(
         places(&compare(&bench.before, &after)),
         ["modules/kinematics_samples_module/removed"]

@@ -7,6 +7,7 @@ mod hostile;
 mod interrupted;
 mod learned;
 mod mesh_formats;
+mod named_configurations;
 mod outside;
 mod packages;
 mod pieces;

@@ -62,8 +62,8 @@ fn check(reading: &Reading, text: &str) {
         lines.position(problem.offset);
     }
     for repeated in &reading.repeated {
-        assert!(repeated.first < repeated.offset, "{repeated:?}");
-        assert!(text.is_char_boundary(repeated.offset), "{repeated:?}");
+        assert!(repeated.first < repeated.range.start, "{repeated:?}");
+        assert!(text.is_char_boundary(repeated.range.start), "{repeated:?}");
     }
     if reading.robot.is_some() {
         assert!(reading.position(&lines, "/joints/0/axis/xyz").is_some());

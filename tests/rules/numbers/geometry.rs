@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use urdd_geometry::Mesh;
+use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::Part;
 use urdd_geometry::write;
 use urdd_validate::code::Code::*;
@@ -182,6 +183,24 @@ fn with_a_promise(f: &mut Fixture, by: f64) {
 /// The diagonal of the lone box.
 const DIAGONAL: f64 = 0.374_165_738_677_394_1;
 
+/// The lone box with a piece that lacks the last corner: its three edges end this far from it. The corner is that over
+/// sqrt 3 outside, and 5 % of the diagonal is 0.0187.
+fn cut_corner(f: &mut Fixture, by: f64) {
+    geometry_alone(f);
+    f.set(PIECES, "/method/surface_tolerance", Value::Null);
+    let corner = read(f, PLAIN, BASE).vertices[7];
+    rewrite(f, PIECES, ALL, |mesh| {
+        let mut points = mesh.vertices.clone();
+        points.retain(|point| *point != corner);
+        for axis in 0..3 {
+            let mut point = corner;
+            point[axis] -= by * corner[axis].signum();
+            points.push(point.map(|x| f64::from(x as f32)));
+        }
+        *mesh = ConvexHull::new(&points).expect("a hull").into_mesh();
+    });
+}
+
 /// The lone box with a piece that reaches out of the hull by this.
 fn reach_out(f: &mut Fixture, by: f64) {
     grow_piece(f, 1.0 + by / 0.15);
@@ -348,5 +367,20 @@ pub fn cases() -> Vec<crate::Case> {
     vec![
         case(MSH021, "just-above-2-percent", 1.005),
         case(MSH023, "just-below-2-percent", 0.995),
+        // The mesh's corner is still inside the hull.
+        crate::changed(MSH019, "off-by-four-resolutions", true, lone_box, |f| {
+            geometry_alone(f);
+            rewrite(f, HULLS, ALL, |mesh| {
+                let mut points = mesh.vertices.clone();
+                points[7][0] += 4.0 * RESOLUTION * 0.15;
+                *mesh = ConvexHull::new(&points).expect("a hull").into_mesh();
+            });
+        }),
+        crate::changed(MSH022, "one-corner-left-out", true, lone_box, |f| {
+            cut_corner(f, 0.04);
+        }),
+        crate::changed(MSH022, "less-of-a-corner-left-out", false, lone_box, |f| {
+            cut_corner(f, 0.03);
+        }),
     ]
 }

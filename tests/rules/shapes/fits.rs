@@ -28,6 +28,20 @@ pub fn turn_box(f: &mut Fixture, angle: f64) {
     f.set(REACH, "/full_obbs_maximum_distances/0", json!(reach));
 }
 
+/// Moves the lower side along x of the box of the lone box away from the mesh.
+fn margin_below(f: &mut Fixture, by: f64) {
+    let [a, b, c] = BOXY;
+    let reach = ((a + by) * (a + by) + b * b + c * c).sqrt();
+    let half = [a + by / 2.0, b, c];
+    f.set(APPROXIMATIONS, "/full_obbs/0/half_extents", json!(half));
+    f.set(
+        APPROXIMATIONS,
+        "/full_obbs/0/offset_xyz/0",
+        json!(-by / 2.0),
+    );
+    f.set(REACH, "/full_obbs_maximum_distances/0", json!(reach));
+}
+
 /// Moves the centre of the sphere of the lone box along z, and enlarges it to fit.
 pub fn move_sphere(f: &mut Fixture, shift: f64) {
     let [a, b, c] = BOXY;
@@ -88,6 +102,9 @@ pub fn cases() -> Vec<Case> {
         near_miss(SHP017, "rounded", |f| grow_sphere(f, 1.0 - 1e-7)),
         invalid(SHP018, "box-with-a-margin", |f| {
             scale(f, APPROXIMATIONS, "/full_obbs/0/half_extents/1", 1.01);
+        }),
+        changed(SHP018, "box-with-a-margin-below", true, lone_box, |f| {
+            margin_below(f, 0.001);
         }),
         invalid(SHP018, "sphere-with-a-margin", |f| {
             grow_sphere(f, 1.0 + 1e-4)

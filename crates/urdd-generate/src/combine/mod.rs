@@ -6,6 +6,7 @@
 
 mod check_parts;
 mod compose;
+mod configurations;
 mod error;
 mod from_legacy;
 mod frozen;
@@ -52,6 +53,9 @@ pub use recipe::{
 };
 pub use recipe_fault::RecipeFault;
 pub use sources::{SourceKind, source_kind};
+
+/// The modules that a part has because of a person, and that are not computed.
+const OF_PEOPLE: [&str; 2] = ["composition_module", "named_configurations_module"];
 
 /// A combined robot.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,6 +106,7 @@ pub fn combine(
     }
     let repeated = compose::check_names(recipe, &parts)?;
     let (edits, skipped_reasons) = skips::decisions(recipe, &parts, &mut notes)?;
+    let configurations = configurations::of_parts(recipe, &parts, &mut notes)?;
 
     let [folder, store] = ["whole", "store"].map(|name| workplace.path().join(name));
     for folder in [&folder, &store] {
@@ -153,6 +158,7 @@ pub fn combine(
         shown: format!("{}.urdf", recipe.name.text),
         folder,
         edits,
+        configurations,
         skipped_reasons,
         composition: composition.clone(),
     };
@@ -304,7 +310,7 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
         let lacks = known.filter(|name| {
             let is_there = |list: &Vec<String>| list.iter().any(|module| module == name);
             let others_have = all.iter().any(|module| module == name);
-            others_have && !is_there(&taken.loaded.modules) && *name != "composition_module"
+            others_have && !is_there(&taken.loaded.modules) && !OF_PEOPLE.contains(name)
         });
         let lacks: Vec<String> = lacks.map(str::to_owned).collect();
         if !lacks.is_empty() {

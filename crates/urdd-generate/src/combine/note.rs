@@ -70,6 +70,22 @@ pub enum Note {
         /// The other.
         link_b: String,
     },
+    /// A named configuration has the name, in the combined robot, of an earlier one.
+    ConfigurationLost {
+        /// The part.
+        part: String,
+        /// The configuration.
+        name: String,
+    },
+    /// A named configuration has a position of a joint that is dropped or frozen.
+    PositionLost {
+        /// The part.
+        part: String,
+        /// The configuration.
+        name: String,
+        /// The DOF.
+        dof: String,
+    },
     /// A legacy module has content that a recipe cannot express, or lacks what a recipe needs.
     NotSaid(String),
     /// The parts skip pairs for different reasons.
@@ -95,6 +111,8 @@ impl Note {
             Note::Gone { .. } => "gone",
             Note::Following { .. } => "following",
             Note::EditLost { .. } => "edit-lost",
+            Note::ConfigurationLost { .. } => "configuration-lost",
+            Note::PositionLost { .. } => "position-lost",
             Note::NotSaid(_) => "not-said",
             Note::ReasonsDiffer => "reasons-differ",
             Note::UnequalModules { .. } => "unequal-modules",
@@ -150,6 +168,19 @@ impl fmt::Display for Note {
                 line(part),
                 line(link_a),
                 line(link_b)
+            ),
+            Note::ConfigurationLost { part, name } => write!(
+                f,
+                "part `{}`: the configuration `{}` is left out, since an earlier part has one of this name; give the part a prefix",
+                line(part),
+                line(name)
+            ),
+            Note::PositionLost { part, name, dof } => write!(
+                f,
+                "part `{}`: the configuration `{}` is kept without a position of `{}`, whose joint is dropped or frozen",
+                line(part),
+                line(name),
+                line(dof)
             ),
             Note::NotSaid(what) => f.write_str(&line(what)),
             Note::ReasonsDiffer => f.write_str(

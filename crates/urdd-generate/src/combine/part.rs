@@ -20,6 +20,7 @@ use urdd_directory::root::Root;
 use urdd_directory::writer::sha256;
 use urdd_format::composition::{CompositionModule, PartSource};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::named_configurations::{ConfigurationEdit, NamedConfigurationsModule};
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{self, RootMetadata};
@@ -42,6 +43,8 @@ pub(super) struct Loaded {
     pub meshes: BTreeMap<String, MeshFile>,
     /// The user's decisions about its skips.
     pub skips: Option<Skips>,
+    /// The user's named configurations.
+    pub configurations: Vec<ConfigurationEdit>,
     /// The kind of source and its digest.
     pub source: PartSource,
     /// How it was composed, if it was.
@@ -173,6 +176,8 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
             edits: serde_json::from_value(of("edits")).map_err(wrong)?,
         })
     });
+    let named: Option<NamedConfigurationsModule> = modules.read(ModuleKind::NamedConfigurations)?;
+    let named = named.map_or_else(Vec::new, |module| module.configurations);
     let (composition, composition_length) = match modules.document(ModuleKind::Composition)? {
         Some((composition, length)) => (Some(composition), length),
         None => (None, 0),
@@ -180,6 +185,7 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
     Ok(Loaded {
         meshes: original.map(meshes).unwrap_or_default(),
         skips: skips.transpose()?,
+        configurations: named.iter().map(ConfigurationEdit::from).collect(),
         composition,
         composition_length,
         source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),

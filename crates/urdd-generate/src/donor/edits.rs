@@ -1,7 +1,6 @@
 //! The user's edits of the skip matrix (MoveIt's allowed collision matrix), which a new URDD takes over.
 //!
-//! They are read before any module is built. If they cannot be read, generation fails: a syntax error must not discard
-//! a user's work.
+//! They are read before any module is built.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -9,16 +8,15 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Donor;
+use super::decided::Decided;
 use crate::error::{EditsFault, GenerateError};
 use crate::selection::Selection;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::position::{self, Position};
-use urdd_directory::root::{ReadError, Root};
-use urdd_directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
-use urdd_directory::yaml;
+use urdd_directory::root::Root;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_format::registry::ModuleKind;
 
 /// Key of the edits.
@@ -26,21 +24,24 @@ const EDITS: &str = "edits";
 /// Key of the reasons for which pairs are skipped.
 const SKIPPED_REASONS: &str = "skipped_reasons";
 
-/// The user's decisions about the skips of a URDD.
+/// The user's decisions in a URDD.
 #[derive(Debug, Clone)]
 pub(crate) struct Decisions {
     /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
     /// The edits.
     pub edits: Vec<SkipEdit>,
+    /// The named configurations.
+    pub configurations: Vec<ConfigurationEdit>,
 }
 
 impl Default for Decisions {
-    /// The defaults: no edits, and the usual reasons.
+    /// The defaults: the usual reasons, and nothing else.
     fn default() -> Self {
         Decisions {
             skipped_reasons: SkippedReason::USUAL.to_vec(),
             edits: Vec::new(),
+            configurations: Vec::new(),
         }
     }
 }
@@ -87,75 +88,26 @@ pub(crate) fn read(
     let Ok(root) = Root::open(folder) else {
         return Ok(Decisions::default());
     };
-    let kind = ModuleKind::LinkShapesSkips;
-    let json_path = format!("{}/module.json", kind.folder());
-    let yaml_path = format!("{}/module.yaml", kind.folder());
-    let refused = |path: &str, at: Option<Position>, fault: EditsFault| GenerateError::Edits {
-        file: folder.join(path),
-        at,
-        fault,
+    let decided = Decided {
+        root: &root,
+        folder,
+        kind: ModuleKind::LinkShapesSkips,
+        what: "edits of skips",
+        keys: &[EDITS, SKIPPED_REASONS],
     };
-    let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
-        Ok(bytes) => bytes,
-        Err(ReadError::Missing) => {
-            return match root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
-                Err(ReadError::Missing) => Ok(Decisions::default()),
-                _ => Err(refused(&yaml_path, None, EditsFault::NoJson)),
-            };
-        }
-        Err(error) => {
-            let fault = EditsFault::Unreadable(error.to_string());
-            return Err(refused(&json_path, None, fault));
-        }
+    let Some(document) = decided.document()? else {
+        return Ok(Decisions::default());
     };
-    let document = json::read(&bytes).map_err(|unreadable| {
-        let first = unreadable.faults.iter().next();
-        let words = first.map_or_else(String::new, |fault| fault.message.clone());
-        let at = first.and_then(|fault| fault.position);
-        refused(&json_path, at, EditsFault::Unreadable(words))
-    })?;
-    let twice = document.faults.iter().find(|fault| {
-        let pointer = fault.pointer.as_deref().unwrap_or_default();
-        fault.kind == TextFaultKind::DuplicateKey && is_of_edits(pointer)
-    });
-    if let Some(twice) = twice {
-        let fault = EditsFault::Unreadable(twice.message.clone());
-        return Err(refused(&json_path, twice.position, fault));
-    }
-    let decisions = parse(&document.value).map_err(|(pointer, fault)| {
-        let at = position::locate(&document.text, &pointer);
-        refused(&json_path, at, fault)
-    })?;
+    let decisions = parse(&document.value)
+        .map_err(|(pointer, fault)| decided.fault(&document, &pointer, fault))?;
     if let Some((idx, link)) = unknown_link(&root, &decisions.edits) {
-        let at = position::locate(&document.text, &format!("/{EDITS}/{idx}"));
-        return Err(refused(&json_path, at, EditsFault::UnknownLink(link)));
+        let pointer = format!("/{EDITS}/{idx}");
+        return Err(decided.fault(&document, &pointer, EditsFault::UnknownLink(link)));
     }
-    // The user may have edited only the YAML file. A YAML file that is still as generated is merely out of date.
-    if !is_as_made(replaced, &yaml_path)
-        && let Ok(bytes) = root.read(&yaml_path, MAX_DOCUMENT_BYTES)
-    {
-        let faults = yaml::check_mirror(&bytes, &document.value);
-        // Only the first of many differences are kept, and the edits may be among the rest.
-        let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
-        let differs = faults.iter().find(|fault| match fault.kind {
-            TextFaultKind::YamlDiffers => {
-                is_cut || is_of_edits(fault.pointer.as_deref().unwrap_or_default())
-            }
-            TextFaultKind::YamlSyntax | TextFaultKind::YamlNotUtf8 => true,
-            _ => false,
-        });
-        if let Some(fault) = differs {
-            let at = fault.position;
-            return Err(refused(
-                &yaml_path,
-                at,
-                EditsFault::Yaml(fault.message.clone()),
-            ));
-        }
-    }
-    if !decisions.edits.is_empty() && !selection.has(kind) {
+    decided.check_mirror(&document, replaced)?;
+    if !decisions.edits.is_empty() && !selection.has(decided.kind) {
         let fault = EditsFault::NotAskedFor(decisions.edits.len());
-        return Err(refused(&json_path, None, fault));
+        return Err(decided.refused(&decided.path("module.json"), None, fault));
     }
     Ok(decisions)
 }
@@ -177,26 +129,6 @@ fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
             .find(|name| !names.contains(name.as_str()))?;
         Some((idx, unknown.clone()))
     })
-}
-
-/// Whether a file matches the metadata of its URDD.
-fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
-    let Some(replaced) = replaced else {
-        return false;
-    };
-    let mut files = replaced
-        .metadata
-        .modules
-        .iter()
-        .flat_map(|module| &module.files);
-    files
-        .find(|file| file.path == path)
-        .is_some_and(|file| replaced.is_intact(file))
-}
-
-fn is_of_edits(pointer: &str) -> bool {
-    let first = pointer.split('/').nth(1);
-    first.is_some_and(|key| key == EDITS || key == SKIPPED_REASONS)
 }
 
 /// The decisions in a document of any draft, or the JSON Pointer to an invalid one and what is wrong with it.
@@ -229,5 +161,6 @@ fn parse(document: &Value) -> Result<Decisions, (String, EditsFault)> {
     Ok(Decisions {
         skipped_reasons,
         edits: edits.collect::<Result<_, _>>()?,
+        configurations: Vec::new(),
     })
 }

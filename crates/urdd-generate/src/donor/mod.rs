@@ -6,11 +6,14 @@
 //! | a whole module: [`Donor::kept`] | the replaced URDD | its inputs are the same, and its files are unchanged |
 //! | meshes and shapes of a link: [`links`] | parts | the link's geometry and the settings are the same |
 //! | the user's edits of skips: [`edits`] | the replaced URDD | always; edits that cannot be read are an error |
+//! | the user's named configurations: [`configurations`] | the replaced URDD | always; as for edits |
 //! | all other files: [`others`] | the replaced URDD | always; a file in the way of the new URDD is an error |
 //!
 //! Modules and meshes are taken over only from URDDs of this version of the program, and only if their bytes match
 //! `urdd.json`.
 
+pub(super) mod configurations;
+mod decided;
 pub(super) mod edits;
 mod link_keys;
 pub(super) mod links;

@@ -55,6 +55,12 @@ pub(super) fn decode(
             encoding
         }
         None => {
+            if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
+                return Err(GenerateError::Read {
+                    file: shown.to_owned(),
+                    reason: format!("it is not a text file: its byte {at} is 0; give a URDF"),
+                });
+            }
             let problem = "the file is not UTF-8, and declares no other encoding".to_owned();
             note(problem, "read as windows-1252, carried in UTF-8".to_owned());
             WINDOWS_1252

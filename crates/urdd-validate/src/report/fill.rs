@@ -10,7 +10,7 @@ use crate::finding::Finding as Found;
 use crate::settings::Settings;
 use crate::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::registry::SPEC_VERSION;
+use urdd_format::registry::{PROGRAM_VERSION, SPEC_VERSION};
 use urdd_format::report::{
     CheckStatus, Finding, Kind, Module, NotChecked, Place, Report, Severity, Size, Skipped, Status,
     Tool, Totals, Urdd, Verdict,
@@ -32,7 +32,7 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     Report {
         tool: Tool {
             name: "urdd".to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
+            version: PROGRAM_VERSION.to_owned(),
         },
         spec_version: SPEC_VERSION.to_owned(),
         stale_ignores,
@@ -180,7 +180,7 @@ fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {
         name: check.rule.name.to_owned(),
         severity: check.severity,
         default_severity: check.rule.severity,
-        clause: check.rule.clause.to_owned(),
+        clause: Some(check.rule.clause.to_owned()),
         consequence: check.rule.consequence,
         module,
         file: here.file,

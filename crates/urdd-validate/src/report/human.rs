@@ -178,6 +178,11 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
         line("tolerance", &number(tolerance, 2))?;
     }
     let shown = style.max_places.max(1);
+    for other in first.into_iter().flat_map(|first| &first.related) {
+        let at = place(other, other.file != finding.file);
+        let text = safe(other.message.as_deref().unwrap_or_default());
+        writeln!(out, "      {} {at}: {text}", style.paint(DIM, "see"))?;
+    }
     for other in places.take(shown - 1) {
         let at = place(other, other.file != finding.file);
         let mut text = format!("      {} {at}", style.paint(DIM, "also"));

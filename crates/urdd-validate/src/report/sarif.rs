@@ -17,7 +17,9 @@ use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::readable::number;
-use urdd_format::report::{CheckStatus, Finding, Place, Report, Severity, Status, Urdd, Verdict};
+use urdd_format::report::{
+    CheckStatus, Finding, Fix, Place, Report, Severity, Status, Urdd, Verdict,
+};
 
 /// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
 /// repository.
@@ -164,10 +166,23 @@ fn results(urdd: &Urdd, place: &str, rules: &Rules) -> Vec<Value> {
             "locations": finding.places.iter().take(1).map(|first| location(place, first)).collect::<Vec<_>>(),
         });
         let others = finding.places.iter().skip(1).take(MOST_LOCATIONS);
-        let related: Vec<Value> = others.map(|other| related(place, other)).collect();
+        let mut related: Vec<Value> = others.map(|other| related(place, other)).collect();
         let cut = finding.count.get().saturating_sub(1 + related.len());
+        let room = MOST_LOCATIONS - related.len();
+        let seen = finding.places.iter().flat_map(|here| &here.related);
+        related.extend(seen.take(room).map(|other| {
+            let mut location = location(place, other);
+            let text = other.message.as_deref().unwrap_or_default();
+            location["message"] = message(&escape::line(text));
+            location
+        }));
         if !related.is_empty() {
             result["relatedLocations"] = json!(related);
+        }
+        let fixes = finding.places.iter().flat_map(|here| &here.fixes);
+        let fixes: Vec<Value> = fixes.map(|fix| mend(place, fix)).collect();
+        if !fixes.is_empty() {
+            result["fixes"] = json!(fixes);
         }
         result["properties"] = json!({
             "consequence": finding.consequence.as_str(),
@@ -249,6 +264,29 @@ fn related(urdd: &str, other: &Place) -> Value {
         location["message"] = message(&escape::line(&format!("Here too: {}", text.join("; "))));
     }
     location
+}
+
+/// A fix: the edits of a file together, as the format asks.
+fn mend(urdd: &str, fix: &Fix) -> Value {
+    let mut by_file: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
+    for edit in &fix.edits {
+        by_file.entry(&edit.file).or_default().push(json!({
+            "deletedRegion": {
+                "startLine": edit.line.get(),
+                "startColumn": edit.column.get(),
+                "endLine": edit.end_line.get(),
+                "endColumn": edit.end_column.get(),
+            },
+            "insertedContent": {"text": edit.text},
+        }));
+    }
+    let changes = by_file.into_iter().map(|(file, replacements)| {
+        json!({"artifactLocation": artifact(urdd, Some(file)), "replacements": replacements})
+    });
+    json!({
+        "description": message(&escape::line(&fix.message)),
+        "artifactChanges": changes.collect::<Vec<_>>(),
+    })
 }
 
 fn location(urdd: &str, place: &Place) -> Value {

@@ -18,6 +18,7 @@ fn column(family: &str) -> &str {
     match family {
         "JSN" | "YML" | "SCH" | "EXT" => "TXT",
         "CMP" => "URD",
+        "CNF" => "KIN",
         "LRN" => "SHP",
         own => own,
     }

@@ -12,6 +12,7 @@ pub mod kinematics;
 pub mod learned;
 pub mod legacy;
 pub mod meshes;
+pub mod named_configurations;
 mod prelude;
 pub mod schema;
 pub mod shapes;
@@ -41,6 +42,7 @@ pub fn all() -> Vec<&'static Rule> {
         shapes::RULES,
         learned::RULES,
         kinematics::RULES,
+        named_configurations::RULES,
         legacy::RULES,
     ];
     let mut rules: Vec<&Rule> = families.concat();

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
-use urdd_directory::path::portable;
+use urdd_directory::path::beside;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
@@ -90,35 +90,5 @@ fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
             }
         },
         side_files: Some(named.into_iter().collect()),
-    }
-}
-
-/// The path of a file that a mesh names, relative to the mesh's own folder, with names as in SPEC 2.8. `None` if it
-/// leaves the root.
-fn beside(mesh: &str, side: &str) -> Option<String> {
-    let mut parts: Vec<String> = mesh.split('/').map(str::to_owned).collect();
-    parts.pop();
-    for part in side.replace('\\', "/").split('/') {
-        match part {
-            "" | "." => {}
-            ".." => {
-                parts.pop()?;
-            }
-            name => parts.push(portable(name)),
-        }
-    }
-    Some(parts.join("/"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::beside;
-
-    #[test]
-    fn side_files_are_found_from_the_meshes_folder() {
-        let of = |side| beside("m/meshes/arm/base.obj", side);
-        assert_eq!(of("base.mtl").as_deref(), Some("m/meshes/arm/base.mtl"));
-        assert_eq!(of("./../tex\\a.png").as_deref(), Some("m/meshes/tex/a.png"));
-        assert_eq!(of("../../../../a.png"), None);
     }
 }

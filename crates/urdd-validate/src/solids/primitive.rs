@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use urdd_format::urdf::Geometry;
+use urdd_geometry::primitives::Primitive as Shape;
 
 /// A box, cylinder, capsule or sphere somewhere in a link's frame.
 #[derive(Debug, Clone)]
@@ -12,20 +13,12 @@ pub struct Primitive {
     position: Vector3<f64>,
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Shape {
-    Box(Vector3<f64>),
-    Cylinder { radius: f64, half: f64 },
-    Capsule { radius: f64, half: f64 },
-    Sphere { radius: f64 },
-}
-
 impl Primitive {
     /// For a geometry that is not a mesh.
     pub fn new(geometry: &Geometry, rotation: Matrix3<f64>, position: [f64; 3]) -> Option<Self> {
         let shape = match geometry {
             Geometry::Mesh(_) => return None,
-            Geometry::Box(of) => Shape::Box(Vector3::from(of.size) / 2.0),
+            Geometry::Box(of) => Shape::Box(of.size.map(|side| side / 2.0)),
             Geometry::Cylinder(of) => Shape::Cylinder {
                 radius: of.radius,
                 half: of.length / 2.0,
@@ -53,7 +46,7 @@ impl Primitive {
         };
         let radial = p.x.hypot(p.y);
         match self.shape {
-            Shape::Box(half) => boxed((p.abs() - half).as_slice()),
+            Shape::Box(half) => boxed((p.abs() - Vector3::from(half)).as_slice()),
             Shape::Cylinder { radius, half } => boxed(&[radial - radius, p.z.abs() - half]),
             Shape::Capsule { radius, half } => radial.hypot((p.z.abs() - half).max(0.0)) - radius,
             Shape::Sphere { radius } => p.norm() - radius,
@@ -80,7 +73,7 @@ impl Primitive {
     pub fn area(&self) -> f64 {
         use std::f64::consts::PI;
         match self.shape {
-            Shape::Box(h) => 8.0 * (h.x * h.y + h.y * h.z + h.z * h.x),
+            Shape::Box([x, y, z]) => 8.0 * (x * y + y * z + z * x),
             Shape::Cylinder { radius, half } => 2.0 * PI * radius * (radius + 2.0 * half),
             Shape::Capsule { radius, half } => 4.0 * PI * radius * (radius + half),
             Shape::Sphere { radius } => 4.0 * PI * radius * radius,
@@ -130,17 +123,8 @@ impl Primitive {
 
     /// The largest absolute coordinate of its points in the link's frame, and of its origin, m.
     pub fn extent(&self) -> f64 {
-        let along = |axis: usize| {
-            let row = self.rotation.row(axis);
-            let across = (1.0 - row[2] * row[2]).max(0.0).sqrt();
-            match self.shape {
-                Shape::Box(half) => (0..3).map(|i| (row[i] * half[i]).abs()).sum(),
-                Shape::Cylinder { radius, half } => row[2].abs() * half + across * radius,
-                Shape::Capsule { radius, half } => row[2].abs() * half + radius,
-                Shape::Sphere { radius } => radius,
-            }
-        };
-        let ends = (0..3).map(|axis| self.position[axis].abs() + along(axis));
+        let half = self.shape.half_extents(&self.rotation);
+        let ends = (0..3).map(|axis| self.position[axis].abs() + half[axis]);
         ends.fold(0.0, f64::max)
     }
 

@@ -89,7 +89,7 @@ impl Reader {
         let shape = shapes.next()?;
         for again in shapes {
             self.reading.repeated.push(Repeated {
-                offset: again.range().start,
+                range: again.range(),
                 first: shape.range().start,
                 element: xml::name(again).to_owned(),
                 parent: "geometry",

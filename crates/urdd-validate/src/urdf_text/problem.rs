@@ -1,5 +1,7 @@
 //! Faults of a URDF's text.
 
+use std::ops::Range;
+
 use thiserror::Error;
 
 use urdd_directory::position::LineIndex;
@@ -87,8 +89,8 @@ fn numbers_wanted(count: usize) -> String {
 /// A repeated element, of which only the first counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Repeated {
-    /// Byte offset of the element that is ignored.
-    pub offset: usize,
+    /// Bytes of the element that is ignored.
+    pub range: Range<usize>,
     /// Byte offset of the first one.
     pub first: usize,
     /// Its name.

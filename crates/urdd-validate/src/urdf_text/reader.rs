@@ -54,7 +54,7 @@ impl Reader {
         let first = found.next()?;
         for again in found {
             self.reading.repeated.push(Repeated {
-                offset: again.range().start,
+                range: again.range(),
                 first: first.range().start,
                 element: name.to_owned(),
                 parent: parent_name,

@@ -1,4 +1,4 @@
-//! Data that several rules use: texts, schemas of extensions and what their annotations say, shapes and pairs of shapes.
+//! Data that several rules use: texts, schemas of extensions and what their annotations say, names, shapes and pairs of shapes.
 
 pub mod annotated;
 pub mod counts;
@@ -6,6 +6,7 @@ pub mod enclosure;
 pub mod extension_schema;
 pub mod judged;
 pub mod list_lengths;
+pub mod repeated;
 pub mod schema_parts;
 pub mod schema_work;
 pub mod shape_pair;

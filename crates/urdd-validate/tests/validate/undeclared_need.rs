@@ -72,7 +72,8 @@ fn every_rule_takes_what_it_needs() {
 /// Whether a URDD without any files fails to meet the need.
 fn is_of_document(need: &Need) -> bool {
     match need {
-        Need::Module(_) | Need::ModuleV1(_) | Need::RootMetadata | Need::CarriedUrdf => true,
+        Need::Module(_) | Need::ModuleV1(_) | Need::RootMetadata => true,
+        Need::CarriedUrdf | Need::UrdfFile => true,
         Need::All(needs) => needs.iter().any(is_of_document),
         _ => false,
     }

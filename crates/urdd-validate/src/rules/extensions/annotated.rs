@@ -2,30 +2,21 @@
 
 use std::sync::Arc;
 
-use super::{MAX_PLACES, extensions};
+use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
 use crate::views::annotated::Judged;
 use crate::views::counts::Counts;
-use crate::views::extension_schema::{self, SchemaFile};
+use crate::views::extension_schema;
 use serde_json::Value;
 use urdd_document::schema_check;
 
-/// Reports what breaks one of the annotations. EXT001 reports schemas that cannot be used, and EXT002 documents that
-/// break the rest of the schema.
+/// Reports what breaks one of the annotations. EXT002 reports documents that break the rest of the schema.
 pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings) {
     let mut counts = None;
-    for module in extensions(context) {
-        let schema = extension_schema::read(context, module);
-        let (SchemaFile::Read(schema), Some(document)) = (schema, module.json.document()) else {
-            continue;
-        };
-        let document = &document.value;
-        if !extension_schema::mentions(&schema, judged.keyword())
-            || !extension_schema::faults(&schema, Some(document)).is_empty()
-            || !extension_schema::violations(&schema, document, 1)
-                .found
-                .is_empty()
-        {
+    let mentions = move |schema: &Value| extension_schema::mentions(schema, judged.keyword());
+    for (module, schema, document) in described(context, mentions) {
+        let others = extension_schema::violations(&schema, document, 1);
+        if !others.found.is_empty() {
             continue;
         }
         let counts = counts.get_or_insert_with(|| Arc::new(Counts::of(context)));

@@ -1,6 +1,6 @@
-use super::{MAX_PLACES, extensions};
+use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
-use crate::views::extension_schema::{self, SchemaFile};
+use crate::views::extension_schema;
 use urdd_document::schema_check;
 
 declare_rule! {
@@ -15,19 +15,11 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    for module in extensions(context) {
-        let schema = extension_schema::read(context, module);
-        let (SchemaFile::Read(schema), Some(document)) = (schema, module.json.document()) else {
-            continue;
-        };
-        // EXT001 reports an unusable schema.
-        if !extension_schema::faults(&schema, Some(&document.value)).is_empty() {
-            continue;
-        }
-        let violations = extension_schema::violations(&schema, &document.value, MAX_PLACES);
+    for (module, schema, document) in described(context, |_| true) {
+        let violations = extension_schema::violations(&schema, document, MAX_PLACES);
         let more = violations.more();
         for (pointer, message) in violations.found {
-            let actual = document.value.pointer(&pointer).map(schema_check::excerpt);
+            let actual = document.pointer(&pointer).map(schema_check::excerpt);
             let message = format!("the value does not match schema.json: {message}{more}");
             let mut finding = Finding::of(module, pointer, message);
             finding.place.actual = actual;

@@ -10,7 +10,7 @@ declare_rule! {
     /// stale: it was written before a link or joint was added or removed.
     ///
     /// Write the extension again for the robot as it is now, or correct `x-index` in `schema.json`.
-    EXT003 "extension-index-out-of-range", Error, clause "11.5", since "0.2.0",
+    EXT003 "extension-index-out-of-range", Error, clause "11.5", since "1.0.0",
     phase References, needs [MESHES_LISTED, NotFailed(DOF001)],
 }
 

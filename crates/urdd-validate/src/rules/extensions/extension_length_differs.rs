@@ -10,7 +10,7 @@ declare_rule! {
     /// one belongs to another link. Most often the extension is stale.
     ///
     /// Write the extension again for the robot as it is now, or correct `x-length` in `schema.json`.
-    EXT004 "extension-length-differs", Error, clause "11.5", since "0.2.0",
+    EXT004 "extension-length-differs", Error, clause "11.5", since "1.0.0",
     phase References, needs [MESHES_LISTED, NotFailed(DOF001)],
 }
 

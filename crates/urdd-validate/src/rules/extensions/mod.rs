@@ -8,7 +8,7 @@ mod folders;
 mod schema_unusable;
 
 use crate::rule::rules;
-use folders::{MAX_PLACES, extensions};
+use folders::{MAX_PLACES, described, extensions};
 
 rules! {
     document_invalid, extension_index_out_of_range, extension_length_differs, schema_unusable,

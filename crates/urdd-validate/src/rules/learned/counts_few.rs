@@ -9,7 +9,7 @@ declare_rule! {
     /// 100 %, and only many collisions show that.
     ///
     /// Leave the model out. It saves nothing for a robot that hardly ever collides with itself, or nearly always does.
-    LRN012 "model-counts-few", Error, clause "8.8.9", since "0.2.0",
+    LRN012 "model-counts-few", Error, clause "8.8.9", since "1.0.0",
     phase References, needs [Version1, Module(Kind::SelfCollisionModel), Passed(LRN009)],
 }
 

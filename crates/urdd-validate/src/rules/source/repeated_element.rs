@@ -1,5 +1,7 @@
 use crate::rules::prelude::*;
 use urdd_directory::position::LineIndex;
+use urdd_format::index::Count;
+use urdd_format::report::{Fix, TextEdit};
 
 declare_rule! {
     /// The carried URDF repeats an element that URDF allows once.
@@ -19,14 +21,33 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let reading = context.urdf_text()?;
     let lines = LineIndex::new(&carried.text);
     for again in &reading.repeated {
-        let first = lines.position(again.first);
+        let (start, end) = (
+            lines.position(again.range.start),
+            lines.position(again.range.end),
+        );
         let message = format!(
             "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
             again.element, again.parent
         );
         Finding::in_file(&carried.path, message)
-            .position(Some(lines.position(again.offset)))
-            .actual(format!("the first is on line {}", first.line))
+            .position(Some(start))
+            .related(
+                Finding::in_file(&carried.path, "the first, which counts")
+                    .position(Some(lines.position(again.first))),
+            )
+            // Other readers take the last: which of them the author means is his to say.
+            .fix(Fix {
+                message: format!("remove the second `<{}>`", again.element),
+                is_safe: false,
+                edits: vec![TextEdit {
+                    file: carried.path.clone(),
+                    line: Count(start.line),
+                    column: Count(start.column),
+                    end_line: Count(end.line),
+                    end_column: Count(end.column),
+                    text: String::new(),
+                }],
+            })
             .report(findings);
     }
     Some(())

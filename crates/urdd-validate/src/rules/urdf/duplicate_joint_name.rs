@@ -1,4 +1,4 @@
-use super::duplicate_link_name::repeated;
+use super::repeated_names;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -13,17 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
-    let file = context.robot_file()?;
-    let names = robot.joints.iter().map(|joint| joint.name.as_str());
-    for (index, first, name) in repeated(names) {
-        let pointer = format!("/joints/{index}/name");
-        let message =
-            format!("another joint is already named `{name}`; give this one a name of its own");
-        Finding::at(&file, pointer, message)
-            .expected("a name that no other joint has")
-            .actual(format!("`{name}`, the name of /joints/{first} too"))
-            .report(findings);
-    }
-    Some(())
+    let joints = context.robot()?.joints.iter();
+    let names = joints.map(|joint| joint.name.as_str());
+    repeated_names::report(context, "joints", "joint", names, findings)
 }

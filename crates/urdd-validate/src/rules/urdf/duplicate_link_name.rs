@@ -1,5 +1,4 @@
-use std::collections::HashMap;
-
+use super::repeated_names;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -14,40 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let robot = context.robot()?;
-    let file = context.robot_file()?;
-    let names = robot.links.iter().map(|link| link.name.as_str());
-    for (index, first, name) in repeated(names) {
-        let pointer = format!("/links/{index}/name");
-        let message =
-            format!("another link is already named `{name}`; give this one a name of its own");
-        Finding::at(&file, pointer, message)
-            .expected("a name that no other link has")
-            .actual(format!("`{name}`, the name of /links/{first} too"))
-            .report(findings);
-    }
-    Some(())
-}
-
-/// Names that occurred before: index, index of the first occurrence, name.
-pub(super) fn repeated<'a>(
-    names: impl Iterator<Item = &'a str>,
-) -> impl Iterator<Item = (usize, usize, &'a str)> {
-    let mut seen: HashMap<&str, usize> = HashMap::new();
-    names.enumerate().filter_map(move |(index, name)| {
-        let first = *seen.entry(name).or_insert(index);
-        (first != index).then_some((index, first, name))
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::repeated;
-
-    #[test]
-    fn case_makes_another_name() {
-        let names = ["a", "A", "", "a", "", "a"];
-        let found: Vec<_> = repeated(names.into_iter()).collect();
-        assert_eq!(found, [(3, 0, "a"), (4, 2, ""), (5, 0, "a")]);
-    }
+    let links = context.robot()?.links.iter();
+    let names = links.map(|link| link.name.as_str());
+    repeated_names::report(context, "links", "link", names, findings)
 }

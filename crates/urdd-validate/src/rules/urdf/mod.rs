@@ -10,6 +10,7 @@ mod mimic_circle;
 mod mimic_of_many_dofs;
 mod not_one_root;
 mod parts;
+mod repeated_names;
 mod source_differences;
 mod two_parents;
 mod unknown_link;

@@ -1,6 +1,5 @@
 use crate::rules::prelude::*;
 use urdd_directory::position::{self, LineIndex};
-use urdd_directory::root::ReadError;
 use urdd_document::carried_urdf::NoUrdf;
 use urdd_document::schema_check::excerpt;
 
@@ -16,21 +15,18 @@ declare_rule! {
     /// Correct the URDF at the places that are given, and write the URDD again. A `$(arg …)` or `${…}`
     /// means that xacro was not run.
     URD011 "unreadable-urdf", Error, clause "6.1.2", since "0.1.0",
-    phase Syntax, needs [],
+    phase Syntax, needs [UrdfFile],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let carried = match context.urdf() {
         Ok(carried) => carried,
-        Err(NoUrdf::Unreadable {
-            path,
-            error: error @ ReadError::TooLarge { .. },
-        }) => {
+        Err(NoUrdf::Unreadable { path, error }) => {
             let message = format!("the URDF is too large: {error}");
             findings.report(Finding::in_file(path, message));
             return Some(());
         }
-        Err(reason) => return findings.skip(SkipReason::NoCarriedUrdf(reason.clone())),
+        Err(_) => return None,
     };
     let reading = context.urdf_text()?;
     if let Some(offset) = carried.not_utf8_at {

@@ -7,10 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use testkit::repository;
-
 use modules::Crate;
 use names::{Ties, ties};
+
+fn repository() -> &'static Path {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
+    folder.expect("the repository")
+}
 
 /// Files that all reach each other.
 type Circle<'a> = BTreeSet<&'a Path>;

@@ -1,0 +1,66 @@
+//! The named configurations of the parts, under the names that they and their joints have in the combined robot.
+
+use std::collections::HashSet;
+
+use super::compose::Taken;
+use super::error::CombineError;
+use super::note::Note;
+use super::recipe::Recipe;
+use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
+
+/// The named configurations of the combined robot: those of each part, with its prefix.
+///
+/// # Errors
+/// If they are too long together.
+pub(super) fn of_parts(
+    recipe: &Recipe,
+    parts: &[Taken],
+    notes: &mut Vec<Note>,
+) -> Result<Vec<ConfigurationEdit>, CombineError> {
+    let (mut edits, mut length) = (Vec::new(), 0);
+    let mut names = HashSet::new();
+    for taken in parts {
+        let part = &taken.part.id.text;
+        for edit in &taken.loaded.configurations {
+            let words = edit
+                .positions
+                .iter()
+                .map(|position| position.dof_name.len());
+            length += edit.name.as_str().len() + words.sum::<usize>();
+            recipe.check_length(taken.part, "the named configurations", length)?;
+            let renamed = ConfigurationName::new(taken.renamed(edit.name.as_str()));
+            let Some(name) = renamed.filter(|name| names.insert(name.clone())) else {
+                notes.push(Note::ConfigurationLost {
+                    part: part.clone(),
+                    name: edit.name.to_string(),
+                });
+                continue;
+            };
+            let mut positions = Vec::new();
+            for position in &edit.positions {
+                match moves(taken, &position.dof_name) {
+                    true => positions.push(DofPosition {
+                        dof_name: taken.renamed(&position.dof_name),
+                        ..position.clone()
+                    }),
+                    false => notes.push(Note::PositionLost {
+                        part: part.clone(),
+                        name: edit.name.to_string(),
+                        dof: position.dof_name.clone(),
+                    }),
+                }
+            }
+            edits.push(ConfigurationEdit { name, positions });
+        }
+    }
+    Ok(edits)
+}
+
+/// Whether the joint of a part's DOF is kept, and not frozen.
+fn moves(taken: &Taken, dof: &str) -> bool {
+    let joints = &taken.loaded.joints;
+    // The name of a DOF is that of its joint, or has the coordinate after it. Names of joints may hold slashes too.
+    let of_joint = joints.get(dof);
+    let joint = of_joint.or_else(|| joints.get(dof.rsplit_once('/')?.0));
+    joint.is_some_and(|idx| taken.trim.keeps_joint(*idx) && !taken.trim.frozen.contains_key(idx))
+}

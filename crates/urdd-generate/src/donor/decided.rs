@@ -1,0 +1,144 @@
+//! A module of the replaced URDD that holds a user's decisions. If it cannot be read, generation fails: a syntax error must
+//! not discard a user's work.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::Donor;
+use crate::error::{EditsFault, GenerateError};
+use urdd_directory::json;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::position::{self, Position};
+use urdd_directory::root::{ReadError, Root};
+use urdd_directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
+use urdd_directory::yaml;
+use urdd_format::registry::ModuleKind;
+
+/// A module with decisions, in a folder that is to be replaced.
+pub(super) struct Decided<'a> {
+    pub root: &'a Root,
+    pub folder: &'a Path,
+    pub kind: ModuleKind,
+    /// What the decisions are, for messages.
+    pub what: &'static str,
+    /// The members of its document that hold the decisions.
+    pub keys: &'a [&'a str],
+}
+
+/// Its document.
+pub(super) struct Document {
+    pub value: Value,
+    pub text: String,
+}
+
+impl Decided<'_> {
+    /// The document; `None` if there is no such module.
+    pub fn document(&self) -> Result<Option<Document>, GenerateError> {
+        let (json_path, yaml_path) = (self.path("module.json"), self.path("module.yaml"));
+        let bytes = match self.root.read(&json_path, MAX_DOCUMENT_BYTES) {
+            Ok(bytes) => bytes,
+            Err(ReadError::Missing) => {
+                return match self.root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
+                    Err(ReadError::Missing) => Ok(None),
+                    _ => Err(self.refused(&yaml_path, None, EditsFault::NoJson)),
+                };
+            }
+            Err(error) => {
+                let fault = EditsFault::Unreadable(error.to_string());
+                return Err(self.refused(&json_path, None, fault));
+            }
+        };
+        let document = json::read(&bytes).map_err(|unreadable| {
+            let first = unreadable.faults.iter().next();
+            let words = first.map_or_else(String::new, |fault| fault.message.clone());
+            let at = first.and_then(|fault| fault.position);
+            self.refused(&json_path, at, EditsFault::Unreadable(words))
+        })?;
+        let twice = document.faults.iter().find(|fault| {
+            let pointer = fault.pointer.as_deref().unwrap_or_default();
+            fault.kind == TextFaultKind::DuplicateKey && self.is_of_decisions(pointer)
+        });
+        if let Some(twice) = twice {
+            let fault = EditsFault::Unreadable(twice.message.clone());
+            return Err(self.refused(&json_path, twice.position, fault));
+        }
+        Ok(Some(Document {
+            value: document.value,
+            text: document.text.to_string(),
+        }))
+    }
+
+    /// The error for a fault at a JSON Pointer of the document.
+    pub fn fault(&self, document: &Document, pointer: &str, fault: EditsFault) -> GenerateError {
+        let at = position::locate(&document.text, pointer);
+        self.refused(&self.path("module.json"), at, fault)
+    }
+
+    /// Checks that the YAML file says the same. The user may have edited only that one. A YAML file that is still as
+    /// generated is merely out of date.
+    pub fn check_mirror(
+        &self,
+        document: &Document,
+        replaced: Option<&Donor>,
+    ) -> Result<(), GenerateError> {
+        let path = self.path("module.yaml");
+        let bytes = match is_as_made(replaced, &path) {
+            true => return Ok(()),
+            false => self.root.read(&path, MAX_DOCUMENT_BYTES),
+        };
+        let Ok(bytes) = bytes else {
+            return Ok(());
+        };
+        let faults = yaml::check_mirror(&bytes, &document.value);
+        // Only the first of many differences are kept, and those of decisions may be among the rest.
+        let is_cut = faults.total(TextFaultKind::YamlDiffers) > KEPT_PER_KIND;
+        let differs = faults.iter().find(|fault| match fault.kind {
+            TextFaultKind::YamlDiffers => {
+                is_cut || self.is_of_decisions(fault.pointer.as_deref().unwrap_or_default())
+            }
+            TextFaultKind::YamlSyntax | TextFaultKind::YamlNotUtf8 => true,
+            _ => false,
+        });
+        match differs {
+            None => Ok(()),
+            Some(fault) => {
+                let words = EditsFault::Yaml(fault.message.clone());
+                Err(self.refused(&path, fault.position, words))
+            }
+        }
+    }
+
+    pub fn path(&self, file: &str) -> String {
+        format!("{}/{file}", self.kind.folder())
+    }
+
+    pub fn refused(&self, path: &str, at: Option<Position>, fault: EditsFault) -> GenerateError {
+        GenerateError::Edits {
+            file: self.folder.join(path),
+            at,
+            lost: self.what,
+            fault,
+        }
+    }
+
+    fn is_of_decisions(&self, pointer: &str) -> bool {
+        let first = pointer.split('/').nth(1);
+        first.is_some_and(|key| self.keys.contains(&key))
+    }
+}
+
+/// Whether a file matches the metadata of its URDD.
+fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
+    let Some(replaced) = replaced else {
+        return false;
+    };
+    let mut files = replaced
+        .metadata
+        .modules
+        .iter()
+        .flat_map(|module| &module.files);
+    files
+        .find(|file| file.path == path)
+        .is_some_and(|file| replaced.is_intact(file))
+}

@@ -1,0 +1,86 @@
+//! Edits a module of a URDD: reads the robot, asks for the changed files, and replaces them atomically. Starts again where
+//! another program wrote in between.
+
+use std::path::Path;
+
+use super::shapes;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::replacement::{Files, Replacement};
+use urdd_directory::root::Root;
+use urdd_format::escape;
+use urdd_format::registry::ModuleKind;
+use urdd_robot::Robot;
+
+/// Maximum number of attempts while another program writes to the URDD.
+const MAX_TRIES: usize = 5;
+
+/// An edit.
+pub struct Edited {
+    /// The files that change.
+    pub files: Files,
+    /// What to print.
+    pub told: String,
+}
+
+impl Edited {
+    /// Nothing changes.
+    pub fn unchanged(told: String) -> Self {
+        Edited {
+            files: Files::new(),
+            told,
+        }
+    }
+}
+
+/// Edits a module of the URDD in a folder. Returns what to print.
+///
+/// # Errors
+/// If `edit` fails, or the folder cannot be read or written.
+pub fn edited(
+    urdd: &Path,
+    kind: ModuleKind,
+    edit: impl Fn(&Robot) -> Result<Edited, String>,
+) -> Result<String, String> {
+    let of_urdd = |error: &dyn std::fmt::Display| {
+        format!("{}: {error}", escape::line(&urdd.display().to_string()))
+    };
+    if !urdd.is_dir() {
+        return Err(of_urdd(
+            &"not a folder; edits are written into the folder of a URDD",
+        ));
+    }
+    for _ in 0..MAX_TRIES {
+        let before = state(urdd, kind).map_err(|error| of_urdd(&error))?;
+        let robot = shapes::open(urdd)?;
+        let Edited { files, told } = edit(&robot)?;
+        if files.is_empty() {
+            return Ok(told);
+        }
+        // Takes the lock here. Other programs may have written before.
+        let replacement = Replacement::begin(urdd).map_err(|error| error.to_string())?;
+        if state(urdd, kind).map_err(|error| of_urdd(&error))? != before {
+            continue;
+        }
+        replacement
+            .stage(&files)
+            .map_err(|error| error.to_string())?;
+        replacement.commit().map_err(|error| error.to_string())?;
+        return Ok(told);
+    }
+    Err(of_urdd(
+        &"another program keeps writing into this folder; nothing was written",
+    ))
+}
+
+/// The files that the edits depend on.
+fn state(urdd: &Path, kind: ModuleKind) -> Result<Vec<Vec<u8>>, ReadError> {
+    let root = Root::open_folder(urdd)?;
+    let module = format!("{}/module.json", kind.folder());
+    let read = |path: &str| match root.read(path, MAX_DOCUMENT_BYTES) {
+        Err(ReadError::Missing) => Ok(Vec::new()),
+        read => read,
+    };
+    [ROOT_METADATA, &module].map(read).into_iter().collect()
+}

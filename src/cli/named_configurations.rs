@@ -1,0 +1,183 @@
+//! `urdd configurations`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+
+use super::editing::{self, Edited};
+use super::{output, shapes};
+use urdd_format::escape;
+use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
+use urdd_format::nearest::nearest;
+use urdd_format::registry::ModuleKind;
+use urdd_robot::Robot;
+
+/// Arguments of `urdd configurations`.
+#[derive(Args)]
+pub struct ConfigurationsArguments {
+    #[command(subcommand)]
+    command: ConfigurationsCommand,
+}
+
+#[derive(Subcommand)]
+enum ConfigurationsCommand {
+    /// List the named configurations of a URDD, with the positions that were set.
+    List {
+        /// The URDD: a folder or a zip archive.
+        #[arg(value_name = "URDD")]
+        urdd: PathBuf,
+    },
+    /// Add a named configuration to a URDD, or replace one.
+    #[command(
+        after_help = "A DOF that is not given has its value in the default configuration: 0, or the bound nearest to 0.\n\n\
+        Exit status: 0 set; 2 nothing was written."
+    )]
+    Set {
+        /// The URDD: a folder.
+        #[arg(value_name = "DIR")]
+        urdd: PathBuf,
+
+        /// The name of the configuration.
+        #[arg(value_name = "NAME")]
+        name: String,
+
+        /// Positions, rad or m: `elbow=1.57`. A DOF is named as its joint; those of planar, floating and spherical joints
+        /// as `urdd info` lists them.
+        #[arg(value_name = "DOF=POSITION", allow_hyphen_values = true)]
+        positions: Vec<String>,
+    },
+    /// Remove a named configuration from a URDD.
+    #[command(after_help = "Exit status: 0 removed; 2 nothing was written.")]
+    Remove {
+        /// The URDD: a folder.
+        #[arg(value_name = "DIR")]
+        urdd: PathBuf,
+
+        /// The name of the configuration.
+        #[arg(value_name = "NAME")]
+        name: String,
+    },
+}
+
+/// Runs `urdd configurations`.
+pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
+    let text = match &arguments.command {
+        ConfigurationsCommand::List { urdd } => list(urdd),
+        ConfigurationsCommand::Set {
+            urdd,
+            name,
+            positions,
+        } => set(urdd, name, positions),
+        ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
+    };
+    output::printed(text.and_then(|text| output::print(&text)))
+}
+
+fn shown(urdd: &Path) -> String {
+    escape::line(&urdd.display().to_string()).into_owned()
+}
+
+fn list(urdd: &Path) -> Result<String, String> {
+    let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
+    let robot = shapes::open(urdd)?;
+    let named = robot
+        .named_configurations()
+        .map_err(|error| of_urdd(&error))?;
+    if named.is_empty() {
+        return Ok(format!("{}: no named configurations\n", shown(urdd)));
+    }
+    let lines = named.iter().map(|named| {
+        let positions = named.positions.iter();
+        let positions = positions.map(|set| format!(" {}={}", set.dof_name, set.position));
+        let line = format!("{}:{}", named.name, positions.collect::<String>());
+        format!("{}\n", escape::line(&line))
+    });
+    Ok(lines.collect())
+}
+
+fn set(urdd: &Path, name: &str, positions: &[String]) -> Result<String, String> {
+    let wrong = "the name of a configuration is empty".to_owned();
+    let name = ConfigurationName::new(name).ok_or(wrong)?;
+    let edit = ConfigurationEdit {
+        positions: parsed(positions)?,
+        name,
+    };
+    change(urdd, |edits| {
+        match edits.iter_mut().find(|other| other.name == edit.name) {
+            Some(there) => {
+                *there = edit.clone();
+                Ok("replaced")
+            }
+            None => {
+                edits.push(edit.clone());
+                Ok("added")
+            }
+        }
+    })
+}
+
+fn remove(urdd: &Path, name: &str) -> Result<String, String> {
+    change(urdd, |edits| {
+        let place = edits.iter().position(|edit| edit.name.as_str() == name);
+        let Some(place) = place else {
+            let near = nearest(edits.iter().map(|edit| edit.name.as_str()), name);
+            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            return Err(format!("there is no configuration `{name}`{near}"));
+        };
+        edits.remove(place);
+        Ok("removed")
+    })
+}
+
+/// Changes the named configurations. `change` returns what it did.
+fn change(
+    urdd: &Path,
+    change: impl Fn(&mut Vec<ConfigurationEdit>) -> Result<&'static str, String>,
+) -> Result<String, String> {
+    let of_urdd = |error: &dyn std::fmt::Display| {
+        format!("{}: {}", shown(urdd), escape::line(&error.to_string()))
+    };
+    editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
+        let named = robot.named_configurations();
+        let named = named.map_err(|error| of_urdd(&error))?;
+        let mut edits: Vec<ConfigurationEdit> = named.iter().map(Into::into).collect();
+        let done = change(&mut edits).map_err(|error| of_urdd(&error))?;
+        let edited = robot.with_named_configurations(&edits);
+        let edited = edited.map_err(|error| of_urdd(&error))?;
+        let count = match edits.len() {
+            1 => "1 named configuration".to_owned(),
+            count => format!("{count} named configurations"),
+        };
+        Ok(Edited {
+            files: edited.files,
+            told: format!("{}: {done}; {count}\n", shown(urdd)),
+        })
+    })
+}
+
+/// Positions as given on the command line.
+fn parsed(words: &[String]) -> Result<Vec<DofPosition>, String> {
+    let mut positions: Vec<DofPosition> = Vec::new();
+    for word in words {
+        let (name, value) = word
+            .rsplit_once('=')
+            .ok_or_else(|| format!("`{}` is not DOF=POSITION: elbow=1.57", escape::line(word)))?;
+        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
+        let position = number.ok_or_else(|| {
+            format!(
+                "`{}`: `{}` is not a number, rad or m",
+                escape::line(word),
+                escape::line(value)
+            )
+        })?;
+        if positions.iter().any(|before| before.dof_name == name) {
+            return Err(format!("the DOF `{}` is given twice", escape::line(name)));
+        }
+        positions.push(DofPosition {
+            dof_name: name.to_owned(),
+            position,
+        });
+    }
+    Ok(positions)
+}

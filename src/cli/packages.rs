@@ -1,0 +1,44 @@
+//! The arguments that say where the mesh files of a URDF are.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::signals::Signals;
+use urdd_format::escape;
+use urdd_generate::{Packages, Settings};
+
+/// Where the mesh files of a URDF are.
+#[derive(Args)]
+pub(super) struct PackageArguments {
+    /// Folder of a ROS package that a URDF names. May be repeated.
+    #[arg(long = "package", value_name = "NAME=PATH")]
+    packages: Vec<String>,
+
+    /// Additional folder that the mesh files of a URDF may be read from, and the parts of a recipe, besides those of the
+    /// robot, its packages and the recipe. May be repeated.
+    #[arg(long = "allow-folder", value_name = "DIR")]
+    allowed_folders: Vec<PathBuf>,
+}
+
+impl PackageArguments {
+    /// Settings that use them; the others are the defaults.
+    pub(super) fn settings(&self, signals: &Signals) -> Result<Settings, String> {
+        let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+        for argument in &self.packages {
+            let added = packages.add(argument);
+            added.map_err(|error| format!("--package: {}", escape::line(&error.to_string())))?;
+        }
+        if let Some(folder) = self.allowed_folders.iter().find(|it| !it.is_dir()) {
+            let folder = folder.display().to_string();
+            let folder = escape::line(&folder);
+            return Err(format!("--allow-folder: {folder} is not a folder"));
+        }
+        Ok(Settings {
+            packages,
+            allowed_folders: self.allowed_folders.clone(),
+            cancellation: signals.cancellation(),
+            ..Settings::default()
+        })
+    }
+}
