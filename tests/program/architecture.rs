@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use testkit::repository;
+use urdd_format::registry;
 use urdd_validate::code::Code;
 use urdd_validate::rules;
 
@@ -34,6 +35,12 @@ fn rust_files(folder: &Path) -> BTreeMap<PathBuf, String> {
         .filter(|(path, _)| path.ends_with(".rs"))
         .map(|(path, bytes)| (folder.join(path), String::from_utf8(bytes).expect("UTF-8")))
         .collect()
+}
+
+/// The crates have a version of their own, so what they write names the program's by a constant.
+#[test]
+fn all_say_one_version_of_the_program() {
+    assert_eq!(registry::PROGRAM_VERSION, env!("CARGO_PKG_VERSION"));
 }
 
 #[test]
