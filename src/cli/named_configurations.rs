@@ -81,6 +81,8 @@ fn shown(urdd: &Path) -> String {
 fn list(urdd: &Path) -> Result<String, String> {
     let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
     let robot = shapes::open(urdd)?;
+    // A folder that is no URDD has none either: say that.
+    robot.dof_names().map_err(|error| of_urdd(&error))?;
     let named = robot
         .named_configurations()
         .map_err(|error| of_urdd(&error))?;

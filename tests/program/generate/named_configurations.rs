@@ -107,7 +107,8 @@ fn what_cannot_be_set_changes_nothing() {
     let folder = folder.path();
     set(folder, &["home", "arm=0.25"]);
     let before = bytes_below(&target);
-    let refused: [(&[&str], &str); 9] = [
+    let refused: [(&[&str], &str); 10] = [
+        (&["list", "."], "chain_module is missing"),
         (
             &["set", "out", "home", "am=1"],
             "there is no DOF `am`; did you mean `arm`?",
