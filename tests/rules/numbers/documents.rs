@@ -303,7 +303,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "triangles-of-a-robot",
             "13.3",
-            "A file of more than 20 million triangles, instances counted, is not a mesh (7.5). The generator of this project makes URDDs of at most 3 million triangles a link and 10 million a robot and refuses others, since a URDF of some bytes names a mesh, or a sphere, as often as it likes. 4096 materials are told apart. Polygons that are not convex are cut by ears up to 10,000 corners each and 500 million",
+            "A file of more than 20 million triangles, instances counted, is not a mesh (7.5). The generator of this project makes URDDs of at most 3 million triangles a link and 10 million a robot and refuses others, since a URDF of some bytes names a mesh, or a sphere, as often as it likes. Up to 4096 materials of a mesh are told apart; faces of any other have none. Polygons that are not convex are cut by ears up to 10,000 corners each and 500 million",
             ("10,000", 10_000.0),
             vec![Sides::Elsewhere(
                 "limits of this project's programs, and no rule's: docs/security.md",

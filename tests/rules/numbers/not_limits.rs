@@ -45,7 +45,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ),
     ("5.11", "3 DOFs; see"),
     ("5.11", "SE(3)"),
-    ("6.1.6", "at least some 8.7e-155, and at most some 1.3e154"),
+    ("6.1.6", "at least some 8.6e-155, and at most some 1.3e154"),
     (
         "6.4.6",
         "a line of 180 links has paths of 1,976,340 links, one of 181 links 2,009,281",
