@@ -21,21 +21,28 @@ fn cargo(arguments: &[&str], folder: &Path) -> Vec<u8> {
     output.stdout
 }
 
+/// The program, built in the repository: elsewhere, cargo would not see its `.cargo/config.toml`, and build all of it
+/// once more with other flags.
+fn program() -> PathBuf {
+    let built = Command::new(env!("CARGO"))
+        .args(["build", "--quiet", "--bin", "urdd"])
+        .current_dir(repository())
+        .status();
+    assert!(built.expect("cargo").success());
+    repository()
+        .join("target/debug/urdd")
+        .canonicalize()
+        .expect("the program")
+}
+
 fn sarif(folder: &Path, arguments: &[&str]) -> Value {
-    let manifest = repository().join("Cargo.toml");
-    let manifest = manifest.to_str().expect("UTF-8");
-    let run = [
-        "run",
-        "--quiet",
-        "--manifest-path",
-        manifest,
-        "--bin",
-        "urdd",
-        "--",
-    ];
-    let validate = ["validate", "--format", "sarif"];
-    let text = cargo(&[&run[..], &validate, arguments].concat(), folder);
-    serde_json::from_slice(&text).expect("JSON")
+    let output = Command::new(program())
+        .args(["validate", "--format", "sarif"])
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program runs");
+    serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
 fn copy(from: &Path, to: &Path) {
