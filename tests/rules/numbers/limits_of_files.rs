@@ -214,7 +214,7 @@ pub fn numbers() -> Vec<Number> {
         number(
             "first-bytes-of-text",
             "7.5",
-            "but white space in its first 64 KiB",
+            "in its first 64 KiB, no byte below that of a space",
             ("64 KiB", 65_536.0),
             vec![Sides::Elsewhere(
                 "the same 64 KiB as of STL; crates/urdd-geometry tests it",
