@@ -60,6 +60,8 @@ def described(change: dict[str, Any]) -> list[str]:
             return [f"{file}: {every}{code(given['from'])} becomes {code(given['by'])}"]
         case {"splice": given}:
             return [f"{file}: at byte {given['at']}, {given.get('remove', 0)} bytes are replaced"]
+        case {"repeat": given}:
+            return [f"{file}: {code(given['text'])}, at byte {given['at']}, is there {given['times']:,} times"]
         case {"write": text}:
             return [f"{file} becomes {code(text)}"]
         case {"write_base64": _}:
