@@ -86,12 +86,14 @@ fn list(rules: &[&Rule]) -> String {
 }
 
 fn in_full(rule: &Rule) -> String {
-    let (code, name, clause, since) = (rule.code, rule.name, rule.clause, rule.since);
+    let (code, name, since) = (rule.code, rule.name, rule.since);
+    let clause = rule
+        .clause
+        .map(|clause| format!("SPEC.md clause {clause}; "));
+    let clause = clause.unwrap_or_default();
     let severity = rule.severity.as_str();
     let explanation = wrapped(&rule.explanation());
-    format!(
-        "{code} {name}\n{severity}; SPEC.md clause {clause}; since urdd {since}\n\n{explanation}\n"
-    )
+    format!("{code} {name}\n{severity}; {clause}since urdd {since}\n\n{explanation}\n")
 }
 
 /// Wraps text to the width of the terminal; elsewhere leaves it unchanged.

@@ -10,6 +10,7 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
+use super::xacro;
 use urdd_format::escape;
 use urdd_generate::batch::{self, Job, Shard};
 use urdd_generate::process;
@@ -59,7 +60,7 @@ pub fn run(arguments: &GenerateArguments) -> ExitCode {
 fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
     process::adopt_orphans();
-    let (robots, xacro_arguments) = split(&arguments.robots);
+    let (robots, xacro_arguments) = xacro::split(&arguments.robots);
     let settings = arguments.making.settings(xacro_arguments, &signals)?;
     let pool = arguments.making.pool()?;
     // A panic is caught and reported; the default hook would print it as well.
@@ -120,7 +121,7 @@ fn check_used<'a>(
     sources: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), String> {
     let is_expanded = |path: &Path| {
-        arguments.making.xacro || path.extension().is_some_and(|ending| ending == "xacro")
+        arguments.making.xacro.xacro || path.extension().is_some_and(|ending| ending == "xacro")
     };
     match settings.xacro.arguments.first() {
         Some(unused) if !sources.into_iter().any(is_expanded) => Err(format!(
@@ -129,23 +130,6 @@ fn check_used<'a>(
         )),
         _ => Ok(()),
     }
-}
-
-/// Splits the words into robots and xacro arguments.
-fn split(words: &[PathBuf]) -> (Vec<PathBuf>, Vec<String>) {
-    let (mut robots, mut arguments) = (Vec::new(), Vec::new());
-    for word in words {
-        let text = word.to_str().unwrap_or_default();
-        let is_argument = text.split_once(":=").is_some_and(|(name, _)| {
-            let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
-            !name.is_empty() && name.chars().all(is_of_name)
-        });
-        match is_argument {
-            true => arguments.push(text.to_owned()),
-            false => robots.push(word.clone()),
-        }
-    }
-    (robots, arguments)
 }
 
 /// Generates a single robot, whose URDD is the output folder itself.

@@ -1,17 +1,16 @@
 //! The arguments that `urdd generate` and `urdd combine` share: how to generate a URDD.
 
-use std::time::Duration;
-
 use clap::{Args, ValueEnum};
 
 use super::generate_output::Format;
 use super::packages::PackageArguments;
 use super::signals::Signals;
+use super::xacro::XacroArguments;
 use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
 use urdd_generate::train::Effort;
-use urdd_generate::{MeshFormats, Pieces, Selection, Settings, XacroSettings};
+use urdd_generate::{MeshFormats, Pieces, Selection, Settings};
 
 /// How a URDD is made.
 #[derive(Args)]
@@ -65,13 +64,8 @@ pub(super) struct MakingArguments {
     #[arg(long)]
     strict: bool,
 
-    /// Also expands macros in .urdf files, and the xacro files named in a recipe.
-    #[arg(long)]
-    pub(super) xacro: bool,
-
-    /// Time limit for xacro per file, in seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..))]
-    xacro_timeout: u32,
+    #[command(flatten)]
+    pub(super) xacro: XacroArguments,
 
     /// Drops the edits of skips and the named configurations in the URDD that is replaced. By default, a new run keeps them,
     /// or stops if it cannot.
@@ -175,11 +169,7 @@ impl MakingArguments {
             },
             num_samples: self.samples,
             model_effort: Effort::default(),
-            xacro: XacroSettings {
-                expand_urdf: self.xacro,
-                arguments: xacro_arguments,
-                time_limit: Duration::from_secs(self.xacro_timeout.into()),
-            },
+            xacro: self.xacro.settings(xacro_arguments),
             strict: self.strict,
             drop_edits: self.drop_edits,
             skipped_reasons: self.skip.as_ref().map(|skip| {

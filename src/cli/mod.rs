@@ -12,12 +12,14 @@ mod foreign;
 mod generate;
 mod generate_output;
 mod info;
+mod lint;
 mod making;
 mod named_configurations;
 mod new_extension;
 mod output;
 mod packages;
 mod rehash;
+mod reporting;
 mod schema;
 mod shapes;
 mod signals;
@@ -26,6 +28,7 @@ mod validate;
 mod validated_parts;
 mod view;
 mod words;
+mod xacro;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -57,6 +60,8 @@ enum Command {
     Combine(combine::CombineArguments),
     /// Check URDDs against the specification.
     Validate(validate::ValidateArguments),
+    /// Check URDFs: what is wrong with them, and what is odd.
+    Lint(lint::LintArguments),
     /// Compare two robots by meaning: links, joints, geometry, skipped pairs and findings.
     Diff(diff::DiffArguments),
     /// Check a robot for self-collisions, and list its nearest pairs of links.
@@ -101,6 +106,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Combine(arguments) => combine::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
+        Command::Lint(arguments) => lint::run(&arguments, color),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),

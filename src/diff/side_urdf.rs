@@ -18,7 +18,7 @@ pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {
         let place = (mesh.link, mesh.geometry, mesh.element);
-        (place, mesh.file.clone())
+        (place, mesh.file.clone().map_err(|why| why.reason))
     });
     let shapes = shapes(&view, files.collect(), |file| source.read(file));
     Ok(Side {

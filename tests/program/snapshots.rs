@@ -28,7 +28,7 @@ fn the_list_of_rules() {
                 "{} {:7} {:7} {}\n",
                 rule.code,
                 rule.severity.as_str(),
-                rule.clause,
+                rule.clause.unwrap_or_default(),
                 rule.name
             )
         })

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use urdd_format::report::Severity as Shown;
 use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::rule::Rule;
+use urdd_validate::rule::{Description, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
@@ -40,7 +40,12 @@ fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
         },
     };
     // A few, in a test.
-    Box::leak(Box::new(Rule { check, ..*rule }))
+    let description = Description { ..rule.description };
+    Box::leak(Box::new(Rule {
+        check,
+        description,
+        ..*rule
+    }))
 }
 
 /// What is wrong with the judgement of a case; `None` if nothing is.

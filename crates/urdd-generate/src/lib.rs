@@ -76,4 +76,6 @@ pub use source::XacroSettings;
 #[doc(hidden)]
 pub use source::read_urdf;
 #[doc(hidden)]
-pub use source_meshes::{SourceMesh, SourceMeshes, open_source};
+pub use source_meshes::{
+    MissingMesh, SourceMesh, SourceMeshes, SourceText, open_source, open_source_text, read_source,
+};

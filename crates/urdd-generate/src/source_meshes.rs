@@ -7,10 +7,10 @@ use std::sync::Arc;
 use super::error::GenerateError;
 use super::meshes::inspect::inspect;
 use super::meshes::original::named;
-use super::meshes::resolve::{FoundMesh, resolve};
+use super::meshes::resolve::{FoundMesh, NotFound, resolve};
 use super::meshes::roots::{Place, Roots};
 use super::settings::Settings;
-use super::source;
+use super::source::{self, Source};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::UrdfModule;
 use urdd_geometry::read::Scene;
@@ -35,8 +35,48 @@ pub struct SourceMesh {
     pub geometry: GeometryKind,
     /// Index of the element among the link's elements of that kind.
     pub element: usize,
+    /// The name as the URDF has it.
+    pub filename: String,
     /// The file with symbolic links resolved, or why there is none.
-    pub file: Result<PathBuf, String>,
+    pub file: Result<PathBuf, MissingMesh>,
+}
+
+/// Why a mesh reference has no file.
+#[derive(Debug, Clone)]
+pub struct MissingMesh {
+    /// The reason, for people.
+    pub reason: String,
+    /// A file in the same folder whose name differs in case alone.
+    pub other_case: Option<PathBuf>,
+    /// The file, which is outside of the folders that it may be in.
+    pub outside: Option<PathBuf>,
+}
+
+impl From<NotFound> for MissingMesh {
+    fn from(why: NotFound) -> Self {
+        MissingMesh {
+            reason: match &why.outside {
+                Some(path) => format!(
+                    "{} is outside of the folders of the robot and its packages; `--allow-folder` allows its folder",
+                    path.display()
+                ),
+                None => why.in_words(),
+            },
+            other_case: why.other_case,
+            outside: why.outside,
+        }
+    }
+}
+
+/// The text of a URDF file as an author sees it.
+#[derive(Debug, Clone)]
+pub struct SourceText {
+    /// The text: of the file, or what xacro made of it. Nothing is repaired.
+    pub text: String,
+    /// Whether it was expanded.
+    pub is_expanded: bool,
+    /// The folder that relative names refer to, with symbolic links resolved.
+    pub folder: PathBuf,
 }
 
 impl SourceMeshes {
@@ -57,25 +97,61 @@ impl SourceMeshes {
 pub fn open_source(path: &Path, settings: &Settings) -> Result<SourceMeshes, GenerateError> {
     let packages = &settings.packages;
     let source = source::load(path, &settings.xacro, packages, &settings.cancellation)?;
+    Ok(with_meshes(source, settings))
+}
+
+/// As [`open_source`], from a text. Relative names refer to `folder`; `shown` names it in errors.
+///
+/// # Errors
+/// If it is not a valid robot.
+pub fn open_source_text(
+    text: &str,
+    shown: &str,
+    folder: &Path,
+    settings: &Settings,
+) -> Result<SourceMeshes, GenerateError> {
+    let source = source::load_text(text.as_bytes().to_owned(), shown, folder)?;
+    Ok(with_meshes(source, settings))
+}
+
+/// Reads the text of a URDF, or expands a xacro file to one.
+///
+/// # Errors
+/// If it cannot be read or expanded.
+pub fn read_source(path: &Path, settings: &Settings) -> Result<SourceText, GenerateError> {
+    let shown = path.display().to_string();
+    let packages = &settings.packages;
+    let found = source::find(path, &shown)?;
+    let read = source::read(
+        path,
+        &shown,
+        &found.bytes,
+        &settings.xacro,
+        packages,
+        &settings.cancellation,
+        &mut Vec::new(),
+    )?;
+    Ok(SourceText {
+        text: read.text,
+        is_expanded: read.is_expanded,
+        folder: found.folder,
+    })
+}
+
+fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
+    let packages = &settings.packages;
     let roots = Roots::new(&source.folder, packages, &settings.allowed_folders);
-    let mut found: BTreeMap<&str, Result<FoundMesh, String>> = BTreeMap::new();
+    let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
     let mut meshes = Vec::new();
     for mesh in named(&source.reading.robot) {
         let found = found.entry(mesh.filename).or_insert_with(|| {
-            resolve(mesh.filename, &source.folder, packages, &roots).map_err(|why| {
-                match &why.outside {
-                    Some(path) => format!(
-                        "{} is outside of the folders of the robot and its packages; `--allow-folder` allows its folder",
-                        path.display()
-                    ),
-                    None => why.in_words(),
-                }
-            })
+            resolve(mesh.filename, &source.folder, packages, &roots).map_err(MissingMesh::from)
         });
         meshes.push(SourceMesh {
             link: mesh.link,
             geometry: mesh.geometry,
             element: mesh.element,
+            filename: mesh.filename.to_owned(),
             file: found
                 .as_ref()
                 .map(|found| found.file.clone())
@@ -84,10 +160,10 @@ pub fn open_source(path: &Path, settings: &Settings) -> Result<SourceMeshes, Gen
     }
     let places = found.into_values().flatten();
     let places = places.map(|found| (found.file, found.place)).collect();
-    Ok(SourceMeshes {
+    SourceMeshes {
         robot: source.reading.robot,
         meshes,
         roots,
         places,
-    })
+    }
 }

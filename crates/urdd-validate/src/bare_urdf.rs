@@ -47,8 +47,19 @@ pub(super) fn found(path: &Path) -> Found {
 
 /// Examines a URDF with the rules that apply to it.
 pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
-    let root = Root::open(&found.path)?;
-    let urdf = carried_urdf::read_file(&root, &found.name)?;
+    examine_file(Root::open(&found.path)?, &found.name, rules)
+}
+
+/// Examines the URDF of this name in a folder with those of the rules that apply to it.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn examine_file(
+    root: Root,
+    name: &str,
+    rules: &[&'static Rule],
+) -> Result<Examined, ReadError> {
+    let urdf = carried_urdf::read_file(&root, name)?;
     let context = Context::new(alone(root, urdf), None);
     let rules = rules.iter().copied().filter(|rule| is_for_urdf(rule));
     let mut outcomes = Outcomes::new();
@@ -64,7 +75,7 @@ pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined
             joints: robot.map(|robot| Count::saturating(robot.joints.len())),
             dofs: None,
         },
-        ..report::blank(Kind::Urdf, &found.name)
+        ..report::blank(Kind::Urdf, name)
     };
     Ok(Examined { report, checks })
 }

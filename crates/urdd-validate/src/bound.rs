@@ -64,7 +64,7 @@ mod tests {
                 finding
             };
             let findings = (0..100).map(finding).collect();
-            Check::new(rule, Outcome::Failed, findings)
+            Check::new(&rule.description, Outcome::Failed, findings)
         };
         let mut checks: Vec<Check> = rules::all().iter().take(5).map(flood).collect();
         const BYTES: usize = 1 << 20;

@@ -44,6 +44,10 @@ codes! {
     KIN001 KIN002 KIN003 KIN004 KIN005
     CNF001 CNF002 CNF003 CNF004
     LEG001 LEG002 LEG003 LEG004 LEG006 LEG007
+    LNT001 LNT002 LNT003 LNT004 LNT005 LNT006 LNT007 LNT008 LNT010 LNT011 LNT012 LNT013 LNT014 LNT015
+    LNT016 LNT017 LNT018 LNT020 LNT021 LNT022 LNT023 LNT024 LNT025 LNT026 LNT027 LNT028 LNT029 LNT030
+    LNT031 LNT032 LNT033 LNT034 LNT035 LNT037 LNT040 LNT041 LNT042 LNT043 LNT044 LNT045 LNT046 LNT047
+    LNT048 LNT050 LNT051 LNT053 LNT054
     TST001
 }
 
@@ -100,7 +104,9 @@ mod tests {
     #[test]
     fn no_number_is_missing() {
         for pair in Code::ALL.windows(2) {
-            if pair[0].family() != pair[1].family() {
+            // The rules about URDFs have the numbers of their candidates (benches/evaluation/lint), of which some were
+            // dropped before there was a rule.
+            if pair[0].family() != pair[1].family() || pair[0].family() == "LNT" {
                 continue;
             }
             let number = |code: Code| code.as_str()[3..].parse::<u32>().expect("three digits");

@@ -9,7 +9,7 @@ use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::locate::locate;
 use super::part::{NotVerified, Part, Parts};
-use super::rule::{Need, Rule, Severity};
+use super::rule::{Description, Need, Rule, Severity};
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use super::worst::worst_first;
@@ -30,8 +30,8 @@ pub enum Outcome {
 
 /// A rule and its outcome.
 pub struct Check {
-    /// The rule.
-    pub rule: &'static Rule,
+    /// What the rule says of itself.
+    pub rule: &'static Description,
     /// Severity of its findings: the rule's, unless settings change it.
     pub severity: Severity,
     /// Its outcome.
@@ -47,7 +47,11 @@ pub struct Check {
 }
 
 impl Check {
-    pub(super) fn new(rule: &'static Rule, outcome: Outcome, findings: Vec<Finding>) -> Self {
+    pub(super) fn new(
+        rule: &'static Description,
+        outcome: Outcome,
+        findings: Vec<Finding>,
+    ) -> Self {
         Check {
             rule,
             severity: rule.severity,
@@ -111,7 +115,7 @@ pub(super) fn run_all(
             // Rules that wait for each other are a fault of the rules, not of the URDD.
             for rule in later.drain(..) {
                 let outcome = Outcome::Crashed("its needs go in a circle".to_owned());
-                checks.push(Check::new(rule, outcome, Vec::new()));
+                checks.push(Check::new(&rule.description, outcome, Vec::new()));
             }
         }
         waiting = later;
@@ -125,7 +129,7 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Chec
         .iter()
         .find_map(|need| unmet(context, *need, outcomes));
     if let Some(reason) = unmet {
-        return Check::new(rule, Outcome::Skipped(reason), Vec::new());
+        return Check::new(&rule.description, Outcome::Skipped(reason), Vec::new());
     }
     let mut unsound = HashMap::new();
     for need in rule.needs {
@@ -174,7 +178,21 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) 
 
 /// The same, but leaves `findings` to the caller, without the findings that are returned.
 pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
-    let ran = catch_unwind(AssertUnwindSafe(|| (rule.check)(context, findings)));
+    let mut check = caught(&rule.description, findings, |findings| {
+        (rule.check)(context, findings)
+    });
+    locate(context, &mut check.findings);
+    check
+}
+
+/// The outcome of a check, whatever it judges. `None` from it without a reason given to [`Findings::skip`] is a fault of
+/// the rule. The findings are not located.
+pub fn caught(
+    rule: &'static Description,
+    findings: &mut Findings,
+    check: impl FnOnce(&mut Findings) -> Option<()>,
+) -> Check {
+    let ran = catch_unwind(AssertUnwindSafe(|| check(findings)));
     let completed = match ran {
         Ok(completed) => completed.is_some(),
         Err(panic) => {
@@ -203,7 +221,6 @@ pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut 
         (true, Some(reason)) => Outcome::Skipped(reason),
         (true, None) => Outcome::Passed,
     };
-    locate(context, &mut found);
     Check {
         not_verified,
         scope,

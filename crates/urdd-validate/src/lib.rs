@@ -17,7 +17,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod bare_urdf;
+#[doc(hidden)]
+pub mod bare_urdf;
 mod bound;
 pub mod code;
 #[doc(hidden)]
@@ -65,6 +66,7 @@ mod worst;
 pub use examined::Examined;
 pub use find_errors::find_errors;
 
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
@@ -72,7 +74,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use self::context::Context;
-use self::rule::Rule;
+use self::rule::{Description, Rule};
 use self::settings::Settings;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::discover::{DiscoverError, discover};
@@ -90,6 +92,33 @@ pub struct Run {
     pub folders: Vec<PathBuf>,
     /// Number of URDDs that the settings exclude.
     pub excluded: usize,
+    rules: BTreeMap<&'static str, &'static Description>,
+}
+
+impl Run {
+    /// The report on what was examined in these folders, with the settings applied.
+    #[doc(hidden)]
+    pub fn of(
+        examined: Vec<Examined>,
+        folders: Vec<PathBuf>,
+        excluded: usize,
+        settings: &Settings,
+    ) -> Run {
+        let checks = examined.iter().flat_map(|one| &one.checks);
+        Run {
+            rules: checks
+                .map(|check| (check.rule.code.as_str(), check.rule))
+                .collect(),
+            report: report::fill(examined, settings),
+            folders,
+            excluded,
+        }
+    }
+
+    /// What a rule that ran says of itself, by its code.
+    pub fn rule(&self, code: &str) -> Option<&'static Description> {
+        self.rules.get(code).copied()
+    }
 }
 
 /// Why a run has no result.
@@ -153,11 +182,9 @@ pub fn validate_with<P: AsRef<Path>>(
     });
     let examined = examined.collect();
     settings.cancellation.check()?;
-    Ok(Run {
-        report: report::fill(examined, settings),
-        excluded: all - found.len(),
-        folders: found.into_iter().map(|(_, found)| found.path).collect(),
-    })
+    let excluded = all - found.len();
+    let folders = found.into_iter().map(|(_, found)| found.path);
+    Ok(Run::of(examined, folders.collect(), excluded, settings))
 }
 
 /// Examines the URDD of a source with every rule. `name` is its name in the report. Ignores [`Settings::excludes`].
@@ -175,16 +202,14 @@ pub fn validate_source(
     });
     settings.cancellation.check()?;
     bound::trim(&mut examined.checks, bound::of_each(1));
-    Ok(Run {
-        report: report::fill(vec![examined], settings),
-        folders: vec![PathBuf::from(name)],
-        excluded: 0,
-    })
+    let folders = vec![PathBuf::from(name)];
+    Ok(Run::of(vec![examined], folders, 0, settings))
 }
 
 /// Examines a URDD. If it cannot be read, or if the program crashes outside a rule, its report says so; the other URDDs
 /// still have their reports.
-fn caught(
+#[doc(hidden)]
+pub fn caught(
     kind: Kind,
     name: &str,
     examine: impl FnOnce() -> Result<Examined, ReadError>,

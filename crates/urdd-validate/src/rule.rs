@@ -1,5 +1,7 @@
 //! What a rule is: its documentation, its needs and its check.
 
+use std::ops::Deref;
+
 use super::code::Code;
 use super::context::Context;
 use super::finding::Findings;
@@ -103,34 +105,27 @@ impl Judges {
     }
 }
 
-/// A rule: one kind of fault in a URDD.
-pub struct Rule {
+/// What a rule says of itself, to those who read a report.
+pub struct Description {
     /// Its code.
     pub code: Code,
     /// Its name, which states the fault.
     pub name: &'static str,
     /// Severity of its findings, unless settings change it.
     pub severity: Severity,
-    /// The clause of SPEC.md that it checks.
-    pub clause: &'static str,
+    /// The clause of SPEC.md that it checks; `None` for rules about robots, which are not of SPEC.md.
+    pub clause: Option<&'static str>,
     /// The first version of urdd that has it.
     pub since: &'static str,
     /// Effect of the fault on users of the URDD.
     pub consequence: Consequence,
     /// When it runs.
     pub phase: Phase,
-    /// What it judges.
-    pub judges: Judges,
-    /// What it needs.
-    pub needs: &'static [Need],
     /// Its documentation in Markdown, line by line: what is wrong, why it matters, what to do.
     pub doc: &'static [&'static str],
-    /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
-    /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.
-    pub check: fn(&Context, &mut Findings) -> Option<()>,
 }
 
-impl Rule {
+impl Description {
     /// Its documentation as a single text.
     pub fn explanation(&self) -> String {
         let lines: Vec<&str> = self
@@ -148,6 +143,27 @@ impl Rule {
             .next()
             .unwrap_or_default()
             .replace('\n', " ")
+    }
+}
+
+/// A rule: one kind of fault in a URDD.
+pub struct Rule {
+    /// What it says of itself.
+    pub description: Description,
+    /// What it judges.
+    pub judges: Judges,
+    /// What it needs.
+    pub needs: &'static [Need],
+    /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
+    /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.
+    pub check: fn(&Context, &mut Findings) -> Option<()>,
+}
+
+impl Deref for Rule {
+    type Target = Description;
+
+    fn deref(&self) -> &Description {
+        &self.description
     }
 }
 
@@ -188,18 +204,21 @@ macro_rules! declare_rule {
             #[allow(unused_imports)]
             use $crate::code::Code::*;
             $crate::rule::Rule {
-                code: $crate::code::Code::$code,
-                name: $name,
-                severity: $crate::rule::Severity::$severity,
-                clause: $clause,
-                since: $since,
-                consequence: {
-                    #[allow(unused_variables)]
-                    let consequence = $crate::rule::of_family(stringify!($code));
-                    $(let consequence = $crate::rule::Consequence::$consequence;)?
-                    consequence
+                description: $crate::rule::Description {
+                    code: $crate::code::Code::$code,
+                    name: $name,
+                    severity: $crate::rule::Severity::$severity,
+                    clause: Some($clause),
+                    since: $since,
+                    consequence: {
+                        #[allow(unused_variables)]
+                        let consequence = $crate::rule::of_family(stringify!($code));
+                        $(let consequence = $crate::rule::Consequence::$consequence;)?
+                        consequence
+                    },
+                    phase: $crate::rule::Phase::$phase,
+                    doc: &[$($doc),+],
                 },
-                phase: $crate::rule::Phase::$phase,
                 judges: [
                     $($crate::rule::Judges::$judges,)?
                     $crate::rule::Judges::by_phase(
@@ -207,7 +226,6 @@ macro_rules! declare_rule {
                     ),
                 ][0],
                 needs: &[$($need),*],
-                doc: &[$($doc),+],
                 check,
             }
         };

@@ -64,8 +64,10 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     }
     if let Some(differs) = differs {
         for check in &mut checks {
-            if let Some(second) = again.remove(&check.rule.code) {
-                put_together(check, second, context, &by_urdf);
+            let rule = rules.iter().find(|rule| rule.code == check.rule.code);
+            let second = again.remove(&check.rule.code);
+            if let Some((rule, second)) = rule.zip(second) {
+                put_together(rule, check, second, [context, &by_urdf]);
             }
         }
         tell_why_skipped(&mut checks, differs);
@@ -84,11 +86,11 @@ fn difference(outcomes: &Outcomes) -> Option<Code> {
 }
 
 /// Combines the check by `urdf_module` with the check by the URDF.
-fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &Context) {
+fn put_together(rule: &'static Rule, check: &mut Check, second: Check, contexts: [&Context; 2]) {
     let both = match (&check.outcome, &second.outcome) {
         (Outcome::Crashed(_), _) | (_, Outcome::Skipped(_)) => return,
         (Outcome::Skipped(_), _) | (_, Outcome::Crashed(_)) => second,
-        (Outcome::Failed, Outcome::Failed) => at_fault_by_both(check, &second, context, by_urdf),
+        (Outcome::Failed, Outcome::Failed) => at_fault_by_both(rule, [&*check, &second], contexts),
         (Outcome::Passed, _) | (_, Outcome::Passed) => {
             Check::new(check.rule, Outcome::Passed, Vec::new())
         }
@@ -98,11 +100,15 @@ fn put_together(check: &mut Check, second: Check, context: &Context, by_urdf: &C
 
 /// The findings of a rule at the places where it failed both times. Runs it once more, because only the first of many
 /// findings are kept.
-fn at_fault_by_both(first: &Check, second: &Check, context: &Context, by_urdf: &Context) -> Check {
+fn at_fault_by_both(
+    rule: &'static Rule,
+    [first, second]: [&Check; 2],
+    [context, by_urdf]: [&Context; 2],
+) -> Check {
     let mut spots = Findings::remembering_spots().within(first.scope.afresh());
-    judge_into(context, first.rule, &mut spots);
+    judge_into(context, rule, &mut spots);
     let both = Findings::only_at(spots.into_spots()).within(second.scope.afresh());
-    judge(by_urdf, first.rule, both)
+    judge(by_urdf, rule, both)
 }
 
 /// Replaces the reason of rules that were skipped because of a rule that no longer has findings: the two robots differ.

@@ -29,6 +29,8 @@ pub(crate) struct NotFound {
     pub hint: Option<String>,
     /// An existing file outside all allowed folders.
     pub outside: Option<PathBuf>,
+    /// An existing file whose name differs in case alone.
+    pub other_case: Option<PathBuf>,
 }
 
 impl NotFound {
@@ -220,6 +222,7 @@ impl Search<'_> {
                 if let Some(near) = other_case(path) {
                     let hint = format!("there is {}, whose case differs", near.display());
                     self.not_found.hint.get_or_insert(hint);
+                    self.not_found.other_case.get_or_insert(near);
                 }
             }
         }

@@ -69,8 +69,42 @@ pub(crate) fn load(
     cancellation: &Cancellation,
 ) -> Result<Source, GenerateError> {
     let shown = path.display().to_string();
+    let File {
+        bytes,
+        canonical,
+        folder,
+    } = find(path, &shown)?;
+    let mut notes = Vec::new();
+    let read = read(
+        path,
+        &shown,
+        &bytes,
+        xacro,
+        packages,
+        cancellation,
+        &mut notes,
+    )?;
+    let names = names(&canonical);
+    let text = (read.text, read.is_verbatim);
+    source(shown, folder, names, bytes, text, notes)
+}
+
+/// A file on disk.
+pub(crate) struct File {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// Its path, and that of its folder, with symbolic links resolved.
+    pub canonical: PathBuf,
+    pub folder: PathBuf,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// If it cannot be read, or is too large.
+pub(crate) fn find(path: &Path, shown: &str) -> Result<File, GenerateError> {
     let unreadable = |reason: String| GenerateError::Read {
-        file: shown.clone(),
+        file: shown.to_owned(),
         reason,
     };
     let bytes = read_file(path, MAX_SOURCE_BYTES).map_err(unreadable)?;
@@ -80,19 +114,49 @@ pub(crate) fn load(
     let folder = canonical
         .parent()
         .map_or_else(|| PathBuf::from("."), Path::to_owned);
+    Ok(File {
+        bytes,
+        canonical,
+        folder,
+    })
+}
 
-    let mut notes = Vec::new();
-    let (mut text, mut is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
+/// A text before it is repaired.
+pub(crate) struct Read {
+    pub text: String,
+    /// Whether it is an exact decoding of the bytes.
+    pub is_verbatim: bool,
+    /// Whether xacro made it.
+    pub is_expanded: bool,
+}
+
+/// Decodes the bytes of a file, and expands them where they are macros.
+///
+/// # Errors
+/// If it is no text, or xacro fails.
+pub(crate) fn read(
+    path: &Path,
+    shown: &str,
+    bytes: &[u8],
+    xacro: &XacroSettings,
+    packages: &Packages,
+    cancellation: &Cancellation,
+    notes: &mut Vec<Note>,
+) -> Result<Read, GenerateError> {
+    let (text, is_verbatim) = decode::decode(bytes, shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = path
         .extension()
         .is_some_and(|extension| extension == "xacro");
-    if is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:")) {
-        text = xacro::expand(path, &shown, xacro, packages, cancellation)?;
-        is_verbatim = false;
-    }
-    let names = names(&canonical);
-    source(shown, folder, names, bytes, (text, is_verbatim), notes)
+    let is_expanded = is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:"));
+    Ok(Read {
+        text: match is_expanded {
+            true => xacro::expand(path, shown, xacro, packages, cancellation)?,
+            false => text,
+        },
+        is_verbatim: is_verbatim && !is_expanded,
+        is_expanded,
+    })
 }
 
 /// Reads a URDF from memory, such as from a pipe. Relative names refer to `folder`.

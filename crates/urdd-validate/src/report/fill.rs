@@ -47,7 +47,7 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
 }
 
 /// The report on a URDD before anything is known about it. `path` is its path in the report.
-pub(crate) fn blank(kind: Kind, path: &str) -> Urdd {
+pub fn blank(kind: Kind, path: &str) -> Urdd {
     Urdd {
         kind,
         path: path.to_owned(),
@@ -180,7 +180,7 @@ fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {
         name: check.rule.name.to_owned(),
         severity: check.severity,
         default_severity: check.rule.severity,
-        clause: Some(check.rule.clause.to_owned()),
+        clause: check.rule.clause.map(str::to_owned),
         consequence: check.rule.consequence,
         module,
         file: here.file,

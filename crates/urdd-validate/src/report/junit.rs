@@ -10,9 +10,10 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
-use super::{human, rule};
+use super::human;
+use crate::Run;
 use urdd_format::escape;
-use urdd_format::report::{CheckStatus, Finding, Report, Severity, Status, Urdd};
+use urdd_format::report::{CheckStatus, Finding, Severity, Status, Urdd};
 
 type Out = Writer<Vec<u8>>;
 
@@ -21,10 +22,11 @@ type Out = Writer<Vec<u8>>;
 ///
 /// # Errors
 /// Never: it is written to memory.
-pub fn junit(report: &Report, places: &[String], fail_on: Severity) -> io::Result<String> {
+pub fn junit(run: &Run, places: &[String], fail_on: Severity) -> io::Result<String> {
+    let report = &run.report;
     let urdds = report.urdds.iter().zip(places);
     let suites: Vec<Suite> = urdds
-        .map(|(urdd, place)| Suite::new(urdd, place, fail_on))
+        .map(|(urdd, place)| Suite::new(run, urdd, place, fail_on))
         .collect();
     let sum = |count: fn(&Suite) -> usize| suites.iter().map(count).sum::<usize>().to_string();
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 2);
@@ -55,9 +57,10 @@ struct Case {
 }
 
 impl Suite {
-    fn new(urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
+    fn new(run: &Run, urdd: &Urdd, place: &str, fail_on: Severity) -> Suite {
         let checks = urdd.checks.iter();
-        let mut cases: Vec<Case> = checks.map(|check| case(urdd, check, fail_on)).collect();
+        let case = |check| case(run, urdd, check, fail_on);
+        let mut cases: Vec<Case> = checks.map(case).collect();
         if let Some(reason) = &urdd.reason {
             let kind = urdd.verdict.as_str().to_owned();
             let outcome = ("error", kind, allowed(reason), String::new());
@@ -129,7 +132,7 @@ impl Case {
     }
 }
 
-fn case(urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
+fn case(run: &Run, urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
     let findings: Vec<&Finding> = urdd
         .findings
         .iter()
@@ -152,7 +155,7 @@ fn case(urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
         (Status::Skipped, _) => plain("skipped", "skipped"),
         (Status::Crashed, _) => plain("error", "crashed"),
     };
-    let name = rule(&check.code).map_or("", |rule| rule.name);
+    let name = run.rule(&check.code).map_or("", |rule| rule.name);
     Case {
         // The same on every run, so that a case can be followed through runs.
         name: format!("{} {name}", check.code),

@@ -16,20 +16,14 @@ mod words;
 
 use serde::Serialize;
 
-use crate::rule::Rule;
-use crate::rules;
 use urdd_format::escape;
 
-pub(crate) use fill::{blank, fill};
+#[doc(hidden)]
+pub use fill::blank;
+pub(crate) use fill::fill;
 pub use github::github;
 pub use junit::junit;
 pub use sarif::sarif;
-
-/// The rule that a report names by its code.
-fn rule(code: &str) -> Option<&'static Rule> {
-    let mut all = rules::all().into_iter().chain([&rules::testing::CRASHING]);
-    all.find(|rule| rule.code.as_str() == code)
-}
 
 /// A report, or other output, as JSON, indented, with a newline at its end.
 ///

@@ -10,16 +10,15 @@ use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use super::place::file_in;
-use super::{rule, unverified};
+use super::unverified;
+use crate::Run;
 use crate::code::Code;
-use crate::rule::Rule;
+use crate::rule::Description;
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::readable::number;
-use urdd_format::report::{
-    CheckStatus, Finding, Fix, Place, Report, Severity, Status, Urdd, Verdict,
-};
+use urdd_format::report::{CheckStatus, Finding, Fix, Place, Severity, Status, Urdd, Verdict};
 
 /// Base of relative paths: the working directory, under the name that readers of SARIF use for the root of a
 /// repository.
@@ -41,8 +40,9 @@ const KEPT: &AsciiSet = &NON_ALPHANUMERIC
 ///
 /// # Errors
 /// Never for the report of a [`Run`](crate::Run).
-pub fn sarif(report: &Report, places: &[String], exit_code: u8) -> serde_json::Result<String> {
-    let rules = Rules::used(report);
+pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<String> {
+    let report = &run.report;
+    let rules = Rules::used(run);
     let placed = || report.urdds.iter().zip(places);
     let results: Vec<Value> = placed()
         .flat_map(|(urdd, place)| results(urdd, place, &rules))
@@ -105,14 +105,14 @@ pub fn sarif(report: &Report, places: &[String], exit_code: u8) -> serde_json::R
 }
 
 /// The rules that the report names, in order of code.
-struct Rules(BTreeMap<Code, &'static Rule>);
+struct Rules(BTreeMap<Code, &'static Description>);
 
 impl Rules {
-    fn used(report: &Report) -> Rules {
-        let checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
+    fn used(run: &Run) -> Rules {
+        let checks = run.report.urdds.iter().flat_map(|urdd| &urdd.checks);
         let used = checks
             .filter(|check| matches!(check.status, Status::Failed | Status::Crashed))
-            .filter_map(|check| rule(&check.code));
+            .filter_map(|check| run.rule(&check.code));
         Rules(used.map(|rule| (rule.code, rule)).collect())
     }
 
@@ -125,11 +125,14 @@ impl Rules {
     }
 }
 
-fn describe(rule: &Rule) -> Value {
+fn describe(rule: &Description) -> Value {
+    let clause = rule
+        .clause
+        .map(|clause| format!("SPEC.md, clause {clause}. "));
     let help = format!(
-        "{}\n\nSPEC.md, clause {}. `urdd explain {}` says the same.",
+        "{}\n\n{}`urdd explain {}` says the same.",
         rule.explanation(),
-        rule.clause,
+        clause.unwrap_or_default(),
         rule.code
     );
     json!({

@@ -8,22 +8,24 @@ use urdd_validate::code::Code;
 use urdd_validate::context::Context;
 use urdd_validate::engine::Outcome;
 use urdd_validate::finding::Findings;
-use urdd_validate::rule::{Consequence, Judges, Need, Phase, Rule, Severity};
+use urdd_validate::rule::{Consequence, Description, Judges, Need, Phase, Rule, Severity};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::skip::SkipReason;
 
 static FORGETFUL: Rule = Rule {
-    code: Code::TST001,
-    name: "takes-the-composition",
-    severity: Severity::Error,
-    clause: "13.1",
-    since: "0.2.0",
-    consequence: Consequence::Format,
-    phase: Phase::References,
+    description: Description {
+        code: Code::TST001,
+        name: "takes-the-composition",
+        severity: Severity::Error,
+        clause: Some("13.1"),
+        since: "0.2.0",
+        consequence: Consequence::Format,
+        phase: Phase::References,
+        doc: &[" Takes a module that it does not need."],
+    },
     judges: Judges::AsItStands,
     needs: &[],
-    doc: &[" Takes a module that it does not need."],
     check: |context, _| {
         context.document(urdd_format::registry::ModuleKind::Composition)?;
         Some(())

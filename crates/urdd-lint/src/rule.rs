@@ -1,0 +1,46 @@
+//! What a rule of the family LNT is.
+
+use super::subject::Subject;
+use urdd_validate::finding::Findings;
+pub use urdd_validate::rule::Description;
+
+/// A rule about URDFs.
+pub struct LintRule {
+    /// What it says of itself.
+    pub description: Description,
+    /// Whether it runs where neither `--select` nor `[severity]` of the settings names it.
+    pub on_by_default: bool,
+    /// Reports what it finds. `None`: what it judges is not there, for a reason given to [`Findings::skip`].
+    pub check: fn(&Subject, &mut Findings) -> Option<()>,
+}
+
+/// Declares the rule of a file as `RULE`, checked by the file's function `check`. `urdd explain` prints its
+/// documentation.
+macro_rules! declare_lint {
+    (
+        $(#[doc = $doc:literal])+
+        $code:ident $name:literal, $severity:ident, $consequence:ident, since $since:literal
+        $(, $default:ident by default)?
+    ) => {
+        $(#[doc = $doc])+
+        pub static RULE: $crate::rule::LintRule = $crate::rule::LintRule {
+            description: $crate::rule::Description {
+                code: urdd_validate::code::Code::$code,
+                name: $name,
+                severity: urdd_validate::rule::Severity::$severity,
+                clause: None,
+                since: $since,
+                consequence: urdd_validate::rule::Consequence::$consequence,
+                phase: urdd_validate::rule::Phase::References,
+                doc: &[$($doc),+],
+            },
+            on_by_default: true $(&& $crate::rule::$default)?,
+            check,
+        };
+    };
+}
+pub(crate) use declare_lint;
+
+/// `off by default`, in a declaration.
+#[allow(non_upper_case_globals)]
+pub(crate) const off: bool = false;

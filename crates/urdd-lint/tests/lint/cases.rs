@@ -1,0 +1,102 @@
+//! `tests/cases/CODE/invalid*.urdf` and `near_miss*.urdf`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use urdd_format::report::Verdict;
+use urdd_lint::{LintRule, LintSettings, lint, rules};
+use urdd_validate::code::Code;
+
+fn folder_of(code: Code) -> PathBuf {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases")).join(code.as_str())
+}
+
+/// The URDFs of a rule whose names begin with `prefix`.
+fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder_of(code));
+    let entries = entries.unwrap_or_else(|error| panic!("{code} has no cases: {error}"));
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut found: Vec<PathBuf> = paths
+        .filter(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(prefix) && name.ends_with(".urdf")
+        })
+        .collect();
+    found.sort();
+    assert!(!found.is_empty(), "{code} has no case {prefix}*.urdf");
+    found
+}
+
+/// The codes and messages of what is found, with all rules that are on by default, and this one.
+fn found(rule: &LintRule, file: &Path) -> Vec<(String, String)> {
+    let mut settings = LintSettings::default();
+    let description = &rule.description;
+    settings
+        .report
+        .severities
+        .insert(description.code, description.severity);
+    let run = lint(&[file.to_owned()], &settings).expect("a report");
+    let report = run.report.urdds.into_iter().next().expect("one file");
+    assert_ne!(
+        report.verdict,
+        Verdict::Unreadable,
+        "{}: {:?}",
+        file.display(),
+        report.reason
+    );
+    assert_ne!(
+        report.verdict,
+        Verdict::Incomplete,
+        "{}: a rule crashed",
+        file.display()
+    );
+    let findings = report.findings.into_iter();
+    findings
+        .map(|finding| (finding.code, finding.message))
+        .collect()
+}
+
+#[test]
+fn a_rule_alone_finds_its_fault() {
+    for rule in rules::all() {
+        let code = rule.description.code;
+        for file in cases(code, "invalid") {
+            let found = found(rule, &file);
+            let codes: BTreeSet<&str> = found.iter().map(|(code, _)| code.as_str()).collect();
+            assert_eq!(
+                codes,
+                BTreeSet::from([code.as_str()]),
+                "{}: {found:#?}",
+                file.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_near_miss_has_no_finding() {
+    for rule in rules::all() {
+        for file in cases(rule.description.code, "near_miss") {
+            assert_eq!(found(rule, &file), [], "{}", file.display());
+        }
+    }
+}
+
+#[test]
+fn every_code_of_the_family_is_a_rule_and_every_folder_a_code() {
+    let declared: BTreeSet<Code> = rules::all()
+        .iter()
+        .map(|rule| rule.description.code)
+        .collect();
+    let codes = Code::ALL.iter().filter(|code| code.family() == "LNT");
+    assert_eq!(declared, codes.copied().collect());
+    for entry in fs::read_dir(folder_of(Code::LNT001).parent().expect("a folder")).expect("read") {
+        let name = entry.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        assert!(
+            name == "meshes" || Code::parse(&name).is_some(),
+            "no rule has the cases {name}"
+        );
+    }
+}

@@ -1,0 +1,212 @@
+//! The arguments and the report that `urdd validate` and `urdd lint` share.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::output::{self, Color};
+use super::words::Level;
+use urdd_directory::regular;
+use urdd_format::escape;
+use urdd_format::report::{Report, Severity, Verdict};
+use urdd_validate::Run;
+use urdd_validate::report::place::places;
+use urdd_validate::report::style::Style;
+use urdd_validate::report::{self, human};
+use urdd_validate::selection::Codes;
+use urdd_validate::settings::{Exclude, Settings};
+
+/// Maximum size of a settings file, in bytes.
+const MAX_SETTINGS_BYTES: u64 = 1 << 20;
+
+/// Exit status: conforming.
+const CONFORMING: u8 = 0;
+/// Exit status: findings.
+const FINDINGS: u8 = 1;
+/// Exit status: a rule panicked.
+const INTERNAL: u8 = 101;
+
+/// What is reported, and how.
+#[derive(Args)]
+pub(super) struct ReportArguments {
+    /// Format of the report on standard output.
+    #[arg(long, value_enum, default_value_t = Format::Human)]
+    format: Format,
+
+    /// Also writes the report to a file, in the format of the file's extension: .sarif, .xml (JUnit),
+    /// otherwise JSON. May be repeated.
+    #[arg(long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+
+    /// Lowest severity of findings that fails the run; default: `error`.
+    #[arg(long, value_name = "SEVERITY")]
+    fail_on: Option<Level>,
+
+    /// Settings file; default: urdd.toml in the current folder, if it exists.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+
+    /// Leaves out folders with this path, relative to the given path; `*` and `**` as in .gitignore.
+    /// May be repeated; in urdd.toml it is `exclude`.
+    #[arg(long, value_name = "GLOB")]
+    exclude: Vec<String>,
+
+    /// Reports these rules only: codes or families (MSH, DOF003), separated by commas.
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    select: Vec<Codes>,
+
+    /// Leaves out these rules: codes or families.
+    #[arg(long, value_name = "CODES", value_delimiter = ',')]
+    ignore: Vec<Codes>,
+
+    /// Shows every URDD in full; by default, more than three are summarized.
+    #[arg(long)]
+    full: bool,
+
+    /// Maximum number of places shown per finding in the human format; the other formats list all.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..))]
+    max_places: u16,
+
+    /// Leaves out URDDs without findings.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// How a report is written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Text for people.
+    Human,
+    /// JSON; its schema is `urdd schema show report@1.0.0`.
+    Json,
+    /// SARIF 2.1.0, for GitHub code scanning and editors. Run at the root of the repository.
+    Sarif,
+    /// Workflow commands of GitHub Actions: annotations in pull requests, without an upload.
+    Github,
+    /// JUnit XML, for tools that show test results: a suite for each URDD, a case for each rule.
+    Junit,
+}
+
+impl Format {
+    /// The format for a file name.
+    fn of_file(file: &Path) -> Format {
+        let name = file.to_string_lossy().to_ascii_lowercase();
+        if name.ends_with(".sarif") || name.ends_with(".sarif.json") {
+            Format::Sarif
+        } else if name.ends_with(".xml") {
+            Format::Junit
+        } else {
+            Format::Json
+        }
+    }
+}
+
+impl ReportArguments {
+    /// The settings, of the file and of the command line.
+    pub(super) fn settings(&self) -> Result<Settings, String> {
+        for file in &self.output {
+            output::check_name(file)?;
+        }
+        let default = PathBuf::from("urdd.toml");
+        let file = match &self.config {
+            Some(file) => Some(file),
+            None => default.is_file().then_some(&default),
+        };
+        let mut settings = match file {
+            None => Settings::default(),
+            Some(file) => read_settings(file)?,
+        };
+        for pattern in &self.exclude {
+            let exclude = Exclude::new(pattern).map_err(|error| format!("--exclude: {error}"))?;
+            settings.excludes.push(exclude);
+        }
+        settings.selection.select.clone_from(&self.select);
+        settings.selection.ignore.clone_from(&self.ignore);
+        settings.fail_on = self.fail_on.map(Level::severity).or(settings.fail_on);
+        Ok(settings)
+    }
+
+    /// Writes the report to standard output and to the files; returns the exit status.
+    pub(super) fn write(&self, run: &Run, settings: &Settings, color: Color) -> Result<u8, String> {
+        if run.report.urdds.is_empty() {
+            let excluded = run.excluded;
+            return Err(format!(
+                "nothing to examine: everything found ({excluded}) is excluded"
+            ));
+        }
+        let report = &run.report;
+        let status = status(report);
+        let current = std::env::current_dir().unwrap_or_default();
+        let places = places(run, &current);
+        let style = Style {
+            color: color.on(std::io::stdout().is_terminal()),
+            quiet: self.quiet,
+            full: self.full,
+            max_places: self.max_places.into(),
+            width: output::width().unwrap_or(Style::default().width),
+        };
+        let render = |format: Format| -> Result<String, String> {
+            match format {
+                Format::Json => report::json(report).map_err(|error| error.to_string()),
+                Format::Sarif => {
+                    report::sarif(run, &places, status).map_err(|error| error.to_string())
+                }
+                Format::Junit => {
+                    let fail_on = settings.fail_on.unwrap_or(Severity::Error);
+                    report::junit(run, &places, fail_on).map_err(|error| error.to_string())
+                }
+                Format::Github => {
+                    let mut text = String::new();
+                    report::github(report, &places, &mut text)
+                        .map_err(|error| error.to_string())?;
+                    Ok(text)
+                }
+                Format::Human => {
+                    let mut text = String::new();
+                    human::write(report, style, &mut text).map_err(|error| error.to_string())?;
+                    Ok(text)
+                }
+            }
+        };
+        // A failed file does not keep the others from being written.
+        let mut failures = Vec::new();
+        for file in &self.output {
+            let text = render(Format::of_file(file))?;
+            failures.extend(output::write_file(file, &text).err());
+        }
+        let text = render(self.format)?;
+        let printed = match self.format {
+            Format::Github => {
+                output::print_raw(&text).and_then(|()| output::print(&render(Format::Human)?))
+            }
+            _ => output::print(&text),
+        };
+        failures.extend(printed.err());
+        match failures.is_empty() {
+            true => Ok(status),
+            false => Err(failures.join("\nurdd: ")),
+        }
+    }
+}
+
+fn status(report: &Report) -> u8 {
+    if report.count(Verdict::Incomplete) > 0 {
+        INTERNAL
+    } else if report.count(Verdict::Unreadable) == report.urdds.len() {
+        output::USAGE
+    } else if report.count(Verdict::Pass) == report.urdds.len() {
+        CONFORMING
+    } else {
+        FINDINGS
+    }
+}
+
+fn read_settings(file: &Path) -> Result<Settings, String> {
+    let shown = file.display().to_string();
+    let shown = escape::line(&shown);
+    let bytes =
+        regular::read(file, MAX_SETTINGS_BYTES).map_err(|error| format!("{shown}: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{shown}: it is not UTF-8"))?;
+    Settings::from_toml(&text).map_err(|error| format!("{shown}: {error}"))
+}
