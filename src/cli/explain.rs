@@ -9,8 +9,7 @@ use super::output::{self, printed};
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
 use urdd_validate::report;
-use urdd_validate::rule::Rule;
-use urdd_validate::rules;
+use urdd_validate::rule::Description;
 use urdd_validate::selection::Codes;
 
 /// Arguments of `urdd explain`.
@@ -37,12 +36,13 @@ const WIDEST: usize = 100;
 
 /// Runs `urdd explain`.
 pub fn run(arguments: &ExplainArguments) -> ExitCode {
-    let all = rules::all();
+    let all = all();
     let wanted = match &arguments.rule {
         None => all,
         Some(wanted) => {
             let codes = wanted.parse::<Codes>().ok();
-            let meant = |rule: &&Rule| {
+            let meant = |explained: &Explained| {
+                let rule = explained.rule;
                 rule.name == wanted || codes.is_some_and(|codes| codes.holds(rule.code))
             };
             all.into_iter().filter(meant).collect()
@@ -54,8 +54,28 @@ pub fn run(arguments: &ExplainArguments) -> ExitCode {
         ([rule], Format::Human) if one => printed(output::print(&in_full(rule))),
         (rules, Format::Human) => printed(output::print(&list(rules))),
         ([rule], Format::Json) if one => print_json(&as_json(rule)),
-        (rules, Format::Json) => print_json(&rules.iter().map(|rule| as_json(rule)).collect()),
+        (rules, Format::Json) => print_json(&rules.iter().map(as_json).collect()),
     }
+}
+
+/// A rule to explain.
+struct Explained {
+    rule: &'static Description,
+    is_on_by_default: bool,
+}
+
+/// The rules of `urdd validate`, then those that only `urdd lint` has.
+fn all() -> Vec<Explained> {
+    let of_urdds = urdd_validate::rules::all().into_iter();
+    let of_urdds = of_urdds.map(|rule| (&rule.description, true));
+    let of_urdfs = urdd_lint::rules::all().into_iter();
+    let of_urdfs = of_urdfs.map(|rule| (&rule.description, rule.on_by_default));
+    let both = of_urdds.chain(of_urdfs);
+    both.map(|(rule, is_on_by_default)| Explained {
+        rule,
+        is_on_by_default,
+    })
+    .collect()
 }
 
 /// Explains a retired code. Any other word is a usage error.
@@ -75,9 +95,11 @@ fn without_rule(wanted: &str, format: Format) -> ExitCode {
     }
 }
 
-fn list(rules: &[&Rule]) -> String {
-    let width = rules.iter().map(|rule| rule.name.len()).max().unwrap_or(0);
-    let line = |rule: &&Rule| {
+fn list(rules: &[Explained]) -> String {
+    let lengths = rules.iter().map(|explained| explained.rule.name.len());
+    let width = lengths.max().unwrap_or(0);
+    let line = |explained: &Explained| {
+        let rule = explained.rule;
         let severity = rule.severity.as_str();
         let (code, name, summary) = (rule.code, rule.name, rule.summary());
         format!("{code}  {severity:7}  {name:width$}  {summary}\n")
@@ -85,15 +107,20 @@ fn list(rules: &[&Rule]) -> String {
     rules.iter().map(line).collect()
 }
 
-fn in_full(rule: &Rule) -> String {
+fn in_full(explained: &Explained) -> String {
+    let rule = explained.rule;
     let (code, name, since) = (rule.code, rule.name, rule.since);
     let clause = rule
         .clause
         .map(|clause| format!("SPEC.md clause {clause}; "));
     let clause = clause.unwrap_or_default();
     let severity = rule.severity.as_str();
+    let off = match explained.is_on_by_default {
+        true => "",
+        false => "off unless --select or [severity] of urdd.toml names it; ",
+    };
     let explanation = wrapped(&rule.explanation());
-    format!("{code} {name}\n{severity}; {clause}since urdd {since}\n\n{explanation}\n")
+    format!("{code} {name}\n{severity}; {off}{clause}since urdd {since}\n\n{explanation}\n")
 }
 
 /// Wraps text to the width of the terminal; elsewhere leaves it unchanged.
@@ -133,7 +160,8 @@ fn items(text: &str) -> Vec<String> {
     items
 }
 
-fn as_json(rule: &Rule) -> Value {
+fn as_json(explained: &Explained) -> Value {
+    let rule = explained.rule;
     json!({
         "code": rule.code.as_str(),
         "name": rule.name,
@@ -141,6 +169,7 @@ fn as_json(rule: &Rule) -> Value {
         "clause": rule.clause,
         "since": rule.since,
         "consequence": rule.consequence,
+        "on_by_default": explained.is_on_by_default,
         "summary": rule.summary(),
         "explanation": rule.explanation(),
     })

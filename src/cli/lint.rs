@@ -1,29 +1,55 @@
 //! `urdd lint`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
+use similar::TextDiff;
 
 use super::output::{self, Color};
 use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
-use urdd_lint::LintSettings;
+use urdd_directory::regular;
+use urdd_format::escape;
+use urdd_lint::{Baseline, LintSettings, Mended};
+use urdd_validate::Run;
+
+/// Maximum size of a baseline, in bytes.
+const MAX_BASELINE_BYTES: u64 = 64 << 20;
 
 /// Arguments of `urdd lint`.
 #[derive(Args)]
 #[command(
     after_help = "The rules are explained by `urdd explain LNT`, `urdd explain SRC`, and in docs/lint.md.\n\n\
-    Exit status: 0 no findings at or above --fail-on; 1 findings; 2 usage error, nothing could be examined, or a report \
-    could not be written; 101 a rule crashed (a bug in this program)."
+    `<!-- urdd: allow LNT001 why -->` before an element allows a finding in it; [[ignore]] and [severity] in urdd.toml \
+    are as for `urdd validate`.\n\n\
+    Exit status: 0 no findings at or above --fail-on, or nothing to change with --diff; 1 findings, or changes with \
+    --diff; 2 usage error, nothing could be examined, or a file could not be written; 101 a rule crashed (a bug in this \
+    program)."
 )]
 pub struct LintArguments {
     /// URDFs or xacro files, or folders with .urdf and .urdf.xacro files at any depth. `name:=value` is an argument for
     /// xacro.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
+
+    /// Mends what has one right answer, in the files, then reports what is left. Every other byte stays.
+    #[arg(long)]
+    fix: bool,
+
+    /// Shows what --fix would change, and changes nothing.
+    #[arg(long, conflicts_with = "fix")]
+    diff: bool,
+
+    /// Leaves out the findings in this file, which --write-baseline made.
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
+
+    /// Writes what is found into a file, for --baseline.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["baseline", "fix", "diff"])]
+    write_baseline: Option<PathBuf>,
 
     #[command(flatten)]
     report: ReportArguments,
@@ -45,16 +71,101 @@ fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
     let mut settings = LintSettings {
         report: arguments.report.settings()?,
         source: arguments.packages.settings(&signals)?,
+        baseline: arguments
+            .baseline
+            .as_deref()
+            .map(read_baseline)
+            .transpose()?,
     };
     settings.report.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
     settings.source.xacro = arguments.xacro.settings(xacro_arguments);
     // A panic of a rule is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
-    let run = urdd_lint::lint(&paths, &settings).map_err(|error| error.to_string());
+    let result = work(arguments, &paths, &settings, color);
     let _ = std::panic::take_hook();
-    if let Some(status) = signals.status() {
-        return Ok(status);
+    match signals.status() {
+        Some(status) => Ok(status),
+        None => result,
     }
-    arguments.report.write(&run?, &settings.report, color)
+}
+
+fn work(
+    arguments: &LintArguments,
+    paths: &[PathBuf],
+    settings: &LintSettings,
+    color: Color,
+) -> Result<u8, String> {
+    if arguments.fix || arguments.diff {
+        let mended = urdd_lint::mend(paths, settings).map_err(|error| error.to_string())?;
+        if arguments.diff {
+            return show(&mended);
+        }
+        write(&mended)?;
+    }
+    let run = urdd_lint::lint(paths, settings).map_err(|error| error.to_string())?;
+    if let Some(file) = &arguments.write_baseline {
+        return write_baseline(file, &run);
+    }
+    arguments.report.write(&run, &settings.report, color)
+}
+
+/// Prints what would change, as a patch.
+fn show(mended: &[Mended]) -> Result<u8, String> {
+    let mut text = String::new();
+    for one in mended {
+        let name = escape::line(&one.path.display().to_string()).into_owned();
+        let diff = TextDiff::from_lines(&one.before, &one.after);
+        text += &diff.unified_diff().header(&name, &name).to_string();
+    }
+    output::print(&text)?;
+    Ok(u8::from(!mended.is_empty()))
+}
+
+/// Writes the mended files. A file that was changed meanwhile stays.
+fn write(mended: &[Mended]) -> Result<(), String> {
+    for one in mended {
+        let shown = one.path.display().to_string();
+        one.check()
+            .map_err(|error| format!("{}: {error}", escape::line(&shown)))?;
+        output::write_bytes(&one.path, one.after.as_bytes())?;
+        let places = match one.places {
+            1 => "1 place".to_owned(),
+            places => format!("{places} places"),
+        };
+        output::error(&format!("mended {places} in {}", escape::line(&shown)));
+    }
+    Ok(())
+}
+
+fn read_baseline(file: &Path) -> Result<Baseline, String> {
+    let shown = file.display().to_string();
+    let shown = escape::line(&shown);
+    let bytes =
+        regular::read(file, MAX_BASELINE_BYTES).map_err(|error| format!("{shown}: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{shown}: it is not UTF-8"))?;
+    Baseline::from_json(&text, folder_of(file)).map_err(|error| format!("{shown}: {error}"))
+}
+
+/// Writes a baseline. A file that is there must be one.
+fn write_baseline(file: &Path, run: &Run) -> Result<u8, String> {
+    if file.exists() {
+        read_baseline(file)?;
+    }
+    let baseline = Baseline::of(run, folder_of(file));
+    output::write_file(file, &baseline.to_json())?;
+    let shown = file.display().to_string();
+    let shown = escape::line(&shown);
+    let findings = match baseline.count() {
+        1 => "1 finding".to_owned(),
+        count => format!("{count} findings"),
+    };
+    output::print(&format!(
+        "{shown}: {findings}, which `urdd lint --baseline {shown}` leaves out\n"
+    ))?;
+    Ok(0)
+}
+
+fn folder_of(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new("."))
 }

@@ -274,7 +274,7 @@ fn settings() {
         .iter()
         .find(|check| check["code"] == "DIR020")
         .expect("a check");
-    assert_eq!(check["reason"], "ignored by the settings: renamed soon");
+    assert_eq!(check["reason"], "ignored: renamed soon");
     // For another URDD: it matches nothing, and a message says so.
     let output = with(&ignore.replace("bad/", "ba/"), &["."]);
     assert_eq!(output.status.code(), Some(1));

@@ -4,12 +4,18 @@
 //! source. The rules are about robots, not about URDDs: they are described in docs/lint.md, and may change with every
 //! version. [`lint`] examines files, [`lint_text`] a text that an editor holds.
 
+mod allow;
+mod baseline;
+mod fix;
 mod geometry;
 mod inertial;
+mod places;
 mod rule;
 pub mod rules;
 mod subject;
 
+pub use baseline::{Baseline, BaselineError};
+pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 
 use std::collections::BTreeMap;
@@ -24,7 +30,7 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;
-use urdd_format::report::{Kind, Verdict};
+use urdd_format::report::{Kind, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
 use urdd_generate::{SourceMeshes, open_source_text, read_source};
 use urdd_validate::engine::caught;
@@ -40,6 +46,8 @@ pub struct LintSettings {
     pub report: Settings,
     /// Where packages and meshes are, and how xacro files are expanded.
     pub source: urdd_generate::Settings,
+    /// What was found before, and is not reported.
+    pub baseline: Option<Baseline>,
 }
 
 /// Why a run has no result.
@@ -59,66 +67,101 @@ pub enum LintError {
 /// # Errors
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
-    let jobs = jobs(paths)?;
-    let all = jobs.len();
-    let files: Vec<PathBuf> = jobs.into_iter().map(|job| job.source).collect();
-    let shown = |path: &Path| path.to_string_lossy().replace('\\', "/");
-    let files: Vec<PathBuf> = files
-        .into_iter()
-        .filter(|path| {
-            let mut excludes = settings.report.excludes.iter();
-            !excludes.any(|exclude| exclude.matches(&shown(path)))
-        })
-        .collect();
-    let examined = files.par_iter().map(|path| {
-        let name = file_name(path);
-        urdd_validate::caught(Kind::Urdf, &name, || Ok(lint_file(path, &name, settings)))
-    });
-    let examined: Vec<Examined> = examined.collect();
+    let (files, excluded) = sources(paths, settings)?;
+    let linted = files
+        .par_iter()
+        .map(|path| lint_file(path, paths, settings));
+    let (examined, stale): (Vec<Examined>, Vec<Vec<StaleIgnore>>) = linted.unzip();
     settings.report.cancellation.check()?;
-    let folders = files.iter().map(|path| folder_of(path));
-    let folders = folders.collect();
-    Ok(Run::of(
-        examined,
-        folders,
-        all - files.len(),
-        &settings.report,
-    ))
+    let folders = files.iter().map(|path| stems(path).0).collect();
+    let mut run = Run::of(examined, folders, excluded, &settings.report);
+    run.report.stale_ignores.extend(stale.into_iter().flatten());
+    Ok(run)
 }
 
-fn file_name(path: &Path) -> String {
+/// The files to lint, and the number of those that the settings exclude.
+fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<(Vec<PathBuf>, usize), LintError> {
+    let mut files: Vec<PathBuf> = jobs(paths)?.into_iter().map(|job| job.source).collect();
+    let all = files.len();
+    files.retain(|path| {
+        let seen = seen_from(path, paths);
+        !settings
+            .report
+            .excludes
+            .iter()
+            .any(|exclude| exclude.matches(&seen))
+    });
+    let excluded = all - files.len();
+    Ok((files, excluded))
+}
+
+/// The folder and the name of a file.
+fn stems(path: &Path) -> (PathBuf, String) {
     let name = path.file_name().unwrap_or_default();
-    name.to_string_lossy().into_owned()
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    (folder.to_owned(), name.to_string_lossy().into_owned())
 }
 
-fn folder_of(path: &Path) -> PathBuf {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-        _ => PathBuf::from("."),
+/// The path of a file from the path that was given; its own name where that is the file.
+fn seen_from(path: &Path, given: &[PathBuf]) -> String {
+    let inside = given.iter().find_map(|given| path.strip_prefix(given).ok());
+    match inside.filter(|inside| !inside.as_os_str().is_empty()) {
+        Some(inside) => inside.to_string_lossy().replace('\\', "/"),
+        None => stems(path).1,
     }
 }
 
-fn lint_file(path: &Path, name: &str, settings: &LintSettings) -> Examined {
-    let read = match read_source(path, &settings.source) {
-        Ok(read) => read,
-        Err(error) => {
-            let mut report = urdd_validate::report::blank(Kind::Urdf, name);
-            (report.verdict, report.reason) = (Verdict::Unreadable, Some(error.to_string()));
-            return Examined {
-                report,
-                checks: Vec::new(),
-            };
+fn lint_file(
+    path: &Path,
+    given: &[PathBuf],
+    settings: &LintSettings,
+) -> (Examined, Vec<StaleIgnore>) {
+    let (seen, name) = (seen_from(path, given), stems(path).1);
+    let mut stale = Vec::new();
+    let mut examined = urdd_validate::caught(Kind::Urdf, &seen, || {
+        let read = match read_source(path, &settings.source) {
+            Ok(read) => read,
+            Err(error) => return Ok(unreadable(&name, error.to_string())),
+        };
+        let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
+        stale.extend(unused);
+        if let Some(baseline) = &settings.baseline {
+            stale.extend(baseline.apply(path, &mut examined));
         }
-    };
-    lint_text(&read.text, name, &read.folder, settings)
+        Ok(examined)
+    });
+    examined.report.path = seen;
+    (examined, stale)
+}
+
+fn unreadable(name: &str, reason: String) -> Examined {
+    let mut report = urdd_validate::report::blank(Kind::Urdf, name);
+    (report.verdict, report.reason) = (Verdict::Unreadable, Some(reason));
+    Examined {
+        report,
+        checks: Vec::new(),
+    }
 }
 
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
+    examined(text, name, folder, settings).0
+}
+
+/// The result, and the comments that allow what was not found.
+fn examined(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    settings: &LintSettings,
+) -> (Examined, Vec<StaleIgnore>) {
     let mut examined = by_validator(text, name);
     let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Robot) else {
-        return examined;
+        return (examined, Vec::new());
     };
     let source: Option<SourceMeshes> = open_source_text(text, name, folder, &settings.source).ok();
     let subject = Subject::new(name, folder, &document, source.as_ref());
@@ -139,7 +182,8 @@ pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings)
         check.findings.iter_mut().for_each(without_pointers);
         examined.checks.push(check);
     }
-    examined
+    let stale = allow::apply(&document, name, &mut examined.checks);
+    (examined, stale)
 }
 
 /// The pointers that findings are folded by are no pointers into a document.

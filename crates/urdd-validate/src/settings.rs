@@ -13,7 +13,7 @@ use super::rule::Severity;
 use super::selection::Selection;
 use super::skip::SkipReason;
 use urdd_directory::cancellation::Cancellation;
-use urdd_format::report::StaleIgnore;
+use urdd_format::report::{Kind, StaleIgnore};
 use urdd_format::root_metadata::ConformanceClass;
 
 /// Settings of a run.
@@ -72,7 +72,7 @@ impl Exclude {
 pub struct Ignore {
     /// The rule; `None` for all.
     pub code: Option<Code>,
-    /// Matches the URDD's name, a slash, and the file's path.
+    /// Matches the URDD's name, a slash, and the file's path; for a URDF by itself, also its path alone.
     pub path: GlobSet,
     /// The pattern as written.
     pub pattern: String,
@@ -178,7 +178,9 @@ impl Settings {
                     let path = format!("{}/{file}", report.path);
                     let ignore = self.ignores.iter().position(|ignore| {
                         ignore.code.is_none_or(|code| code == check.rule.code)
-                            && ignore.path.is_match(&path)
+                            && (ignore.path.is_match(&path)
+                                || (report.kind == Kind::Urdf
+                                    && ignore.path.is_match(&report.path)))
                     });
                     if let Some(place) = ignore {
                         used[place] = true;

@@ -146,7 +146,7 @@ impl fmt::Display for SkipReason {
             SkipReason::TooMuchWork { deep: true } => f.write_str(
                 "counting its collisions again takes more work than even --deep allows",
             ),
-            SkipReason::Ignored(reason) => write!(f, "ignored by the settings: {reason}"),
+            SkipReason::Ignored(reason) => write!(f, "ignored: {reason}"),
         }
     }
 }

@@ -13,7 +13,7 @@ fn folder_of(code: Code) -> PathBuf {
 }
 
 /// The URDFs of a rule whose names begin with `prefix`.
-fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
+pub fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder_of(code));
     let entries = entries.unwrap_or_else(|error| panic!("{code} has no cases: {error}"));
     let paths = entries.map(|entry| entry.expect("an entry").path());
@@ -26,6 +26,28 @@ fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
     found.sort();
     assert!(!found.is_empty(), "{code} has no case {prefix}*.urdf");
     found
+}
+
+/// A copy of a case's folder, with all that the case names, and the case in it.
+pub fn copied(case: &Path) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut left = vec![(
+        case.parent().expect("a folder").to_owned(),
+        folder.path().to_owned(),
+    )];
+    while let Some((from, to)) = left.pop() {
+        fs::create_dir_all(&to).expect("a folder");
+        for entry in fs::read_dir(&from).expect("read") {
+            let entry = entry.expect("an entry");
+            let (path, copy) = (entry.path(), to.join(entry.file_name()));
+            match path.is_dir() {
+                true => left.push((path, copy)),
+                false => drop(fs::copy(&path, &copy).expect("copied")),
+            }
+        }
+    }
+    let file = folder.path().join(case.file_name().expect("a name"));
+    (folder, file)
 }
 
 /// The codes and messages of what is found, with all rules that are on by default, and this one.

@@ -1,3 +1,38 @@
-//! Each rule has a URDF that only it finds a fault in, and one that is nearly the same and has none.
+//! The rules by their cases, and what leaves out or mends what they find.
 
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod allow;
+mod baseline;
 mod cases;
+mod fix;
+
+use std::fs;
+use std::path::Path;
+
+use urdd_lint::{LintSettings, lint};
+use urdd_validate::Run;
+
+/// A slide whose axis has length 1.01: one finding of LNT012, with a fix.
+const SLIDE: &str = include_str!("../cases/LNT012/invalid.urdf");
+
+/// What is found in one file.
+fn linted(file: &Path, settings: &LintSettings) -> Run {
+    lint(&[file.to_owned()], settings).expect("a report")
+}
+
+/// The codes of all places, in the order of the report.
+fn codes(run: &Run) -> Vec<String> {
+    let findings = run.report.urdds.iter().flat_map(|urdf| &urdf.findings);
+    let places = findings.flat_map(|finding| vec![finding.code.clone(); finding.count.get()]);
+    places.collect()
+}
+
+/// A folder with a file `slide.urdf` of this text, and its path.
+fn written(text: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("slide.urdf");
+    fs::write(&file, text).expect("written");
+    (folder, file)
+}

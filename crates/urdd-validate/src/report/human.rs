@@ -12,7 +12,7 @@ use urdd_format::readable::number;
 use urdd_format::registry::ModuleKind;
 
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
-use super::words::{list, plural};
+use super::words::{list, plural, unit};
 use super::{summary, unverified};
 use crate::skip::SkipReason;
 use urdd_format::report::{
@@ -42,7 +42,7 @@ pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result
         let code = ignore.code.as_deref().unwrap_or("all rules");
         writeln!(
             out,
-            "{} the ignore of {code} at `{}` in the settings matches nothing: remove it, or correct its path",
+            "{} the ignore of {code} at `{}` matches nothing: remove it, or correct it",
             style.paint(YELLOW, "note:"),
             safe(&ignore.path)
         )?;
@@ -86,8 +86,13 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     }
     if !brief {
         write_skipped(urdd, style, out)?;
-        if urdd.kind == Kind::Urdf {
-            let hint = "this is a URDF, judged by itself; `urdd generate` makes a URDD of it";
+        let is_linted = urdd
+            .checks
+            .iter()
+            .any(|check| check.code.starts_with("LNT"));
+        if urdd.kind == Kind::Urdf && !is_linted {
+            let hint =
+                "this is a URDF: `urdd lint` finds more in it, `urdd generate` makes a URDD of it";
             writeln!(out, "  {}", style.paint(DIM, hint))?;
         }
     }
@@ -302,7 +307,7 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
     writeln!(
         out,
         "{}: {}. {}: {}, {}, {}.",
-        style.paint(BOLD, plural(totals.urdds.get(), "URDD")),
+        style.paint(BOLD, plural(totals.urdds.get(), unit(report))),
         verdicts.join(", "),
         plural(
             totals.error.get() + totals.warning.get() + totals.info.get(),

@@ -8,8 +8,8 @@ use std::fmt::{self, Write};
 use super::causes::{Cause, causes};
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::unverified::{self, not_verified};
-use super::words::plural;
-use crate::rules;
+use super::words::{plural, unit};
+use crate::code::Code;
 use urdd_format::escape::line as safe;
 use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
@@ -27,8 +27,7 @@ fn column(family: &str) -> &str {
 /// The columns of all rules, in the order of their codes.
 fn columns() -> Vec<&'static str> {
     let mut seen = BTreeSet::new();
-    let all = rules::all().into_iter();
-    let columns = all.map(|rule| column(rule.code.family()));
+    let columns = Code::ALL.iter().map(|code| column(code.family()));
     columns.filter(|column| seen.insert(*column)).collect()
 }
 
@@ -59,7 +58,7 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
                 above = Some(cause.consequence());
                 writeln!(out, "  {}", words(cause.consequence()))?;
             }
-            write_cause(cause, style, out)?;
+            write_cause(cause, unit(report), style, out)?;
         }
         write_more(errors.len(), most, style, out)?;
         writeln!(out)?;
@@ -68,14 +67,15 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
         writeln!(out, "{}", style.paint(BOLD, "Warnings, and worth knowing"))?;
         let most = if style.full { lesser.len() } else { LESSER };
         for cause in lesser.iter().take(most) {
-            write_cause(cause, style, out)?;
+            write_cause(cause, unit(report), style, out)?;
         }
         write_more(lesser.len(), most, style, out)?;
         writeln!(out)?;
     }
     write_not_checked(report, style, out)?;
     if !style.full {
-        let hint = "In full: `urdd validate` with one URDD, or --full; every place: --format json.";
+        let unit = unit(report);
+        let hint = format!("In full: one {unit}, or --full; every place: --format json.");
         writeln!(out, "{}", style.paint(DIM, hint))?;
     }
     Ok(())
@@ -105,19 +105,19 @@ fn words(consequence: Consequence) -> &'static str {
     }
 }
 
-fn write_cause(cause: &Cause<'_>, style: Style, out: &mut impl Write) -> fmt::Result {
+fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write) -> fmt::Result {
     let code = style.paint(BOLD, &cause.first.code);
     let word = severity(cause.severity, style);
     let times = match cause.times {
         1 => "once".to_owned(),
         times => format!("{times} times"),
     };
-    let mut text = format!("{times} in {}", plural(cause.urdds.len(), "URDD"));
+    let mut text = format!("{times} in {}", plural(cause.urdds.len(), unit));
     if cause.subjects > 1 && cause.subjects < cause.times {
         text += &format!(", at {} {}", cause.subjects, kinds(cause));
     }
     if cause.borrowed > 0 {
-        let text_of = |count| plural(count, "URDD");
+        let text_of = |count| plural(count, unit);
         text += &format!(
             ", {} only by the parts that it names",
             text_of(cause.borrowed)
@@ -167,12 +167,12 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     }
     writeln!(out, "{}", style.paint(BOLD, "Not checked"))?;
     if !unverified.is_empty() {
-        let urdds = plural(unverified.len(), "URDD");
+        let urdds = plural(unverified.len(), unit(report));
         let text = not_verified(unverified.iter().sum());
         writeln!(out, "    {text}, in {urdds}")?;
     }
     if models > 0 {
-        let urdds = plural(models, "URDD");
+        let urdds = plural(models, unit(report));
         writeln!(out, "    {}, in {urdds}", unverified::MODEL)?;
     }
     let mut reasons: Vec<_> = by_reason.into_iter().collect();
@@ -182,7 +182,7 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         let rules = plural(codes.len(), "rule");
         let text = format!(
             "    {rules} in {}: {}",
-            plural(*urdds, "URDD"),
+            plural(*urdds, unit(report)),
             safe(reason)
         );
         writeln!(out, "{}", shorten(&text, style.width))?;
@@ -217,7 +217,7 @@ fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Resu
         let lengths = names.iter().map(|name| name.chars().count());
         let width = lengths.max().unwrap_or(0).max(4);
         let titles: String = columns.iter().map(|title| format!(" {title:>4}")).collect();
-        let heading = format!("{:width$}{titles}", "URDD");
+        let heading = format!("{:width$}{titles}", unit(report));
         writeln!(out, "{}", style.paint(BOLD, heading))?;
         for (name, urdd) in names.iter().zip(&rows) {
             write!(out, "{name:width$}")?;
@@ -241,7 +241,7 @@ fn write_table(report: &Report, style: Style, out: &mut impl Write) -> fmt::Resu
     }
     if clean > 0 {
         let others = if rows.is_empty() { "" } else { " more" };
-        let text = format!("{}{others} without findings", plural(clean, "URDD"));
+        let text = format!("{}{others} without findings", plural(clean, unit(report)));
         writeln!(out, "{}", style.paint(GREEN, text))?;
     }
     writeln!(out)
@@ -307,10 +307,10 @@ mod tests {
     #[test]
     fn each_family_of_rules_has_one_column() {
         let columns = columns();
-        for rule in rules::all() {
-            let own = column(rule.code.family());
+        for code in Code::ALL {
+            let own = column(code.family());
             let times = columns.iter().filter(|column| **column == own).count();
-            assert_eq!(times, 1, "{}", rule.code);
+            assert_eq!(times, 1, "{code}");
         }
         assert_eq!(columns[..3], ["DIR", "TXT", "URD"]);
     }

@@ -1,5 +1,7 @@
 //! Wording shared by several renderers.
 
+use urdd_format::report::{Kind, Report, Urdd};
+
 /// A list of codes; if there are many, their number and families.
 pub(super) fn list(codes: &[String]) -> String {
     const MOST: usize = 8;
@@ -13,6 +15,15 @@ pub(super) fn list(codes: &[String]) -> String {
     families.sort_unstable();
     families.dedup();
     format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))
+}
+
+/// What a report is about.
+pub(super) fn unit(report: &Report) -> &'static str {
+    let is_urdf = |urdd: &Urdd| urdd.kind == Kind::Urdf;
+    match !report.urdds.is_empty() && report.urdds.iter().all(is_urdf) {
+        true => "URDF",
+        false => "URDD",
+    }
 }
 
 /// A count with its unit.

@@ -1,0 +1,145 @@
+//! Comments in a URDF that allow findings: `<!-- urdd: allow LNT001, LNT003 the cable is not drawn -->`.
+//!
+//! A comment stands for the element that follows it, with all that is in it; before `<robot>`, for the whole file; and
+//! behind an element on the same line, for that element.
+
+use std::str::FromStr;
+
+use roxmltree::{Document, Node};
+
+use super::places::retain;
+use urdd_directory::position::{LineIndex, Position};
+use urdd_format::report::StaleIgnore;
+use urdd_validate::engine::{Check, Outcome};
+use urdd_validate::selection::Codes;
+
+/// A code in a comment.
+struct Allow {
+    written: String,
+    /// `None`: there is no such rule.
+    codes: Option<Codes>,
+    /// The comment's line.
+    line: u32,
+    /// The first and the last position of what it stands for.
+    from: Position,
+    to: Position,
+    is_used: bool,
+}
+
+/// Leaves out what comments allow. Returns what they allow and no rule found.
+pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<StaleIgnore> {
+    let mut allows = allows(document);
+    for check in checks.iter_mut().filter(|check| !check.findings.is_empty()) {
+        let code = check.rule.code;
+        retain(check, "a comment in the file allows it", |place| {
+            let (Some(line), Some(column)) = (place.line, place.column) else {
+                return true;
+            };
+            let at = (line.get(), column.get());
+            let mut keeps = true;
+            for allow in &mut allows {
+                let (from, to) = (numbers(allow.from), numbers(allow.to));
+                if allow.codes.is_some_and(|codes| codes.holds(code)) && from <= at && at <= to {
+                    (allow.is_used, keeps) = (true, false);
+                }
+            }
+            keeps
+        });
+    }
+    // What a rule that did not run would have found is not known.
+    let ran = |codes: Codes| {
+        let mut meant = checks
+            .iter()
+            .filter(|check| codes.holds(check.rule.code))
+            .peekable();
+        meant.peek().is_some()
+            && meant
+                .all(|check| !matches!(check.outcome, Outcome::Skipped(_) | Outcome::Crashed(_)))
+    };
+    let stale = allows
+        .iter()
+        .filter(|allow| !allow.is_used && allow.codes.is_none_or(ran));
+    stale
+        .map(|allow| StaleIgnore {
+            code: Some(allow.written.clone()),
+            path: format!("{name}:{}", allow.line),
+        })
+        .collect()
+}
+
+fn numbers(position: Position) -> (usize, usize) {
+    (position.line as usize, position.column as usize)
+}
+
+fn allows(document: &Document) -> Vec<Allow> {
+    let comments = document.descendants().filter(Node::is_comment);
+    let comments = comments.filter_map(|node| Some((node, codes_of(node.text()?)?)));
+    let comments: Vec<_> = comments.collect();
+    if comments.is_empty() {
+        return Vec::new();
+    }
+    let lines = LineIndex::new(document.input_text());
+    let mut allows = Vec::new();
+    for (comment, codes) in comments {
+        let start = lines.position(comment.range().start);
+        let ends_on_this_line = |node: &Node| lines.position(node.range().end).line == start.line;
+        let before = comment.prev_sibling_element().filter(ends_on_this_line);
+        let Some(element) = before.or_else(|| comment.next_sibling_element()) else {
+            continue;
+        };
+        let range = element.range();
+        allows.extend(codes.into_iter().map(|code| Allow {
+            codes: Codes::from_str(code).ok(),
+            written: code.to_owned(),
+            line: start.line,
+            from: lines.position(range.start),
+            to: lines.position(range.end),
+            is_used: false,
+        }));
+    }
+    allows
+}
+
+/// The codes that a comment allows; `None` if it is another comment.
+fn codes_of(text: &str) -> Option<Vec<&str>> {
+    let listed = text
+        .trim()
+        .strip_prefix("urdd:")?
+        .trim_start()
+        .strip_prefix("allow")?;
+    let mut codes = Vec::new();
+    let mut rest = listed.strip_prefix(char::is_whitespace)?.trim_start();
+    loop {
+        let end = rest
+            .find(|c: char| !c.is_ascii_alphanumeric())
+            .unwrap_or(rest.len());
+        let (code, after) = rest.split_at(end);
+        if !code.is_empty() {
+            codes.push(code);
+        }
+        match after.trim_start().strip_prefix(',') {
+            Some(next) if !code.is_empty() => rest = next.trim_start(),
+            _ => return Some(codes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_stand_before_the_reason() {
+        assert_eq!(
+            codes_of(" urdd: allow LNT001 SRC, really "),
+            Some(vec!["LNT001"])
+        );
+        assert_eq!(
+            codes_of("urdd:allow LNT001 , SRC: see #3, #4"),
+            Some(vec!["LNT001", "SRC"])
+        );
+        assert_eq!(codes_of(" urdd: allow "), None);
+        assert_eq!(codes_of(" urdd: allowance "), None);
+        assert_eq!(codes_of(" a comment about urdd: allow LNT001 "), None);
+    }
+}

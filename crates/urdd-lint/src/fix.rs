@@ -1,0 +1,159 @@
+//! Mends what has one right answer.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::{LintError, LintSettings, sources, stems};
+use urdd_directory::position::LineIndex;
+use urdd_format::index::Count;
+use urdd_format::report::{Fix, Place, TextEdit};
+use urdd_xml::element::{Edit, apply};
+
+/// How often a file is examined again: a mended fault may uncover another one.
+const ROUNDS: usize = 10;
+/// Stays where it is.
+const BYTE_ORDER_MARK: &str = "\u{feff}";
+
+/// A file whose text changes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mended {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text as it was read.
+    pub before: String,
+    /// The text that is to be there.
+    pub after: String,
+    /// Number of mended places.
+    pub places: usize,
+}
+
+/// Why a mended file was not written.
+#[derive(Debug, Error)]
+pub enum ChangedError {
+    /// Somebody wrote to it meanwhile.
+    #[error("the file was changed while it was examined, and is left as it is; run it again")]
+    Changed,
+    /// It is gone, or cannot be read.
+    #[error("the file cannot be read again: {0}")]
+    Unreadable(#[from] std::io::Error),
+}
+
+impl Mended {
+    /// Checks that the file is still the one that was read.
+    ///
+    /// # Errors
+    /// If it is not.
+    pub fn check(&self) -> Result<(), ChangedError> {
+        match fs::read(&self.path)? == self.before.as_bytes() {
+            true => Ok(()),
+            false => Err(ChangedError::Changed),
+        }
+    }
+}
+
+/// What the safe fixes of all findings make of the files, as `lint` would report them. Writes nothing. Text that xacro made
+/// is left out, as is a file that is not UTF-8: its places are not those of a text that a person wrote.
+///
+/// # Errors
+/// If a path has nothing to examine, or the run is cancelled.
+pub fn mend(paths: &[PathBuf], settings: &LintSettings) -> Result<Vec<Mended>, LintError> {
+    let (files, _) = sources(paths, settings)?;
+    let mended = files.par_iter().filter_map(|path| mended(path, settings));
+    let mended = mended.collect();
+    settings.report.cancellation.check()?;
+    Ok(mended)
+}
+
+fn mended(path: &Path, settings: &LintSettings) -> Option<Mended> {
+    let read = urdd_generate::read_source(path, &settings.source).ok()?;
+    let before = String::from_utf8(fs::read(path).ok()?).ok()?;
+    let mark = if before.starts_with(BYTE_ORDER_MARK) {
+        BYTE_ORDER_MARK
+    } else {
+        ""
+    };
+    if read.is_expanded || read.text != before[mark.len()..] {
+        return None;
+    }
+    let (folder, name) = stems(path);
+    let folder = folder.canonicalize().unwrap_or(folder);
+    let mut text = read.text;
+    let mut places = 0;
+    for _ in 0..ROUNDS {
+        let mut examined = [super::lint_text(&text, &name, &folder, settings)];
+        if let Some(baseline) = &settings.baseline {
+            baseline.apply(path, &mut examined[0]);
+        }
+        settings.report.apply(&mut examined);
+        let findings = examined[0].checks.iter().flat_map(|check| &check.findings);
+        let found =
+            findings.flat_map(|finding| std::iter::once(&finding.place).chain(&finding.more));
+        let (next, mended) = with_fixes(&text, &name, found);
+        if mended == 0 || settings.report.cancellation.is_cancelled() {
+            break;
+        }
+        (text, places) = (next, places + mended);
+    }
+    let after = format!("{mark}{text}");
+    (after != before).then(|| Mended {
+        path: path.to_owned(),
+        before,
+        after,
+        places,
+    })
+}
+
+/// The text with the safe fix of each place, and their number. Of two that overlap, the second waits.
+fn with_fixes<'a>(
+    text: &str,
+    name: &str,
+    places: impl Iterator<Item = &'a Place>,
+) -> (String, usize) {
+    let lines = LineIndex::new(text);
+    let fixes = places.filter_map(|place| {
+        let of_file = |fix: &&Fix| fix.is_safe && fix.edits.iter().all(|edit| edit.file == name);
+        place.fixes.iter().find(of_file)
+    });
+    let mut all: Vec<Edit> = Vec::new();
+    let mut mended = 0;
+    for fix in fixes {
+        let edits: Option<Vec<Edit>> = fix
+            .edits
+            .iter()
+            .map(|edit| edit_of(text, &lines, edit))
+            .collect();
+        let Some(edits) = edits else { continue };
+        let touches = |edit: &Edit| {
+            let near = |other: &Edit| {
+                edit.range.start <= other.range.end && other.range.start <= edit.range.end
+            };
+            all.iter().any(near)
+        };
+        if edits.iter().any(touches) {
+            continue;
+        }
+        mended += 1;
+        all.extend(edits);
+    }
+    (apply(text, all), mended)
+}
+
+fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
+    let start = offset(text, lines, edit.line, edit.column)?;
+    let end = offset(text, lines, edit.end_line, edit.end_column)?;
+    (start <= end).then(|| Edit {
+        range: start..end,
+        text: edit.text.clone(),
+    })
+}
+
+/// The byte offset of a line and column, both from 1.
+fn offset(text: &str, lines: &LineIndex, line: Count, column: Count) -> Option<usize> {
+    let start = lines.line_start(line.get())?;
+    let rest = text.get(start..)?;
+    let mut ends = rest.char_indices().map(|(at, _)| at).chain([rest.len()]);
+    Some(start + ends.nth(column.get().checked_sub(1)?)?)
+}

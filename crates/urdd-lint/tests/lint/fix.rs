@@ -1,0 +1,79 @@
+//! Fixes mend what they say, once, and change nothing else.
+
+use std::fs;
+use std::path::Path;
+
+use super::cases::{cases, copied};
+use super::{SLIDE, codes, linted, written};
+use urdd_lint::{LintSettings, mend, rules};
+
+#[test]
+fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
+    let mut mended_by = Vec::new();
+    for rule in rules::all() {
+        let code = rule.description.code;
+        for case in cases(code, "invalid") {
+            let (_folder, file) = copied(&case);
+            let mut settings = LintSettings::default();
+            settings
+                .report
+                .severities
+                .insert(code, rule.description.severity);
+            let mended = mend(std::slice::from_ref(&file), &settings).expect("it");
+            let Some(mended) = mended.into_iter().next() else {
+                continue;
+            };
+            mended_by.push(code.as_str());
+            let before = fs::read_to_string(&file).expect("it");
+            assert_eq!(before, mended.before, "nothing is written");
+            fs::write(&file, &mended.after).expect("written");
+            let left = codes(&linted(&file, &settings));
+            assert!(
+                !left.contains(&code.as_str().to_owned()),
+                "{}: {left:?}",
+                case.display()
+            );
+            let again = mend(std::slice::from_ref(&file), &settings).expect("it");
+            assert_eq!(again, [], "{}", case.display());
+        }
+    }
+    assert!(mended_by.contains(&"LNT012"), "{mended_by:?}");
+}
+
+#[test]
+fn every_other_byte_stays() {
+    let text = format!("\u{feff}<!-- \u{1F916} -->\n{SLIDE}").replace('\n', "\r\n");
+    let (_folder, file) = written(&text);
+    let mended = mend(std::slice::from_ref(&file), &LintSettings::default()).expect("it");
+    let [mended] = &mended[..] else {
+        panic!("{mended:?}");
+    };
+    let (start, end) = text.split_once("0 0 1.01").expect("it");
+    assert!(
+        mended.after.starts_with(start) && mended.after.ends_with(end),
+        "{}",
+        mended.after
+    );
+    let axis = &mended.after[start.len()..mended.after.len() - end.len()];
+    let axis: Vec<f64> = axis
+        .split(' ')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    assert_eq!(axis, [0.0, 0.0, 1.0]);
+    assert_eq!(mended.places, 1);
+    mended.check().expect("unchanged");
+    fs::write(&file, SLIDE).expect("written");
+    assert!(mended.check().is_err(), "somebody wrote to it");
+}
+
+#[test]
+fn what_is_allowed_or_ignored_is_not_mended() {
+    let allowed = SLIDE.replace("<axis", "<!-- urdd: allow LNT012 --><axis");
+    let (_folder, file) = written(&allowed);
+    let of = |file: &Path, settings: &LintSettings| mend(&[file.to_owned()], settings).expect("it");
+    assert_eq!(of(&file, &LintSettings::default()), []);
+    let (_folder, file) = written(SLIDE);
+    let mut settings = LintSettings::default();
+    settings.report.selection.ignore = vec!["LNT012".parse().expect("a code")];
+    assert_eq!(of(&file, &settings), []);
+}
