@@ -78,4 +78,5 @@ pub use source::read_urdf;
 #[doc(hidden)]
 pub use source_meshes::{
     MissingMesh, SourceMesh, SourceMeshes, SourceText, open_source, open_source_text, read_source,
+    well_formed,
 };

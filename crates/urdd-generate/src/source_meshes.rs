@@ -10,6 +10,7 @@ use super::meshes::original::named;
 use super::meshes::resolve::{FoundMesh, NotFound, resolve};
 use super::meshes::roots::{Place, Roots};
 use super::settings::Settings;
+use super::source::repair::mend_xml;
 use super::source::{self, Source};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::UrdfModule;
@@ -50,6 +51,8 @@ pub struct MissingMesh {
     pub other_case: Option<PathBuf>,
     /// The file, which is outside of the folders that it may be in.
     pub outside: Option<PathBuf>,
+    /// The package, if there is none of this name.
+    pub no_package: Option<String>,
 }
 
 impl From<NotFound> for MissingMesh {
@@ -64,6 +67,7 @@ impl From<NotFound> for MissingMesh {
             },
             other_case: why.other_case,
             outside: why.outside,
+            no_package: why.no_package,
         }
     }
 }
@@ -112,6 +116,13 @@ pub fn open_source_text(
 ) -> Result<SourceMeshes, GenerateError> {
     let source = source::load_text(text.as_bytes().to_owned(), shown, folder)?;
     Ok(with_meshes(source, settings))
+}
+
+/// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
+/// 6.1.8.
+pub fn well_formed(text: &str) -> (String, u32) {
+    let (text, _, lines) = mend_xml(text.to_owned());
+    (text, lines)
 }
 
 /// Reads the text of a URDF, or expands a xacro file to one.

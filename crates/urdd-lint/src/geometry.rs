@@ -1,84 +1,190 @@
-//! The shapes of links.
+//! The shapes of links and bodies, as the corners of their convex hulls.
 
-use std::collections::HashMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use nalgebra::Matrix4;
+use nalgebra::{Isometry3, Point3, Vector3};
+use rayon::prelude::*;
 
+use super::bodies::{Bodies, isometry};
+use super::hull::Hull;
+use super::primitives::corners;
 use urdd_document::robot::{Element, Robot};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Geometry;
 use urdd_generate::{SourceMesh, SourceMeshes};
-use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
-use urdd_geometry::mesh::placement;
-use urdd_geometry::primitives::{capsule, cuboid, cylinder, sphere};
-use urdd_geometry::read::Scene;
+use urdd_geometry::read::{Format, Note, Scene};
 
-/// Maximum number of vertices that are placed for one robot: it may name one large mesh very often.
-const MAX_VERTICES: usize = 50_000_000;
+/// Maximum number of corners that are placed for one robot: it may name one large mesh very often.
+const MAX_CORNERS: usize = 10_000_000;
+
+/// What rules need of a mesh file.
+#[derive(Debug)]
+pub struct MeshFacts {
+    /// Corners of the convex hull, before the element's scale; all vertices where they have no volume.
+    pub corners: Vec<[f64; 3]>,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// Format of the content.
+    pub format: Format,
+    /// What the reader assumed, repaired and left out.
+    pub notes: Vec<Note>,
+    /// The files that it names, as it names them.
+    pub side_files: Vec<String>,
+}
+
+/// A mesh file as it was read, or why it cannot be.
+pub type ReadMesh = Result<Arc<MeshFacts>, String>;
+
+/// The geometry of a robot.
+#[derive(Debug)]
+pub struct RobotGeometry {
+    /// The shapes of each link.
+    pub links: Vec<LinkGeometry>,
+    /// The shapes of each body, by its topmost link.
+    pub bodies: BTreeMap<usize, BodyGeometry>,
+    /// Every mesh file that is there.
+    pub files: HashMap<PathBuf, ReadMesh>,
+}
+
+/// A mesh of the robot whose file is there.
+#[derive(Debug, Clone, Copy)]
+pub struct NamedMesh<'a> {
+    /// Whether a visual or a collision element has it.
+    pub kind: GeometryKind,
+    /// The factors of the element.
+    pub scale: [f64; 3],
+    /// The file.
+    pub file: &'a Path,
+    /// What it holds, or why it cannot be read.
+    pub facts: Result<&'a MeshFacts, &'a str>,
+}
 
 /// The shapes of a link, each in the link's frame.
 #[derive(Debug, Default)]
 pub struct LinkGeometry {
-    /// The shapes, visual before collision.
+    /// Its shapes, visual before collision.
     pub shapes: Vec<Shape>,
-    /// Whether a shape is missing: its mesh was not found or read, or there are too many vertices.
+    /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
 }
 
+/// The shapes of a body, in its topmost link's frame.
+#[derive(Debug, Default)]
+pub struct BodyGeometry {
+    /// Its shapes.
+    pub shapes: Vec<Shape>,
+    /// Whether a shape is missing.
+    pub is_partial: bool,
+    /// The hull of all shapes; `None` if they span no volume.
+    pub hull: Option<Hull>,
+}
+
 /// A visual or collision element's shape.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Shape {
     /// Whether a visual or a collision element has it.
     pub kind: GeometryKind,
-    /// Index of the element among the link's elements of that kind.
-    pub element: usize,
-    /// Its surface in the link's frame.
-    pub mesh: Mesh,
-    /// The file that it is from; `None` for a primitive.
-    pub file: Option<PathBuf>,
+    /// Points whose convex hull is that of the shape, m.
+    pub corners: Vec<Vector3<f64>>,
 }
 
 impl LinkGeometry {
-    /// The shapes of one kind.
-    pub fn of(&self, kind: GeometryKind) -> impl Iterator<Item = &Shape> {
-        self.shapes.iter().filter(move |shape| shape.kind == kind)
-    }
-
     /// The corners of all shapes.
-    pub fn points(&self) -> impl Iterator<Item = [f64; 3]> {
-        let meshes = self.shapes.iter().map(|shape| &shape.mesh);
-        let corners = |mesh: &Mesh| {
-            mesh.triangles
-                .iter()
-                .flatten()
-                .map(|index| *index as usize)
-                .collect::<Vec<_>>()
-        };
-        meshes.flat_map(move |mesh| corners(mesh).into_iter().map(|index| mesh.vertices[index]))
+    pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
+        self.shapes
+            .iter()
+            .flat_map(|shape| shape.corners.iter().copied())
     }
 
-    /// The convex hull of all shapes; `None` if a shape is missing, or they span no volume.
-    pub fn hull(&self) -> Option<ConvexHull> {
-        if self.is_partial {
-            return None;
-        }
-        let points: Vec<[f64; 3]> = self.points().collect();
-        ConvexHull::new(&points).ok().filter(|hull| !hull.is_flat())
+    /// The corners of the shapes of one kind.
+    pub fn corners_of(&self, kind: GeometryKind) -> impl Iterator<Item = Vector3<f64>> {
+        let of_kind = self.shapes.iter().filter(move |shape| shape.kind == kind);
+        of_kind.flat_map(|shape| shape.corners.iter().copied())
     }
 }
 
-/// The shapes of each link of a robot. Each mesh file is read once.
-pub fn of_links(source: &SourceMeshes, robot: &Robot) -> Vec<LinkGeometry> {
-    let meshes: HashMap<(usize, GeometryKind, usize), &SourceMesh> = source
-        .meshes
-        .iter()
-        .map(|mesh| ((mesh.link, mesh.geometry, mesh.element), mesh))
-        .collect();
-    let mut read: HashMap<PathBuf, Option<Arc<Scene>>> = HashMap::new();
-    let mut left = MAX_VERTICES;
+impl BodyGeometry {
+    /// The corners of all shapes in the frame of a link whose pose in the topmost link's frame is given.
+    pub fn in_frame(&self, link: &Isometry3<f64>) -> Vec<Vector3<f64>> {
+        let corners = self.shapes.iter().flat_map(|shape| &shape.corners);
+        let seen =
+            |corner: &Vector3<f64>| link.inverse_transform_point(&Point3::from(*corner)).coords;
+        corners.map(seen).collect()
+    }
+}
+
+/// The smallest box along the axes: its lowest and its highest corner. `None` without points.
+pub fn bounds(points: impl Iterator<Item = Vector3<f64>>) -> Option<(Vector3<f64>, Vector3<f64>)> {
+    points.fold(None, |bounds, point| match bounds {
+        None => Some((point, point)),
+        Some((low, high)) => Some((point.inf(&low), point.sup(&high))),
+    })
+}
+
+/// Length of the diagonal of the smallest box along the axes, m; 0 without points.
+pub fn diagonal(points: impl Iterator<Item = Vector3<f64>>) -> f64 {
+    bounds(points).map_or(0.0, |(low, high)| (high - low).norm())
+}
+
+impl RobotGeometry {
+    /// Reads each mesh file of a robot once, in parallel, and places its hull.
+    pub fn read(source: &SourceMeshes, robot: &Robot, bodies: &Bodies) -> Self {
+        let files: BTreeSet<&PathBuf> = source
+            .meshes
+            .iter()
+            .filter_map(|mesh| mesh.file.as_ref().ok())
+            .collect();
+        let files: HashMap<PathBuf, ReadMesh> = files
+            .into_par_iter()
+            .map(|file| {
+                let facts = source.read(file).map(|scene| Arc::new(facts(&scene)));
+                (file.clone(), facts)
+            })
+            .collect();
+        let links = of_links(source, robot, &files);
+        let bodies = bodies.tops().map(|top| (top, of_body(top, bodies, &links)));
+        RobotGeometry {
+            bodies: bodies.collect(),
+            links,
+            files,
+        }
+    }
+}
+
+fn facts(scene: &Scene) -> MeshFacts {
+    let vertices = scene.parts.iter().flat_map(|part| {
+        let used = part.mesh.triangles.iter().flatten();
+        used.map(|index| part.mesh.vertices[*index as usize])
+    });
+    let mut vertices: Vec<[f64; 3]> = vertices.collect();
+    vertices.sort_by(|a, b| {
+        a[0].total_cmp(&b[0])
+            .then(a[1].total_cmp(&b[1]))
+            .then(a[2].total_cmp(&b[2]))
+    });
+    vertices.dedup();
+    let hull = ConvexHull::new(&vertices).ok();
+    MeshFacts {
+        corners: hull.map_or(vertices, |hull| hull.into_mesh().vertices),
+        triangles: scene.triangle_count(),
+        format: scene.format,
+        notes: scene.notes.clone(),
+        side_files: scene.side_files.clone(),
+    }
+}
+
+fn of_links(
+    source: &SourceMeshes,
+    robot: &Robot,
+    files: &HashMap<PathBuf, ReadMesh>,
+) -> Vec<LinkGeometry> {
+    let key = |mesh: &SourceMesh| (mesh.link, mesh.geometry, mesh.element);
+    let meshes: HashMap<_, &SourceMesh> =
+        source.meshes.iter().map(|mesh| (key(mesh), mesh)).collect();
+    let mut left = MAX_CORNERS;
     let mut links = Vec::with_capacity(robot.links.len());
     for (index, link) in robot.links.iter().enumerate() {
         let mut geometry = LinkGeometry::default();
@@ -87,38 +193,25 @@ pub fn of_links(source: &SourceMeshes, robot: &Robot) -> Vec<LinkGeometry> {
                 let Some(shape) = &element.geometry else {
                     continue;
                 };
-                let (mesh, file) = match shape {
-                    Geometry::Box(of) => (Some(cuboid(of.size)), None),
-                    Geometry::Cylinder(of) => (Some(cylinder(of.radius, of.length)), None),
-                    Geometry::Capsule(of) => (Some(capsule(of.radius, of.length)), None),
-                    Geometry::Sphere(of) => (Some(sphere(of.radius)), None),
-                    Geometry::Mesh(_) => {
+                let points = match shape {
+                    Geometry::Mesh(mesh) => {
                         let named = meshes.get(&(index, kind, place));
                         let file = named.and_then(|mesh| mesh.file.as_ref().ok());
-                        let scene = file.and_then(|file| {
-                            let scene = read
-                                .entry(file.clone())
-                                .or_insert_with(|| source.read(file).ok());
-                            scene.clone()
-                        });
-                        let merged = scene.and_then(|scene| {
-                            let count = scene.parts.iter().map(|part| part.mesh.vertices.len());
-                            left = left.checked_sub(count.sum())?;
-                            Some(scene.merged())
-                        });
-                        (merged, file.cloned())
+                        let facts = file.and_then(|file| files.get(file)?.as_ref().ok());
+                        let scale = mesh.scale.unwrap_or([1.0; 3]);
+                        facts.map(|facts| scaled(&facts.corners, scale))
                     }
+                    primitive => Some(corners(primitive)),
                 };
-                match mesh {
-                    Some(mut mesh) => {
-                        mesh.transform(&matrix(element));
-                        geometry.shapes.push(Shape {
-                            kind,
-                            element: place,
-                            mesh,
-                            file,
-                        });
-                    }
+                let points = points.and_then(|points| {
+                    left = left.checked_sub(points.len())?;
+                    Some(points)
+                });
+                match points {
+                    Some(points) => geometry.shapes.push(Shape {
+                        kind,
+                        corners: placed(points, element),
+                    }),
                     None => geometry.is_partial = true,
                 }
             }
@@ -128,13 +221,34 @@ pub fn of_links(source: &SourceMeshes, robot: &Robot) -> Vec<LinkGeometry> {
     links
 }
 
-/// Places an element's shape in its link's frame.
-fn matrix(element: &Element) -> Matrix4<f64> {
-    let scale = match &element.geometry {
-        Some(Geometry::Mesh(mesh)) => mesh.scale.unwrap_or([1.0; 3]),
-        _ => [1.0; 3],
-    };
-    let rotation = element.origin.rotation();
-    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
-    placement(scale, rows, element.origin.xyz)
+fn scaled(points: &[[f64; 3]], [x, y, z]: [f64; 3]) -> Vec<Vector3<f64>> {
+    let scaled = |point: &[f64; 3]| Vector3::new(point[0] * x, point[1] * y, point[2] * z);
+    points.iter().map(scaled).collect()
+}
+
+fn placed(points: Vec<Vector3<f64>>, element: &Element) -> Vec<Vector3<f64>> {
+    let pose = isometry(&element.origin);
+    let place = |point: Vector3<f64>| pose.transform_point(&Point3::from(point)).coords;
+    points.into_iter().map(place).collect()
+}
+
+fn of_body(top: usize, bodies: &Bodies, links: &[LinkGeometry]) -> BodyGeometry {
+    let mut body = BodyGeometry::default();
+    for link in bodies.members(top) {
+        let geometry = &links[link];
+        body.is_partial |= geometry.is_partial;
+        let pose = bodies.pose[link];
+        let place = |point: &Vector3<f64>| pose.transform_point(&Point3::from(*point)).coords;
+        body.shapes
+            .extend(geometry.shapes.iter().map(|shape| Shape {
+                kind: shape.kind,
+                corners: shape.corners.iter().map(place).collect(),
+            }));
+    }
+    body.hull = Hull::of(
+        body.shapes
+            .iter()
+            .flat_map(|shape| shape.corners.iter().copied()),
+    );
+    body
 }

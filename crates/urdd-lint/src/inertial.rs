@@ -18,7 +18,7 @@ pub struct Inertial {
 }
 
 impl Inertial {
-    /// Those of a link; `None` if it has none, or they cannot be those of a body.
+    /// Those of a link; `None` if it has none, or no mass above 0.
     pub fn of(link: &Link) -> Option<Inertial> {
         let inertial = link.inertial.as_ref()?;
         let mass = inertial
@@ -27,11 +27,12 @@ impl Inertial {
         let [xx, xy, xz, yy, yz, zz] = inertial.inertia?;
         let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
         let center = Vector3::from(inertial.origin.xyz);
-        let scale = tensor.abs().max();
-        if scale <= 0.0 || !scale.is_finite() || !center.iter().all(|x| x.is_finite()) {
+        let size = tensor.abs().max();
+        if !size.is_finite() || !center.iter().all(|x| x.is_finite()) {
             return None;
         }
         // Scaled to 1: squares of numbers near the ends of binary64 would overflow or underflow.
+        let scale = if size > 0.0 { size } else { 1.0 };
         let eigen = (tensor / scale).symmetric_eigen();
         Some(Inertial {
             mass,
@@ -41,10 +42,8 @@ impl Inertial {
         })
     }
 
-    /// The principal axes, each with its radius of gyration: the distance from the axis at which the whole mass would
-    /// have the moment, m.
-    pub fn gyrations(&self) -> impl Iterator<Item = (Vector3<f64>, f64)> {
-        let radius = |axis: usize| (self.moments[axis] / self.mass).max(0.0).sqrt();
-        (0..3).map(move |axis: usize| (self.axes.column(axis).into_owned(), radius(axis)))
+    /// The sum of the principal moments, kg m².
+    pub fn trace(&self) -> f64 {
+        self.moments.sum()
     }
 }

@@ -6,18 +6,28 @@
 
 mod allow;
 mod baseline;
+mod bodies;
+mod elements;
 mod fix;
 mod geometry;
+mod hull;
 mod inertial;
 mod places;
+mod pose;
+mod primitives;
 mod rule;
 pub mod rules;
+mod srdf;
 mod subject;
+mod unknown;
+mod vocabulary;
+mod written;
 
 pub use baseline::{Baseline, BaselineError};
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -30,9 +40,11 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;
-use urdd_format::report::{Kind, StaleIgnore, Verdict};
+use urdd_format::index::Count;
+use urdd_format::report::{Kind, Place, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
-use urdd_generate::{SourceMeshes, open_source_text, read_source};
+use urdd_generate::{SourceMeshes, open_source_text, read_source, well_formed};
+use urdd_validate::code::Code;
 use urdd_validate::engine::caught;
 use urdd_validate::finding::{Finding, Findings};
 use urdd_validate::selection::Codes;
@@ -160,7 +172,15 @@ fn examined(
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let mut examined = by_validator(text, name);
-    let Ok(document) = urdd_xml::parse(text, urdd_xml::Kind::Robot) else {
+    // URD011 says what is wrong; the rest can be looked at nevertheless.
+    let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
+        Ok(_) => (Cow::Borrowed(text), 0),
+        Err(_) => {
+            let (mended, lines) = well_formed(text);
+            (Cow::Owned(mended), lines)
+        }
+    };
+    let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
         return (examined, Vec::new());
     };
     let source: Option<SourceMeshes> = open_source_text(text, name, folder, &settings.source).ok();
@@ -168,31 +188,49 @@ fn examined(
     let report = &settings.report;
     let runs = |rule: &LintRule| {
         let code = rule.description.code;
-        rule.on_by_default
-            || report.selection.select.contains(&Codes::One(code))
-            || report.severities.contains_key(&code)
+        let select = &report.selection.select;
+        let is_selected = select.is_empty() || select.iter().any(|codes| codes.holds(code));
+        let is_named = select.contains(&Codes::One(code)) || report.severities.contains_key(&code);
+        is_selected && (rule.on_by_default || is_named)
     };
-    for rule in rules::all().into_iter().filter(|rule| runs(rule)) {
+    let is_macro = subject.macros().is_some();
+    let applies = |rule: &&LintRule| !is_macro || rule.description.code == Code::LNT051;
+    for rule in rules::all()
+        .into_iter()
+        .filter(|rule| runs(rule))
+        .filter(applies)
+    {
         if settings.report.cancellation.is_cancelled() {
             break;
         }
         let mut check = caught(&rule.description, &mut Findings::default(), |findings| {
             (rule.check)(&subject, findings)
         });
-        check.findings.iter_mut().for_each(without_pointers);
+        let is_mended = matches!(mended, Cow::Owned(_));
+        for place in check.findings.iter_mut().flat_map(places) {
+            as_reported(place, lines, is_mended);
+        }
         examined.checks.push(check);
     }
     let stale = allow::apply(&document, name, &mut examined.checks);
     (examined, stale)
 }
 
-/// The pointers that findings are folded by are no pointers into a document.
-fn without_pointers(finding: &mut Finding) {
-    for place in std::iter::once(&mut finding.place).chain(&mut finding.more) {
-        place.pointer = None;
-        for related in &mut place.related {
-            related.pointer = None;
-        }
+/// All places of a finding.
+fn places(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
+    std::iter::once(&mut finding.place).chain(&mut finding.more)
+}
+
+/// The pointers that findings are folded by are no pointers into a document. In a text that was mended, lines at the
+/// beginning are missing, and fixes would not fit.
+fn as_reported(place: &mut Place, lines: u32, is_mended: bool) {
+    place.pointer = None;
+    place.line = place.line.map(|line| Count(line.0 + lines));
+    if is_mended {
+        place.fixes.clear();
+    }
+    for related in &mut place.related {
+        as_reported(related, lines, is_mended);
     }
 }
 
@@ -222,7 +260,7 @@ fn by_validator(text: &str, name: &str) -> Examined {
 }
 
 fn renamed(finding: &mut Finding, name: &str) {
-    for place in std::iter::once(&mut finding.place).chain(&mut finding.more) {
+    for place in places(finding) {
         let related = place.related.iter_mut().map(|place| &mut place.file);
         let edits = place.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
         edits.for_each(|edit| edit.file = name.to_owned());

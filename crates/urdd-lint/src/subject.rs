@@ -1,24 +1,29 @@
 //! A URDF as rules see it.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
-use super::geometry::{LinkGeometry, of_links};
-use super::inertial::Inertial;
+use super::bodies::Bodies;
+use super::elements::{child, numbers, text};
+use super::geometry::{NamedMesh, RobotGeometry};
+use super::unknown::{Unknown, unknown};
+use super::vocabulary::nearest;
 use urdd_directory::position::LineIndex;
-use urdd_document::robot::of_urdf;
+use urdd_document::robot::{Robot, of_urdf};
 use urdd_format::index::Count;
+use urdd_format::meshes::GeometryKind;
 use urdd_format::report::{Fix, TextEdit};
-use urdd_format::urdf::UrdfModule;
-use urdd_generate::SourceMeshes;
+use urdd_format::urdf::JointType;
+use urdd_generate::{SourceMesh, SourceMeshes};
 use urdd_validate::code::Code;
 use urdd_validate::finding::{Finding, Findings};
 use urdd_validate::skip::SkipReason;
-use urdd_xml::element::children;
+use urdd_xml::element::{children, name};
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
 pub struct Subject<'a> {
@@ -36,15 +41,47 @@ pub struct Subject<'a> {
     pub joints: Vec<Node<'a, 'a>>,
     lines: LineIndex<'a>,
     source: Option<&'a SourceMeshes>,
-    bodies: OnceLock<Vec<Body>>,
+    robot: OnceLock<(Robot, Option<Bodies>)>,
+    geometry: OnceLock<RobotGeometry>,
+    unknown: OnceLock<Vec<Unknown<'a>>>,
 }
 
-/// A link as a body.
-pub struct Body {
-    /// Its shapes.
-    pub geometry: LinkGeometry,
-    /// Its mass properties; `None` if it has none, or they cannot be those of a body (SRC002 to SRC004).
-    pub inertial: Option<Inertial>,
+/// A file that the URDF names.
+#[derive(Debug, Clone, Copy)]
+pub struct NamedFile<'a, 'n> {
+    /// The element with the attribute `filename`.
+    pub node: Node<'a, 'a>,
+    /// The name.
+    pub name: &'n str,
+}
+
+impl<'n> NamedFile<'_, 'n> {
+    /// Whether it is an absolute path.
+    pub fn is_absolute(&self) -> bool {
+        let path = self.without_scheme();
+        let mut first = path.chars();
+        let is_drive = first
+            .next()
+            .is_some_and(|letter| letter.is_ascii_alphabetic())
+            && first.next() == Some(':')
+            && matches!(first.next(), Some('/' | '\\'));
+        path.starts_with('/') || is_drive
+    }
+
+    /// Whether a word that is no path follows `file://`.
+    pub fn is_on_a_host(&self) -> bool {
+        let rest = self.name.strip_prefix("file://");
+        rest.is_some_and(|rest| !rest.starts_with('/') && !self.is_absolute())
+    }
+
+    /// The path, if it is absolute.
+    pub fn path(&self) -> Option<&'n Path> {
+        self.is_absolute().then(|| Path::new(self.without_scheme()))
+    }
+
+    fn without_scheme(&self) -> &'n str {
+        self.name.strip_prefix("file://").unwrap_or(self.name)
+    }
 }
 
 impl<'a> Subject<'a> {
@@ -74,33 +111,197 @@ impl<'a> Subject<'a> {
             source: source.filter(alike),
             links,
             joints,
-            bodies: OnceLock::new(),
+            robot: OnceLock::new(),
+            geometry: OnceLock::new(),
+            unknown: OnceLock::new(),
         }
     }
 
-    /// The robot. Skips the rule if the URDF describes none (URD011 says why).
-    pub fn robot(&self, findings: &mut Findings) -> Option<&'a UrdfModule> {
-        Some(&self.source(findings)?.robot)
-    }
-
-    /// The robot with its mesh files. Skips the rule if the URDF describes none.
+    /// The robot with its mesh files. Skips the rule if the URDF describes none (URD011 says why).
     pub fn source(&self, findings: &mut Findings) -> Option<&'a SourceMeshes> {
         findings.or_skip(self.source.ok_or(SkipReason::Failed(Code::URD011)))
     }
 
-    /// Each link as a body, read on first use. Skips the rule if the URDF describes no robot.
-    pub fn bodies(&self, findings: &mut Findings) -> Option<&[Body]> {
+    /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).
+    pub fn bodies(&self, findings: &mut Findings) -> Option<(&Robot, &Bodies)> {
         let source = self.source(findings)?;
-        let make = || {
+        let (robot, bodies) = self.robot.get_or_init(|| {
             let robot = of_urdf(&source.robot);
-            let links = robot.links.iter().zip(of_links(source, &robot));
-            let body = |(link, geometry)| Body {
-                geometry,
-                inertial: Inertial::of(link),
+            let bodies = Bodies::new(&robot);
+            (robot, bodies)
+        });
+        let bodies = findings.or_skip(bodies.as_ref().ok_or(SkipReason::Failed(Code::URD004)))?;
+        Some((robot, bodies))
+    }
+
+    /// The shapes of links and bodies, read on first use. Skips the rule as [`Self::bodies`] does.
+    pub fn geometry(&self, findings: &mut Findings) -> Option<&RobotGeometry> {
+        let source = self.source(findings)?;
+        let (robot, bodies) = self.bodies(findings)?;
+        let read = || RobotGeometry::read(source, robot, bodies);
+        Some(self.geometry.get_or_init(read))
+    }
+
+    /// The meshes of links that the URDF names, each file's name once a link and kind, with their elements. Skips the rule if the
+    /// URDF describes no robot.
+    pub fn meshes(&self, findings: &mut Findings) -> Option<Vec<(Node<'a, 'a>, &'a SourceMesh)>> {
+        let source = self.source(findings)?;
+        let mut seen = HashSet::new();
+        let meshes = source.meshes.iter().filter_map(|mesh| {
+            let node = self.mesh_node(mesh)?;
+            seen.insert((mesh.link, &mesh.filename))
+                .then_some((node, mesh))
+        });
+        Some(meshes.collect())
+    }
+
+    /// The meshes whose files are there, as they were read, once a kind, file and scale; with their elements. Skips the rule as
+    /// [`Self::bodies`] does.
+    pub fn read_meshes(
+        &self,
+        findings: &mut Findings,
+    ) -> Option<Vec<(Node<'a, 'a>, NamedMesh<'_>)>> {
+        let geometry = self.geometry(findings)?;
+        let mut seen = HashSet::new();
+        let meshes = self.meshes(findings)?.into_iter();
+        let meshes = meshes.filter_map(|(node, mesh)| {
+            let file = mesh.file.as_ref().ok()?;
+            let read = geometry.files.get(file)?;
+            let scale: [f64; 3] = numbers(node, "scale").unwrap_or([1.0; 3]);
+            if !seen.insert((mesh.geometry, file, scale.map(f64::to_bits))) {
+                return None;
+            }
+            let named = NamedMesh {
+                kind: mesh.geometry,
+                scale,
+                file,
+                facts: read.as_deref().map_err(String::as_str),
             };
-            links.map(body).collect()
+            Some((node, named))
+        });
+        Some(meshes.collect())
+    }
+
+    /// Whether a joint moves. Scenery is judged less strictly.
+    pub fn moves(&self) -> bool {
+        let fixed = |node: &Node| node.attribute("type") == Some("fixed");
+        self.joints.iter().any(|node| !fixed(node))
+    }
+
+    /// The length, m, from which a part is not of this robot's size: 100 times the largest offset or range of a joint, or 5 cm.
+    /// Large parts on small offsets have 10 times. Skips the rule as [`Self::bodies`] does.
+    pub fn longest_part(&self, findings: &mut Findings) -> Option<f64> {
+        const TIMES: f64 = 100.0;
+        const OFFSET: f64 = 0.05;
+        let (robot, _) = self.bodies(findings)?;
+        let offsets = robot.joints.iter().map(|joint| {
+            let range = joint
+                .limit
+                .filter(|_| joint.joint_type == JointType::Prismatic);
+            let range = range.map_or(0.0, |limit| {
+                let ends = [limit.lower, limit.upper].map(|end| end.unwrap_or(0.0).abs());
+                ends[0].max(ends[1])
+            });
+            Vector3::from(joint.origin.xyz).norm().max(range)
+        });
+        Some(TIMES * offsets.fold(OFFSET, f64::max))
+    }
+
+    /// An element of a link's `<inertial>`; the nearest above it that is there.
+    pub fn inertial(&self, link: usize, wanted: &str) -> Node<'a, 'a> {
+        let node = self.links[link];
+        let inertial = child(node, "inertial").unwrap_or(node);
+        child(inertial, wanted).unwrap_or(inertial)
+    }
+
+    /// The `<mesh>` of a mesh.
+    pub fn mesh_node(&self, mesh: &SourceMesh) -> Option<Node<'a, 'a>> {
+        let kind = match mesh.geometry {
+            GeometryKind::Visual => "visual",
+            GeometryKind::Collision => "collision",
         };
-        Some(self.bodies.get_or_init(make))
+        let elements = children(*self.links.get(mesh.link)?);
+        let element = elements
+            .filter(|(name, _)| *name == kind)
+            .nth(mesh.element)?
+            .1;
+        let mut inside = element.descendants();
+        inside.find(|node| node.tag_name().name() == "mesh")
+    }
+
+    /// The joints of these types.
+    pub fn joints_of(&self, types: &[&str]) -> impl Iterator<Item = Node<'a, 'a>> {
+        let is_one = |node: &&Node| {
+            node.attribute("type")
+                .is_some_and(|kind| types.contains(&kind))
+        };
+        self.joints.iter().filter(is_one).copied()
+    }
+
+    /// Every element in a link or joint.
+    pub fn parts(&self) -> impl Iterator<Item = Node<'a, 'a>> {
+        let all = self.links.iter().chain(&self.joints);
+        all.flat_map(|node| node.descendants())
+            .filter(Node::is_element)
+    }
+
+    /// The names of elements.
+    pub fn names<'n>(
+        &self,
+        nodes: &'n [Node<'a, 'a>],
+    ) -> impl Iterator<Item = &'a str> + use<'a, 'n> {
+        nodes.iter().filter_map(|node| node.attribute("name"))
+    }
+
+    /// The files of meshes and textures in links and materials, each name once an element.
+    pub fn named_files(&self) -> Vec<NamedFile<'a, 'a>> {
+        let named = self.root.descendants().filter(|node| {
+            let in_gazebo = || {
+                node.ancestors()
+                    .any(|one| one.tag_name().name() == "gazebo")
+            };
+            matches!(node.tag_name().name(), "mesh" | "texture") && !in_gazebo()
+        });
+        let mut seen = HashSet::new();
+        let named = named.filter_map(|node| {
+            let name = text(node, "filename")?;
+            let file = NamedFile { node, name };
+            seen.insert((part(node).map(|part| part.id()), name))
+                .then_some(file)
+        });
+        named.collect()
+    }
+
+    /// What URDF does not define.
+    pub fn unknown(&self) -> Vec<Unknown<'a>> {
+        self.unknown.get_or_init(|| unknown(self.root)).clone()
+    }
+
+    /// The first element that only xacro understands.
+    pub fn macros(&self) -> Option<Node<'a, 'a>> {
+        let is_macro = |node: &Node| {
+            let mut attributes = node.attributes();
+            name(*node).starts_with("xacro:")
+                || attributes.any(|one| one.value().contains("${") || one.value().contains("$("))
+        };
+        let mut elements = self.root.descendants().filter(Node::is_element);
+        elements.find(|node| is_macro(node))
+    }
+
+    /// Reports an element whose `name` is not that of a joint.
+    pub fn names_a_joint(&self, node: Node<'a, 'a>, findings: &mut Findings) {
+        let known: Vec<&str> = self.names(&self.joints).collect();
+        let named = node.attribute("name").filter(|name| !known.contains(name));
+        let Some(name) = named else { return };
+        let near = nearest(name, &known);
+        let near = near.map_or(String::new(), |near| format!(", but there is `{near}`"));
+        let message = format!("no joint is called `{name}`{near}; write the name of a joint");
+        self.at_attribute(node, "name", message).report(findings);
+    }
+
+    /// Where the value of an attribute stands in the text, without quotes.
+    pub fn value(&self, node: Node<'a, 'a>, attribute: &str) -> Option<Range<usize>> {
+        node.attribute_node(attribute).map(|one| one.range_value())
     }
 
     /// A finding about an element.
@@ -147,23 +348,6 @@ impl<'a> Subject<'a> {
             }],
         }
     }
-
-    /// The indices of the links by their names.
-    pub fn link_indices(&self) -> HashMap<&'a str, usize> {
-        indices(&self.links)
-    }
-
-    /// The indices of the joints by their names.
-    pub fn joint_indices(&self) -> HashMap<&'a str, usize> {
-        indices(&self.joints)
-    }
-}
-
-fn indices<'a>(nodes: &[Node<'a, 'a>]) -> HashMap<&'a str, usize> {
-    let named = nodes.iter().enumerate();
-    named
-        .filter_map(|(index, node)| Some((node.attribute("name")?, index)))
-        .collect()
 }
 
 /// The path of an element, with its index among those of the same name.
@@ -182,8 +366,18 @@ fn pointer(node: Node) -> String {
 
 /// The link or joint that an element belongs to.
 fn subject(node: Node) -> Option<String> {
-    let is_part = |one: &Node| matches!(one.tag_name().name(), "link" | "joint");
-    let part = node.ancestors().find(is_part)?;
+    let part = part(node)?;
     let name = part.attribute("name")?;
     Some(format!("{} `{name}`", part.tag_name().name()))
+}
+
+/// The link or joint of the robot that holds an element.
+fn part<'a>(node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
+    let is_part = |one: &Node| {
+        let in_robot = one
+            .parent_element()
+            .is_some_and(|above| above.parent_element().is_none());
+        in_robot && matches!(one.tag_name().name(), "link" | "joint")
+    };
+    node.ancestors().find(is_part)
 }

@@ -31,6 +31,8 @@ pub(crate) struct NotFound {
     pub outside: Option<PathBuf>,
     /// An existing file whose name differs in case alone.
     pub other_case: Option<PathBuf>,
+    /// The package, if there is none of this name.
+    pub no_package: Option<String>,
 }
 
 impl NotFound {
@@ -189,6 +191,9 @@ impl Search<'_> {
                 return found;
             }
             folders.push(folder);
+        }
+        if folders.is_empty() {
+            self.not_found.no_package.get_or_insert(package.to_owned());
         }
         let hint = match folders.is_empty() {
             true => format!(

@@ -1,7 +1,7 @@
 //! Reads the source file: yields the robot and the text that the URDD stores.
 
 mod decode;
-mod repair;
+pub(crate) mod repair;
 pub(crate) mod xacro;
 
 use std::path::{Path, PathBuf};

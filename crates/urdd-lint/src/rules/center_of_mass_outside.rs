@@ -1,50 +1,59 @@
-use nalgebra::Vector3;
-
+use crate::geometry::diagonal;
+use crate::inertial::Inertial;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use nalgebra::Point3;
 use urdd_format::readable::metres;
 use urdd_validate::finding::{Findings, point};
 
 declare_lint! {
-    /// The centre of mass of a link is outside of the convex hull of its shapes.
+    /// The centre of mass of a link is outside of its shapes.
     ///
-    /// No distribution of mass inside the shapes has its centre there. Gravity then turns the joints before it
-    /// otherwise than on the robot. Common causes: the position is in millimetres, or in another link's frame, or its
-    /// sign is wrong.
+    /// No mass inside the convex hull of the shapes has its centre there. Gravity then turns the joints before the link otherwise
+    /// than on the robot, and a legged robot falls. Common causes: a sign, millimetres, the frame of the CAD assembly, a missing
+    /// `<origin>`.
     ///
-    /// Write the position of the centre of mass in the link's frame, in metres, as the `<origin>` of `<inertial>`.
-    LNT002 "center-of-mass-outside", Warning, WrongMotion, since "1.1.0"
+    /// Write the centre of mass in the link's frame, in metres, as the `<origin>` of `<inertial>`.
+    LNT002 "centre-of-mass-outside", Warning, WrongMotion, since "1.1.0"
 }
 
-/// How far outside is still taken for a rough model: m, and a part of the hull's diagonal.
-const MARGIN: f64 = 0.005;
+/// How far outside is taken for a rough model: a part of the body's size, and m.
 const PART: f64 = 0.1;
+const MARGIN: f64 = 0.005;
+/// Frames with a token mass do no harm, kg.
+const LIGHT: f64 = 0.01;
+/// A denser body than this, kg/m³, has parts that its shapes leave out.
+const DENSE: f64 = 4000.0;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for (index, body) in urdf.bodies(findings)?.iter().enumerate() {
-        let Some((inertial, hull)) = body.inertial.zip(body.geometry.hull()) else {
+    let (robot, bodies) = urdf.bodies(findings)?;
+    let geometry = urdf.geometry(findings)?;
+    if !urdf.moves() {
+        return Some(());
+    }
+    for (index, link) in robot.links.iter().enumerate() {
+        let body = &geometry.bodies.get(&bodies.top[index]).filter(|body| !body.is_partial);
+        let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };
-        let mesh = hull.mesh();
-        let Some(bounds) = mesh.bounds() else {
+        let has_shapes = !link.visual.is_empty() || !link.collision.is_empty();
+        let Some(hull) = body.hull.as_ref().filter(|_| has_shapes && inertial.mass > LIGHT) else {
             continue;
         };
-        // The largest distance from the plane of a face is at most the distance from the hull.
-        let beyond = mesh.triangles.iter().filter_map(|triangle| {
-            let [a, b, c] = mesh.corners(*triangle).map(Vector3::from);
-            let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-            Some((inertial.center - a).dot(&normal))
-        });
-        let beyond = beyond.fold(0.0, f64::max);
-        let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
-        if beyond <= MARGIN.max(PART * diagonal) {
+        let points = body.in_frame(&bodies.pose[index]);
+        let size = diagonal(points.iter().copied());
+        let center = bodies.pose[index].transform_point(&Point3::from(inertial.center));
+        let beyond = hull.outside(&center.coords);
+        if inertial.mass > DENSE * hull.volume || beyond <= PART * size + MARGIN {
             continue;
         }
         let message = format!(
-            "the centre of mass is {} outside of the link's shapes; write it in the link's frame, in metres",
-            metres(beyond)
+            "the centre of mass is {} outside of the link's shapes, which are {} long; write it in the link's frame, in metres",
+            metres(beyond),
+            metres(size)
         );
-        urdf.at(urdf.links[index], message)
+        let node = urdf.inertial(index, "origin");
+        urdf.at(node, message)
             .actual(point(inertial.center.into()))
             .off_by(beyond, "m")
             .report(findings);

@@ -1,53 +1,46 @@
-use std::f64::consts::TAU;
-
+use crate::elements::{child, number};
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_format::urdf::JointType;
+use urdd_format::readable::number as shown;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The limits of a revolute joint look like degrees.
     ///
-    /// URDF's angles are radians. A joint with `upper="90"` turns 14 times around before it stops: planners find
-    /// motions that the robot cannot make, and drawn sliders are of no use.
+    /// URDF's angles are radians, and every program takes them as such: with `upper="90"` the joint turns 14 times around
+    /// before it stops. Planners and random sampling then use poses that the robot cannot take.
     ///
     /// Divide by 57.2958 (180/π). A joint without limits is `continuous`.
     LNT010 "limits-look-like-degrees", Warning, WrongMotion, since "1.1.0"
 }
 
-/// Whole turns up to this many are taken for meant: hoses and cables allow a few.
-const TURNS: f64 = 3.0;
-/// Limits from here on are "none".
-const NONE: f64 = 1000.0;
+/// Sizes of the larger bound that are degrees. No revolute joint of 1,758 URDFs has one.
+const FROM: f64 = 25.0;
+const TO: f64 = 720.0;
+/// Bounds on both sides that mean "unlimited".
+const UNLIMITED: [f64; 3] = [50.0, 100.0, 500.0];
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let robot = urdf.robot(findings)?;
-    for (index, joint) in robot.joints.iter().enumerate() {
-        let Some(limit) = joint
-            .limit
-            .as_ref()
-            .filter(|_| joint.joint_type == JointType::Revolute)
-        else {
+    for joint in urdf.joints_of(&["revolute"]) {
+        let Some(limit) = child(joint, "limit") else {
             continue;
         };
-        let limits = [("lower", limit.lower), ("upper", limit.upper)];
-        let odd = limits.into_iter().find_map(|(name, value)| {
-            let value = value?;
-            let size = value.abs();
-            let is_degrees = size > TURNS * TAU && size < NONE && size % 5.0 == 0.0;
-            is_degrees.then_some((name, value))
-        });
-        if let Some((name, value)) = odd {
-            let node = urdf.joints[index];
-            let limit = node.children().find(|child| child.has_tag_name("limit"));
-            let message = format!(
-                "`{name}` is {value} rad, {:.0} turns: it looks like degrees; write {:.4}",
-                (value / TAU).abs(),
-                value.to_radians()
-            );
-            urdf.at_attribute(limit.unwrap_or(node), name, message)
-                .report(findings);
+        let (Some(lower), Some(upper)) = (number(limit, "lower"), number(limit, "upper")) else {
+            continue;
+        };
+        let size = lower.abs().max(upper.abs());
+        let is_unlimited = lower == -upper && UNLIMITED.contains(&size);
+        if !(FROM..=TO).contains(&size) || is_unlimited {
+            continue;
         }
+        let radians = [lower, upper].map(|angle| shown(angle.to_radians(), 5));
+        let message = format!(
+            "the limits look like degrees, and are taken as radians; write lower=\"{}\" upper=\"{}\"",
+            radians[0], radians[1]
+        );
+        urdf.at(limit, message)
+            .actual(format!("{lower} to {upper}"))
+            .report(findings);
     }
     Some(())
 }

@@ -1,42 +1,63 @@
+use urdd_format::meshes::GeometryKind;
+
+use crate::geometry::diagonal;
+use crate::hull::Hull;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use urdd_format::readable::number;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
-    /// The mass of a link divided by the volume of its convex hull is no density of a thing that is built.
+    /// The mass and the shapes of a body make no density of a thing that is built.
     ///
-    /// Above 20,000 kg/m³ it is heavier than solid lead or tungsten carbide, although the hull is at least as large as the link.
-    /// Below 1 kg/m³ it is lighter than air. The mass is in grams, or the shapes are in millimetres or inches, or the
-    /// mass is a placeholder.
+    /// Above 20,000 kg/m³ it is heavier than solid tungsten, although the convex hull is larger than the part. Below 10 kg/m³ it is
+    /// lighter than foam. The mass is in grams, the shapes are in other units, or the mass was never filled in. Where a
+    /// heavy part touches a far too light one, simulators need tiny steps, or explode.
     ///
     /// Write the mass in kilograms, and scale meshes to metres (`scale="0.001 0.001 0.001"`).
     LNT003 "odd-density", Warning, WrongMotion, since "1.1.0"
 }
 
-/// Least and greatest density, kg/m³.
-const LEAST: f64 = 1.0;
+/// The least and the greatest density, kg/m³.
+const LEAST: f64 = 10.0;
 const GREATEST: f64 = 20_000.0;
+/// Dummies of a gram in a box of a millimetre are not meant to be dense, kg.
+const DUMMY: f64 = 0.05;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for (index, body) in urdf.bodies(findings)?.iter().enumerate() {
-        let Some((inertial, hull)) = body.inertial.zip(body.geometry.hull()) else {
+    let (robot, bodies) = urdf.bodies(findings)?;
+    let geometry = urdf.geometry(findings)?;
+    // LNT022 finds larger ones.
+    let longest = urdf.longest_part(findings)?;
+    for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
+        let masses = bodies.members(top).filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
+        let mass: f64 = masses.sum();
+        let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
             continue;
         };
-        let density = inertial.mass / hull.mesh().signed_volume();
-        if !density.is_finite() || (LEAST..=GREATEST).contains(&density) {
+        // Each shape by itself, so that an L is not filled; the smaller of what is seen and what collides.
+        let sum = |kind: GeometryKind| -> f64 {
+            let shapes = body.shapes.iter().filter(|shape| shape.kind == kind);
+            let hulls = shapes.filter_map(|shape| Hull::of(shape.corners.iter().copied()));
+            hulls.map(|hull| hull.volume).sum()
+        };
+        let sums = [GeometryKind::Visual, GeometryKind::Collision].map(sum);
+        let least = sums.into_iter().filter(|sum| *sum > 0.0).fold(f64::INFINITY, f64::min);
+        let least = if least.is_finite() { least } else { hull.volume };
+        let (volume, wrong) = if mass / hull.volume > GREATEST && mass >= DUMMY {
+            (hull.volume, "denser than any metal")
+        } else if mass / least < LEAST && urdf.moves() && diagonal(hull.corners.iter().copied()) <= longest {
+            (least, "lighter than foam")
+        } else {
             continue;
-        }
+        };
         let message = format!(
-            "{} kg in the convex hull of the link's shapes make {} kg/m³; check the unit of the mass and the scale of \
-            the shapes",
-            number(inertial.mass, 3),
-            number(density, 3)
+            "{} kg in {} litres are {} kg/m³, {wrong}; write the mass in kilograms, and the shapes in metres",
+            number(mass, 3),
+            number(volume * 1000.0, 3),
+            number(mass / volume, 3)
         );
-        urdf.at(urdf.links[index], message)
-            .expected(format!("{LEAST} to {GREATEST} kg/m³"))
-            .actual(format!("{} kg/m³", number(density, 3)))
-            .report(findings);
+        urdf.at(urdf.inertial(top, "mass"), message).report(findings);
     }
     Some(())
 }

@@ -16,7 +16,7 @@ use super::words::{list, plural, unit};
 use super::{summary, unverified};
 use crate::skip::SkipReason;
 use urdd_format::report::{
-    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict,
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict, WrittenAt,
 };
 
 /// Maximum number of URDDs that are shown one by one. More are summarized.
@@ -159,6 +159,14 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
     if !at.is_empty() {
         writeln!(out, "      {} {at}", style.paint(DIM, "at"))?;
     }
+    if let Some(written) = first.and_then(|first| first.written_at.as_ref()) {
+        writeln!(
+            out,
+            "      {} {}",
+            style.paint(DIM, "written at"),
+            written_at(written)
+        )?;
+    }
     writeln!(out, "      {}", safe(&finding.message))?;
     let mut line = |label: &str, text: &str| {
         let label = style.paint(DIM, format!("{label}:"));
@@ -249,6 +257,18 @@ fn place(found: &Place, with_file: bool) -> String {
     for part in parts.into_iter().flatten() {
         let space = if place.is_empty() { "" } else { " " };
         place.push_str(&format!("{space}{part}"));
+    }
+    place
+}
+
+/// A place in a .xacro file.
+fn written_at(written: &WrittenAt) -> String {
+    let mut place = safe(&written.file).into_owned();
+    if let (Some(line), Some(column)) = (written.line, written.column) {
+        place.push_str(&format!(":{line}:{column}"));
+    }
+    if let Some(name) = &written.macro_name {
+        place.push_str(&format!(" (macro {})", escape::quoted(name)));
     }
     place
 }

@@ -1,0 +1,64 @@
+//! Bodies: links that fixed joints hold together.
+
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+
+use urdd_document::robot::{Origin, Robot};
+use urdd_document::tree::Tree;
+use urdd_format::urdf::JointType;
+
+/// The bodies of a robot.
+#[derive(Debug)]
+pub struct Bodies {
+    /// The kinematic tree.
+    pub tree: Tree,
+    /// The topmost link of each link's body.
+    pub top: Vec<usize>,
+    /// Each link's pose in the frame of its body's topmost link.
+    pub pose: Vec<Isometry3<f64>>,
+}
+
+impl Bodies {
+    /// Those of a robot; `None` if it is no tree (URD004 to URD007 say so).
+    pub fn new(robot: &Robot) -> Option<Self> {
+        let tree = Tree::new(robot)?;
+        let links = robot.links.len();
+        let (mut top, mut pose) = (
+            (0..links).collect::<Vec<_>>(),
+            vec![Isometry3::identity(); links],
+        );
+        for &link in &tree.order {
+            let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link])
+            else {
+                continue;
+            };
+            let joint = &robot.joints[joint];
+            if joint.joint_type == JointType::Fixed {
+                top[link] = top[parent];
+                pose[link] = pose[parent] * isometry(&joint.origin);
+            }
+        }
+        Some(Bodies { tree, top, pose })
+    }
+
+    /// The links of a body, by its topmost link.
+    pub fn members(&self, top: usize) -> impl Iterator<Item = usize> {
+        let all = self.top.iter().enumerate();
+        all.filter(move |(_, of)| **of == top).map(|(link, _)| link)
+    }
+
+    /// The topmost links, in link order.
+    pub fn tops(&self) -> impl Iterator<Item = usize> {
+        let all = self.top.iter().enumerate();
+        all.filter(|(link, top)| link == *top).map(|(link, _)| link)
+    }
+}
+
+/// The rigid transform of an origin.
+pub fn isometry(origin: &Origin) -> Isometry3<f64> {
+    let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
+    let [x, y, z] = origin.xyz;
+    Isometry3::from_parts(
+        Translation3::new(x, y, z),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    )
+}

@@ -1,0 +1,38 @@
+//! Elements and numbers of a URDF's XML, which may be no robot.
+
+use roxmltree::Node;
+
+use urdd_xml::element::{attribute, children};
+
+/// The joint types that have an axis.
+pub const WITH_AXIS: [&str; 4] = ["revolute", "continuous", "prismatic", "planar"];
+/// The joint types of one degree of freedom.
+pub const ONE_DOF: [&str; 3] = ["revolute", "continuous", "prismatic"];
+
+/// The first child element of a name.
+pub fn child<'a>(node: Node<'a, 'a>, wanted: &str) -> Option<Node<'a, 'a>> {
+    children(node)
+        .find(|(name, _)| *name == wanted)
+        .map(|(_, child)| child)
+}
+
+/// The text of an attribute.
+pub fn text<'a>(node: Node<'a, 'a>, name: &str) -> Option<&'a str> {
+    attribute(node, name).map(|attribute| attribute.value())
+}
+
+/// Finite numbers in an attribute, separated by white space; `None` if they are not `N` numbers (URD011 says so).
+pub fn numbers<const N: usize>(node: Node, name: &str) -> Option<[f64; N]> {
+    let words = node.attribute(name)?.split_ascii_whitespace();
+    let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    let numbers = <[f64; N]>::try_from(numbers?).ok()?;
+    numbers
+        .iter()
+        .all(|number| number.is_finite())
+        .then_some(numbers)
+}
+
+/// A finite number in an attribute.
+pub fn number(node: Node, name: &str) -> Option<f64> {
+    numbers::<1>(node, name).map(|[number]| number)
+}

@@ -1,0 +1,225 @@
+//! Convex hulls with what rules ask of them.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
+
+use urdd_geometry::hull::ConvexHull;
+
+/// A convex hull with a volume.
+#[derive(Debug, Clone)]
+pub struct Hull {
+    /// Its corners.
+    pub corners: Vec<Vector3<f64>>,
+    /// Its triangles, outward.
+    pub triangles: Vec<[usize; 3]>,
+    /// Outward unit normals of its triangles, each with its distance from the origin.
+    pub planes: Vec<(Vector3<f64>, f64)>,
+    /// Its volume, m³.
+    pub volume: f64,
+}
+
+impl Hull {
+    /// The hull of points; `None` if they span no volume.
+    pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
+        let points: Vec<[f64; 3]> = points.map(Into::into).collect();
+        let hull = ConvexHull::new(&points)
+            .ok()
+            .filter(|hull| !hull.is_flat())?;
+        let mesh = hull.into_mesh();
+        let corners: Vec<Vector3<f64>> = mesh.vertices.iter().copied().map(Vector3::from).collect();
+        let triangles: Vec<[usize; 3]> = mesh
+            .triangles
+            .iter()
+            .map(|one| one.map(|index| index as usize))
+            .collect();
+        let planes = triangles.iter().filter_map(|&[a, b, c]| {
+            let (a, b, c) = (corners[a], corners[b], corners[c]);
+            let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
+            Some((normal, normal.dot(&a)))
+        });
+        let planes = planes.collect();
+        let volume = mesh.signed_volume();
+        (volume > 0.0).then_some(Hull {
+            corners,
+            triangles,
+            planes,
+            volume,
+        })
+    }
+
+    /// How far a point is outside, m, by the farthest plane of a face: at most the distance. Negative inside.
+    pub fn outside(&self, point: &Vector3<f64>) -> f64 {
+        let distances = self
+            .planes
+            .iter()
+            .map(|(normal, offset)| normal.dot(point) - offset);
+        distances.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The sum of the principal moments about the centre of mass, of the hull filled evenly with 1 kg, m².
+    pub fn even_trace(&self) -> f64 {
+        let inside = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
+        let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), 0.0);
+        // Tetrahedra from a point inside.
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|index| self.corners[index] - inside);
+            let part = a.dot(&b.cross(&c)).abs() / 6.0;
+            let sum = a + b + c;
+            volume += part;
+            first += sum * (part / 4.0);
+            let squares = a.norm_squared() + b.norm_squared() + c.norm_squared();
+            second += (sum.norm_squared() + squares) * (part / 20.0);
+        }
+        2.0 * (second / volume - (first / volume).norm_squared())
+    }
+
+    /// How deep two hulls overlap: the least distance, m, by which one must move to be free of the other; 0 or less if they
+    /// are apart. Candidates are the normals of faces, and of those pairs of edges that make a face of the hulls' Minkowski
+    /// difference (Gregorius 2013).
+    pub fn depth(&self, other: &Hull) -> f64 {
+        let normals = self.planes.iter().map(|(normal, _)| *normal);
+        let normals = normals.chain(other.planes.iter().map(|(normal, _)| -normal));
+        let mut least = f64::INFINITY;
+        for normal in normals {
+            least = least.min(self.overlap(other, &normal));
+            if least <= 0.0 {
+                return least;
+            }
+        }
+        let others: Vec<Edge> = other.edges();
+        for one in self.edges() {
+            for two in &others {
+                if !one.makes_a_face_with(two) {
+                    continue;
+                }
+                let Some(normal) = one.along.cross(&two.along).try_normalize(0.0) else {
+                    continue;
+                };
+                let both = [normal, -normal].map(|normal| self.overlap(other, &normal));
+                least = least.min(both[0].min(both[1]));
+                if least <= 0.0 {
+                    return least;
+                }
+            }
+        }
+        least
+    }
+
+    /// The distance that the other hull must move along a direction to be free of this one.
+    fn overlap(&self, other: &Hull, direction: &Vector3<f64>) -> f64 {
+        let farthest = |hull: &Hull, sign: f64| {
+            let along = hull
+                .corners
+                .iter()
+                .map(|corner| sign * corner.dot(direction));
+            along.fold(f64::NEG_INFINITY, f64::max)
+        };
+        farthest(self, 1.0) + farthest(other, -1.0)
+    }
+
+    /// The edges between faces of different directions.
+    fn edges(&self) -> Vec<Edge> {
+        const FLAT: f64 = 1.0 - 1e-12;
+        let mut first: HashMap<(usize, usize), Vector3<f64>> = HashMap::new();
+        let mut edges = Vec::new();
+        for &[a, b, c] in &self.triangles {
+            let (p, q, r) = (self.corners[a], self.corners[b], self.corners[c]);
+            let Some(normal) = (q - p).cross(&(r - p)).try_normalize(0.0) else {
+                continue;
+            };
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                match first.remove(&(to, from)) {
+                    Some(other) if normal.dot(&other) < FLAT => edges.push(Edge {
+                        along: self.corners[to] - self.corners[from],
+                        normals: [normal, other],
+                    }),
+                    Some(_) => {}
+                    None => {
+                        first.insert((from, to), normal);
+                    }
+                }
+            }
+        }
+        edges
+    }
+}
+
+/// An edge of a hull, with the outward normals of its two faces.
+struct Edge {
+    along: Vector3<f64>,
+    normals: [Vector3<f64>; 2],
+}
+
+impl Edge {
+    /// Whether the arcs between the normals of this edge and the negated ones of the other cross on the unit sphere.
+    fn makes_a_face_with(&self, other: &Edge) -> bool {
+        let [a, b] = self.normals;
+        let [c, d] = other.normals.map(|normal| -normal);
+        let (across_this, across_other) = (b.cross(&a), d.cross(&c));
+        let (cba, dba) = (c.dot(&across_this), d.dot(&across_this));
+        let (adc, bdc) = (a.dot(&across_other), b.dot(&across_other));
+        cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cuboid(low: [f64; 3], high: [f64; 3]) -> Hull {
+        let corners = (0..8).map(|bits| {
+            let pick = |axis: usize| {
+                if bits & (1 << axis) == 0 {
+                    low[axis]
+                } else {
+                    high[axis]
+                }
+            };
+            Vector3::new(pick(0), pick(1), pick(2))
+        });
+        Hull::of(corners).expect("a hull")
+    }
+
+    #[test]
+    fn an_even_box_has_its_moments() {
+        // The moments of a box with edges a, b, c are (b² + c²)/12 and so on: their sum is (a² + b² + c²)/6.
+        let hull = cuboid([1.0, 2.0, 3.0], [1.4, 2.6, 4.0]);
+        let sum = (0.4_f64.powi(2) + 0.6_f64.powi(2) + 1.0) / 6.0;
+        assert!((hull.even_trace() - sum).abs() < 1e-12);
+        assert!((hull.volume - 0.24).abs() < 1e-12);
+        assert!((hull.outside(&Vector3::new(1.9, 2.3, 3.5)) - 0.5).abs() < 1e-12);
+        assert!((hull.outside(&Vector3::new(1.3, 2.3, 3.5)) + 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn depth_is_the_way_out() {
+        let a = cuboid([0.0; 3], [1.0; 3]);
+        let b = cuboid([0.9, 0.2, 0.2], [2.0, 0.8, 0.8]);
+        for (x, y) in [(&a, &b), (&b, &a)] {
+            assert!((x.depth(y) - 0.1).abs() < 1e-12);
+        }
+        assert!(a.depth(&cuboid([1.1, 0.0, 0.0], [2.0, 1.0, 1.0])) <= 0.0);
+        // Two wedges whose edges cross: the way out is along the cross product of the edges, z.
+        let wedge = |points: [[f64; 3]; 6]| {
+            Hull::of(points.into_iter().map(Vector3::from)).expect("a hull")
+        };
+        let lower = wedge([
+            [-1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [-1.0, -1.0, -1.0],
+            [1.0, -1.0, -1.0],
+            [-1.0, 1.0, -1.0],
+            [1.0, 1.0, -1.0],
+        ]);
+        let upper = wedge([
+            [0.0, -1.0, -0.01],
+            [0.0, 1.0, -0.01],
+            [-1.0, -1.0, 1.0],
+            [-1.0, 1.0, 1.0],
+            [1.0, -1.0, 1.0],
+            [1.0, 1.0, 1.0],
+        ]);
+        assert!((lower.depth(&upper) - 0.01).abs() < 1e-12);
+    }
+}

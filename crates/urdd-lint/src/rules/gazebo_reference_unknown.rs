@@ -1,0 +1,29 @@
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use crate::vocabulary::nearest;
+use urdd_validate::finding::Findings;
+use urdd_xml::element::children;
+
+declare_lint! {
+    /// A `<gazebo reference>` names neither a link nor a joint.
+    ///
+    /// Gazebo leaves out its friction, sensors and plugins without a word.
+    ///
+    /// Write the name of a link or joint.
+    LNT044 "gazebo-reference-unknown", Warning, WrongMotion, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let known: Vec<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
+    for (_, node) in children(urdf.root).filter(|(name, _)| *name == "gazebo") {
+        let reference = node.attribute("reference").filter(|name| !name.is_empty());
+        let Some(reference) = reference.filter(|name| !known.contains(name)) else {
+            continue;
+        };
+        let near = nearest(reference, &known);
+        let near = near.map_or(String::new(), |near| format!(", but there is `{near}`"));
+        let message = format!("neither a link nor a joint is called `{reference}`{near}; write a name that is there");
+        urdf.at_attribute(node, "reference", message).report(findings);
+    }
+    Some(())
+}

@@ -1,0 +1,32 @@
+use crate::elements::child;
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// A `<limit>` has no effort or no velocity.
+    ///
+    /// urdfdom, so all of ROS and Pinocchio, refuses the whole file, on joints of any type: `Could not parse limit element`.
+    /// MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
+    ///
+    /// Write both: what the motor can do, in N or N m, and in m/s or rad/s.
+    LNT017 "limit-incomplete", Error, Format, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for joint in &urdf.joints {
+        let Some(limit) = child(*joint, "limit") else {
+            continue;
+        };
+        let missing = ["effort", "velocity"].into_iter();
+        let missing: Vec<&str> = missing.filter(|name| !limit.has_attribute(*name)).collect();
+        if !missing.is_empty() {
+            let message = format!(
+                "`<limit>` has no {}, and ROS (urdfdom) refuses the whole file; write both",
+                missing.join(" and no ")
+            );
+            urdf.at(limit, message).report(findings);
+        }
+    }
+    Some(())
+}

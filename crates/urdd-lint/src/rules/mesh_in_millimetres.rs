@@ -1,0 +1,44 @@
+use nalgebra::Vector3;
+
+use crate::geometry::diagonal;
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_format::readable::metres;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// A mesh is a hundred times as long as the robot's joints are apart, or shorter than a millimetre.
+    ///
+    /// It is in millimetres, or was scaled to metres twice. RViz shows nothing, because the camera is inside of the mesh; planners see
+    /// everything in collision.
+    ///
+    /// Write `scale="0.001 0.001 0.001"`, or export the mesh in metres.
+    LNT022 "mesh-in-millimetres", Error, WrongPlace, since "1.1.0"
+}
+
+/// The shortest mesh, m.
+const SHORTEST: f64 = 0.001;
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    if !urdf.moves() {
+        return Some(());
+    }
+    let longest = urdf.longest_part(findings)?;
+    for (node, mesh) in urdf.read_meshes(findings)? {
+        let Ok(facts) = mesh.facts else { continue };
+        let size = diagonal(facts.corners.iter().map(|[x, y, z]| {
+            let [a, b, c] = mesh.scale;
+            Vector3::new(x * a, y * b, z * c)
+        }));
+        let message = if size > longest {
+            "long, far more than the robot; if it is in millimetres, write scale=\"0.001 0.001 0.001\""
+        } else if size < SHORTEST {
+            "long; if it is in metres, remove the scale"
+        } else {
+            continue;
+        };
+        let message = format!("the mesh is {} {message}", metres(size));
+        urdf.at_attribute(node, "filename", message).report(findings);
+    }
+    Some(())
+}

@@ -1,0 +1,44 @@
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
+use urdd_format::meshes::GeometryKind;
+
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// Two different collision meshes have one file name in different folders.
+    ///
+    /// MuJoCo before 4.0 drops the folders of names in a URDF, and takes one mesh for both links without a word.
+    ///
+    /// Rename one of the files.
+    LNT032 "mesh-names-clash", Info, Collisions, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let mut by_name: BTreeMap<&std::ffi::OsStr, Vec<(_, &Path)>> = BTreeMap::new();
+    for (node, mesh) in urdf.read_meshes(findings)? {
+        if let (GeometryKind::Collision, Some(name)) = (mesh.kind, mesh.file.file_name()) {
+            let files = by_name.entry(name).or_default();
+            if files.iter().all(|(_, file)| *file != mesh.file) {
+                files.push((node, mesh.file));
+            }
+        }
+    }
+    for files in by_name.into_values().filter(|files| files.len() > 1) {
+        let bytes = |file: &Path| regular::read(file, MAX_DOCUMENT_BYTES).ok();
+        let Some(((_, first), rest)) = files.split_first() else {
+            continue;
+        };
+        let first = bytes(first);
+        if let Some((node, _)) = rest.iter().find(|(_, file)| bytes(file) != first) {
+            let message = "another collision mesh in another folder has this file name, and MuJoCo before 4.0 takes one for both; \
+                rename one of them";
+            urdf.at_attribute(*node, "filename", message).report(findings);
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,33 @@
+use urdd_format::meshes::GeometryKind;
+
+use crate::elements::numbers;
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// The scale of a collision mesh mirrors it, or flattens it.
+    ///
+    /// A mirrored mesh has its faces inside out: MuJoCo has wrong normals for it, and Gazebo's collisions fail. Two negative
+    /// factors are a rotation, and no finding. With a factor of 0, MuJoCo refuses the robot.
+    ///
+    /// Export a mirrored mesh, and write positive factors.
+    LNT023 "mirrored-scale", Warning, Collisions, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for (node, mesh) in urdf.meshes(findings)? {
+        let Some([x, y, z]) = numbers::<3>(node, "scale") else {
+            continue;
+        };
+        let message = if [x, y, z].contains(&0.0) {
+            "a factor of 0 flattens the mesh; write what it is to be multiplied by"
+        } else if x.signum() * y.signum() * z.signum() < 0.0 && mesh.geometry == GeometryKind::Collision {
+            "the scale mirrors the mesh, so that its faces are inside out; export a mirrored mesh"
+        } else {
+            continue;
+        };
+        urdf.at_attribute(node, "scale", message).report(findings);
+    }
+    Some(())
+}

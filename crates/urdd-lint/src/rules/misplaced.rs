@@ -1,0 +1,36 @@
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use crate::unknown::{Unknown, What};
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// An element or attribute of URDF is in a place where no program looks.
+    ///
+    /// Programs ignore it without a word: a `<mass>` directly in `<link>` is 0 kg for Pinocchio, 1 kg for PyBullet, and
+    /// for MuJoCo what the volume gives.
+    ///
+    /// Move it to the element that it belongs to.
+    LNT046 "misplaced", Warning, Format, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for Unknown { node, what, meant, belongs } in urdf.unknown() {
+        if meant.is_some() || belongs.is_empty() {
+            continue;
+        }
+        let places: Vec<String> = belongs.iter().map(|place| format!("`<{place}>`")).collect();
+        let places = places.join(" or ");
+        match what {
+            What::Element => {
+                let message = format!("programs ignore this element here; it belongs in {places}");
+                urdf.at(node, message)
+            }
+            What::Attribute(name) => {
+                let message = format!("programs ignore the attribute `{name}` here; it belongs to {places}");
+                urdf.at_attribute(node, name, message)
+            }
+        }
+        .report(findings);
+    }
+    Some(())
+}

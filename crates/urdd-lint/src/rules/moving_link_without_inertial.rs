@@ -1,0 +1,44 @@
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_format::urdf::JointType;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// A joint moves links of which none has a mass.
+    ///
+    /// MuJoCo fills a link that has shapes with 1000 kg/m³, and refuses a robot where it has none. PyBullet gives it 1 kg,
+    /// Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
+    ///
+    /// Write an `<inertial>`, or make the joint `fixed`.
+    LNT006 "moving-link-without-inertial", Warning, WrongMotion, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let (robot, bodies) = urdf.bodies(findings)?;
+    let has_mass = |link: usize| {
+        let inertial = robot.links[link].inertial.as_ref();
+        inertial.and_then(|inertial| inertial.mass).is_some_and(|mass| mass != 0.0)
+    };
+    let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
+    if !(0..robot.links.len()).any(has_mass) {
+        if (0..robot.joints.len()).any(|joint| moves(&joint)) {
+            let message = "no link has a mass: simulators invent masses, or refuse the robot; write an `<inertial>` for each";
+            urdf.at(urdf.root, message).report(findings);
+        }
+        return Some(());
+    }
+    for top in bodies.tops() {
+        let Some(joint) = bodies.tree.parent_joint[top].filter(moves) else {
+            continue;
+        };
+        if !bodies.members(top).any(has_mass) {
+            let message = format!(
+                "joint `{}` moves this link, and it has no mass: simulators invent one, or refuse the robot; write an \
+                `<inertial>`",
+                robot.joints[joint].name
+            );
+            urdf.at(urdf.links[top], message).report(findings);
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,55 @@
+use std::collections::BTreeSet;
+
+use roxmltree::Node;
+
+use crate::elements::{child, text};
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// A link or joint has a name that a program refuses.
+    ///
+    /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
+    /// - `world` on a link that is not the root: MuJoCo and SDFormat keep this name for the world.
+    /// - A slash at the beginning: tf2 refuses it as the name of a frame.
+    /// - `::`, and `__` at both ends: reserved in SDFormat.
+    /// - An empty name: PyBullet 3.2.7 crashes, urdfdom refuses the file.
+    ///
+    /// Choose another name, and change it wherever it is used: SRDF, controllers, launch files.
+    LNT015 "name-refused", Warning, Format, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let names = |nodes: &[Node<'_, '_>]| -> BTreeSet<String> {
+        let names = nodes.iter().filter_map(|node| node.attribute("name"));
+        names.map(str::to_owned).collect()
+    };
+    let links = names(&urdf.links);
+    let children = urdf.joints.iter();
+    let children = children.filter_map(|joint| text(child(*joint, "child")?, "link"));
+    let children: BTreeSet<&str> = children.collect();
+    let all = urdf.links.iter().map(|node| (node, false));
+    for (node, is_joint) in all.chain(urdf.joints.iter().map(|node| (node, true))) {
+        let Some(name) = node.attribute("name") else {
+            continue;
+        };
+        let is_reserved = name.len() > 4 && name.starts_with("__") && name.ends_with("__");
+        let wrong = if name.is_empty() {
+            "the name is empty: urdfdom refuses the file, and PyBullet crashes"
+        } else if name.starts_with('/') {
+            "tf2 refuses names that begin with a slash"
+        } else if name.contains("::") || is_reserved {
+            "SDFormat, so Gazebo, keeps `::` and `__NAME__` for itself"
+        } else if is_joint && links.contains(name) {
+            "a link has the same name, and SDFormat, so Gazebo, refuses that"
+        } else if !is_joint && name == "world" && children.contains(name) {
+            "MuJoCo and SDFormat keep `world` for the world itself, and this link is not the root"
+        } else {
+            continue;
+        };
+        let message = format!("{wrong}; choose another name");
+        urdf.at_attribute(*node, "name", message).report(findings);
+    }
+    Some(())
+}

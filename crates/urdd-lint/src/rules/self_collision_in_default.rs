@@ -1,0 +1,92 @@
+use std::collections::BTreeSet;
+
+use nalgebra::Point3;
+
+use urdd_format::meshes::GeometryKind;
+
+use crate::geometry::bounds;
+use crate::hull::Hull;
+use crate::pose::at_default;
+use crate::rule::declare_lint;
+use crate::srdf;
+use crate::subject::Subject;
+use urdd_format::readable::metres;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// Links overlap in the default configuration.
+    ///
+    /// It is the convex hulls of collision shapes that overlap, by more than 1 mm: MuJoCo, PyBullet and Isaac take the hull of a
+    /// collision mesh. MuJoCo pushes the links apart from the first step, and the robot jerks or jams. Each joint is at 0,
+    /// or at the limit nearest to it. Left out: links that fixed joints hold together, a link and the next one, pairs that the
+    /// robot's SRDF disables, robots of more than 600 collision shapes.
+    ///
+    /// Make the shapes smaller or cut them into convex pieces (`urdd generate`), or disable the pair.
+    LNT050 "self-collision-in-default", Info, Collisions, since "1.1.0"
+}
+
+/// Parts that touch are no finding, m.
+const LEAST: f64 = 0.001;
+const MANY: usize = 600;
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let (robot, bodies) = urdf.bodies(findings)?;
+    let geometry = urdf.geometry(findings)?;
+    let poses = at_default(robot, bodies);
+    let mut items = Vec::new();
+    for (link, shapes) in geometry.links.iter().enumerate() {
+        for shape in shapes.shapes.iter().filter(|shape| shape.kind == GeometryKind::Collision) {
+            let place = |corner: &nalgebra::Vector3<f64>| poses[link].transform_point(&Point3::from(*corner)).coords;
+            let corners: Vec<_> = shape.corners.iter().map(place).collect();
+            if let (Some(bounds), Some(hull)) = (bounds(corners.iter().copied()), Hull::of(corners.into_iter())) {
+                items.push((link, bounds, hull));
+            }
+        }
+    }
+    if items.len() > MANY {
+        return Some(());
+    }
+    let above = |top: usize| bodies.tree.parent_link[top].map(|parent| bodies.top[parent]);
+    let disabled = srdf::disabled_pairs(urdf);
+    let mut worst: Option<(f64, usize, usize)> = None;
+    let mut pairs = BTreeSet::new();
+    for (number, (a, (low_a, high_a), first)) in items.iter().enumerate() {
+        for (b, (low_b, high_b), second) in &items[number + 1..] {
+            let (top_a, top_b) = (bodies.top[*a], bodies.top[*b]);
+            let is_near = top_a == top_b || above(top_a) == Some(top_b) || above(top_b) == Some(top_a);
+            let is_apart = (0..3).any(|axis| low_a[axis] > high_b[axis] || low_b[axis] > high_a[axis]);
+            if is_near || is_apart || disabled.contains(&pair(&robot.links[*a].name, &robot.links[*b].name)) {
+                continue;
+            }
+            let depth = first.depth(second);
+            if depth > LEAST {
+                pairs.insert((top_a.min(top_b), top_a.max(top_b)));
+                if worst.is_none_or(|(most, _, _)| depth > most) {
+                    worst = Some((depth, *a, *b));
+                }
+            }
+        }
+    }
+    let Some((depth, a, b)) = worst else {
+        return Some(());
+    };
+    let more = match pairs.len() - 1 {
+        0 => String::new(),
+        1 => ", and 1 more pair".to_owned(),
+        more => format!(", and {more} more pairs"),
+    };
+    let message = format!(
+        "in the default configuration, the convex hulls of `{}` and `{}` overlap by {}{more}; make them smaller, or disable \
+        the pair",
+        robot.links[a].name,
+        robot.links[b].name,
+        metres(depth)
+    );
+    urdf.at(urdf.root, message).report(findings);
+    Some(())
+}
+
+/// Two names in order.
+fn pair(a: &str, b: &str) -> (String, String) {
+    (a.min(b).to_owned(), a.max(b).to_owned())
+}

@@ -1,0 +1,63 @@
+use std::collections::BTreeSet;
+
+use roxmltree::{Document, Node};
+
+use crate::elements::text;
+use crate::rule::declare_lint;
+use crate::srdf;
+use crate::subject::Subject;
+use urdd_directory::position::LineIndex;
+use urdd_validate::finding::{Finding, Findings};
+
+declare_lint! {
+    /// The robot's SRDF names a link or joint that the URDF does not have.
+    ///
+    /// MoveIt says `Link 'X' is not known to URDF`, and goes on without the line: a pair of links is checked for collisions
+    /// although it should not be, or a group has no joints.
+    ///
+    /// Correct the name in the SRDF. An SRDF is looked for beside the URDF, and in folders called `srdf` there and one level up;
+    /// its file and its robot have the URDF's names.
+    LNT045 "srdf-unknown-name", Warning, Format, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    srdf::each(urdf, |file, document| compare(urdf, file, document, findings));
+    Some(())
+}
+
+fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findings) {
+    let root = document.root_element();
+    let links: BTreeSet<&str> = urdf.names(&urdf.links).collect();
+    let joints: BTreeSet<&str> = urdf.names(&urdf.joints).collect();
+    let elements = || root.descendants().filter(Node::is_element);
+    let virtual_joints = elements().filter(|node| node.tag_name().name() == "virtual_joint");
+    let virtual_joints: BTreeSet<&str> = virtual_joints.filter_map(|node| node.attribute("name")).collect();
+    let lines = LineIndex::new(document.input_text());
+    let mut told = BTreeSet::new();
+    for node in elements() {
+        let (is_link, attributes): (bool, &[&str]) = match node.tag_name().name() {
+            "disable_collisions" | "enable_collisions" => (true, &["link1", "link2"]),
+            "chain" => (true, &["base_link", "tip_link"]),
+            "link" => (true, &["name"]),
+            "joint" | "passive_joint" => (false, &["name"]),
+            "end_effector" => (true, &["parent_link"]),
+            "virtual_joint" => (true, &["child_link"]),
+            _ => continue,
+        };
+        for attribute in attributes {
+            let Some(name) = text(node, attribute).filter(|name| !name.is_empty()) else {
+                continue;
+            };
+            let known = if is_link { &links } else { &joints };
+            if known.contains(name) || virtual_joints.contains(name) || !told.insert((is_link, name.to_owned())) {
+                continue;
+            }
+            let kind = if is_link { "link" } else { "joint" };
+            let message = format!("the URDF has no {kind} `{name}`; correct the name, or remove the line");
+            let offset = node.attribute_node(*attribute).map_or(node.range().start, |one| one.range().start);
+            Finding::in_file(file, message)
+                .position(Some(lines.position(offset)))
+                .report(findings);
+        }
+    }
+}

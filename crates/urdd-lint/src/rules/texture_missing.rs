@@ -1,0 +1,49 @@
+use std::path::Path;
+
+use percent_encoding::percent_decode_str;
+
+use urdd_format::meshes::GeometryKind;
+
+use crate::rule::declare_lint;
+use crate::subject::Subject;
+use urdd_validate::finding::Findings;
+
+declare_lint! {
+    /// A texture, or the material library of an OBJ, is not there.
+    ///
+    /// The part is white or grey. Meshcat and Drake warn.
+    ///
+    /// Add the file beside the mesh, or correct the name in the mesh.
+    LNT030 "texture-missing", Info, Appearance, since "1.1.0"
+}
+
+fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    for (node, mesh) in urdf.read_meshes(findings)? {
+        let (Ok(facts), GeometryKind::Visual) = (mesh.facts, mesh.kind) else {
+            continue;
+        };
+        let folder = mesh.file.parent().unwrap_or(Path::new("."));
+        for name in &facts.side_files {
+            if !is_there(folder, name) {
+                let message = format!(
+                    "the mesh names the file `{}`, which is not there; add it beside the mesh",
+                    urdd_format::escape::line(name)
+                );
+                urdf.at_attribute(node, "filename", message).report(findings);
+            }
+        }
+    }
+    Some(())
+}
+
+/// Whether a file is there by its name, as it is or as a URI.
+fn is_there(folder: &Path, name: &str) -> bool {
+    let plain = name.strip_prefix("file://").or_else(|| name.strip_prefix("file:")).unwrap_or(name);
+    let plain = plain.replace('\\', "/");
+    let plain = plain.trim();
+    let decoded = percent_decode_str(plain).decode_utf8_lossy();
+    plain.is_empty()
+        || plain.starts_with("data:")
+        || folder.join(plain).is_file()
+        || folder.join(&*decoded).is_file()
+}

@@ -1,0 +1,73 @@
+//! Elements and attributes that URDF does not define where they are.
+
+use roxmltree::Node;
+
+use super::vocabulary::{CLOSED, KNOWN, Known, nearest, of};
+use urdd_xml::element::children;
+
+/// Something that URDF does not define.
+#[derive(Debug, Clone)]
+pub struct Unknown<'a> {
+    /// The element, or that of the attribute.
+    pub node: Node<'a, 'a>,
+    /// Which of them it is.
+    pub what: What<'a>,
+    /// What it is a misspelling of.
+    pub meant: Option<&'static str>,
+    /// The elements that something of this name belongs to.
+    pub belongs: Vec<&'static str>,
+}
+
+/// An element or an attribute.
+#[derive(Debug, Clone, Copy)]
+pub enum What<'a> {
+    /// The element itself.
+    Element,
+    /// Its attribute of this name.
+    Attribute(&'a str),
+}
+
+/// Attributes that many elements have: one in a wrong place says nothing.
+const EVERYWHERE: [&str; 5] = ["name", "type", "value", "link", "joint"];
+
+/// All that is unknown in a robot.
+pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
+    let mut found = Vec::new();
+    let mut left: Vec<(Node<'a, 'a>, &'static Known)> =
+        of("robot").map(|known| (root, known)).into_iter().collect();
+    while let Some((node, known)) = left.pop() {
+        let attributes = node
+            .attributes()
+            .filter(|attribute| attribute.namespace().is_none());
+        for attribute in attributes {
+            let name = attribute.name();
+            if !known.attributes.contains(&name) && !known.other_attributes.contains(&name) {
+                let has = |known: &&Known| {
+                    known.attributes.contains(&name) && !EVERYWHERE.contains(&name)
+                };
+                found.push(Unknown {
+                    node,
+                    what: What::Attribute(name),
+                    meant: nearest(name, known.attributes),
+                    belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
+                });
+            }
+        }
+        for (name, child) in children(node).filter(|(name, _)| !name.contains(':')) {
+            if known.children.contains(&name) {
+                let inside = of(name).filter(|_| !CLOSED.contains(&name));
+                left.extend(inside.map(|known| (child, known)));
+            } else if !known.other_children.contains(&name) {
+                let has = |known: &&Known| known.children.contains(&name);
+                found.push(Unknown {
+                    node: child,
+                    what: What::Element,
+                    meant: nearest(name, known.children),
+                    belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
+                });
+            }
+        }
+    }
+    found.sort_by_key(|unknown| unknown.node.range().start);
+    found
+}

@@ -1,0 +1,264 @@
+//! The elements and attributes of URDF (SPEC 6.1.8), and those that some programs read beside them.
+
+/// An element: its attributes, and the elements in it.
+pub struct Known {
+    /// Its name.
+    pub name: &'static str,
+    /// Its attributes.
+    pub attributes: &'static [&'static str],
+    /// The elements in it.
+    pub children: &'static [&'static str],
+    /// Attributes of extensions.
+    pub other_attributes: &'static [&'static str],
+    /// Elements of extensions; nobody looks into them.
+    pub other_children: &'static [&'static str],
+}
+
+/// Elements whose content is other programs' matter.
+pub const CLOSED: &[&str] = &["transmission", "gazebo", "ros2_control"];
+
+const fn known(
+    name: &'static str,
+    attributes: &'static [&'static str],
+    children: &'static [&'static str],
+) -> Known {
+    Known {
+        name,
+        attributes,
+        children,
+        other_attributes: &[],
+        other_children: &[],
+    }
+}
+
+/// Every element of URDF.
+pub const KNOWN: &[Known] = &[
+    Known {
+        other_attributes: &["scale"],
+        other_children: &[
+            "sensor",
+            "mujoco",
+            "loop_joint",
+            "force_element",
+            "frame",
+            "collision_filter_group",
+            "group",
+            "group_state",
+            "disable_collisions",
+            "passive_joint",
+            "end_effector",
+            "virtual_joint",
+            "model_state",
+            "property",
+            "deformable",
+            "gripper",
+        ],
+        ..known(
+            "robot",
+            &["name", "version"],
+            &[
+                "link",
+                "joint",
+                "material",
+                "transmission",
+                "gazebo",
+                "ros2_control",
+            ],
+        )
+    },
+    Known {
+        other_attributes: &["concave"],
+        other_children: &[
+            "contact",
+            "self_collision_checking",
+            "audio_source",
+            "sensor",
+            "gazebo",
+            "inertia_scaling",
+            "friction_anchor",
+            "laser_inertia",
+            "self_collision",
+        ],
+        ..known(
+            "link",
+            &["name", "type"],
+            &["inertial", "visual", "collision"],
+        )
+    },
+    known("inertial", &[], &["origin", "mass", "inertia"]),
+    Known {
+        other_attributes: &["concave"],
+        other_children: &["verbose"],
+        ..known("visual", &["name"], &["origin", "geometry", "material"])
+    },
+    Known {
+        other_attributes: &["concave", "group", "mask"],
+        other_children: &[
+            "verbose",
+            "contact_coefficients",
+            "surface",
+            "contact",
+            "material",
+        ],
+        ..known("collision", &["name"], &["origin", "geometry"])
+    },
+    Known {
+        other_children: &[
+            "plane",
+            "cdf",
+            "sdf",
+            "ellipsoid",
+            "superellipsoid",
+            "cone",
+            "heightmap",
+            "convex",
+            "empty",
+        ],
+        ..known(
+            "geometry",
+            &[],
+            &["mesh", "box", "cylinder", "capsule", "sphere"],
+        )
+    },
+    Known {
+        other_children: &[
+            "specular",
+            "ambient",
+            "emissive",
+            "shininess",
+            "script",
+            "diffuse",
+        ],
+        ..known("material", &["name"], &["color", "texture"])
+    },
+    Known {
+        other_children: &["transmission", "gazebo", "sensor", "hardware", "drive"],
+        ..known(
+            "joint",
+            &["name", "type"],
+            &[
+                "origin",
+                "parent",
+                "child",
+                "axis",
+                "limit",
+                "dynamics",
+                "mimic",
+                "safety_controller",
+                "calibration",
+            ],
+        )
+    },
+    known("origin", &["xyz", "rpy", "quat_xyzw"], &[]),
+    known("mass", &["value"], &[]),
+    Known {
+        // The other half of the same tensor.
+        other_attributes: &["iyx", "izx", "izy"],
+        ..known("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], &[])
+    },
+    known("color", &["rgba"], &[]),
+    known("texture", &["filename"], &[]),
+    known("parent", &["link"], &[]),
+    known("child", &["link"], &[]),
+    known("axis", &["xyz"], &[]),
+    Known {
+        other_attributes: &["k_velocity", "k_position"],
+        ..known(
+            "limit",
+            &[
+                "lower",
+                "upper",
+                "effort",
+                "velocity",
+                "acceleration",
+                "deceleration",
+                "jerk",
+            ],
+            &[],
+        )
+    },
+    Known {
+        other_attributes: &[
+            "coulomb_window",
+            "coulomb",
+            "stiffness",
+            "rotor_inertia",
+            "armature",
+            "spring_reference",
+            "spring_stiffness",
+        ],
+        ..known("dynamics", &["damping", "friction"], &[])
+    },
+    known("mimic", &["joint", "multiplier", "offset"], &[]),
+    known(
+        "safety_controller",
+        &[
+            "soft_lower_limit",
+            "soft_upper_limit",
+            "k_position",
+            "k_velocity",
+        ],
+        &[],
+    ),
+    known(
+        "calibration",
+        &["rising", "falling", "reference_position"],
+        &[],
+    ),
+    Known {
+        other_attributes: &["convex"],
+        ..known("mesh", &["filename", "scale"], &[])
+    },
+    known("box", &["size"], &[]),
+    known("cylinder", &["radius", "length"], &[]),
+    known("capsule", &["radius", "length"], &[]),
+    known("sphere", &["radius"], &[]),
+];
+
+/// The element of a name.
+pub fn of(name: &str) -> Option<&'static Known> {
+    KNOWN.iter().find(|known| known.name == name)
+}
+
+/// The name that another one is a misspelling of: the nearest, one edit away, or two where both have six letters, in any
+/// case; or the only one that it is the beginning of.
+pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    const LONG: usize = 100;
+    if name.len() > LONG {
+        return None;
+    }
+    let lower = name.to_lowercase();
+    let longer = known.iter().filter(|known| known.starts_with(&lower));
+    let longer: Vec<_> = longer.collect();
+    if let ([one], true) = (&longer[..], lower.chars().count() >= 5) {
+        return Some(one);
+    }
+    let edits = |known: &str| strsim::osa_distance(&lower, known);
+    let best = known.iter().min_by_key(|known| (edits(known), **known))?;
+    let letters = lower.chars().count().min(best.chars().count());
+    let allowed = match letters {
+        0..3 => 0,
+        3..6 => 1,
+        _ => 2,
+    };
+    (edits(best) <= allowed).then_some(best)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelling_has_one_meaning() {
+        let joint = of("joint").expect("it").children;
+        let controller = of("safety_controller").expect("it").attributes;
+        assert_eq!(nearest("limits", joint), Some("limit"));
+        assert_eq!(nearest("Axsi", joint), Some("axis"));
+        assert_eq!(nearest("mimc", joint), Some("mimic"));
+        assert_eq!(nearest("sensor", joint), None);
+        assert_eq!(nearest("soft_lower", controller), Some("soft_lower_limit"));
+        assert_eq!(nearest("soft_", controller), None, "the beginning of two");
+        assert_eq!(nearest("k_positon", controller), Some("k_position"));
+        assert_eq!(nearest("xy", of("axis").expect("it").attributes), None);
+    }
+}

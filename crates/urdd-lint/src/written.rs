@@ -1,0 +1,200 @@
+//! The place in a .xacro file that a link or joint of its expansion was written at, as far as its name tells.
+
+use std::path::{Path, PathBuf};
+
+use roxmltree::Node;
+
+use urdd_directory::position::LineIndex;
+use urdd_directory::regular;
+use urdd_format::index::Count;
+use urdd_format::report::{Place, WrittenAt};
+use urdd_validate::engine::Check;
+use urdd_xml::element::name;
+
+/// Maximum size of a file that is searched, bytes.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// The links and joints in xacro files.
+#[derive(Debug, Default)]
+pub struct Sources {
+    elements: Vec<Element>,
+}
+
+/// A link or joint as it is written.
+#[derive(Debug)]
+struct Element {
+    /// `link` or `joint`.
+    tag: String,
+    /// The fixed parts of its name, between what xacro puts in.
+    parts: Vec<String>,
+    at: WrittenAt,
+}
+
+impl Sources {
+    /// Reads xacro files. Those that cannot be read are left out. Names in the report are seen from `folder`.
+    pub fn read(files: &[PathBuf], folder: &Path) -> Self {
+        let mut sources = Sources::default();
+        for file in files {
+            let bytes = regular::read(file, MAX_BYTES).ok();
+            let text = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
+            let Some(text) = text else { continue };
+            if let Ok(document) = urdd_xml::parse(&text, urdd_xml::Kind::Robot) {
+                let shown = seen_from(file, folder);
+                let lines = LineIndex::new(&text);
+                let nodes = document.descendants().filter(Node::is_element);
+                sources
+                    .elements
+                    .extend(nodes.filter_map(|node| element(node, &lines, &shown)));
+            }
+        }
+        sources
+    }
+
+    /// Says of each finding about a link or joint where that is written.
+    pub fn place(&self, checks: &mut [Check]) {
+        let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
+        for finding in findings {
+            for place in std::iter::once(&mut finding.place).chain(&mut finding.more) {
+                let found = place
+                    .subject
+                    .as_deref()
+                    .and_then(|subject| self.find(subject));
+                place.written_at = found.cloned();
+                place.related.iter_mut().for_each(|related: &mut Place| {
+                    let subject = related.subject.as_deref();
+                    related.written_at = subject.and_then(|subject| self.find(subject)).cloned();
+                });
+            }
+        }
+    }
+
+    /// Where "link `NAME`" is written: the one element whose name fits with the most fixed letters.
+    fn find(&self, subject: &str) -> Option<&WrittenAt> {
+        let (tag, quoted) = subject.split_once(' ')?;
+        let wanted = quoted.strip_prefix('`')?.strip_suffix('`')?;
+        let fitting = self
+            .elements
+            .iter()
+            .filter(|element| element.tag == tag && element.fits(wanted));
+        let letters = |element: &Element| element.parts.iter().map(String::len).sum::<usize>();
+        let most = fitting
+            .clone()
+            .map(letters)
+            .max()
+            .filter(|most| *most > 0)?;
+        let mut best = fitting.filter(|element| letters(element) == most);
+        let first = best.next()?;
+        best.next().is_none().then_some(&first.at)
+    }
+}
+
+impl Element {
+    fn fits(&self, wanted: &str) -> bool {
+        let [first, between @ .., last] = &self.parts[..] else {
+            return self.parts.first().is_some_and(|only| only == wanted);
+        };
+        let rest = wanted
+            .strip_prefix(first.as_str())
+            .and_then(|rest| rest.strip_suffix(last.as_str()));
+        let Some(mut rest) = rest else { return false };
+        between
+            .iter()
+            .all(|part| match rest.split_once(part.as_str()) {
+                Some((_, after)) => {
+                    rest = after;
+                    true
+                }
+                None => false,
+            })
+    }
+}
+
+fn element(node: Node, lines: &LineIndex, file: &str) -> Option<Element> {
+    let tag = name(node);
+    let named = node
+        .attribute("name")
+        .filter(|_| matches!(tag, "link" | "joint"))?;
+    let position = lines.position(node.range().start);
+    let is_macro = |one: &Node| one.is_element() && name(*one) == "xacro:macro";
+    let holder = node.ancestors().find(is_macro);
+    Some(Element {
+        tag: tag.to_owned(),
+        parts: fixed_parts(named),
+        at: WrittenAt {
+            file: file.to_owned(),
+            line: Some(Count(position.line)),
+            column: Some(Count(position.column)),
+            macro_name: holder.and_then(|holder| Some(holder.attribute("name")?.to_owned())),
+        },
+    })
+}
+
+/// What is between `${…}` and `$(…)` in a name.
+fn fixed_parts(name: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut rest = name;
+    while let Some(character) = rest.chars().next() {
+        let end = match rest.get(..2) {
+            Some("${") => rest.find('}'),
+            Some("$(") => rest.find(')'),
+            _ => None,
+        };
+        let length = match end {
+            Some(end) => {
+                parts.push(String::new());
+                end + 1
+            }
+            None => {
+                if let Some(last) = parts.last_mut() {
+                    last.push(character);
+                }
+                character.len_utf8()
+            }
+        };
+        rest = &rest[length..];
+    }
+    parts
+}
+
+/// The path of a file as seen from a folder, with forward slashes.
+fn seen_from(file: &Path, folder: &Path) -> String {
+    let mut up = String::new();
+    for above in folder.ancestors() {
+        if let Ok(inside) = file.strip_prefix(above) {
+            return up + &inside.to_string_lossy().replace('\\', "/");
+        }
+        up += "../";
+    }
+    file.to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_found_by_its_fixed_parts() {
+        assert_eq!(fixed_parts("${p}wrist_$(arg n)_é"), ["", "wrist_", "_é"]);
+        let text = "<robot xmlns:xacro=\"x\">\n<xacro:macro name=\"arm\">\n<link name=\"${p}wrist\"/>\n\
+            <link name=\"${p}wrist_${n}\"/><joint name=\"${p}\"/></xacro:macro><link name=\"base\"/><link name=\"base\"/></robot>";
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("urdf/arm.xacro");
+        std::fs::create_dir(folder.path().join("urdf")).expect("a folder");
+        std::fs::write(&file, text).expect("written");
+        let sources = Sources::read(&[file], &folder.path().join("other"));
+        let at = |subject: &str| {
+            let at = sources.find(subject)?;
+            Some((at.file.clone(), at.line?.get(), at.macro_name.clone()))
+        };
+        let arm = |line| Some(("../urdf/arm.xacro".to_owned(), line, Some("arm".to_owned())));
+        assert_eq!(at("link `left_wrist`"), arm(3));
+        assert_eq!(at("link `left_wrist_1`"), arm(4));
+        assert_eq!(at("link `left_elbow`"), None);
+        assert_eq!(
+            at("joint `left_wrist`"),
+            None,
+            "nothing of its name is fixed"
+        );
+        assert_eq!(at("link `base`"), None, "two places");
+    }
+}
