@@ -1,0 +1,137 @@
+// The extension: starts `urdd lsp`, and shows robots by `urdd view`.
+
+import {
+  commands,
+  env,
+  Uri,
+  window,
+  workspace,
+  type ExtensionContext,
+  type LogOutputChannel,
+  type WorkspaceConfiguration,
+} from "vscode";
+import {
+  DidChangeConfigurationNotification,
+  LanguageClient,
+  type LanguageClientOptions,
+} from "vscode-languageclient/node";
+import { find, notFound, section, type Settings } from "./program";
+import { target, Viewers } from "./viewers";
+
+const viewers = new Viewers();
+let client: LanguageClient | undefined;
+/** Starts and stops happen one after the other. */
+let turn = Promise.resolve();
+
+export async function activate(context: ExtensionContext): Promise<void> {
+  const log = window.createOutputChannel("URDD", { log: true });
+  const restart = () => (turn = turn.then(stop).then(() => start(log)));
+  context.subscriptions.push(
+    log,
+    commands.registerCommand("urdd.restart", restart),
+    commands.registerCommand("urdd.show", show),
+    workspace.onDidChangeConfiguration((change) => {
+      if (change.affectsConfiguration("urdd.path")) void restart();
+      else if (change.affectsConfiguration("urdd")) void announce();
+    }),
+    workspace.onDidGrantWorkspaceTrust(announce),
+  );
+  await restart();
+}
+
+export async function deactivate(): Promise<void> {
+  viewers.stop();
+  await turn.then(stop);
+}
+
+function configuration(): WorkspaceConfiguration {
+  return workspace.getConfiguration("urdd");
+}
+
+/** What the server gets. xacro runs code: never in a workspace that is not trusted, whatever the user's own settings. */
+function settings(): Settings {
+  return {
+    xacro: workspace.isTrusted && configuration().get("xacro", false),
+    packagePaths: configuration().get<string[]>("packagePaths", []),
+  };
+}
+
+/** The program's path; says what to do if there is none. */
+async function program(): Promise<string | null> {
+  const name = configuration().get("path", "urdd");
+  const found = find(name, process.env);
+  if (found !== null) return found;
+  const open = "Open settings";
+  if ((await window.showErrorMessage(notFound(name), open)) === open) {
+    await commands.executeCommand("workbench.action.openSettings", "urdd.path");
+  }
+  return null;
+}
+
+async function start(log: LogOutputChannel): Promise<void> {
+  const command = find(configuration().get("path", "urdd"), process.env);
+  if (command === null) {
+    // Not awaited: the message stays until somebody closes it.
+    void program();
+    return;
+  }
+  const options: LanguageClientOptions = {
+    documentSelector: [
+      { scheme: "file", pattern: "**/*.{urdf,xacro}" },
+      { scheme: "file", pattern: "**/urdd.json" },
+      { scheme: "file", pattern: "**/*_module/module.{json,yaml}" },
+    ],
+    initializationOptions: settings,
+    outputChannel: log,
+    middleware: {
+      workspace: {
+        configuration: async (asked, token, next) => {
+          const others: unknown = await next(asked, token);
+          const own = settings();
+          return asked.items.map((item, index) => section(own, item.section) ?? (others as unknown[])[index]);
+        },
+      },
+    },
+  };
+  client = new LanguageClient("urdd", "URDD", { command, args: ["lsp"] }, options);
+  try {
+    await client.start();
+  } catch (error) {
+    client = undefined;
+    log.error(`${command} lsp: ${String(error)}`);
+    void window.showErrorMessage(`The language server did not start. \`${command}\` has to be urdd 1.1.0 or later.`);
+  }
+}
+
+async function stop(): Promise<void> {
+  const running = client;
+  client = undefined;
+  await running?.stop().catch(() => undefined);
+}
+
+/** Tells the server that settings changed; one that wants them asks. */
+async function announce(): Promise<void> {
+  await client?.sendNotification(DidChangeConfigurationNotification.type, { settings: { urdd: settings() } });
+}
+
+/** Opens the page with the robot of a file: that of the menu, or of the editor. */
+async function show(chosen?: unknown): Promise<void> {
+  const uri = chosen instanceof Uri ? chosen : window.activeTextEditor?.document.uri;
+  const robot = uri?.scheme === "file" ? target(uri.fsPath) : null;
+  if (robot === null) {
+    void window.showErrorMessage("Open a .urdf or .xacro file, or the urdd.json of a URDD: that robot is shown.");
+    return;
+  }
+  if (/\.xacro$/i.test(robot) && !settings().xacro) {
+    const why = workspace.isTrusted ? "allow it by `urdd.xacro`" : "trust this workspace, and allow it by `urdd.xacro`";
+    void window.showErrorMessage(`xacro runs code that the file contains. To show this robot, ${why}.`);
+    return;
+  }
+  const command = await program();
+  if (command === null) return;
+  try {
+    await env.openExternal(Uri.parse(await viewers.address(command, robot), true));
+  } catch (error) {
+    void window.showErrorMessage(error instanceof Error ? error.message : String(error));
+  }
+}

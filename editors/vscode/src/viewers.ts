@@ -1,0 +1,74 @@
+// Processes of `urdd view`, one for each robot that is shown. Nothing here needs VS Code.
+
+import { spawn, type ChildProcess } from "node:child_process";
+import { basename, dirname } from "node:path";
+
+/** What `urdd view` shows for a file of the editor: the file, or the URDD that it is the root of. */
+export function target(file: string): string | null {
+  if (basename(file) === "urdd.json") return dirname(file);
+  return /\.(urdf|xacro)$/i.test(file) ? file : null;
+}
+
+/** The arguments of `urdd` that serve a robot's page and print its address. */
+export function viewArguments(robot: string): string[] {
+  return ["view", robot, "--no-open"];
+}
+
+/** The page's address in what the program has printed so far: on this machine alone, and up to the end of its line. */
+export function address(printed: string): string | null {
+  return /(?:^|\s)(http:\/\/127\.0\.0\.1:\d{1,5}\/\S*)\r?\n/.exec(printed)?.[1] ?? null;
+}
+
+/** How long the program may take to print the address, in milliseconds. */
+const STARTS_WITHIN = 30_000;
+
+/** The servers of pages that run. */
+export class Viewers {
+  readonly #running = new Map<string, { child: ChildProcess; address: Promise<string> }>();
+
+  /** The address of the page with a robot, from a server that runs or is started. */
+  address(program: string, robot: string): Promise<string> {
+    const running = this.#running.get(robot);
+    if (running) return running.address;
+    const child = spawn(program, viewArguments(robot), {
+      cwd: dirname(robot),
+      stdio: ["ignore", "pipe", "pipe"],
+      windowsHide: true,
+    });
+    const forget = () => {
+      if (this.#running.get(robot)?.child === child) this.#running.delete(robot);
+    };
+    const found = new Promise<string>((resolve, reject) => {
+      let printed = "";
+      let errors = "";
+      const late = setTimeout(() => {
+        child.kill();
+        reject(new Error(`urdd view printed no address within ${STARTS_WITHIN / 1000} s`));
+      }, STARTS_WITHIN);
+      child.stdout.setEncoding("utf8").on("data", (text: string) => {
+        printed = (printed + text).slice(-10_000);
+        const one = address(printed);
+        if (one !== null) {
+          clearTimeout(late);
+          resolve(one);
+        }
+      });
+      child.stderr.setEncoding("utf8").on("data", (text: string) => (errors = (errors + text).slice(-2_000)));
+      const ended = (reason: string) => {
+        clearTimeout(late);
+        forget();
+        reject(new Error(errors.trim() || reason));
+      };
+      child.on("error", (error) => ended(error.message));
+      child.on("close", (status) => ended(`urdd view ended with status ${status ?? "none"}`));
+    });
+    this.#running.set(robot, { child, address: found });
+    return found;
+  }
+
+  /** Ends all of them. */
+  stop(): void {
+    for (const { child } of this.#running.values()) child.kill();
+    this.#running.clear();
+  }
+}
