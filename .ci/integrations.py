@@ -1,6 +1,7 @@
 """Tries what other programs run `urdd` by: `integrations.py URDD WHEELS`.
 
-The steps of action.yml, the hooks of pre-commit (also with the wheel, as docs/ci.md has them), and cmake/UrddLint.cmake.
+The steps of action.yml, the hooks of pre-commit (also with the wheel, as docs/ci.md has them), and
+cmake/UrddLint.cmake.
 WHEELS is a folder with the wheel of this version. Each accepts a right robot, and refuses a wrong one.
 `.ci/integrations` makes the environment: pre-commit, CMake, PyYAML, shellcheck, git.
 """
@@ -142,7 +143,8 @@ def cmake(tried: Tried) -> None:
     """A project with two tests, of which one fails, with CTest alone and where ament wants results."""
     project = tried.folder / "CMakeLists.txt"
     tests = 'urdd_add_lint_test(lint_right right.urdf)\nurdd_add_lint_test(lint_wrong "wrong one.urdf" right.urdf)\n'
-    head = f'cmake_minimum_required(VERSION 3.16)\nproject(tried NONE)\nenable_testing()\ninclude("{ROOT}/cmake/UrddLint.cmake")\n'
+    head = "cmake_minimum_required(VERSION 3.16)\nproject(tried NONE)\nenable_testing()\n"
+    head += f'include("{ROOT}/cmake/UrddLint.cmake")\n'
     project.write_text(head + tests, encoding="utf-8")
     build, ament = (str(tried.folder.parent / name) for name in ("build", "ament"))
     for folder, results, words in (

@@ -16,7 +16,7 @@ import tomllib
 from pathlib import Path
 
 # Besides Cargo.toml, the files that state the version of the program. The crates have another (docs/promises.md).
-PACKAGES = ["python/Cargo.toml", "wasm/npm/package.json", "release/schemas/package.json"]
+PACKAGES = ["python/Cargo.toml", "wasm/npm/package.json", "release/schemas/package.json", "editors/vscode/package.json"]
 
 
 def output(root: Path, *command: str) -> str | None:
@@ -70,9 +70,13 @@ def changelog(root: Path, version: str, draft: bool) -> list[str]:
     if heading is None:
         return ["CHANGELOG.md has no section: write `## VERSION, DATE` above what changed"]
     newest, date = heading.groups()
+    is_day = re.fullmatch(r"\d{4}-\d{2}-\d{2}", date) is not None
+    # The next version's section begins before its number is written everywhere.
+    if draft and not is_day:
+        return []
     if newest != version:
         return [f"CHANGELOG.md begins with {newest}, Cargo.toml has {version}: write a section `## {version}, DATE`"]
-    if not draft and re.fullmatch(r"\d{4}-\d{2}-\d{2}", date) is None:
+    if not is_day:
         return [f"CHANGELOG.md: {version} is `{date}`: write the day of the release there, such as 2026-01-31"]
     return []
 

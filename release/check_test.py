@@ -107,6 +107,12 @@ class Refusals(unittest.TestCase):
     def test_a_changelog_of_another_version(self) -> None:
         self.change("CHANGELOG.md", "## 1.2.3, 2026-01-31", "## 1.3.0, 2026-01-31")
         self.refused("CHANGELOG.md begins with 1.3.0")
+        self.refused("CHANGELOG.md begins with 1.3.0", "--draft")
+
+    def test_a_changelog_that_began_the_next_version(self) -> None:
+        self.change("CHANGELOG.md", "## 1.2.3, 2026-01-31", "## 1.3.0, unreleased")
+        self.refused("CHANGELOG.md begins with 1.3.0")
+        assert self.said("--draft") == (0, "1.2.3\n")
 
     def test_a_changelog_without_a_day(self) -> None:
         self.change("CHANGELOG.md", "2026-01-31", "unreleased")

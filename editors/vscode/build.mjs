@@ -1,4 +1,4 @@
-// Makes what the package holds besides its sources: dist/extension.cjs, schemas/, LICENSE.txt.
+// Makes what the package holds besides its sources: dist/, schemas/, LICENSE.txt.
 
 import { build } from "esbuild";
 import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -8,7 +8,8 @@ import { fileURLToPath } from "node:url";
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "../..");
 
-await build({
+const { metafile } = await build({
+  absWorkingDir: here,
   entryPoints: [join(here, "src/extension.ts")],
   outfile: join(here, "dist/extension.cjs"),
   bundle: true,
@@ -17,10 +18,19 @@ await build({
   format: "cjs",
   target: "node20",
   external: ["vscode"],
-  // The bundle holds packages by others: their licences stay with it.
-  legalComments: "inline",
+  legalComments: "none",
+  metafile: true,
   logLevel: "warning",
 });
+
+// The bundle holds packages by others: their licences stay with it.
+const packages = Object.keys(metafile.inputs).map((path) => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]);
+const notices = [...new Set(packages)].filter(Boolean).map((path) => {
+  const file = readdirSync(join(here, path)).find((name) => /^licen[cs]e/i.test(name));
+  if (file === undefined) throw new Error(`${path} has no licence`);
+  return `${path.replace(/^.*node_modules\//, "")}\n\n${readFileSync(join(here, path, file), "utf8").trim()}\n`;
+});
+writeFileSync(join(here, "dist/licences.txt"), notices.join(`\n${"-".repeat(78)}\n\n`));
 
 const schemas = join(here, "schemas");
 rmSync(schemas, { recursive: true, force: true });

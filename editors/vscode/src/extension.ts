@@ -1,5 +1,7 @@
 // The extension: starts `urdd lsp`, and shows robots by `urdd view`.
 
+import { homedir } from "node:os";
+import { resolve } from "node:path";
 import {
   commands,
   env,
@@ -15,7 +17,7 @@ import {
   LanguageClient,
   type LanguageClientOptions,
 } from "vscode-languageclient/node";
-import { find, notFound, section, type Settings } from "./program";
+import { find, notFound, section, withPackages, type Settings } from "./program";
 import { target, Viewers } from "./viewers";
 
 const viewers = new Viewers();
@@ -50,9 +52,12 @@ function configuration(): WorkspaceConfiguration {
 
 /** What the server gets. xacro runs code: never in a workspace that is not trusted, whatever the user's own settings. */
 function settings(): Settings {
+  const root = workspace.workspaceFolders?.[0]?.uri.fsPath ?? homedir();
   return {
     xacro: workspace.isTrusted && configuration().get("xacro", false),
-    packagePaths: configuration().get<string[]>("packagePaths", []),
+    packagePaths: configuration()
+      .get<string[]>("packagePaths", [])
+      .map((path) => resolve(root, path)),
   };
 }
 
@@ -129,8 +134,9 @@ async function show(chosen?: unknown): Promise<void> {
   }
   const command = await program();
   if (command === null) return;
+  const variables = withPackages(settings(), process.env);
   try {
-    await env.openExternal(Uri.parse(await viewers.address(command, robot), true));
+    await env.openExternal(Uri.parse(await viewers.address(command, robot, variables), true));
   } catch (error) {
     void window.showErrorMessage(error instanceof Error ? error.message : String(error));
   }

@@ -48,6 +48,12 @@ export function notFound(program: string): string {
     : `urdd.path: \`${program}\` is not a program. Write an absolute path, or a name that is on PATH.`;
 }
 
+/** The environment of the program, with the folders of packages before those that ROS knows. */
+export function withPackages(settings: Settings, environment: NodeJS.ProcessEnv): NodeJS.ProcessEnv {
+  const paths = [...settings.packagePaths, environment["ROS_PACKAGE_PATH"] ?? ""].filter(Boolean);
+  return paths.length > 0 ? { ...environment, ROS_PACKAGE_PATH: paths.join(delimiter) } : environment;
+}
+
 /** The answer to the server's question for a section; undefined if it is about another program. */
 export function section(settings: Settings, name: string | undefined): unknown {
   if (name === "urdd") return settings;

@@ -27,11 +27,12 @@ export class Viewers {
   readonly #running = new Map<string, { child: ChildProcess; address: Promise<string> }>();
 
   /** The address of the page with a robot, from a server that runs or is started. */
-  address(program: string, robot: string): Promise<string> {
+  address(program: string, robot: string, env: NodeJS.ProcessEnv): Promise<string> {
     const running = this.#running.get(robot);
     if (running) return running.address;
     const child = spawn(program, viewArguments(robot), {
       cwd: dirname(robot),
+      env,
       stdio: ["ignore", "pipe", "pipe"],
       windowsHide: true,
     });

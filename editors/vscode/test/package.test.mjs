@@ -45,6 +45,7 @@ test("the package holds what it needs, and nothing else", (t) => {
     "extension.vsixmanifest",
     "extension/LICENSE.txt",
     "extension/dist/extension.cjs",
+    "extension/dist/licences.txt",
     "extension/language-configuration.json",
     "extension/package.json",
     "extension/readme.md",
@@ -59,5 +60,6 @@ test("the package holds what it needs, and nothing else", (t) => {
   const required = new Set([...bundle.matchAll(/\brequire\("([^"]+)"\)/g)].map(([, name]) => name));
   const missing = [...required].filter((name) => name !== "vscode" && !isBuiltin(name));
   assert.deepEqual(missing, []);
+  assert.match(strFromU8(files["extension/dist/licences.txt"]), /^vscode-languageclient\n/m);
   assert.match(strFromU8(files["extension/LICENSE.txt"]), /MIT License[^]*Apache License/);
 });

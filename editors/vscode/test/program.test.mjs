@@ -6,7 +6,7 @@ import { delimiter, join, relative } from "node:path";
 import { test } from "node:test";
 import { folder, program, source } from "./world.mjs";
 
-const { find, notFound, section } = await source("program.ts");
+const { find, notFound, section, withPackages } = await source("program.ts");
 
 test("a name is looked up in the absolute folders of PATH alone", (t) => {
   const made = folder(t);
@@ -35,6 +35,14 @@ test("a path has to be absolute", (t) => {
 test("the message says what to do", () => {
   assert.match(notFound("urdd"), /pip install urdd.*urdd\.path/);
   assert.match(notFound("bin/urdd"), /`bin\/urdd`.*absolute path/);
+});
+
+test("folders of packages come before those of ROS", () => {
+  const settings = { xacro: false, packagePaths: ["/a b", "/c"] };
+  const ros = { HOME: "/root", ROS_PACKAGE_PATH: "/opt/ros" };
+  const all = ["/a b", "/c", "/opt/ros"].join(delimiter);
+  assert.deepEqual(withPackages(settings, ros), { HOME: "/root", ROS_PACKAGE_PATH: all });
+  assert.deepEqual(withPackages({ ...settings, packagePaths: [] }, { HOME: "/root" }), { HOME: "/root" });
 });
 
 test("the server gets its own settings and no others", () => {

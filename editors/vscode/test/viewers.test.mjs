@@ -56,8 +56,11 @@ test("a robot has one server, which ends with the extension", async (t) => {
   const viewers = new Viewers();
   t.after(() => viewers.stop());
   const robot = join(made, "arm.urdf");
-  assert.deepEqual(await Promise.all([viewers.address(urdd, robot), viewers.address(urdd, robot)]), [PAGE, PAGE]);
-  assert.equal(await viewers.address(urdd, robot), PAGE);
+  assert.deepEqual(
+    await Promise.all([viewers.address(urdd, robot, process.env), viewers.address(urdd, robot, process.env)]),
+    [PAGE, PAGE],
+  );
+  assert.equal(await viewers.address(urdd, robot, process.env), PAGE);
 
   const started = readFileSync(join(made, "log"), "utf8").trim().split("\n");
   assert.equal(started.length, 1);
@@ -76,13 +79,13 @@ test("a robot whose server failed can be shown again, and the message is the pro
   const viewers = new Viewers();
   t.after(() => viewers.stop());
   const robot = join(made, "arm.urdf");
-  await assert.rejects(viewers.address(urdd, robot), { message: "urdd: arm.urdf: no link" });
+  await assert.rejects(viewers.address(urdd, robot, process.env), { message: "urdd: arm.urdf: no link" });
   program(urdd, SERVES);
-  assert.equal(await viewers.address(urdd, robot), PAGE);
+  assert.equal(await viewers.address(urdd, robot, process.env), PAGE);
 });
 
 test("a program that cannot be started is an error", async (t) => {
   const missing = join(folder(t), "urdd");
   assert.ok(!existsSync(missing));
-  await assert.rejects(new Viewers().address(missing, "/arm.urdf"), /ENOENT/);
+  await assert.rejects(new Viewers().address(missing, "/arm.urdf", process.env), /ENOENT/);
 });
