@@ -60,6 +60,8 @@ pub struct LintSettings {
     pub source: urdd_generate::Settings,
     /// What was found before, and is not reported.
     pub baseline: Option<Baseline>,
+    /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
+    pub without_meshes: bool,
 }
 
 /// Why a run has no result.
@@ -185,6 +187,7 @@ fn examined(
     };
     let source: Option<SourceMeshes> = open_source_text(text, name, folder, &settings.source).ok();
     let subject = Subject::new(name, folder, &document, source.as_ref());
+    let subject = subject.without_meshes(settings.without_meshes);
     let report = &settings.report;
     let runs = |rule: &LintRule| {
         let code = rule.description.code;

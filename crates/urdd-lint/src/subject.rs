@@ -44,6 +44,7 @@ pub struct Subject<'a> {
     robot: OnceLock<(Robot, Option<Bodies>)>,
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
+    without_meshes: bool,
 }
 
 /// A file that the URDF names.
@@ -109,11 +110,26 @@ impl<'a> Subject<'a> {
             root,
             lines: LineIndex::new(document.input_text()),
             source: source.filter(alike),
+            without_meshes: false,
             links,
             joints,
             robot: OnceLock::new(),
             geometry: OnceLock::new(),
             unknown: OnceLock::new(),
+        }
+    }
+
+    /// Whether no mesh file is read.
+    pub fn without_meshes(mut self, without: bool) -> Self {
+        self.without_meshes = without;
+        self
+    }
+
+    /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
+    pub fn reads_meshes(&self, findings: &mut Findings) -> Option<()> {
+        match self.without_meshes {
+            true => findings.skip(SkipReason::WithoutMeshes),
+            false => Some(()),
         }
     }
 
@@ -134,8 +150,9 @@ impl<'a> Subject<'a> {
         Some((robot, bodies))
     }
 
-    /// The shapes of links and bodies, read on first use. Skips the rule as [`Self::bodies`] does.
+    /// The shapes of links and bodies, read on first use. Skips the rule as [`Self::bodies`] does, and if no mesh file is read.
     pub fn geometry(&self, findings: &mut Findings) -> Option<&RobotGeometry> {
+        self.reads_meshes(findings)?;
         let source = self.source(findings)?;
         let (robot, bodies) = self.bodies(findings)?;
         let read = || RobotGeometry::read(source, robot, bodies);
@@ -149,7 +166,7 @@ impl<'a> Subject<'a> {
         let mut seen = HashSet::new();
         let meshes = source.meshes.iter().filter_map(|mesh| {
             let node = self.mesh_node(mesh)?;
-            seen.insert((mesh.link, &mesh.filename))
+            seen.insert((mesh.link, mesh.geometry, &mesh.filename))
                 .then_some((node, mesh))
         });
         Some(meshes.collect())

@@ -53,6 +53,8 @@ pub enum SkipReason {
         /// Whether `--deep` was requested, which allows more.
         deep: bool,
     },
+    /// No mesh file is read, as while somebody types.
+    WithoutMeshes,
     /// The settings ignore every finding, for this reason.
     Ignored(String),
 }
@@ -147,6 +149,7 @@ impl fmt::Display for SkipReason {
                 "counting its collisions again takes more work than even --deep allows",
             ),
             SkipReason::Ignored(reason) => write!(f, "ignored: {reason}"),
+            SkipReason::WithoutMeshes => f.write_str("no mesh file was read"),
         }
     }
 }
