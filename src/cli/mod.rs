@@ -13,6 +13,7 @@ mod generate;
 mod generate_output;
 mod info;
 mod lint;
+mod lsp;
 mod making;
 mod named_configurations;
 mod new_extension;
@@ -62,6 +63,8 @@ enum Command {
     Validate(validate::ValidateArguments),
     /// Check URDFs: what is wrong with them, and what is odd.
     Lint(lint::LintArguments),
+    /// Language server: findings, hover and completion in editors.
+    Lsp(lsp::LspArguments),
     /// Compare two robots by meaning: links, joints, geometry, skipped pairs and findings.
     Diff(diff::DiffArguments),
     /// Check a robot for self-collisions, and list its nearest pairs of links.
@@ -107,6 +110,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
         Command::Combine(arguments) => combine::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments, color),
         Command::Lint(arguments) => lint::run(&arguments, color),
+        Command::Lsp(arguments) => lsp::run(&arguments),
         Command::Diff(arguments) => diff::run(&arguments),
         Command::CheckCollisions(arguments) => check_collisions::run(&arguments),
         Command::View(arguments) => view::run(&arguments),

@@ -1,0 +1,126 @@
+//! Finds what is wrong with a document.
+
+use std::collections::BTreeSet;
+
+use lsp_types::DiagnosticSeverity;
+
+use crate::diagnostics::{Found, at_the_top, of_check};
+use crate::document::{MAX_TEXT_BYTES, Snapshot};
+use crate::failures::{failures, not_well_formed};
+use crate::kind::Kind;
+use crate::urdd_documents;
+use crate::xacro;
+use urdd_directory::cancellation::Cancellation;
+use urdd_lint::lint_text;
+use urdd_validate::Examined;
+use urdd_validate::engine::Outcome;
+use urdd_validate::skip::SkipReason;
+
+/// How much is examined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Depth {
+    /// Only the text: while somebody types.
+    Text,
+    /// Mesh files too, and what xacro makes of the file: when it is opened or saved.
+    Files,
+}
+
+/// What was found in a version of a document.
+#[derive(Debug, Default)]
+pub struct Analysis {
+    /// The findings.
+    pub found: Vec<Found>,
+    /// The rules that only [`Depth::Files`] runs; those of the last run stay until then.
+    pub postponed: Postponed,
+}
+
+/// The rules that were not run.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub enum Postponed {
+    /// Every rule was run.
+    #[default]
+    None,
+    /// These.
+    Codes(BTreeSet<&'static str>),
+    /// All that [`Depth::Files`] finds.
+    All,
+}
+
+impl Analysis {
+    /// Examines a document. `None` if it is cancelled.
+    pub fn new(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Option<Self> {
+        if snapshot.kind == Kind::Other {
+            return Some(Analysis::default());
+        }
+        if snapshot.is_too_large() {
+            return Some(too_large(snapshot));
+        }
+        let analysis = match (&snapshot.kind, depth) {
+            (Kind::Urdf, depth) => of_urdf(snapshot, depth, cancellation),
+            (Kind::Xacro, Depth::Text) => Analysis {
+                found: not_well_formed(snapshot).into_iter().collect(),
+                postponed: Postponed::All,
+            },
+            (Kind::Xacro, Depth::Files) => Analysis {
+                found: xacro::findings(snapshot, cancellation),
+                postponed: Postponed::None,
+            },
+            (Kind::Urdd { schema, is_yaml }, _) => {
+                let found = urdd_documents::check(snapshot, *schema, *is_yaml);
+                Analysis {
+                    found: found.into_iter().map(Found::from).collect(),
+                    postponed: Postponed::None,
+                }
+            }
+            (Kind::Other, _) => Analysis::default(),
+        };
+        (!cancellation.is_cancelled()).then_some(analysis)
+    }
+}
+
+fn too_large(snapshot: &Snapshot) -> Analysis {
+    let size = snapshot.text.as_str().len() >> 20;
+    let limit = MAX_TEXT_BYTES >> 20;
+    let command = match snapshot.kind {
+        Kind::Urdd { .. } => "urdd validate",
+        _ => "urdd lint",
+    };
+    let message = format!(
+        "the file is too large for the editor: {size} MiB, at most {limit} MiB; `{command}` examines it"
+    );
+    Analysis {
+        found: vec![at_the_top(snapshot, DiagnosticSeverity::WARNING, &message)],
+        postponed: Postponed::None,
+    }
+}
+
+fn of_urdf(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Analysis {
+    let mut settings = snapshot.options.lint_settings(cancellation);
+    settings.without_meshes = depth == Depth::Text;
+    let text = snapshot.text.content();
+    let examined = lint_text(text, &snapshot.name(), &snapshot.folder, &settings);
+    let mut examined = [examined];
+    settings.report.apply(&mut examined);
+    let [examined] = examined;
+    let waiting = examined
+        .checks
+        .iter()
+        .filter(|check| matches!(check.outcome, Outcome::Skipped(SkipReason::WithoutMeshes)));
+    Analysis {
+        postponed: match depth {
+            Depth::Text => {
+                Postponed::Codes(waiting.map(|check| check.rule.code.as_str()).collect())
+            }
+            Depth::Files => Postponed::None,
+        },
+        found: found(snapshot, &examined),
+    }
+}
+
+/// The findings of a report, and that a rule crashed.
+fn found(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {
+    let checks = examined.checks.iter();
+    let mut found: Vec<Found> = checks.flat_map(|check| of_check(snapshot, check)).collect();
+    found.extend(failures(snapshot, examined));
+    found
+}

@@ -1,0 +1,233 @@
+//! Findings as editors show them.
+
+use std::ops::Range;
+
+use lsp_types::{
+    Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString,
+    TextEdit,
+};
+
+use crate::document::Snapshot;
+use crate::uri;
+use urdd_format::escape;
+use urdd_format::report::{Fix, Place, Severity};
+use urdd_validate::engine::Check;
+use urdd_validate::finding::Finding;
+
+/// What diagnostics name as their source.
+pub const SOURCE: &str = "urdd";
+
+/// A finding at one place.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// As an editor shows it.
+    pub diagnostic: Diagnostic,
+    /// Changes that mend it, the best first.
+    pub repairs: Vec<Repair>,
+}
+
+/// A change that mends a finding.
+#[derive(Debug, Clone)]
+pub struct Repair {
+    /// What it does.
+    pub title: String,
+    /// Whether it is the one right answer.
+    pub is_safe: bool,
+    /// What to change in the document.
+    pub edits: Vec<TextEdit>,
+}
+
+impl From<Diagnostic> for Found {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Found {
+            diagnostic,
+            repairs: Vec::new(),
+        }
+    }
+}
+
+/// A diagnostic. `values` are what is expected and what is found.
+pub fn diagnostic(
+    range: lsp_types::Range,
+    severity: DiagnosticSeverity,
+    code: &str,
+    message: &str,
+    values: (Option<&str>, Option<&str>),
+) -> Diagnostic {
+    let mut text = escape::line(message).into_owned();
+    for (word, value) in [("expected", values.0), ("found", values.1)] {
+        if let Some(value) = value {
+            text += &format!("\n{word}: {}", escape::line(value));
+        }
+    }
+    Diagnostic {
+        range,
+        severity: Some(severity),
+        code: (!code.is_empty()).then(|| NumberOrString::String(code.to_owned())),
+        source: Some(SOURCE.to_owned()),
+        message: text,
+        ..Diagnostic::default()
+    }
+}
+
+/// An error at the start of a text, about all of it.
+pub fn at_the_top(snapshot: &Snapshot, severity: DiagnosticSeverity, message: &str) -> Found {
+    let end = snapshot.text.line_end(0);
+    let range = snapshot.text.range(0..end);
+    diagnostic(range, severity, "", message, (None, None)).into()
+}
+
+/// The findings of a rule, each place by itself.
+pub fn of_check(snapshot: &Snapshot, check: &Check) -> Vec<Found> {
+    let severity = severity(check.severity);
+    let mut found = Vec::new();
+    for finding in &check.findings {
+        for place in std::iter::once(&finding.place).chain(&finding.more) {
+            found.push(of_place(snapshot, check, severity, finding, place));
+        }
+    }
+    found
+}
+
+/// The severity as editors name it.
+pub fn severity(severity: Severity) -> DiagnosticSeverity {
+    match severity {
+        Severity::Error => DiagnosticSeverity::ERROR,
+        Severity::Warning => DiagnosticSeverity::WARNING,
+        Severity::Info => DiagnosticSeverity::INFORMATION,
+    }
+}
+
+fn of_place(
+    snapshot: &Snapshot,
+    check: &Check,
+    severity: DiagnosticSeverity,
+    finding: &Finding,
+    place: &Place,
+) -> Found {
+    let message = message(finding, place);
+    let values = (place.expected.as_deref(), place.actual.as_deref());
+    let range = snapshot
+        .text
+        .range(marked(snapshot, offset(snapshot, place)));
+    let mut diagnostic = diagnostic(range, severity, check.rule.code.as_str(), &message, values);
+    let related: Vec<DiagnosticRelatedInformation> = place
+        .related
+        .iter()
+        .filter_map(|other| related(snapshot, other))
+        .collect();
+    diagnostic.related_information = (!related.is_empty()).then_some(related);
+    Found {
+        diagnostic,
+        repairs: place
+            .fixes
+            .iter()
+            .filter_map(|fix| repair(snapshot, fix))
+            .collect(),
+    }
+}
+
+/// What is wrong at a place, with the link or joint if the message does not name it.
+pub fn message(finding: &Finding, place: &Place) -> String {
+    let message = place.message.as_ref().unwrap_or(&finding.message);
+    let subject = place.subject.as_deref().unwrap_or_default();
+    let name = subject.split('`').nth(1).unwrap_or_default();
+    match subject.is_empty() || message.contains(&format!("`{name}`")) {
+        true => message.clone(),
+        false => format!("{subject}: {message}"),
+    }
+}
+
+/// The offset of a place; the start of the text if it has none.
+fn offset(snapshot: &Snapshot, place: &Place) -> usize {
+    let line = place.line.map(|line| line.get());
+    let column = place.column.map_or(1, |column| column.get());
+    let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    match line {
+        Some(line) => snapshot.text.reported(as_u32(line), as_u32(column)),
+        None => snapshot.text.content_start(),
+    }
+}
+
+fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInformation> {
+    let message = place.message.clone().or_else(|| place.subject.clone());
+    let is_here = place
+        .file
+        .as_deref()
+        .is_none_or(|file| file == snapshot.name());
+    let location = match is_here {
+        true => Location {
+            uri: snapshot.uri.clone(),
+            range: snapshot
+                .text
+                .range(marked(snapshot, offset(snapshot, place))),
+        },
+        // Its columns cannot be counted without its text: the line is enough.
+        false => {
+            let line = place.line.map_or(0, |line| line.get().saturating_sub(1));
+            let line = u32::try_from(line).unwrap_or(u32::MAX);
+            let at = lsp_types::Position { line, character: 0 };
+            Location {
+                uri: uri::of_path(&snapshot.folder.join(place.file.as_deref()?))?,
+                range: lsp_types::Range { start: at, end: at },
+            }
+        }
+    };
+    Some(DiagnosticRelatedInformation {
+        location,
+        message: escape::line(&message.unwrap_or_default()).into_owned(),
+    })
+}
+
+/// A fix of a report; `None` if it changes another file.
+fn repair(snapshot: &Snapshot, fix: &Fix) -> Option<Repair> {
+    let name = snapshot.name();
+    let edit = |edit: &urdd_format::report::TextEdit| {
+        let offset = |line: usize, column: usize| {
+            let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+            snapshot.text.reported(as_u32(line), as_u32(column))
+        };
+        let start = offset(edit.line.get(), edit.column.get());
+        let end = offset(edit.end_line.get(), edit.end_column.get());
+        (edit.file == name).then(|| TextEdit {
+            range: snapshot.text.range(start..end.max(start)),
+            new_text: edit.text.clone(),
+        })
+    };
+    Some(Repair {
+        title: fix.message.clone(),
+        is_safe: fix.is_safe,
+        edits: fix.edits.iter().map(edit).collect::<Option<_>>()?,
+    })
+}
+
+/// What to underline for a finding at an offset: the attribute, or the start tag as far as its first line goes.
+pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
+    let text = &snapshot.text;
+    let markup = snapshot.markup();
+    let end_of_line = text.line_end(offset).max(offset);
+    let after = markup
+        .elements
+        .partition_point(|one| one.tag.start <= offset);
+    let element = after.checked_sub(1).map(|last| &markup.elements[last]);
+    let Some(element) = element.filter(|element| offset < element.tag.end) else {
+        return offset..end_of_line.min(offset + 1).max(offset);
+    };
+    if element.tag.start == offset {
+        return offset..element.tag.end.min(end_of_line);
+    }
+    let attribute = element
+        .attributes
+        .iter()
+        .find(|attribute| attribute.name.start <= offset && offset <= attribute.value.end);
+    match attribute {
+        // With its second quote.
+        Some(attribute) => {
+            offset
+                ..(attribute.value.end + 1)
+                    .min(element.tag.end)
+                    .min(end_of_line)
+        }
+        None => offset..element.tag.end.min(end_of_line),
+    }
+}

@@ -1,0 +1,130 @@
+//! Open documents.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use lsp_types::Uri;
+
+use crate::kind::Kind;
+use crate::markup::Markup;
+use crate::options::Options;
+use crate::outline::Outline;
+use crate::robot::RobotModel;
+use crate::text::Text;
+use crate::uri;
+use urdd_directory::cancellation::Cancellation;
+
+/// Maximum size of a text, bytes: that of a URDF of several thousand links. `urdd lint` takes larger ones.
+pub const MAX_TEXT_BYTES: usize = 16 << 20;
+
+/// A version of a document.
+pub struct Snapshot {
+    /// Its address, as the editor writes it.
+    pub uri: Uri,
+    /// Its file, if it is one.
+    pub path: Option<PathBuf>,
+    /// The folder that relative names refer to.
+    pub folder: PathBuf,
+    /// What it is.
+    pub kind: Kind,
+    /// The editor's number of the version.
+    pub version: i32,
+    /// The text.
+    pub text: Text,
+    /// What the user set.
+    pub options: Options,
+    /// The robot of the last earlier version that described one.
+    earlier: Option<Arc<RobotModel>>,
+    robot: OnceLock<Option<Arc<RobotModel>>>,
+    markup: OnceLock<Markup>,
+    outline: OnceLock<Outline>,
+}
+
+impl Snapshot {
+    /// The first version of a document. Relative names in a text that is not a file refer to `root`.
+    pub fn new(
+        uri: Uri,
+        language: &str,
+        version: i32,
+        text: Text,
+        root: Option<&Path>,
+        options: &Options,
+    ) -> Self {
+        let path = uri::path(uri.as_str());
+        let folder = path.as_deref().and_then(Path::parent).or(root);
+        let folder = folder.map_or_else(|| PathBuf::from("."), Path::to_owned);
+        Snapshot {
+            kind: Kind::of(uri.as_str(), path.as_deref(), language),
+            uri,
+            path,
+            folder,
+            version,
+            text,
+            options: options.clone(),
+            earlier: None,
+            robot: OnceLock::new(),
+            markup: OnceLock::new(),
+            outline: OnceLock::new(),
+        }
+    }
+
+    /// The next version.
+    pub fn next(&self, version: i32, text: Text, options: &Options) -> Self {
+        Snapshot {
+            uri: self.uri.clone(),
+            path: self.path.clone(),
+            folder: self.folder.clone(),
+            kind: self.kind.clone(),
+            version,
+            text,
+            options: options.clone(),
+            earlier: self
+                .robot
+                .get()
+                .cloned()
+                .flatten()
+                .or_else(|| self.earlier.clone()),
+            robot: OnceLock::new(),
+            markup: OnceLock::new(),
+            outline: OnceLock::new(),
+        }
+    }
+
+    /// The file's name, for reports.
+    pub fn name(&self) -> String {
+        uri::file_name(self.uri.as_str())
+    }
+
+    /// Whether the text is too large to be read.
+    pub fn is_too_large(&self) -> bool {
+        self.text.as_str().len() > MAX_TEXT_BYTES
+    }
+
+    /// The elements of the text, also where it is half typed. None if it is too large, or is not XML.
+    pub fn markup(&self) -> &Markup {
+        self.markup
+            .get_or_init(|| match self.kind.is_xml() && !self.is_too_large() {
+                true => Markup::new(self.text.as_str()),
+                false => Markup::new(""),
+            })
+    }
+
+    /// The names in the text.
+    pub fn outline(&self) -> &Outline {
+        let make = || Outline::new(self.text.as_str(), self.markup());
+        self.outline.get_or_init(make)
+    }
+
+    /// The robot: of this version, or of the last one that described one.
+    pub fn robot(&self) -> Option<Arc<RobotModel>> {
+        let of_this = self.robot.get_or_init(|| {
+            if self.kind != Kind::Urdf || self.is_too_large() {
+                return None;
+            }
+            let settings = self.options.lint_settings(&Cancellation::default());
+            let text = self.text.content();
+            RobotModel::new(text, &self.name(), &self.folder, &settings.source).map(Arc::new)
+        });
+        of_this.clone().or_else(|| self.earlier.clone())
+    }
+}

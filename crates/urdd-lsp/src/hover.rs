@@ -1,0 +1,177 @@
+//! What is at the cursor: a link, a joint, a mesh, a value of a document.
+
+use lsp_types::{Hover, Position};
+use nalgebra::Isometry3;
+
+use crate::document::Snapshot;
+use crate::kind::Kind;
+use crate::mesh_hover;
+use crate::reference::{Reference, reference};
+use crate::robot::RobotModel;
+use crate::shown::{code, markdown};
+use crate::urdd_documents;
+use urdd_document::robot::Joint;
+use urdd_format::readable::number;
+use urdd_format::urdf::JointType;
+
+/// Significant digits of numbers.
+const DIGITS: usize = 5;
+/// How many children are named.
+const MOST_CHILDREN: usize = 10;
+/// Lengths and angles below this are shown as 0: they come from rounding.
+const ZERO: f64 = 1e-9;
+
+/// What is at a position.
+pub fn hover(snapshot: &Snapshot, at: Position) -> Option<Hover> {
+    if let Kind::Urdd { schema, is_yaml } = snapshot.kind {
+        return urdd_documents::hover(snapshot, schema?, is_yaml, at);
+    }
+    let found = reference(snapshot, snapshot.text.offset(at))?;
+    let range = Some(snapshot.text.range(found.range.clone()));
+    let robot = snapshot.robot();
+    let text = match found.to {
+        Reference::Link(name) => link(robot.as_deref()?, &name)?,
+        Reference::Joint(name) => joint(robot.as_deref()?, &name)?,
+        Reference::Mesh(name) => mesh_hover::mesh(robot.as_deref(), snapshot, &name, found.element),
+        Reference::Material(_) => return None,
+    };
+    Some(markdown(text, range))
+}
+
+fn link(model: &RobotModel, name: &str) -> Option<String> {
+    let index = model.robot.link(name)?;
+    let link = &model.robot.links[index];
+    let mut lines = vec![format!("**link {}**\n", code(name))];
+    let mass = link.inertial.as_ref().and_then(|inertial| inertial.mass);
+    lines.push(match mass {
+        Some(mass) => format!("- mass: {} kg", number(mass, DIGITS)),
+        None => "- mass: none".to_owned(),
+    });
+    if let Some(tree) = &model.tree {
+        let robot = &model.robot;
+        let root = code(&robot.links[tree.root].name);
+        match tree.parent_joint[index] {
+            None => lines.push("- root link".to_owned()),
+            Some(joint) => {
+                let joint = &robot.joints[joint];
+                lines.push(format!(
+                    "- moved by joint {} ({}), on link {}",
+                    code(&joint.name),
+                    word(joint.joint_type),
+                    code(&joint.parent)
+                ));
+                let pose = model.poses.get(index)?;
+                lines.push(format!(
+                    "- pose in {root}, default configuration: {}",
+                    pose_words(pose)
+                ));
+            }
+        }
+        let children = &tree.child_joints[index];
+        let mut names: Vec<String> = children
+            .iter()
+            .take(MOST_CHILDREN)
+            .map(|joint| code(&robot.joints[*joint].child))
+            .collect();
+        if children.len() > MOST_CHILDREN {
+            names.push(format!("{} more", children.len() - MOST_CHILDREN));
+        }
+        lines.push(match names.is_empty() {
+            true => "- children: none".to_owned(),
+            false => format!("- children: {}", names.join(", ")),
+        });
+    }
+    lines.push(format!(
+        "- {} visual, {} collision",
+        link.visual.len(),
+        link.collision.len()
+    ));
+    Some(lines.join("\n"))
+}
+
+fn pose_words(pose: &Isometry3<f64>) -> String {
+    let (roll, pitch, yaw) = pose.rotation.euler_angles();
+    format!(
+        "xyz {} m, rpy {} rad",
+        triple(pose.translation.vector.into()),
+        triple([roll, pitch, yaw])
+    )
+}
+
+fn triple(values: [f64; 3]) -> String {
+    let value = |x: f64| number(if x.abs() < ZERO { 0.0 } else { x }, DIGITS);
+    values.map(value).join(" ")
+}
+
+fn joint(model: &RobotModel, name: &str) -> Option<String> {
+    let joint = &model.robot.joints[model.robot.joint(name)?];
+    let mut lines = vec![
+        format!("**joint {}**: {}\n", code(name), word(joint.joint_type)),
+        format!("- {} → {}", code(&joint.parent), code(&joint.child)),
+    ];
+    if joint.has_axis() {
+        lines.push(format!("- axis: {}", triple(joint.axis)));
+    }
+    lines.extend(limits(joint));
+    if let Some(mimic) = &joint.mimic {
+        let ignored = match joint.active_mimic() {
+            Some(_) => "",
+            None => " (ignored: the joint is fixed)",
+        };
+        lines.push(format!(
+            "- mimics {}: position = {} × its position + {}{ignored}",
+            code(&mimic.joint),
+            number(mimic.multiplier, DIGITS),
+            number(mimic.offset, DIGITS)
+        ));
+    }
+    Some(lines.join("\n"))
+}
+
+fn limits(joint: &Joint) -> Vec<String> {
+    let is_turn = matches!(
+        joint.joint_type,
+        JointType::Revolute | JointType::Continuous
+    );
+    let unit = if is_turn { "rad" } else { "m" };
+    let mut lines = Vec::new();
+    if let Some((lower, upper)) = joint.position_limits() {
+        let mut line = format!(
+            "- limits: {} to {} {unit}",
+            number(lower, DIGITS),
+            number(upper, DIGITS)
+        );
+        if is_turn {
+            let degrees = |x: f64| number(x.to_degrees(), DIGITS);
+            line += &format!(" ({}° to {}°)", degrees(lower), degrees(upper));
+        }
+        lines.push(line);
+    }
+    let Some(limit) = joint.limit.filter(|_| joint.has_axis()) else {
+        return lines;
+    };
+    if let Some(velocity) = limit.velocity {
+        let mut line = format!("- velocity: {} {unit}/s", number(velocity, DIGITS));
+        if is_turn {
+            line += &format!(" ({}°/s)", number(velocity.to_degrees(), DIGITS));
+        }
+        lines.push(line);
+    }
+    if let Some(effort) = limit.effort {
+        let unit = if is_turn { "N m" } else { "N" };
+        lines.push(format!("- effort: {} {unit}", number(effort, DIGITS)));
+    }
+    lines
+}
+
+fn word(kind: JointType) -> &'static str {
+    match kind {
+        JointType::Revolute => "revolute",
+        JointType::Continuous => "continuous",
+        JointType::Prismatic => "prismatic",
+        JointType::Fixed => "fixed",
+        JointType::Floating => "floating",
+        JointType::Planar => "planar",
+        JointType::Spherical => "spherical",
+    }
+}

@@ -1,0 +1,63 @@
+//! Internal to urdd; no stability promise.
+//!
+//! The language server for URDF and xacro files and for the documents of URDDs: `urdd lsp`. Editors start it and talk
+//! to it over standard input and output, by the Language Server Protocol.
+//!
+//! One feature is one file. [`server`] receives messages and keeps the open documents; everything else computes
+//! something from one version of one document ([`document::Snapshot`]), in threads of its own ([`pool`]), so that a
+//! large mesh delays no key stroke. Names and places come from the text as it is, half typed or not ([`markup`]); poses
+//! and meshes from the last version that described a robot ([`robot`]).
+
+mod analysis;
+mod capabilities;
+mod code_actions;
+mod completion;
+mod definition;
+mod diagnostics;
+mod document;
+mod failures;
+mod hover;
+mod kept;
+mod kind;
+mod markup;
+mod mesh_hover;
+mod options;
+mod outline;
+mod parent;
+mod pool;
+mod reference;
+mod robot;
+mod server;
+mod shown;
+mod symbols;
+mod text;
+mod urdd_documents;
+mod uri;
+mod vocabulary;
+mod xacro;
+
+pub use document::MAX_TEXT_BYTES;
+pub use server::Ended;
+
+use std::io;
+
+use lsp_server::Connection;
+
+/// Serves one editor on standard input and output, until it ends or asks to.
+///
+/// # Errors
+/// If a message cannot be read or written.
+pub fn serve_stdio() -> io::Result<Ended> {
+    let (connection, threads) = Connection::stdio();
+    let ended = serve(connection);
+    // The reader waits for an editor that is gone.
+    if ended != Ended::ParentGone {
+        threads.join()?;
+    }
+    Ok(ended)
+}
+
+/// Serves one editor on a connection, until it ends or asks to.
+pub fn serve(connection: Connection) -> Ended {
+    server::run(connection)
+}

@@ -1,0 +1,277 @@
+//! Reads elements.
+
+use super::element::{Attribute, Element};
+
+/// Elements that contain others: one whose start tag is not finished still contains what follows.
+const CONTAINERS: &[&str] = &[
+    "robot",
+    "link",
+    "joint",
+    "visual",
+    "collision",
+    "inertial",
+    "geometry",
+    "material",
+    "transmission",
+    "gazebo",
+    "ros2_control",
+    "actuator",
+];
+
+pub(super) fn scan(text: &str) -> Vec<Element> {
+    let mut scan = Scan {
+        text,
+        elements: Vec::new(),
+        open: Vec::new(),
+    };
+    let mut at = 0;
+    while let Some(next) = text.get(at..).and_then(|rest| rest.find('<')) {
+        at = scan.markup(at + next);
+    }
+    scan.close_to(0, text.len());
+    scan.elements
+}
+
+struct Scan<'t> {
+    text: &'t str,
+    elements: Vec<Element>,
+    /// The elements that are not closed.
+    open: Vec<usize>,
+}
+
+impl Scan<'_> {
+    /// Reads what begins with the `<` at `start`, and returns the offset behind it.
+    fn markup(&mut self, start: usize) -> usize {
+        let rest = &self.text[start..];
+        for (begin, end) in [
+            ("<!--", "-->"),
+            ("<![CDATA[", "]]>"),
+            ("<?", "?>"),
+            ("<!", ">"),
+        ] {
+            if let Some(inside) = rest.strip_prefix(begin) {
+                let length = inside.find(end).map(|at| begin.len() + at + end.len());
+                return start + length.unwrap_or(rest.len());
+            }
+        }
+        match rest.strip_prefix("</") {
+            Some(inside) => self.end_tag(start, inside),
+            None => self.start_tag(start),
+        }
+    }
+
+    fn end_tag(&mut self, start: usize, inside: &str) -> usize {
+        let name = &inside[..name_length(inside)];
+        let behind = start + 2 + name.len();
+        let blank = self.text[behind..].len() - self.text[behind..].trim_start().len();
+        let end = match self.text[behind + blank..].starts_with('>') {
+            true => behind + blank + 1,
+            false => behind,
+        };
+        let is_same = |open: &usize| &self.text[self.elements[*open].name.clone()] == name;
+        if let Some(depth) = self.open.iter().rposition(is_same) {
+            self.close_to(depth + 1, start);
+            if let Some(closed) = self.open.pop() {
+                self.elements[closed].end = end;
+            }
+        }
+        end
+    }
+
+    /// Closes the elements from this depth on.
+    fn close_to(&mut self, depth: usize, end: usize) {
+        for open in self.open.drain(depth.min(self.open.len())..) {
+            self.elements[open].end = end;
+        }
+    }
+
+    fn start_tag(&mut self, start: usize) -> usize {
+        let length = name_length(&self.text[start + 1..]);
+        let name = start + 1..start + 1 + length;
+        let mut at = name.end;
+        let mut attributes = Vec::new();
+        let (mut is_finished, mut is_empty) = (false, true);
+        // A lone `<` has no attributes.
+        while !name.is_empty() {
+            let rest = &self.text[at..];
+            let blank = rest.len() - rest.trim_start().len();
+            let rest = rest.trim_start();
+            if rest.is_empty() || rest.starts_with('<') {
+                // Not finished: what follows is about something else.
+                is_empty = !CONTAINERS.contains(&&self.text[name.clone()]);
+                break;
+            }
+            at += blank;
+            if rest.starts_with("/>") || rest.starts_with('>') {
+                is_empty = rest.starts_with('/');
+                is_finished = true;
+                at += 1 + usize::from(is_empty);
+                break;
+            }
+            at = self.attribute(at, &mut attributes);
+        }
+        self.leave_unfinished(&self.text[name.clone()]);
+        self.elements.push(Element {
+            name,
+            tag: start..at,
+            end: at,
+            attributes,
+            parent: self.open.last().copied(),
+            is_finished,
+        });
+        if !is_empty {
+            self.open.push(self.elements.len() - 1);
+        }
+        at
+    }
+
+    /// A link or joint of the robot ends the one before, which lacks its end tag.
+    fn leave_unfinished(&mut self, name: &str) {
+        if !matches!(name, "link" | "joint") {
+            return;
+        }
+        let names = self
+            .open
+            .iter()
+            .map(|open| &self.text[self.elements[*open].name.clone()]);
+        let names: Vec<&str> = names.collect();
+        let unclosed = names
+            .iter()
+            .position(|open| matches!(*open, "link" | "joint"));
+        // Within these, joints and links are mentioned.
+        let mentions = |open: &&str| matches!(*open, "transmission" | "gazebo" | "ros2_control");
+        if let Some(depth) = unclosed
+            && !names.iter().any(mentions)
+        {
+            let start = self.text.len();
+            let start = self.elements.last().map_or(start, |last| last.end);
+            self.close_to(depth, start);
+        }
+    }
+
+    /// Reads an attribute, and returns the offset behind it.
+    fn attribute(&self, start: usize, attributes: &mut Vec<Attribute>) -> usize {
+        let rest = &self.text[start..];
+        let length = name_length(rest);
+        if length == 0 {
+            // A stray character.
+            return start + rest.chars().next().map_or(1, char::len_utf8);
+        }
+        let name = start..start + length;
+        let blank = |at: usize| self.text[at..].len() - self.text[at..].trim_start().len();
+        let equals = name.end + blank(name.end);
+        if !self.text[equals..].starts_with('=') {
+            let value = name.end..name.end;
+            attributes.push(Attribute { name, value });
+            return start + length;
+        }
+        let begin = equals + 1 + blank(equals + 1);
+        let rest = &self.text[begin..];
+        let quote = rest.chars().next().filter(|c| matches!(c, '"' | '\''));
+        let Some(quote) = quote else {
+            // No quotes: up to the next blank.
+            let value = equals + 1..equals + 1;
+            attributes.push(Attribute { name, value });
+            return equals + 1;
+        };
+        let inside = &rest[1..];
+        let (length, behind) = match inside.find([quote, '<']) {
+            Some(end) if inside[end..].starts_with(quote) => (end, 1),
+            // The second quote is missing.
+            end => {
+                let inside = &inside[..end.unwrap_or(inside.len())];
+                let cut = inside.find(['\n', '\r', '>']).unwrap_or(inside.len());
+                (inside[..cut].trim_end_matches('/').len(), 0)
+            }
+        };
+        let value = begin + 1..begin + 1 + length;
+        let end = value.end + behind;
+        attributes.push(Attribute { name, value });
+        end
+    }
+}
+
+/// The length of the name that a text begins with, bytes.
+fn name_length(text: &str) -> usize {
+    let ends = |c: char| c.is_whitespace() || matches!(c, '=' | '>' | '/' | '<' | '"' | '\'');
+    text.find(ends).unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::markup::Markup;
+
+    /// Names with the depth of each, and attributes.
+    fn shape(text: &str) -> Vec<String> {
+        let markup = Markup::new(text);
+        let shape = |element: usize| {
+            let one = &markup.elements[element];
+            let values = one.attributes.iter().map(|attribute| {
+                format!(
+                    " {}={}",
+                    &text[attribute.name.clone()],
+                    &text[attribute.value.clone()]
+                )
+            });
+            let depth = markup.ancestors(element).count() - 1;
+            let values: String = values.collect();
+            format!("{depth}{}{values}", markup.name(text, element))
+        };
+        (0..markup.elements.len()).map(shape).collect()
+    }
+
+    #[test]
+    fn whole_texts_are_read_as_xml_is() {
+        let text = "<?xml version='1.0'?><!-- <no/> --><robot name = \"a b\"><link name='l'><visual/></link>\n<joint/></robot>";
+        assert_eq!(
+            shape(text),
+            ["0robot name=a b", "1link name=l", "2visual", "1joint"]
+        );
+    }
+
+    #[test]
+    fn what_is_missing_ends_where_the_next_begins() {
+        let cases: [(&str, &[&str]); 6] = [
+            (
+                "<robot><li <link name='b'/></robot>",
+                &["0robot", "1li", "1link name=b"],
+            ),
+            (
+                "<robot><link name='a'><visual><link name='b'/></robot>",
+                &["0robot", "1link name=a", "2visual", "1link name=b"],
+            ),
+            (
+                "<joint name='j'\n<parent link='a'/></joint><link/>",
+                &["0joint name=j", "1parent link=a", "0link"],
+            ),
+            (
+                "<joint><parent link=\"ba />\n<child link=\"x\"/></joint>",
+                &["0joint", "1parent link=ba ", "1child link=x"],
+            ),
+            ("<robot><", &["0robot", "1"]),
+            (
+                "<transmission><joint name='a'/><joint name='b'>",
+                &["0transmission", "1joint name=a", "1joint name=b"],
+            ),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(shape(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn any_text_is_read() {
+        let text = "<r a='1\u{1F916}'><!--x--><l n=\"é\" b = c/><![CDATA[<]]></r>\r\n<?p?>";
+        for (start, _) in text.char_indices() {
+            for (end, _) in text.char_indices().filter(|(end, _)| *end >= start) {
+                let part = &text[start..end];
+                let markup = Markup::new(part);
+                for offset in 0..=part.len() + 1 {
+                    markup.place(part, offset);
+                }
+                let without = format!("{}{}", &text[..start], &text[end..]);
+                Markup::new(&without);
+            }
+        }
+    }
+}

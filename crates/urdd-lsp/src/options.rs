@@ -1,0 +1,110 @@
+//! What the user sets, in the editor.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde_json::Value;
+
+use urdd_directory::cancellation::Cancellation;
+use urdd_generate::Packages;
+use urdd_lint::LintSettings;
+
+/// How long after a change findings are computed, unless the user sets another time.
+const DEBOUNCE: Duration = Duration::from_millis(150);
+/// The longest time that can be set.
+const LONGEST_DEBOUNCE: u64 = 10_000;
+
+/// What the user sets.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Options {
+    /// Whether a xacro file is expanded when it is saved. That runs code that the file contains.
+    pub xacro: bool,
+    /// Folders with ROS packages.
+    pub package_paths: Vec<PathBuf>,
+    /// How long after a change findings are computed.
+    pub debounce: Duration,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            xacro: false,
+            package_paths: Vec::new(),
+            debounce: DEBOUNCE,
+        }
+    }
+}
+
+impl Options {
+    /// Takes over what a value sets: `{"xacro": false, "packagePaths": []}`, alone or as `urdd`. What it does not name,
+    /// or has of another type, stays. Relative folders are below `root`.
+    pub fn update(&mut self, value: &Value, root: Option<&Path>) {
+        let value = value.get("urdd").unwrap_or(value);
+        if let Some(xacro) = value.get("xacro").and_then(Value::as_bool) {
+            self.xacro = xacro;
+        }
+        if let Some(paths) = value.get("packagePaths").and_then(Value::as_array) {
+            let paths = paths.iter().filter_map(Value::as_str);
+            let absolute = |path: &str| root.map_or_else(|| path.into(), |root| root.join(path));
+            self.package_paths = paths.map(absolute).collect();
+        }
+        if let Some(debounce) = value.get("debounce").and_then(Value::as_u64) {
+            self.debounce = Duration::from_millis(debounce.min(LONGEST_DEBOUNCE));
+        }
+    }
+
+    /// The settings of a run of the rules.
+    pub fn lint_settings(&self, cancellation: &Cancellation) -> LintSettings {
+        let mut settings = LintSettings::default();
+        settings.source.packages = Packages::from_environment(|name| {
+            let value = std::env::var_os(name);
+            match name {
+                "ROS_PACKAGE_PATH" => self.before(value),
+                _ => value,
+            }
+        });
+        settings.source.cancellation = cancellation.clone();
+        settings.report.cancellation = cancellation.clone();
+        settings
+    }
+
+    /// The folders, and behind them those of a search path.
+    fn before(&self, paths: Option<OsString>) -> Option<OsString> {
+        let paths = paths.unwrap_or_default();
+        let own = self.package_paths.iter().cloned();
+        let all: Vec<PathBuf> = own.chain(std::env::split_paths(&paths)).collect();
+        // A folder with the separator in its name cannot be in a search path.
+        let all = all
+            .iter()
+            .filter(|path| std::env::join_paths([path]).is_ok());
+        std::env::join_paths(all).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn what_is_not_named_or_of_another_type_stays() {
+        let mut options = Options::default();
+        options.update(
+            &json!({"xacro": true, "packagePaths": ["/a b", "c", 7]}),
+            Some(Path::new("/w")),
+        );
+        assert!(options.xacro);
+        assert_eq!(
+            options.package_paths,
+            [PathBuf::from("/a b"), PathBuf::from("/w/c")]
+        );
+        options.update(&json!({"urdd": {"xacro": "yes", "debounce": 99_999}}), None);
+        assert!(options.xacro);
+        assert_eq!(options.debounce, Duration::from_secs(10));
+        options.update(&json!(null), None);
+        options.update(&json!({"urdd": {"xacro": false, "packagePaths": []}}), None);
+        assert!(!options.xacro && options.package_paths.is_empty());
+    }
+}

@@ -1,0 +1,76 @@
+//! The first messages.
+
+use std::path::PathBuf;
+
+use crossbeam_channel::{Receiver, Sender};
+use lsp_server::{ErrorCode, Message, Response};
+use lsp_types::InitializeParams;
+use serde_json::Value;
+
+use super::ended::Ended;
+use crate::capabilities::{Client, initialize_result};
+use crate::options::Options;
+use crate::parent::Process;
+use crate::uri;
+
+/// What the editor said of itself.
+pub struct Begun {
+    pub client: Client,
+    pub options: Options,
+    pub root: Option<PathBuf>,
+    pub parent: Option<Process>,
+}
+
+/// Answers the editor's first message.
+///
+/// # Errors
+/// If the editor ends before.
+pub fn initialize(sender: &Sender<Message>, messages: &Receiver<Message>) -> Result<Begun, Ended> {
+    loop {
+        let request = match messages.recv() {
+            Ok(Message::Request(request)) => request,
+            Ok(Message::Notification(notification)) if notification.method == "exit" => {
+                return Err(Ended::Exit);
+            }
+            Ok(_) => continue,
+            Err(_) => return Err(Ended::Closed),
+        };
+        let refuse = |code: ErrorCode, message: String| {
+            let response = Response::new_err(request.id.clone(), code as i32, message);
+            let _ = sender.send(response.into());
+        };
+        if request.method != "initialize" {
+            let message = "the first request has to be `initialize`".to_owned();
+            refuse(ErrorCode::ServerNotInitialized, message);
+            continue;
+        }
+        let params: InitializeParams = match serde_json::from_value(request.params.clone()) {
+            Ok(params) => params,
+            Err(error) => {
+                refuse(ErrorCode::InvalidParams, error.to_string());
+                continue;
+            }
+        };
+        let begun = begun(&params, &request.params);
+        let response = Response::new_ok(request.id, initialize_result(&begun.client));
+        let _ = sender.send(response.into());
+        return Ok(begun);
+    }
+}
+
+fn begun(params: &InitializeParams, raw: &Value) -> Begun {
+    let folders = params.workspace_folders.iter().flatten();
+    let mut roots = folders.filter_map(|folder| uri::path(folder.uri.as_str()));
+    // Older editors name one folder.
+    let root = roots.next().or_else(|| uri::path(raw["rootUri"].as_str()?));
+    let mut options = Options::default();
+    if let Some(value) = &params.initialization_options {
+        options.update(value, root.as_deref());
+    }
+    Begun {
+        client: Client::new(&params.capabilities),
+        options,
+        root,
+        parent: params.process_id.and_then(Process::find),
+    }
+}

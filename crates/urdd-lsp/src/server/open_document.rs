@@ -1,0 +1,57 @@
+//! An open document.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::analysis::Analysis;
+use crate::diagnostics::Found;
+use crate::document::Snapshot;
+use crate::kept::kept;
+use urdd_directory::cancellation::Cancellation;
+
+/// An open document.
+pub struct Document {
+    /// Its current version.
+    pub snapshot: Arc<Snapshot>,
+    /// When its findings are to be computed.
+    pub due: Option<Instant>,
+    /// The findings of the current text, once computed.
+    pub of_text: Option<Analysis>,
+    /// The last findings about files, with the version that they are about.
+    pub of_files: Option<(Arc<Snapshot>, Analysis)>,
+    /// Ends what is being computed.
+    pub cancellation: Cancellation,
+}
+
+impl Document {
+    /// Takes in the next version, whose findings are computed at `due`.
+    pub fn replace(&mut self, next: Snapshot, due: Instant) {
+        self.snapshot = Arc::new(next);
+        self.due = Some(due);
+        self.of_text = None;
+        self.cancellation.cancel();
+        self.cancellation = Cancellation::default();
+    }
+
+    /// The findings of the current version: those about files, if they are of this version; else those of the text, and
+    /// what still stands of the last ones about files.
+    pub fn findings(&self) -> Vec<Found> {
+        if let Some((snapshot, analysis)) = &self.of_files
+            && Arc::ptr_eq(snapshot, &self.snapshot)
+        {
+            return analysis.found.clone();
+        }
+        let Some(of_text) = &self.of_text else {
+            return Vec::new();
+        };
+        let mut found = of_text.found.clone();
+        if let Some((snapshot, analysis)) = &self.of_files {
+            found.extend(kept(
+                (snapshot, analysis),
+                &self.snapshot,
+                &of_text.postponed,
+            ));
+        }
+        found
+    }
+}

@@ -1,0 +1,162 @@
+//! The loop: messages of the editor, and what threads have computed.
+
+use std::collections::{HashMap, HashSet};
+use std::time::{Duration, Instant};
+
+use crossbeam_channel::{Receiver, select, unbounded};
+use lsp_server::{Connection, Message, Notification, Request, RequestId, Response};
+use serde_json::{Value, json};
+
+use super::ended::Ended;
+use super::handshake;
+use super::state::{Event, Server, response};
+use crate::pool::Pool;
+
+/// How often the server looks whether the editor still runs.
+const LOOK_FOR_PARENT: Duration = Duration::from_secs(2);
+/// The request for what the user has set.
+const CONFIGURATION: &str = "urdd configuration";
+
+/// Serves one editor.
+pub(crate) fn run(connection: Connection) -> Ended {
+    let Connection { sender, receiver } = connection;
+    let (events, computed) = unbounded();
+    let begun = match handshake::initialize(&sender, &receiver) {
+        Ok(begun) => begun,
+        Err(ended) => return ended,
+    };
+    let mut server = Server {
+        sender,
+        client: begun.client,
+        options: begun.options,
+        root: begun.root,
+        parent: begun.parent,
+        documents: HashMap::new(),
+        pending: HashSet::new(),
+        events,
+        quick: Pool::new("texts", 1),
+        slow: Pool::new("files", 1),
+        answers: Pool::new("answers", 2),
+        is_shut_down: false,
+    };
+    server.serve(&receiver, &computed)
+}
+
+impl Server {
+    fn serve(&mut self, messages: &Receiver<Message>, computed: &Receiver<Event>) -> Ended {
+        let mut looked = Instant::now();
+        loop {
+            let until_due = self.until_due().unwrap_or(LOOK_FOR_PARENT);
+            select! {
+                recv(messages) -> message => match message {
+                    Ok(message) => if let Some(ended) = self.message(message) {
+                        return ended;
+                    },
+                    Err(_) => return Ended::Closed,
+                },
+                recv(computed) -> event => if let Ok(event) = event {
+                    self.event(event);
+                },
+                default(until_due.min(LOOK_FOR_PARENT)) => {}
+            }
+            self.start_due();
+            if looked.elapsed() >= LOOK_FOR_PARENT {
+                looked = Instant::now();
+                if self.parent.is_some_and(|parent| !parent.is_running()) {
+                    return Ended::ParentGone;
+                }
+            }
+        }
+    }
+
+    fn message(&mut self, message: Message) -> Option<Ended> {
+        match message {
+            Message::Request(request) => self.request(request),
+            Message::Notification(notification) if notification.method == "exit" => {
+                return Some(match self.is_shut_down {
+                    true => Ended::Orderly,
+                    false => Ended::Exit,
+                });
+            }
+            Message::Notification(notification) => self.notification(notification),
+            Message::Response(response) => self.response(response),
+        }
+        None
+    }
+
+    fn notification(&mut self, notification: Notification) {
+        let Notification { method, params } = notification;
+        match method.as_str() {
+            "textDocument/didOpen" => self.read(&method, params, Server::open),
+            "textDocument/didChange" => self.read(&method, params, Server::change),
+            "textDocument/didSave" => self.read(&method, params, Server::save),
+            "textDocument/didClose" => self.read(&method, params, Server::close),
+            "workspace/didChangeConfiguration" => self.configured(&params),
+            "initialized" => self.ask_configuration(),
+            "$/cancelRequest" => {
+                if let Ok(id) = serde_json::from_value(params["id"].clone()) {
+                    self.cancel(id);
+                }
+            }
+            // Others are not for this server.
+            _ => {}
+        }
+    }
+
+    /// Calls `handle` with a message's content. Says so if it cannot be read.
+    fn read<P: serde::de::DeserializeOwned>(
+        &mut self,
+        method: &str,
+        params: Value,
+        handle: fn(&mut Self, P),
+    ) {
+        match serde_json::from_value(params) {
+            Ok(params) => handle(self, params),
+            Err(error) => self.log(&format!("{method}: {error}")),
+        }
+    }
+
+    fn configured(&mut self, params: &Value) {
+        let settings = &params["settings"];
+        match settings.get("urdd") {
+            Some(_) => self.configure(settings),
+            // The editor says only that something changed.
+            None => self.ask_configuration(),
+        }
+    }
+
+    fn ask_configuration(&mut self) {
+        if self.client.configuration {
+            let params = json!({ "items": [{ "section": "urdd" }] });
+            let id = RequestId::from(CONFIGURATION.to_owned());
+            self.send(Request::new(
+                id,
+                "workspace/configuration".to_owned(),
+                params,
+            ));
+        }
+    }
+
+    fn response(&mut self, response: Response) {
+        if response.id != RequestId::from(CONFIGURATION.to_owned()) {
+            return;
+        }
+        if let Ok(Value::Array(sections)) = response.response_result
+            && let Some(section) = sections.first().filter(|section| section.is_object())
+        {
+            self.configure(section);
+        }
+    }
+
+    fn event(&mut self, event: Event) {
+        match event {
+            Event::Analysed(snapshot, depth, analysis) => self.analysed(&snapshot, depth, analysis),
+            // A request that was cancelled has its answer already.
+            Event::Answered(id, answer) => {
+                if self.pending.remove(&id) {
+                    self.send(response(id, answer));
+                }
+            }
+        }
+    }
+}

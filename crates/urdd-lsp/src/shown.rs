@@ -1,0 +1,22 @@
+//! Texts that editors show.
+
+use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind, Range};
+
+use urdd_format::escape;
+
+/// A text to show.
+pub fn markdown(value: String, range: Option<Range>) -> Hover {
+    Hover {
+        contents: HoverContents::Markup(MarkupContent {
+            kind: MarkupKind::Markdown,
+            value,
+        }),
+        range,
+    }
+}
+
+/// A name as code: no name ends it, or begins something else.
+pub fn code(name: &str) -> String {
+    let name = escape::line(name).replace('`', "'");
+    format!("`{name}`")
+}

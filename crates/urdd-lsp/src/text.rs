@@ -1,0 +1,291 @@
+//! A document's text, and positions in it as editors count them.
+
+use std::ops::Range;
+
+use lsp_types::{Position, PositionEncodingKind, TextDocumentContentChangeEvent};
+
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+/// The unit that an editor counts columns in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Encoding {
+    /// Bytes of UTF-8.
+    Utf8,
+    /// Units of UTF-16: the default of the protocol.
+    #[default]
+    Utf16,
+    /// Scalar values.
+    Utf32,
+}
+
+impl Encoding {
+    /// The first of the editor's encodings that is known here: the editor lists the one that it prefers first.
+    pub fn choose(offered: Option<&[PositionEncodingKind]>) -> Self {
+        let known = |kind: &PositionEncodingKind| match kind.as_str() {
+            "utf-8" => Some(Encoding::Utf8),
+            "utf-16" => Some(Encoding::Utf16),
+            "utf-32" => Some(Encoding::Utf32),
+            _ => None,
+        };
+        let mut offered = offered.unwrap_or_default().iter();
+        offered.find_map(known).unwrap_or_default()
+    }
+
+    /// Its name in the protocol.
+    pub fn kind(self) -> PositionEncodingKind {
+        match self {
+            Encoding::Utf8 => PositionEncodingKind::UTF8,
+            Encoding::Utf16 => PositionEncodingKind::UTF16,
+            Encoding::Utf32 => PositionEncodingKind::UTF32,
+        }
+    }
+
+    fn units(self, c: char) -> usize {
+        match self {
+            Encoding::Utf8 => c.len_utf8(),
+            Encoding::Utf16 => c.len_utf16(),
+            Encoding::Utf32 => 1,
+        }
+    }
+}
+
+/// A text with its lines. A line ends with `\n`, `\r\n`, or a lone `\r`.
+#[derive(Debug, Clone)]
+pub struct Text {
+    text: String,
+    starts: Vec<usize>,
+    encoding: Encoding,
+}
+
+impl Text {
+    /// A text as an editor sent it.
+    pub fn new(text: String, encoding: Encoding) -> Self {
+        let starts = std::iter::once(0).chain(line_starts(&text, 0));
+        Text {
+            starts: starts.collect(),
+            text,
+            encoding,
+        }
+    }
+
+    /// All of it.
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    /// The text without a byte order mark, which XML and rules do not count.
+    pub fn content(&self) -> &str {
+        &self.text[self.content_start()..]
+    }
+
+    /// Byte offset of [`Text::content`].
+    pub fn content_start(&self) -> usize {
+        match self.text.starts_with(BYTE_ORDER_MARK) {
+            true => BYTE_ORDER_MARK.len_utf8(),
+            false => 0,
+        }
+    }
+
+    /// The byte offset of an editor's position. A position beyond a line gives the line's end.
+    pub fn offset(&self, position: Position) -> usize {
+        let line = position.line as usize;
+        let Some(&start) = self.starts.get(line) else {
+            return self.text.len();
+        };
+        let content = self.line(line);
+        let mut left = position.character as usize;
+        for (at, c) in content.char_indices() {
+            let units = self.encoding.units(c);
+            if left < units {
+                return start + at;
+            }
+            left -= units;
+        }
+        start + content.len()
+    }
+
+    /// The editor's position of a byte offset. Offsets inside of a character, or beyond the text, give what is before.
+    pub fn position(&self, offset: usize) -> Position {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = self.starts.partition_point(|&start| start <= offset) - 1;
+        // An offset in a line's end is shown at it.
+        let content = self.line(line);
+        let before = &content[..(offset - self.starts[line]).min(content.len())];
+        let units = match self.encoding {
+            Encoding::Utf8 => before.len(),
+            _ if before.is_ascii() => before.len(),
+            encoding => before.chars().map(|c| encoding.units(c)).sum(),
+        };
+        Position {
+            line: count(line),
+            character: count(units),
+        }
+    }
+
+    /// The editor's range of a range of bytes.
+    pub fn range(&self, range: Range<usize>) -> lsp_types::Range {
+        lsp_types::Range {
+            start: self.position(range.start),
+            end: self.position(range.end),
+        }
+    }
+
+    /// The byte offset of a line and a column, from 1, in scalar values of [`Text::content`]: as reports have them.
+    pub fn reported(&self, line: u32, column: u32) -> usize {
+        let line = (line as usize).saturating_sub(1);
+        let Some(&start) = self.starts.get(line) else {
+            return self.text.len();
+        };
+        let start = start.max(if line == 0 { self.content_start() } else { 0 });
+        let end = self.starts[line] + self.line(line).len();
+        let content = self.text.get(start..end).unwrap_or_default();
+        let column = (column as usize).saturating_sub(1);
+        let within = content.char_indices().nth(column);
+        start + within.map_or(content.len(), |(at, _)| at)
+    }
+
+    /// The offset of the end of the line of an offset, without what ends it.
+    pub fn line_end(&self, offset: usize) -> usize {
+        let line = self.starts.partition_point(|&start| start <= offset) - 1;
+        self.starts[line] + self.line(line).len()
+    }
+
+    /// A line without what ends it.
+    fn line(&self, line: usize) -> &str {
+        let end = self.starts.get(line + 1).copied();
+        let line = &self.text[self.starts[line]..end.unwrap_or(self.text.len())];
+        let line = line.strip_suffix('\n').unwrap_or(line);
+        line.strip_suffix('\r').unwrap_or(line)
+    }
+
+    /// Applies an editor's change.
+    pub fn apply(&mut self, change: TextDocumentContentChangeEvent) {
+        let Some(range) = change.range else {
+            *self = Text::new(change.text, self.encoding);
+            return;
+        };
+        let start = self.offset(range.start);
+        let end = self.offset(range.end).max(start);
+        self.text.replace_range(start..end, &change.text);
+        // Lines are found anew from the line before the change, whose end may be half of `\r\n`, to behind it.
+        let first = self.starts.partition_point(|&start_of| start_of < start);
+        let first = first.saturating_sub(1);
+        let new_end = start + change.text.len();
+        let kept = self.starts.partition_point(|&start_of| start_of <= end + 1);
+        let later: Vec<usize> = self.starts[kept..]
+            .iter()
+            .map(|start_of| start_of - end + new_end)
+            .collect();
+        let from = self.starts[first];
+        // The line that contains the change's end, as far as its own end.
+        let until = later.first().copied().unwrap_or(self.text.len());
+        self.starts.truncate(first + 1);
+        let found = line_starts(&self.text, from).take_while(|&start_of| start_of < until);
+        self.starts.extend(found);
+        if later.is_empty() && ends_line(&self.text) {
+            self.starts.push(self.text.len());
+        }
+        self.starts.extend(later);
+    }
+}
+
+/// The starts of the lines after the one that begins at `from`.
+fn line_starts(text: &str, from: usize) -> impl Iterator<Item = usize> {
+    let bytes = text.as_bytes();
+    let ends = bytes[from..].iter().enumerate().filter(move |(at, byte)| {
+        **byte == b'\n' || (**byte == b'\r' && bytes.get(from + at + 1) != Some(&b'\n'))
+    });
+    ends.map(move |(at, _)| from + at + 1)
+}
+
+fn ends_line(text: &str) -> bool {
+    text.ends_with(['\n', '\r'])
+}
+
+fn count(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(line: u32, character: u32) -> Position {
+        Position { line, character }
+    }
+
+    #[test]
+    fn columns_are_in_the_unit_that_was_agreed() {
+        let text = "é\u{1F916}x\r\ny\rz\n";
+        for (encoding, column) in [
+            (Encoding::Utf8, 6),
+            (Encoding::Utf16, 3),
+            (Encoding::Utf32, 2),
+        ] {
+            let text = Text::new(text.to_owned(), encoding);
+            let x = text.as_str().find('x').unwrap();
+            assert_eq!(text.position(x), at(0, column));
+            assert_eq!(text.offset(at(0, column)), x);
+            // Beyond the line, and inside of its end.
+            assert_eq!(text.offset(at(0, 99)), x + 1);
+            assert_eq!(text.position(x + 2), at(0, column + 1));
+            assert_eq!(text.position(text.as_str().find('z').unwrap()), at(2, 0));
+            assert_eq!(text.position(usize::MAX), at(3, 0));
+            assert_eq!(text.offset(at(9, 0)), text.as_str().len());
+        }
+    }
+
+    #[test]
+    fn half_of_a_surrogate_pair_is_its_start() {
+        let text = Text::new("a\u{1F916}b".to_owned(), Encoding::Utf16);
+        assert_eq!(text.offset(at(0, 2)), 1);
+        assert_eq!(text.offset(at(0, 3)), 5);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_column_of_reports_but_one_of_editors() {
+        let text = Text::new("\u{feff}<a/>\n<b/>".to_owned(), Encoding::Utf16);
+        assert_eq!(text.content(), "<a/>\n<b/>");
+        assert_eq!(text.position(text.reported(1, 1)), at(0, 1));
+        assert_eq!(text.position(text.reported(2, 2)), at(1, 1));
+        assert_eq!(text.reported(7, 1), text.as_str().len());
+    }
+
+    /// Every change of a small text, by every small text, has the lines of the text read anew.
+    #[test]
+    fn changes_keep_the_lines() {
+        let texts = [
+            "",
+            "a\r\nb\rc\n\nd",
+            "\r\n",
+            "\n\n\n",
+            "x\r",
+            "é\u{1F916}\r\n",
+        ];
+        let inserts = ["", "\r", "\n", "\r\n", "q", "\nq\r", "u\r\nv"];
+        for text in texts {
+            let ends: Vec<usize> = (0..=text.len())
+                .filter(|at| text.is_char_boundary(*at))
+                .collect();
+            for (&start, &end) in ends.iter().flat_map(|a| ends.iter().map(move |b| (a, b))) {
+                for insert in inserts.iter().filter(|_| start <= end) {
+                    let mut changed = Text::new(text.to_owned(), Encoding::Utf16);
+                    let range = changed.range(start..end);
+                    changed.apply(TextDocumentContentChangeEvent {
+                        range: Some(range),
+                        range_length: None,
+                        text: (*insert).to_owned(),
+                    });
+                    let anew = Text::new(changed.text.clone(), Encoding::Utf16);
+                    assert_eq!(
+                        changed.starts, anew.starts,
+                        "{text:?} {start}..{end} {insert:?}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Documents of a URDD: `urdd.json`, and `module.json` and `module.yaml` of each module, by their schemas.
+
+mod check;
+mod hover;
+mod schema;
+mod yaml;
+
+pub use check::check;
+pub use hover::hover;

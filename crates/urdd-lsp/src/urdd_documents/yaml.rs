@@ -1,0 +1,257 @@
+//! YAML as a value, with the place of each part.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use saphyr_parser::{Event, Parser, ScalarStyle, Span};
+use serde_json::{Map, Number, Value};
+
+use urdd_directory::json_scan::push_segment;
+use urdd_directory::limits::DEPTH_LIMIT;
+use urdd_directory::yaml::scalar::{Reading, classify};
+
+/// A document.
+pub struct Yaml {
+    /// Its value, as YAML 1.2 reads it.
+    pub value: Value,
+    places: HashMap<String, Range<usize>>,
+}
+
+impl Yaml {
+    /// The bytes of the value at a pointer, or of its key.
+    pub fn range(&self, pointer: &str) -> Option<Range<usize>> {
+        self.places.get(pointer).cloned()
+    }
+
+    /// The pointer of the innermost value, or of the key, at an offset.
+    pub fn pointer_at(&self, offset: usize) -> Option<&str> {
+        let around = self.places.iter();
+        let around = around.filter(|(_, range)| range.start <= offset && offset <= range.end);
+        let found = around.max_by_key(|(pointer, range)| (range.start, pointer.len()));
+        found.map(|(pointer, _)| pointer.as_str())
+    }
+}
+
+enum Open {
+    List(Vec<Value>),
+    Object(Map<String, Value>, Option<String>),
+}
+
+/// Reads a document. `None` if it is not YAML, or has what JSON has not: anchors, keys that are not words.
+pub fn read(text: &str) -> Option<Yaml> {
+    let mut reader = Reader {
+        offsets: Offsets::new(text),
+        open: Vec::new(),
+        pointer: String::new(),
+        places: HashMap::new(),
+        value: None,
+    };
+    let mut parser = Parser::new_from_str(text);
+    while let Some(event) = parser.next_event() {
+        let (event, span) = event.ok()?;
+        reader.event(event, span)?;
+    }
+    Some(Yaml {
+        value: reader.value?,
+        places: reader.places,
+    })
+}
+
+struct Reader<'t> {
+    offsets: Offsets<'t>,
+    open: Vec<Open>,
+    /// The pointer of the next value.
+    pointer: String,
+    places: HashMap<String, Range<usize>>,
+    value: Option<Value>,
+}
+
+impl Reader<'_> {
+    fn event(&mut self, event: Event, span: Span) -> Option<()> {
+        let start = self.offsets.bytes(span.start.index());
+        match event {
+            Event::Alias(_) => return None,
+            Event::SequenceStart(..) => {
+                self.begin(start)?;
+                self.open.push(Open::List(Vec::new()));
+                self.pointer.push_str("/0");
+            }
+            Event::MappingStart(..) => {
+                self.begin(start)?;
+                self.open.push(Open::Object(Map::new(), None));
+            }
+            Event::SequenceEnd => {
+                self.leave();
+                let Open::List(list) = self.open.pop()? else {
+                    return None;
+                };
+                self.put(Value::Array(list))?;
+            }
+            Event::MappingEnd => {
+                let Open::Object(object, None) = self.open.pop()? else {
+                    return None;
+                };
+                self.put(Value::Object(object))?;
+            }
+            Event::Scalar(text, style, ..) => {
+                let end = self.offsets.bytes(span.end.index());
+                if let Some(Open::Object(_, key @ None)) = self.open.last_mut() {
+                    *key = Some(text.clone().into_owned());
+                    push_segment(&mut self.pointer, &text);
+                    self.places.insert(self.pointer.clone(), start..end);
+                    return Some(());
+                }
+                self.place(start, end);
+                let is_plain = style == ScalarStyle::Plain;
+                self.put(scalar(&text, is_plain)?)?;
+            }
+            _ => {}
+        }
+        Some(())
+    }
+
+    /// The value at the pointer begins.
+    fn begin(&mut self, start: usize) -> Option<()> {
+        // A list or mapping as a key.
+        if matches!(self.open.last(), Some(Open::Object(_, None))) || self.open.len() >= DEPTH_LIMIT
+        {
+            return None;
+        }
+        self.place(start, start);
+        Some(())
+    }
+
+    /// The place of the value at the pointer. A member's goes from its key to its value, if that is a scalar.
+    fn place(&mut self, start: usize, end: usize) {
+        let place = self
+            .places
+            .entry(self.pointer.clone())
+            .or_insert(start..end);
+        place.end = place.end.max(end);
+    }
+
+    fn leave(&mut self) {
+        let end = self.pointer.rfind('/').unwrap_or_default();
+        self.pointer.truncate(end);
+    }
+
+    /// The value at the pointer has ended.
+    fn put(&mut self, value: Value) -> Option<()> {
+        match self.open.last_mut() {
+            None => self.value = Some(value),
+            Some(Open::List(list)) => {
+                list.push(value);
+                let next = list.len();
+                self.leave();
+                push_segment(&mut self.pointer, &next.to_string());
+            }
+            Some(Open::Object(object, key)) => {
+                object.insert(key.take()?, value);
+                self.leave();
+            }
+        }
+        Some(())
+    }
+}
+
+fn scalar(text: &str, is_plain: bool) -> Option<Value> {
+    if !is_plain {
+        return Some(Value::String(text.to_owned()));
+    }
+    let number = || serde_json::from_str::<Number>(text).ok();
+    Some(match classify(text).yaml12 {
+        Reading::Null => Value::Null,
+        Reading::Bool(value) => Value::Bool(value),
+        Reading::Integer | Reading::Float => match number() {
+            Some(number) => Value::Number(number),
+            None => Value::Number(Number::from_f64(text.parse().ok()?)?),
+        },
+        Reading::NonFinite => return None,
+        Reading::Text | Reading::Timestamp | Reading::Special => Value::String(text.to_owned()),
+    })
+}
+
+/// Byte offsets of ascending character offsets.
+struct Offsets<'t> {
+    text: &'t str,
+    character: usize,
+    byte: usize,
+    is_ascii: bool,
+}
+
+impl<'t> Offsets<'t> {
+    fn new(text: &'t str) -> Self {
+        Offsets {
+            text,
+            character: 0,
+            byte: 0,
+            is_ascii: text.is_ascii(),
+        }
+    }
+
+    fn bytes(&mut self, character: usize) -> usize {
+        if self.is_ascii {
+            return character.min(self.text.len());
+        }
+        if character < self.character {
+            (self.character, self.byte) = (0, 0);
+        }
+        let rest = &self.text[self.byte..];
+        let skipped = rest.char_indices().nth(character - self.character);
+        self.byte += skipped.map_or(rest.len(), |(at, _)| at);
+        self.character = character;
+        self.byte
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn each_part_has_its_value_and_its_place() {
+        let text = "a: 1\nb:\n  - x\n  - {c: null, d: [2.5, \"é\"]}\n\"e/f\": {}\n";
+        let yaml = read(text).expect("YAML");
+        assert_eq!(
+            yaml.value,
+            json!({"a": 1, "b": ["x", {"c": null, "d": [2.5, "é"]}], "e/f": {}})
+        );
+        for (what, pointer) in [
+            ("a", "/a"),
+            ("1", "/a"),
+            ("b:", "/b"),
+            ("x", "/b/0"),
+            ("c:", "/b/1/c"),
+            ("null", "/b/1/c"),
+            ("2.5", "/b/1/d/0"),
+            ("\"é", "/b/1/d/1"),
+            ("\"e/f", "/e~1f"),
+        ] {
+            let offset = text.find(what).unwrap();
+            assert_eq!(yaml.pointer_at(offset), Some(pointer), "{what}");
+        }
+        assert_eq!(
+            yaml.range("/b/1/d/0").map(|range| &text[range]),
+            Some("2.5")
+        );
+    }
+
+    #[test]
+    fn what_is_no_json_is_not_read() {
+        for text in [
+            "",
+            "a: &x 1\nb: *x",
+            "? [1]\n: 2",
+            "a: .nan",
+            "a: [",
+            "- 1\nb",
+        ] {
+            assert!(read(text).is_none(), "{text}");
+        }
+        for (end, _) in "a:\n - {b: [1, 'x']}\n - |\n  é\n".char_indices() {
+            let _ = read(&"a:\n - {b: [1, 'x']}\n - |\n  é\n"[..end]);
+        }
+    }
+}
