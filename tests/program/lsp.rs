@@ -1,0 +1,108 @@
+//! `urdd lsp` over standard input and output.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+
+struct Server {
+    child: Child,
+    input: Option<ChildStdin>,
+    output: BufReader<ChildStdout>,
+}
+
+impl Server {
+    fn start() -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .args(["lsp", "--stdio"])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program");
+        Server {
+            input: child.stdin.take(),
+            output: BufReader::new(child.stdout.take().expect("its output")),
+            child,
+        }
+    }
+
+    fn send(&mut self, mut message: Value) {
+        message["jsonrpc"] = json!("2.0");
+        let text = message.to_string();
+        let input = self.input.as_mut().expect("open");
+        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("a server");
+        input.flush().expect("a server");
+    }
+
+    /// The next message; nothing else is on its output.
+    fn receive(&mut self) -> Value {
+        let mut header = String::new();
+        self.output.read_line(&mut header).expect("a header");
+        let length = header.strip_prefix("Content-Length: ").expect("a header");
+        let mut empty = String::new();
+        self.output.read_line(&mut empty).expect("a header");
+        assert_eq!(empty, "\r\n");
+        let mut text = vec![0; length.trim().parse().expect("a length")];
+        self.output.read_exact(&mut text).expect("a message");
+        serde_json::from_slice(&text).expect("JSON")
+    }
+
+    fn initialize(&mut self) {
+        let params = json!({"processId": std::process::id(), "capabilities": {}});
+        self.send(json!({"id": 1, "method": "initialize", "params": params}));
+        assert_eq!(self.receive()["result"]["serverInfo"]["name"], "urdd");
+        self.send(json!({"method": "initialized", "params": {}}));
+    }
+
+    /// Its exit status, and what is left on its output.
+    fn end(mut self) -> (Option<i32>, String) {
+        self.input = None;
+        let begun = Instant::now();
+        while self.child.try_wait().expect("a process").is_none() {
+            assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let mut rest = String::new();
+        self.output.read_to_string(&mut rest).expect("UTF-8");
+        (self.child.wait().expect("a status").code(), rest)
+    }
+}
+
+#[test]
+fn an_editor_opens_a_file_and_leaves() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots/gripper.urdf");
+    let uri = format!("file://{}", path.display());
+    let text = std::fs::read_to_string(&path).expect("a robot");
+    let mut server = Server::start();
+    server.initialize();
+    let item = json!({"uri": uri, "languageId": "xml", "version": 7, "text": text.replacen("</link>", "</lin>", 1)});
+    server.send(json!({"method": "textDocument/didOpen", "params": {"textDocument": item}}));
+    let published = server.receive();
+    assert_eq!(published["method"], "textDocument/publishDiagnostics");
+    assert_eq!(
+        (&published["params"]["uri"], &published["params"]["version"]),
+        (&json!(uri), &json!(7))
+    );
+    assert_eq!(published["params"]["diagnostics"][0]["source"], "urdd");
+    server.send(json!({"id": 2, "method": "shutdown"}));
+    while server.receive()["id"] != 2 {}
+    server.send(json!({"method": "exit"}));
+    assert_eq!(server.end(), (Some(0), String::new()));
+}
+
+#[test]
+fn it_ends_when_its_input_does_or_is_no_message() {
+    let mut server = Server::start();
+    server.initialize();
+    assert_eq!(server.end(), (Some(1), String::new()));
+    assert_eq!(Server::start().end().0, Some(1));
+    let mut server = Server::start();
+    let input = server.input.as_mut().expect("open");
+    input
+        .write_all(b"GET / HTTP/1.1\r\n\r\nhello")
+        .expect("a server");
+    assert_eq!(server.end(), (Some(2), String::new()));
+}
