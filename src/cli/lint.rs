@@ -76,6 +76,7 @@ fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
             .as_deref()
             .map(read_baseline)
             .transpose()?,
+        without_meshes: false,
     };
     settings.report.cancellation = signals.cancellation();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);

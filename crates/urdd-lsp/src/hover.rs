@@ -31,7 +31,10 @@ pub fn hover(snapshot: &Snapshot, at: Position) -> Option<Hover> {
     let robot = snapshot.robot();
     let text = match found.to {
         Reference::Link(name) => link(robot.as_deref()?, &name)?,
-        Reference::Joint(name) => joint(robot.as_deref()?, &name)?,
+        Reference::Joint(name) => match robot.as_deref() {
+            Some(robot) => joint(robot, &name)?,
+            None => joint_as_written(snapshot, &name)?,
+        },
         Reference::Mesh(name) => mesh_hover::mesh(robot.as_deref(), snapshot, &name, found.element),
         Reference::Material(_) => return None,
     };
@@ -126,6 +129,20 @@ fn joint(model: &RobotModel, name: &str) -> Option<String> {
         ));
     }
     Some(lines.join("\n"))
+}
+
+/// A joint of a text that describes no robot, such as a xacro file.
+fn joint_as_written(snapshot: &Snapshot, name: &str) -> Option<String> {
+    let joint = snapshot.outline().joint(name)?;
+    let kind = match joint.kind.as_str() {
+        "" => String::new(),
+        kind => format!(": {}", code(kind)),
+    };
+    let (parent, child) = (code(&joint.parent), code(&joint.child));
+    Some(format!(
+        "**joint {}**{kind}\n\n- {parent} → {child}",
+        code(name)
+    ))
 }
 
 fn limits(joint: &Joint) -> Vec<String> {
