@@ -19,7 +19,12 @@ const FILES: &[&str] = &[
     "wasm/Cargo.toml",
 ];
 /// Crates that the module does not depend on.
-const WITHOUT: &[&str] = &["crates/urdd-generate/", "crates/urdd-export/"];
+const WITHOUT: &[&str] = &[
+    "crates/urdd-generate/",
+    "crates/urdd-export/",
+    "crates/urdd-lint/",
+    "crates/urdd-lsp/",
+];
 
 fn is_in_it(name: &str) -> bool {
     let is_test = name.starts_with("crates/") && name.split('/').nth(2) == Some("tests");
