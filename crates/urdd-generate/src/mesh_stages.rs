@@ -23,7 +23,7 @@ use urdd_geometry::decompose;
 use urdd_geometry::hull::ConvexHull;
 
 pub(super) fn original(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
-    let mut original = original_meshes(context.source, context.settings)?;
+    let mut original = original_meshes(context.source, context.settings, context.progress)?;
     let files = std::mem::take(&mut original.files).into_iter();
     let files = files.map(|(path, bytes)| MadeFile { path, bytes });
     let made = made_with(&original.module, files.collect(), ())?;

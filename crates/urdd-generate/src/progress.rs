@@ -1,5 +1,7 @@
 //! The progress of a run.
 
+use std::path::Path;
+
 use urdd_format::registry::ModuleKind;
 
 /// Receives the progress of a run.
@@ -12,6 +14,10 @@ pub trait Progress: Sync {
 
     /// A module's work on the mesh of a link is finished. Links with the same mesh are reported once, by the first.
     fn link(&self, _kind: ModuleKind, _name: &str) {}
+
+    /// A file of the source is about to be read: the URDF, a mesh, a texture. Also called for the places where a missing
+    /// mesh was searched, since the robot changes when the file appears. Files that xacro includes are not reported.
+    fn reads(&self, _file: &Path) {}
 }
 
 impl Progress for () {

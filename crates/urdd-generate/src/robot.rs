@@ -63,6 +63,7 @@ pub fn generate(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let path = source;
+    progress.reads(path);
     let source = source::load(
         path,
         &settings.xacro,

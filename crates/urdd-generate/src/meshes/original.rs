@@ -12,6 +12,7 @@ use super::resolve::{FoundMesh, NotFound, resolve};
 use super::roots::{Place, Roots};
 use crate::error::{GenerateError, OutsideMesh};
 use crate::note::{Note, NoteKind};
+use crate::progress::Progress;
 use crate::settings::Settings;
 use crate::source::Source;
 use urdd_format::index::{ElementIdx, LinkIdx};
@@ -60,6 +61,7 @@ pub(crate) struct Named<'a> {
 pub(crate) fn original_meshes(
     source: &Source,
     settings: &Settings,
+    progress: &dyn Progress,
 ) -> Result<OriginalMeshes, GenerateError> {
     let named = named(&source.reading.robot);
     let packages = &settings.packages;
@@ -82,8 +84,21 @@ pub(crate) fn original_meshes(
     let places: Vec<_> = places.into_iter().collect();
     let inspected: BTreeMap<PathBuf, Inspected> = places
         .into_par_iter()
-        .map(|(file, place)| (file.clone(), inspect(file, place, &roots)))
+        .map(|(file, place)| {
+            progress.reads(file);
+            let inside = inspect(file, place, &roots);
+            for side in inside.side_files.keys() {
+                progress.reads(side);
+            }
+            (file.clone(), inside)
+        })
         .collect();
+    let missing = found_files
+        .values()
+        .filter_map(|found| found.as_ref().err());
+    for tried in missing.flat_map(|why| &why.tried) {
+        progress.reads(Path::new(tried));
+    }
 
     let mut notes = Notes {
         file: &source.shown,
