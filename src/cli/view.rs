@@ -4,7 +4,6 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use clap::Args;
 
@@ -12,25 +11,28 @@ use super::generate_output::{Format, Printer};
 use super::output;
 use super::packages::PackageArguments;
 use super::signals::Signals;
+use super::xacro::{self, XacroArguments};
 use crate::view::{
-    Collection, ExportError, Making, Server, Shown, Temporary, export, may_hold_page, page_with,
+    Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
+    page_with,
 };
 use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
-use urdd_format::registry::ModuleKind;
-use urdd_generate::batch::{Job, Observer, caught};
-use urdd_generate::{Progress, Settings};
+use urdd_generate::batch::{self, BatchError, Job};
+use urdd_generate::{Settings, process};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
 #[command(
-    after_help = "The page is served only on 127.0.0.1, and opens only from the printed address. A folder without URDDs that \
-    contains one URDF is shown too: a URDD is first generated in a temporary folder.\n\n\
-    Exit status: 0 after Ctrl-C, or when the site is written; 1 no URDD could be generated; 2 usage error, no robot was \
-    found, or the server could not start."
+    after_help = "The page is served only on 127.0.0.1, and opens only from the printed address. A URDF is shown at once, and again \
+    whenever it, a file that its xacro includes, or a mesh changes; its URDD is generated in a temporary folder. Robots of \
+    a folder of URDFs are generated when they are opened.\n\n\
+    Exit status: 0 after Ctrl-C, or when the site is written; 1 a robot to export could not be generated; 2 usage error, \
+    no robot was found, or the server could not start."
 )]
 pub struct ViewArguments {
-    /// URDDs, folders of them, zip archives of them, or a URDF.
+    /// URDDs, folders of them, zip archives of them; URDFs or xacro files; folders of URDFs, such as a ROS package: its
+    /// .urdf.xacro files only with --xacro. `name:=value` is an argument for xacro.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -49,6 +51,9 @@ pub struct ViewArguments {
 
     #[command(flatten)]
     packages: PackageArguments,
+
+    #[command(flatten)]
+    xacro: XacroArguments,
 }
 
 /// Runs `urdd view`.
@@ -73,20 +78,29 @@ fn usage(message: impl ToString) -> Failure {
 
 fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     let signals = Signals::listen().map_err(usage)?;
+    process::adopt_orphans();
+    let (paths, xacro_arguments) = xacro::split(&arguments.paths);
+    let settings = Settings {
+        xacro: arguments.xacro.settings(xacro_arguments),
+        ..arguments.packages.settings(&signals).map_err(usage)?
+    };
     // Generated URDDs exist as long as this value.
     let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
-    let mut collection = Collection::default();
-    let mut wanted = Vec::new();
-    for path in &arguments.paths {
-        match urdf_at(path)? {
-            Some(urdf) => wanted.push(want(urdf, temporary.path(), &mut collection)),
-            None => collection.add(path).map_err(usage)?,
-        }
+    let drops = temporary.path().join("dropped");
+    let collection = Collection::default().with_drops(drops, arguments.xacro.xacro);
+    for path in &paths {
+        add(path, arguments.xacro.xacro, &collection)?;
     }
-    let settings = arguments.packages.settings(&signals).map_err(usage)?;
+    let robots = collection.robots();
+    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
+    let live = Live {
+        folder: temporary.path(),
+        settings: &settings,
+        observer: &Printer::new(Format::Human, false, is_terminal),
+    };
     if let Some(folder) = &arguments.export {
-        for robot in &wanted {
-            let is_made = make(robot, &settings);
+        for robot in &robots {
+            let is_made = live.generate(robot);
             if let Some(status) = signals.status() {
                 return Ok(status);
             }
@@ -96,177 +110,99 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         }
         return written(&collection, folder, &signals);
     }
-    let count = collection.robots().len();
-    let server = Server::bind(collection, arguments.port).map_err(usage)?;
-    let address = server.address();
-    let robots = if count == 1 { "robot" } else { "robots" };
-    let told = format!("{count} {robots}: {address}\nCtrl-C stops it.\n");
-    output::print(&told).map_err(usage)?;
-    let _ = std::io::stdout().flush();
-    if !arguments.no_open
-        && let Err(error) = open::that_detached(&address)
-    {
-        output::error(&format!(
-            "no browser could be opened ({error}); open the address above yourself"
-        ));
+    // A robot by itself is opened at once; others when somebody chooses them.
+    if let [robot] = robots.as_slice() {
+        robot.see();
     }
-    // The page shows the progress of the generation, and its result.
-    let failed = std::thread::scope(|scope| {
-        let making = scope.spawn(|| {
-            let failed = wanted
-                .iter()
-                .filter(|robot| !make(robot, &settings))
-                .count();
-            if failed == count && !signals.cancellation().is_cancelled() {
-                let begun = Instant::now();
-                let is_told = || wanted.iter().all(|robot| robot.shown.is_failure_told());
-                while !is_told() && begun.elapsed() < BROWSER_STARTS {
-                    if signals.cancellation().is_cancelled() {
-                        return failed;
-                    }
-                    std::thread::sleep(Duration::from_millis(20));
-                }
-                std::thread::sleep(LAST_WORD);
-                signals.cancellation().cancel();
-            }
-            failed
-        });
+    let collection = Arc::new(collection);
+    let server = Server::bind(Arc::clone(&collection), arguments.port).map_err(usage)?;
+    std::thread::scope(|scope| {
+        scope.spawn(|| live.run(&collection));
+        let address = server.address();
+        let count = robots.len();
+        let robots = if count == 1 { "robot" } else { "robots" };
+        let told = format!("{count} {robots}: {address}\nCtrl-C stops it.\n");
+        let printed = output::print(&told).map_err(usage);
+        if printed.is_err() {
+            signals.cancellation().cancel();
+        }
+        let _ = std::io::stdout().flush();
+        if !arguments.no_open
+            && let Err(error) = open::that_detached(&address)
+        {
+            output::error(&format!(
+                "no browser could be opened ({error}); open the address above yourself"
+            ));
+        }
         server.run(&signals.cancellation());
-        making.join().unwrap_or(0)
-    });
-    match failed == count {
-        true => Err((FAILED, "there is nothing to show".to_owned())),
-        false => Ok(0),
-    }
+        printed.map(|()| 0)
+    })
 }
 
-/// How long to wait for the page to fetch the errors if there is no robot to show.
-const BROWSER_STARTS: Duration = Duration::from_secs(30);
-/// How long the page may send further requests after that.
-const LAST_WORD: Duration = Duration::from_secs(1);
-
-/// The URDF for a path: the file itself, or the only URDF in a folder without URDDs.
-fn urdf_at(path: &Path) -> Result<Option<PathBuf>, Failure> {
-    let ends_with = |path: &Path, ending: &str| {
-        let extension = path.extension().unwrap_or_default();
-        extension.eq_ignore_ascii_case(ending) && path.is_file()
+/// Adds the robots at a path: a URDF or xacro file; the URDDs at or below a folder, or else its URDFs.
+fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Failure> {
+    let is_xacro = |path: &Path| {
+        let ending = path.extension().unwrap_or_default();
+        ending.eq_ignore_ascii_case("xacro")
     };
-    if ends_with(path, "xacro") {
-        return Err(usage(format!(
-            "{}: `urdd view` does not expand xacro macros; `urdd generate` does",
+    let ending = path.extension().unwrap_or_default();
+    let is_source = is_xacro(path) || ending.eq_ignore_ascii_case("urdf");
+    if is_source && path.is_file() {
+        let mut jobs = batch::jobs(&[path.to_owned()]).map_err(usage)?;
+        for job in &mut jobs {
+            // Often the file is `robot.urdf`, and the folder has the robot's name.
+            if job.name == "robot"
+                && let Some(parent) = path.canonicalize().ok().as_deref().and_then(Path::parent)
+                && let Some(parent) = parent.file_name()
+            {
+                job.name = parent.to_string_lossy().into_owned();
+            }
+        }
+        add_jobs(jobs, collection);
+        return Ok(());
+    }
+    match collection.add(path) {
+        Err(DiscoverError::NoUrdd { .. }) if path.is_dir() => {}
+        other => return other.map_err(usage),
+    }
+    let mut jobs = batch::jobs(&[path.to_owned()]).map_err(|error| match error {
+        BatchError::Empty { path } => usage(format!(
+            "{path}: there is no URDD, and no .urdf or .urdf.xacro file, at any depth"
+        )),
+        error => usage(error),
+    })?;
+    let count = jobs.len();
+    if !with_xacro {
+        jobs.retain(|job| !is_xacro(&job.source));
+    }
+    let left = count - jobs.len();
+    if left > 0 {
+        let files = if left == 1 { "file" } else { "files" };
+        let told = format!(
+            "{}: left out {left} .urdf.xacro {files}; --xacro runs them",
             path.display()
-        )));
-    }
-    if ends_with(path, "urdf") {
-        return Ok(Some(path.to_owned()));
-    }
-    if !path.is_dir() {
-        return Ok(None);
-    }
-    match urdd_directory::discover::discover(path) {
-        Err(DiscoverError::NoUrdd { .. }) => {}
-        _ => return Ok(None),
-    }
-    let entries = std::fs::read_dir(path).map_err(usage)?.flatten();
-    let mut found: Vec<PathBuf> = entries
-        .map(|entry| entry.path())
-        .filter(|path| ends_with(path, "urdf"))
-        .collect();
-    found.sort();
-    match found.as_slice() {
-        [] => Ok(None),
-        [one] => Ok(Some(one.clone())),
-        several => {
-            let names: Vec<String> = several
-                .iter()
-                .map(|path| path.display().to_string())
-                .collect();
-            Err(usage(format!(
-                "{}: contains several URDFs; give one of them: {}",
-                path.display(),
-                names.join(", ")
-            )))
+        );
+        match jobs.is_empty() {
+            true => return Err(usage(told)),
+            false => output::error(&escape::line(&told)),
         }
     }
+    add_jobs(jobs, collection);
+    Ok(())
 }
 
-/// A robot to generate from a URDF.
-struct Wanted {
-    job: Job,
-    target: PathBuf,
-    shown: Arc<Shown>,
-}
-
-/// Adds a robot to generate to the collection.
-fn want(urdf: PathBuf, folder: &Path, collection: &mut Collection) -> Wanted {
-    let stem = urdf.file_stem().unwrap_or_default();
-    let mut name = stem.to_string_lossy().into_owned();
-    if name == "robot"
-        && let Some(parent) = urdf.canonicalize().ok().as_deref().and_then(Path::parent)
-        && let Some(parent) = parent.file_name()
-    {
-        // Often the file is `robot.urdf`, and the folder has the robot's name.
-        name = parent.to_string_lossy().into_owned();
+fn add_jobs(jobs: Vec<Job>, collection: &Collection) {
+    for Job { source, name } in jobs {
+        // The working directory may change later.
+        let file = std::path::absolute(&source).unwrap_or(source);
+        let packages = Vec::new();
+        collection.add_source(name, Source { file, packages });
     }
-    let number = collection.robots().len();
-    let target = folder.join(number.to_string()).join(&name);
-    let shown = collection.add_making(name.clone(), target.clone());
-    let source = urdf;
-    Wanted {
-        job: Job { source, name },
-        target,
-        shown,
-    }
-}
-
-/// Reports a robot's progress to the terminal and the page.
-struct Told<'a> {
-    terminal: Box<dyn Progress>,
-    page: &'a Shown,
-}
-
-impl Progress for Told<'_> {
-    fn module(&self, kind: ModuleKind, done: usize, total: usize) {
-        self.terminal.module(kind, done, total);
-        self.page.set_making(Making::Running {
-            what: kind.name().to_owned(),
-            done,
-            of: total,
-        });
-    }
-
-    fn part(&self, kind: ModuleKind, done: usize, total: usize) {
-        self.terminal.part(kind, done, total);
-    }
-}
-
-/// Generates a URDD from a URDF in a temporary folder. Returns whether it succeeded.
-fn make(wanted: &Wanted, settings: &Settings) -> bool {
-    let Wanted { job, target, shown } = wanted;
-    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
-    let printer = Printer::new(Format::Human, false, is_terminal);
-    let progress = Told {
-        terminal: printer.begin_robot(job),
-        page: shown,
-    };
-    // A panic is caught and reported; the default hook would print it as well.
-    std::panic::set_hook(Box::new(|_| {}));
-    let outcome = caught(&job.source, || {
-        urdd_generate::generate(&job.source, target, settings, &progress)
-    });
-    let _ = std::panic::take_hook();
-    drop(progress);
-    printer.done(job, &outcome);
-    match &outcome {
-        Ok(generated) => shown.made(generated.notes.iter().map(ToString::to_string).collect()),
-        Err(error) => shown.set_making(Making::Failed(error.to_string())),
-    }
-    outcome.is_ok()
 }
 
 /// Writes the site.
 fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<u8, Failure> {
-    let mut tell = |robot: &crate::view::Shown| {
+    let mut tell = |robot: &Shown| {
         let name = escape::line(&robot.name).into_owned();
         let _ = writeln!(std::io::stderr().lock(), "{name}");
     };
@@ -274,8 +210,9 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("html"))
     {
-        let [robot] = collection.robots() else {
-            let count = collection.robots().len();
+        let robots = collection.robots();
+        let [robot] = robots.as_slice() else {
+            let count = robots.len();
             return Err(usage(format!(
                 "a page in one file shows one robot, but {count} were given; give one of them, or a folder to --export"
             )));

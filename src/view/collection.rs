@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
+use super::drops::Drops;
 use super::revision;
 use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
@@ -18,11 +19,13 @@ pub struct Shown {
     pub id: String,
     /// Its displayed name: its path from the given folder.
     pub name: String,
+    /// The URDF that it is generated from; `None` for a URDD.
+    pub source: Option<Source>,
     standing: Mutex<Standing>,
     /// The files, and their revision.
     opened: Mutex<Option<(String, Opened)>>,
-    /// Whether a page has received the failure of its generation.
-    failure_told: AtomicBool,
+    /// When a page last asked for it.
+    seen: Mutex<Option<Instant>>,
     /// The report, and its revision.
     pub(super) report: Mutex<Option<(String, String)>>,
     /// The picture, and its revision.
@@ -31,10 +34,21 @@ pub struct Shown {
     pub(super) undo: Mutex<Vec<(String, Files)>>,
 }
 
+/// What a robot is generated from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// The URDF or xacro file.
+    pub file: PathBuf,
+    /// Folders of packages besides those of the settings, each as `NAME=PATH`.
+    pub packages: Vec<String>,
+}
+
 /// The mutable state of a displayed robot.
 #[derive(Debug)]
 struct Standing {
     path: PathBuf,
+    /// Whether there is something to show at that path.
+    is_ready: bool,
     notes: Vec<String>,
     kind: Kind,
     making: Making,
@@ -56,6 +70,8 @@ enum Kind {
 pub enum Making {
     /// Generation is complete, or was not needed.
     Done,
+    /// Nobody has opened it yet.
+    Waiting,
     /// A module is being generated.
     Running {
         /// The module.
@@ -145,21 +161,32 @@ impl Shown {
         self.standing().making = making;
     }
 
-    /// Records that a page has received the failure of its generation.
-    pub(super) fn tell_failure(&self) {
-        self.failure_told.store(true, Ordering::Relaxed);
+    /// Whether there is something to show.
+    pub fn is_ready(&self) -> bool {
+        self.standing().is_ready
     }
 
-    /// Whether a page has received the failure of its generation.
-    pub fn is_failure_told(&self) -> bool {
-        self.failure_told.load(Ordering::Relaxed)
+    /// Records that a page shows it, or waits for it.
+    pub fn see(&self) {
+        *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     }
 
-    /// Marks it as generated, with these assumptions.
-    pub fn made(&self, notes: Vec<String>) {
+    /// How long ago a page last asked for it.
+    pub fn unseen_for(&self) -> Option<Duration> {
+        let seen = *self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.map(|seen| seen.elapsed())
+    }
+
+    /// Shows what was generated at a path, with these assumptions, while `making` goes on. Not if it was saved
+    /// meanwhile.
+    pub fn show(&self, path: PathBuf, notes: Vec<String>, making: Making) {
         let mut standing = self.standing();
-        standing.notes = notes;
-        standing.making = Making::Done;
+        if standing.kind == Kind::Temporary {
+            standing.path = path;
+            standing.notes = notes;
+            standing.making = making;
+            standing.is_ready = true;
+        }
     }
 
     /// Records that it is now in a folder of the user.
@@ -168,6 +195,7 @@ impl Shown {
         let mut standing = self.standing();
         standing.path = path;
         standing.kind = Kind::Writable;
+        standing.making = Making::Done;
     }
 
     fn standing(&self) -> MutexGuard<'_, Standing> {
@@ -175,19 +203,35 @@ impl Shown {
     }
 }
 
-/// The robots of a page, in order.
+/// The robots of a page, in order. Robots may be added while it is shown.
 #[derive(Debug, Default)]
 pub struct Collection {
+    listed: Mutex<Listed>,
+    /// Where dropped files go, if they are accepted.
+    pub(super) drops: Option<Drops>,
+}
+
+#[derive(Debug, Default)]
+struct Listed {
     robots: Vec<Arc<Shown>>,
     ids: BTreeSet<String>,
 }
 
 impl Collection {
+    /// Accepts URDFs that are dropped on the page, into this folder. `with_xacro` allows them to run xacro.
+    #[must_use]
+    pub fn with_drops(self, folder: PathBuf, with_xacro: bool) -> Self {
+        Collection {
+            drops: Some(Drops::new(folder, with_xacro)),
+            ..self
+        }
+    }
+
     /// Adds every URDD at or below a path.
     ///
     /// # Errors
     /// If there is none, or the path cannot be searched.
-    pub fn add(&mut self, path: &Path) -> Result<(), DiscoverError> {
+    pub fn add(&self, path: &Path) -> Result<(), DiscoverError> {
         for found in discover(path)? {
             // Archives are read-only, and URDDs from before version 1 have no edits.
             let has_metadata = found.path.join(ROOT_METADATA).is_file();
@@ -197,23 +241,17 @@ impl Collection {
             };
             // Absolute: the working directory may change later, and `.` has no name for a sibling to be derived from.
             let path = found.path.canonicalize().unwrap_or(found.path);
-            self.put(found.name, path, kind, Making::Done);
+            self.put(found.name, None, path, kind);
         }
         Ok(())
     }
 
-    /// Adds a URDD that is being generated for display, in a temporary folder. The caller reports progress and
-    /// completion to the returned value.
-    pub fn add_making(&mut self, name: String, path: PathBuf) -> Arc<Shown> {
-        let making = Making::Running {
-            what: "the URDF".to_owned(),
-            done: 0,
-            of: 0,
-        };
-        self.put(name, path, Kind::Temporary, making)
+    /// Adds a robot to be generated from a URDF when somebody opens it.
+    pub fn add_source(&self, name: String, source: Source) -> Arc<Shown> {
+        self.put(name, Some(source), PathBuf::new(), Kind::Temporary)
     }
 
-    fn put(&mut self, name: String, path: PathBuf, kind: Kind, making: Making) -> Arc<Shown> {
+    fn put(&self, name: String, source: Option<Source>, path: PathBuf, kind: Kind) -> Arc<Shown> {
         let plain = |c: char| match c {
             'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => c,
             _ => '_',
@@ -222,38 +260,50 @@ impl Collection {
         let word = if word.is_empty() { "robot" } else { &word };
         let mut id = word.to_owned();
         let mut number = 2;
-        while !self.ids.insert(id.clone()) {
+        let mut listed = self.listed();
+        while !listed.ids.insert(id.clone()) {
             id = format!("{word}.{number}");
             number += 1;
         }
+        let is_made = source.is_none();
         let shown = Arc::new(Shown {
             id,
             name,
+            source,
             standing: Mutex::new(Standing {
                 path,
+                is_ready: is_made,
                 notes: Vec::new(),
                 kind,
-                making,
+                making: match is_made {
+                    true => Making::Done,
+                    false => Making::Waiting,
+                },
             }),
             opened: Mutex::default(),
-            failure_told: AtomicBool::new(false),
+            seen: Mutex::default(),
             report: Mutex::default(),
             picture: Mutex::default(),
             undo: Mutex::default(),
         });
-        self.robots.push(Arc::clone(&shown));
+        listed.robots.push(Arc::clone(&shown));
         shown
     }
 
     /// The robots.
-    pub fn robots(&self) -> &[Arc<Shown>] {
-        &self.robots
+    pub fn robots(&self) -> Vec<Arc<Shown>> {
+        self.listed().robots.clone()
     }
 
     /// Finds a robot by its id.
-    pub fn find(&self, id: &str) -> Option<&Shown> {
-        let mut robots = self.robots.iter();
-        robots.find(|robot| robot.id == id).map(Arc::as_ref)
+    pub fn find(&self, id: &str) -> Option<Arc<Shown>> {
+        let listed = self.listed();
+        let found = listed.robots.iter().find(|robot| robot.id == id);
+        found.map(Arc::clone)
+    }
+
+    fn listed(&self) -> MutexGuard<'_, Listed> {
+        self.listed.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -263,11 +313,16 @@ mod tests {
 
     #[test]
     fn ids_are_plain_and_unique() {
-        let mut collection = Collection::default();
+        let collection = Collection::default();
         for name in ["arms/a b", "arms/a_b", "<b>", ""] {
-            collection.add_making(name.to_owned(), PathBuf::new());
+            let source = Source {
+                file: PathBuf::new(),
+                packages: Vec::new(),
+            };
+            collection.add_source(name.to_owned(), source);
         }
-        let ids: Vec<&str> = collection.robots().iter().map(|robot| &*robot.id).collect();
+        let robots = collection.robots();
+        let ids: Vec<&str> = robots.iter().map(|robot| &*robot.id).collect();
         assert_eq!(ids, ["arms_a_b", "arms_a_b.2", "_b_", "robot"]);
     }
 }

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::assets::{self, ASSETS};
 use super::collection::{Collection, Shown};
 use super::export_error::ExportError;
+use super::report;
 use super::route;
 use super::site_list::{FOLDER, PAGE, SiteList};
 use urdd_directory::cancellation::Cancellation;
@@ -60,8 +61,8 @@ pub fn export(
         if cancellation.is_cancelled() {
             return Err(StagingError::Cancelled.into());
         }
-        entries.push(one(robot, &mut site)?);
-        tell(robot);
+        entries.push(one(&robot, &mut site)?);
+        tell(&robot);
     }
     let robots = Value::from(entries).to_string();
     names.push(("robots.json", site.add(robots.as_bytes(), "json")?));
@@ -107,7 +108,7 @@ pub(super) struct Published {
 /// Collects what is published of a robot.
 pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
     let root = robot.open().map_err(|error| unread(robot, error))?.1.own;
-    let report = route::report_on(&root, &robot.name);
+    let report = report::report_on(&root, &robot.name);
     let report = report.unwrap_or_else(|error| json!({ "error": error }).to_string());
     let mut entry = route::entry_with(robot, &report);
     // A site is read-only, and notes name files of this machine.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf, absolute};
 use serde::Deserialize;
 use serde_json::json;
 
-use super::collection::Shown;
+use super::collection::{Making, Shown};
 use super::reply::Reply;
 use super::revision;
 use super::save::Failure;
@@ -13,6 +13,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::staging::Staging;
 use urdd_directory::take::take_content;
+use urdd_directory::target_lock::TargetLock;
 
 /// What the page sends.
 #[derive(Deserialize)]
@@ -42,13 +43,23 @@ fn kept(robot: &Shown, folder: &str) -> Result<PathBuf, Failure> {
         return Err((403, "this URDD is already in a folder".to_owned()));
     }
     let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    let unfinished = || {
+        let why = "this robot is still being generated; save it when it is complete";
+        (409, why.to_owned())
+    };
+    // While this is locked, no run replaces what is copied.
+    let path = robot.path();
+    let lock = TargetLock::at_once(&path).map_err(|error| failed(&error))?;
+    if lock.is_none() || robot.making() != Making::Done || robot.path() != path {
+        return Err(unfinished());
+    }
     let target = resolved(folder)?;
     free(&target)?;
     let staging = Staging::begin(&target, &Cancellation::default())
         .map_err(|error| (403, error.to_string()))?;
     // Another run may have written there while this one waited.
     free(&target)?;
-    take_content(&robot.path(), staging.content(), &|_| false).map_err(|error| failed(&error))?;
+    take_content(&path, staging.content(), &|_| false).map_err(|error| failed(&error))?;
     let place = staging.target().to_owned();
     staging.commit().map_err(|error| failed(&error))?;
     robot.keep_at(place.clone());

@@ -24,6 +24,15 @@ pub fn of_content(path: &Path) -> String {
     word(path, &|_| String::new())
 }
 
+/// As [`of`], for one file: a folder is not searched.
+pub fn of_file(path: &Path) -> String {
+    match fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => of(path),
+        Ok(_) => "no file".to_owned(),
+        Err(_) => GONE.to_owned(),
+    }
+}
+
 fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
     let mut lines = Vec::new();
     let mut waiting = vec![path.to_owned()];

@@ -5,14 +5,13 @@ use serde_json::{Value, json};
 
 use super::assets;
 use super::collection::{Collection, Making, Shown};
+use super::drops;
 use super::picture;
 use super::reply::{Body, Reply};
+use super::report::report_of;
 use super::revision;
 use urdd_directory::root::{EntryKind, ReadError, Root};
 use urdd_robot::Robot;
-use urdd_validate::report;
-use urdd_validate::settings::Settings;
-use urdd_validate::{Run, validate, validate_source};
 
 /// Maximum size of a file that is sent, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -40,6 +39,8 @@ pub enum Route {
     Skips(String),
     /// Saves a generated robot.
     Keep(String),
+    /// Takes URDFs that were dropped on the page.
+    Drops,
     /// No known resource.
     Unknown,
 }
@@ -67,6 +68,7 @@ impl Route {
         match words.as_slice() {
             [""] => Route::Asset("index.html".to_owned()),
             ["robots.json"] => Route::Robots,
+            ["drops"] => Route::Drops,
             ["robots", id, "revision.json"] => Route::Revision((*id).to_owned()),
             ["robots", id, "files.json"] => Route::Files((*id).to_owned()),
             ["robots", id, "report.json"] => Route::Report((*id).to_owned()),
@@ -87,6 +89,7 @@ impl Route {
         match self {
             Route::Skips(_) => 64 << 20,
             Route::Keep(_) => 64 << 10,
+            Route::Drops => drops::MAX_BODY,
             _ => 0,
         }
     }
@@ -108,17 +111,21 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
         let Some(robot) = collection.find(id) else {
             return Reply::failure(404, "there is no such robot\n");
         };
-        answer(robot).unwrap_or_else(|error| failure(&error))
+        answer(&robot).unwrap_or_else(|error| failure(&error))
     };
     match route {
         Route::Asset(name) => asset(name, brotli),
         Route::Robots => {
-            let robots = collection.robots().iter();
-            Reply::json(&robots.map(|robot| entry(robot)).collect())
+            let robots = collection.robots();
+            Reply::json(&robots.iter().map(|robot| entry(robot)).collect())
         }
         Route::Revision(id) => with(id, &|robot| {
-            let revision = revision::of(&robot.path());
-            Ok(Reply::json(&json!({ "revision": revision })))
+            // Whoever asks for this shows the robot, or waits for it: see `live`.
+            robot.see();
+            let revision = robot.is_ready().then(|| revision::of(&robot.path()));
+            Ok(Reply::json(
+                &json!({ "revision": revision, "entry": entry(robot) }),
+            ))
         }),
         Route::Files(id) => with(id, &|robot| {
             let (revision, opened) = robot.open()?;
@@ -148,7 +155,7 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
                 None => Reply::nothing(),
             })
         }),
-        Route::Skips(_) | Route::Keep(_) | Route::Unknown => {
+        Route::Skips(_) | Route::Keep(_) | Route::Drops | Route::Unknown => {
             Reply::failure(404, "there is no such page\n")
         }
     }
@@ -186,20 +193,18 @@ fn asset(name: &str, brotli: bool) -> Reply {
 /// An entry of `robots.json`.
 pub fn entry(robot: &Shown) -> Value {
     let (making, failure) = match robot.making() {
-        Making::Done => (Value::Null, Value::Null),
+        Making::Done | Making::Waiting => (Value::Null, Value::Null),
         Making::Running { what, done, of } => {
             (json!({ "what": what, "done": done, "of": of }), Value::Null)
         }
-        Making::Failed(why) => {
-            robot.tell_failure();
-            (Value::Null, json!(why))
-        }
+        Making::Failed(why) => (Value::Null, json!(why)),
     };
     json!({
         "id": robot.id,
         "name": robot.name,
         "writable": robot.is_writable(),
         "temporary": robot.is_temporary(),
+        "ready": robot.is_ready(),
         "making": making,
         "failure": failure,
         "notes": robot.notes(),
@@ -253,48 +258,6 @@ fn files(root: &Root) -> Result<Value, ReadError> {
     Ok(files
         .map(|entry| json!({ "path": entry.path, "size": entry.size }))
         .collect())
-}
-
-/// The report of a robot, as `urdd validate --format json` prints it. Created once for each revision.
-pub fn report_of(robot: &Shown) -> String {
-    let mut known = robot
-        .report
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
-    let path = robot.path();
-    let made = match robot.open() {
-        Ok((revision, opened)) => {
-            if let Some((of, report)) = known.as_ref()
-                && *of == revision
-            {
-                return report.clone();
-            }
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let made = report_on(&opened.all, &name);
-            if let Ok(report) = &made {
-                *known = Some((revision, report.clone()));
-            }
-            made
-        }
-        // The report gives the reason.
-        Err(_) => validate(&[&path], &Settings::default())
-            .map_err(|error| error.to_string())
-            .and_then(|run| as_json(&run)),
-    };
-    made.unwrap_or_else(|error| json!({ "error": error }).to_string())
-}
-
-/// The report of the URDD at a root. `name` is its name in the report.
-///
-/// # Errors
-/// If there is no report.
-pub fn report_on(root: &Root, name: &str) -> Result<String, String> {
-    let run = validate_source(root.clone(), name, &Settings::default());
-    as_json(&run.map_err(|error| error.to_string())?)
-}
-
-fn as_json(run: &Run) -> Result<String, String> {
-    report::json(&run.report).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use thiserror::Error;
 
 use super::collection::Collection;
 use super::connections::{Connection, Connections};
+use super::drops;
 use super::guard::{Caller, Guard};
 use super::http::{Asked, converse};
 use super::keep;
@@ -44,7 +45,7 @@ pub enum ServerError {
 pub struct Server {
     listener: TcpListener,
     guard: Guard,
-    collection: Collection,
+    collection: Arc<Collection>,
 }
 
 impl Server {
@@ -52,7 +53,10 @@ impl Server {
     ///
     /// # Errors
     /// If the port cannot be bound.
-    pub fn bind(collection: Collection, port: Option<u16>) -> Result<Self, ServerError> {
+    pub fn bind(
+        collection: impl Into<Arc<Collection>>,
+        port: Option<u16>,
+    ) -> Result<Self, ServerError> {
         let at = |port: u16| {
             let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
             let ready = bound.and_then(|listener| {
@@ -75,7 +79,7 @@ impl Server {
         Ok(Self {
             listener,
             guard: Guard { port, token },
-            collection,
+            collection: collection.into(),
         })
     }
 
@@ -142,11 +146,12 @@ impl Server {
         match (&*asked.method, &route) {
             ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
             ("POST", Route::Skips(id)) => match self.collection.find(id) {
-                Some(robot) => save::skips(robot, &asked.body),
+                Some(robot) => save::skips(&robot, &asked.body),
                 None => Reply::failure(404, "there is no such robot\n"),
             },
+            ("POST", Route::Drops) => drops::take(&self.collection, &asked.body),
             ("POST", Route::Keep(id)) => match self.collection.find(id) {
-                Some(robot) => keep::keep(robot, &asked.body),
+                Some(robot) => keep::keep(&robot, &asked.body),
                 None => Reply::failure(404, "there is no such robot\n"),
             },
             _ => Reply::failure(405, "this cannot be done here\n"),

@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use serde_json::Value;
@@ -19,6 +20,12 @@ pub fn made(robot: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, target)
 }
 
+fn port_and_token(address: &str) -> (u16, String) {
+    let rest = address.strip_prefix("http://127.0.0.1:").expect("loopback");
+    let (port, token) = rest.split_once("/#token=").expect("a token");
+    (port.parse().expect("a port"), token.to_owned())
+}
+
 /// A server at work, until it is dropped.
 pub struct Running {
     pub port: u16,
@@ -29,17 +36,14 @@ pub struct Running {
 
 impl Running {
     pub fn on(path: &Path) -> Self {
-        let mut collection = Collection::default();
+        let collection = Collection::default();
         collection.add(path).expect("a URDD");
         Self::with(collection)
     }
 
-    pub fn with(collection: Collection) -> Self {
+    pub fn with(collection: impl Into<Arc<Collection>>) -> Self {
         let server = Server::bind(collection, None).expect("a port");
-        let address = server.address();
-        let rest = address.strip_prefix("http://127.0.0.1:").expect("loopback");
-        let (port, token) = rest.split_once("/#token=").expect("a token");
-        let (port, token) = (port.parse().expect("a port"), token.to_owned());
+        let (port, token) = port_and_token(&server.address());
         let cancellation = Cancellation::default();
         let wish = cancellation.clone();
         let thread = Some(std::thread::spawn(move || server.run(&wish)));
@@ -48,6 +52,17 @@ impl Running {
             token,
             cancellation,
             thread,
+        }
+    }
+
+    /// A server of another process, by the address that it printed.
+    pub fn at(address: &str) -> Self {
+        let (port, token) = port_and_token(address);
+        Self {
+            port,
+            token,
+            cancellation: Cancellation::default(),
+            thread: None,
         }
     }
 
@@ -82,16 +97,16 @@ impl Running {
     }
 
     pub fn post(&self, path: &str, body: &Value) -> Answer {
+        self.send(path, body.to_string().as_bytes())
+    }
+
+    pub fn send(&self, path: &str, body: &[u8]) -> Answer {
         let headers = [
             ("Host", &*self.host()),
             ("Origin", &*format!("http://{}", self.host())),
             ("X-Urdd-Token", &*self.token),
         ];
-        self.raw(
-            &format!("POST {path}"),
-            &headers,
-            body.to_string().as_bytes(),
-        )
+        self.raw(&format!("POST {path}"), &headers, body)
     }
 }
 

@@ -18,7 +18,7 @@ use urdd_robot::{Robot, ShapeKind};
 use super::asking::made;
 
 fn page_of(path: &Path) -> String {
-    let mut collection = Collection::default();
+    let collection = Collection::default();
     collection.add(path).expect("a URDD");
     page_with(&collection.robots()[0]).expect("a page")
 }

@@ -5,15 +5,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use urdd::view::{Collection, Making, Shown};
+use urdd::view::{Collection, Making, Shown, Source};
 use urdd_validate::settings::Settings;
 
 use super::asking::{Running, made};
 
 /// A server that shows a generated URDD.
 fn generated(path: &Path) -> (Running, Arc<Shown>) {
-    let mut collection = Collection::default();
-    let shown = collection.add_making("gripper".to_owned(), path.to_owned());
+    let collection = Collection::default();
+    let source = Source {
+        file: path.with_extension("urdf"),
+        packages: Vec::new(),
+    };
+    let shown = collection.add_source("gripper".to_owned(), source);
     (Running::with(collection), shown)
 }
 
@@ -32,7 +36,8 @@ fn the_page_hears_how_far_it_is() {
     assert_eq!(entry()["temporary"], true);
     shown.set_making(Making::Failed("no link".to_owned()));
     assert_eq!(entry()["failure"], "no link");
-    shown.made(vec!["a mass was assumed".to_owned()]);
+    let notes = vec!["a mass was assumed".to_owned()];
+    shown.show(path, notes, Making::Done);
     assert_eq!(entry()["notes"], json!(["a mass was assumed"]));
     assert_eq!(
         (&entry()["making"], &entry()["failure"]),
@@ -44,7 +49,18 @@ fn the_page_hears_how_far_it_is() {
 fn a_generated_urdd_is_saved_once_and_passes() {
     let (folder, path) = made("gripper");
     let (server, shown) = generated(&path);
-    shown.made(Vec::new());
+    let running = Making::Running {
+        what: "dof_module".to_owned(),
+        done: 3,
+        of: 15,
+    };
+    shown.show(path.clone(), Vec::new(), running);
+    let wish = json!({ "folder": folder.path().join("early").to_str() });
+    let early = server.post("/robots/gripper/keep", &wish);
+    assert_eq!(early.status, 409, "{}", early.text());
+    assert!(early.text().contains("still being generated"));
+    assert!(!folder.path().join("early").exists());
+    shown.show(path.clone(), Vec::new(), Making::Done);
     let skips = json!({ "revision": "x", "edits": [] });
     assert_eq!(server.post("/robots/gripper/skips", &skips).status, 403);
     let target = folder.path().join("new/another_name");
@@ -73,7 +89,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
 fn nothing_is_overwritten() {
     let (folder, path) = made("gripper");
     let (server, shown) = generated(&path);
-    shown.made(Vec::new());
+    shown.show(path.clone(), Vec::new(), Making::Done);
     let (full, file) = (folder.path().join("full"), folder.path().join("file"));
     fs::create_dir(&full).expect("a folder");
     fs::write(full.join("mine"), "mine").expect("written");

@@ -15,7 +15,7 @@ use urdd_format::hexadecimal::hexadecimal;
 use super::asking::made;
 
 pub fn collection(path: &Path) -> Collection {
-    let mut collection = Collection::default();
+    let collection = Collection::default();
     collection.add(path).expect("a URDD");
     collection
 }

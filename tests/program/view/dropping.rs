@@ -1,0 +1,146 @@
+//! URDFs that are dropped on the page.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use urdd::view::Collection;
+
+use super::asking::{Answer, Running};
+use super::living::{is_whole, living, until};
+
+const MESH: &str = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const URDF: &str = r#"<robot name="arm"><link name="a"><visual><geometry>
+    <mesh filename="package://arm_description/meshes/a.obj"/></geometry></visual></link></robot>"#;
+
+fn body(files: &[(&str, &str)]) -> Vec<u8> {
+    let list: Vec<Value> = files
+        .iter()
+        .map(|(path, text)| json!({ "path": path, "size": text.len() }))
+        .collect();
+    let mut body = Value::from(list).to_string();
+    body.push('\n');
+    body.extend(files.iter().map(|(_, text)| *text));
+    body.into_bytes()
+}
+
+fn drop_on(server: &Running, files: &[(&str, &str)]) -> Answer {
+    server.send("/drops", &body(files))
+}
+
+/// The paths of all files below a folder.
+fn files(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut waiting = vec![folder.to_owned()];
+    while let Some(at) = waiting.pop() {
+        for entry in fs::read_dir(&at).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            match path.is_dir() {
+                true => waiting.push(path),
+                false => found.push(path.display().to_string()),
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn meshes_are_found_in_what_was_dropped() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let collection = Collection::default().with_drops(folder.path().join("in"), false);
+    living(collection, |server| {
+        let whole = [
+            ("arm_description/urdf/arm.urdf", URDF),
+            ("arm_description/meshes/a.obj", MESH),
+        ];
+        // The content of the package, without the folder of its name.
+        let content = [("urdf/arm.urdf", URDF), ("meshes/a.obj", MESH)];
+        for files in [whole, content] {
+            let answer = drop_on(server, &files);
+            assert_eq!(answer.status, 200, "{}", answer.text());
+            let made: Value = serde_json::from_slice(&answer.body).expect("JSON");
+            let id = made["robots"][0].as_str().expect("an id").to_owned();
+            let answer = until(server, &id, is_whole);
+            assert_eq!(answer["entry"]["notes"], json!([]), "{files:?}");
+            assert_eq!(answer["entry"]["temporary"], true);
+        }
+        let alone = drop_on(server, &[("arm.urdf", URDF)]);
+        let made: Value = serde_json::from_slice(&alone.body).expect("JSON");
+        let id = made["robots"][0].as_str().expect("an id").to_owned();
+        let notes = until(server, &id, is_whole)["entry"]["notes"].to_string();
+        assert!(notes.contains("was not found"), "{notes}");
+    });
+}
+
+#[test]
+fn no_path_leaves_the_folder_and_nothing_is_replaced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let within = folder.path().join("in");
+    let collection = Collection::default().with_drops(within.clone(), false);
+    let server = Running::with(collection);
+    let long = "a/".repeat(5000) + "x.urdf";
+    let wide = "a".repeat(3000) + ".urdf";
+    for path in [
+        "../x.urdf",
+        "a/../../x.urdf",
+        "/x.urdf",
+        "//x.urdf",
+        "a\\..\\x.urdf",
+        "C:x.urdf",
+        "a//x.urdf",
+        "./x.urdf",
+        "x.urdf/",
+        "",
+        ".",
+        "..",
+        "a\0.urdf",
+        "a\n.urdf",
+        &long,
+        &wide,
+    ] {
+        let answer = drop_on(&server, &[("good.urdf", URDF), (path, "x")]);
+        assert_eq!(answer.status, 400, "{path:?}: {}", answer.text());
+    }
+    let twice = [("a.urdf", URDF), ("a.urdf", URDF)];
+    let inside = [("a.urdf", URDF), ("a.urdf/b.urdf", URDF)];
+    let around = [("a/b.urdf", URDF), ("a", "x")];
+    for files in [twice, inside, around] {
+        assert_eq!(drop_on(&server, &files).status, 400, "{files:?}");
+    }
+    for bad in [
+        &b"[]"[..],
+        b"\n",
+        b"{}\n",
+        b"[{\"path\":\"a.urdf\",\"size\":5}]\nabc",
+        b"[{\"path\":\"a.urdf\",\"size\":1}]\nabc",
+        b"[{\"path\":\"a.urdf\",\"size\":-1}]\n",
+        b"[{\"path\":\"a.urdf\",\"size\":18446744073709551615},{\"path\":\"b.urdf\",\"size\":4}]\nabc",
+        b"[{\"path\":\"a.urdf\",\"size\":3,\"mode\":511}]\nabc",
+    ] {
+        assert_eq!(server.send("/drops", bad).status, 400, "{bad:?}");
+    }
+    let many = vec![("a.urdf", ""); 10_001];
+    assert_eq!(drop_on(&server, &many).status, 400);
+    assert_eq!(drop_on(&server, &[("a.txt", "x")]).status, 400);
+    let refused = drop_on(&server, &[("a.urdf.xacro", URDF)]);
+    assert_eq!(refused.status, 403);
+    assert!(refused.text().contains("--xacro"), "{}", refused.text());
+    // Nothing of all this is left, and nobody else may drop anything.
+    assert_eq!(files(folder.path()), Vec::<String>::new());
+    assert_eq!(server.json("/robots.json"), json!([]));
+    let host = server.host();
+    let answer = server.raw(
+        "POST /drops",
+        &[("Host", &host)],
+        &body(&[("a.urdf", URDF)]),
+    );
+    assert_eq!(answer.status, 403);
+    let other = [
+        ("Host", &*host),
+        ("Origin", "http://evil.example"),
+        ("X-Urdd-Token", &*server.token),
+    ];
+    let answer = server.raw("POST /drops", &other, &body(&[("a.urdf", URDF)]));
+    assert_eq!(answer.status, 403);
+    assert_eq!(files(folder.path()), Vec::<String>::new());
+}
