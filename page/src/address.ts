@@ -2,9 +2,10 @@
 
 import type { App } from "./app";
 import { message } from "./app";
-import type { RobotSource } from "./engine/protocol";
+import { NEEDS_PROGRAM } from "./drop";
+import type { Dropped, Taken } from "./drop";
 import * as fragment from "./fragment";
-import { untilMade } from "./making";
+import { untilReady } from "./making";
 import { unknown } from "./model";
 import type { Entry } from "./model";
 import type { Stage } from "./stage";
@@ -59,17 +60,33 @@ export class Address {
   }
 
   /** Opens dropped or selected files, which have no address. */
-  async openFiles(files: () => Promise<RobotSource>): Promise<void> {
+  async openFiles(files: () => Promise<Taken>): Promise<void> {
     this.leave();
     const { turn } = this;
     const { store } = this.app;
     store.set({ loading: { what: "files", done: 0, of: 0 } });
     try {
       const source = await files();
-      if (turn === this.turn) await this.app.open({ ...unknown(source.name), id: "" }, source);
+      if (turn !== this.turn) return;
+      if (source.kind === "urdf") await this.send(source.files, turn);
+      else await this.app.open({ ...unknown(source.name), id: "" }, source);
     } catch (error) {
       if (turn === this.turn) store.set({ loading: null, failure: message(error) });
     }
+  }
+
+  /** Sends URDFs to `urdd view`, and opens the robot if there is one. */
+  private async send(files: Dropped[], turn: number): Promise<void> {
+    const { store, site } = this.app;
+    if (site.mode !== "live") throw new Error(NEEDS_PROGRAM);
+    const sent = await site.drop(files);
+    const entries = await site.robots();
+    store.set({ entries });
+    if (turn !== this.turn) return;
+    const found = entries.filter(({ id }) => sent.includes(id));
+    const [one] = found;
+    if (one && found.length === 1) await this.open(one);
+    else store.set({ loading: null });
   }
 
   /** A link to the view, for other tabs and browsers too. */
@@ -115,21 +132,20 @@ export class Address {
     const asked = entries.find((entry) => entry.id === shared.robot);
     const one = asked ?? (entries.length === 1 ? entries[0] : undefined);
     if (shared.robot !== null && !asked) app.note(`Unknown robot ${shared.robot}.`);
-    if (entries.some(({ making, failure }) => making !== null || failure !== null)) {
-      app.close();
-      const made = await untilMade(app, one?.id ?? null);
-      if (made && turn === this.turn) await this.read(made, shared);
-    } else if (!one) app.close();
+    if (!one) app.close();
     else if (robot?.entry.id === one.id) this.apply(shared);
-    else await this.read(one, shared);
+    else if (turn === this.turn) await this.read(one, shared);
   }
 
   /** Opens a robot, with the view of a link. */
-  private async read(entry: Entry, shared: fragment.Shared | null = null): Promise<void> {
+  private async read(listed: Entry, shared: fragment.Shared | null = null): Promise<void> {
     const turn = ++this.turn;
     const { app, stage } = this;
     try {
+      if (!listed.ready) app.close();
       app.store.set({ failure: null, loading: { what: "the list of files", done: 0, of: 0 } });
+      const entry = await untilReady(app, listed, () => turn === this.turn);
+      if (!entry) return;
       const source = await app.site.source(entry);
       if (turn !== this.turn) return;
       // Layers and the camera are set before the first picture.

@@ -4,21 +4,23 @@ import { absentMeshes } from "./absent";
 import { contactsOf } from "./contacts";
 import { Trapped } from "./engine/client";
 import type { Engine } from "./engine/client";
-import type { Report, RobotSource, ShapeKind } from "./engine/protocol";
+import type { Dof, Report, RobotSource, ShapeKind } from "./engine/protocol";
 import { Latest } from "./latest";
 import { RobotModel } from "./model";
 import { namedOf } from "./configurations";
 import { partsOf } from "./parts";
 import type { Entry, Part } from "./model";
 import type { Site } from "./site";
-import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, StateStore } from "./state";
-import type { Layer, LayerKind } from "./state";
+import { CHOOSES_PAIRS, LAYERS, NO_SKIPS, NOT_MADE, PARTIAL, StateStore } from "./state";
+import type { Layer, LayerKind, Pair, State } from "./state";
 import { keepUnits } from "./ui/format";
 import type { Units } from "./ui/format";
 
 /** Number of requested nearest pairs: if they are listed, and if only contacts count. */
 const LISTED = 128;
 const FEW = 24;
+/** Attempts to read files that change. */
+const MAX_TRIES = 5;
 /** Maximum number of undo steps, and the pause after which a move is a new step, ms. */
 const MAX_STEPS = 200;
 const REST = 300;
@@ -65,21 +67,22 @@ export class App {
     });
   }
 
-  /** Opens a robot. `keep` preserves the view of the same robot where possible. */
-  async open(entry: Entry, source: RobotSource, keep = false): Promise<RobotModel | null> {
+  /** Opens a robot. `old` is its last version, whose view is preserved where possible. */
+  async open(entry: Entry, source: RobotSource, old: RobotModel | null = null): Promise<RobotModel | null> {
     const turn = ++this.opening;
     const before = this.store.now;
     this.store.set({
       robot: null,
       failure: null,
+      making: NOT_MADE,
       faults: new Map(),
       loading: { what: "modules", done: 0, of: 0 },
-      ...(keep ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
+      ...(old ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],
       // Unsaved edits survive a reload of the same robot.
-      skips: keep && before.skips.dirty ? before.skips : NO_SKIPS,
+      skips: old && before.skips.dirty ? before.skips : NO_SKIPS,
       report: { report: null, error: null, busy: null },
       sample: null,
     });
@@ -93,12 +96,14 @@ export class App {
       const named = await namedOf(this.engine, files, about.dofs?.length ?? 0);
       const robot = new RobotModel(entry, source, about, files, parts, named);
       if (robot.links.length === 0) throw new Error(why(robot));
-      const q = keep && before.q.length === robot.dofs.length ? before.q : (about.zero ?? robot.dofs.map(() => 0));
+      const view = old ? carried(old, robot, before) : null;
+      const q = view?.q ?? about.zero ?? robot.dofs.map(() => 0);
       const poses = about.dofs ? await this.engine.ask("linkPoses", { q }) : null;
       if (turn !== this.opening) return null;
       this.back = [];
       this.forth = [];
-      this.store.set({ robot, q, poses, loading: null });
+      const { making, failure } = entry;
+      this.store.set({ ...view, robot, q, poses, loading: null, making: { making, failure } });
       void this.findAbsent(robot);
       return robot;
     } catch (error) {
@@ -107,11 +112,18 @@ export class App {
     }
   }
 
-  /** Reloads the robot after its files changed. */
-  async reopen(): Promise<void> {
+  /** Reloads the robot after its files changed, or it was saved. */
+  async reopen(entry: Entry): Promise<void> {
     const { robot, skips } = this.store.now;
     if (robot?.source.kind !== "url") return;
-    await this.open(robot.entry, await this.site.source(robot.entry), true);
+    for (let tries = 1; tries <= MAX_TRIES; tries++) {
+      const source = await this.site.source(entry);
+      const turn = this.opening + 1;
+      // Its files may be replaced again while they are read.
+      if ((await this.open(entry, source, robot)) || this.opening !== turn) break;
+      await new Promise((resolve) => setTimeout(resolve, REST));
+      if (this.opening !== turn) break;
+    }
     this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
     if (this.store.now.tab === "Findings") void this.loadReport();
   }
@@ -161,7 +173,9 @@ export class App {
   /** Requests distances and collisions. The first picture has priority. */
   measure(): void {
     const { robot, q, shapes } = this.store.now;
-    if (robot?.moves && this.drawn === robot) this.proximity.ask({ q, shapes });
+    if (!robot?.moves || this.drawn !== robot) return;
+    if (robot.entry.making) this.store.set({ proximity: { answer: null, error: PARTIAL }, contacts: null });
+    else this.proximity.ask({ q, shapes });
   }
 
   /** Called when the first picture of the robot is complete, or cannot be drawn. */
@@ -220,6 +234,10 @@ export class App {
   async loadReport(): Promise<void> {
     const { robot, report } = this.store.now;
     if (!robot || report.busy !== null || report.report) return;
+    if (robot.entry.making) {
+      this.store.set({ report: { report: null, error: PARTIAL, busy: null } });
+      return;
+    }
     this.store.set({ report: { report: null, error: null, busy: "Validating" } });
     const set = (report: Report | null, error: string | null): void => {
       if (this.store.now.robot === robot) this.store.set({ report: { report, error, busy: null } });
@@ -249,6 +267,33 @@ export class App {
 
 export function message(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
+}
+
+/** The view of a robot for its next version: joints and links are known by their names. */
+function carried(
+  old: RobotModel,
+  robot: RobotModel,
+  { q, selected, hidden, pair }: State,
+): Partial<State> & { q: number[] } {
+  const link = (index: number): number => robot.link(old.links[index]?.name ?? "");
+  const zero = robot.about.zero ?? [];
+  const place = ({ name, bounds }: Dof, k: number): number => {
+    const value = q[old.dofs.findIndex((dof) => dof.name === name)];
+    const [low, high] = bounds ?? [-Infinity, Infinity];
+    return value === undefined ? (zero[k] ?? 0) : Math.min(Math.max(value, low), high);
+  };
+  const index =
+    selected?.kind === "joint"
+      ? robot.joints.findIndex(({ name }) => name === old.joints[selected.index]?.name)
+      : link(selected?.index ?? -1);
+  const pieces = pair?.map(([of, piece]) => [link(of), piece]) as Pair | undefined;
+  return {
+    q: robot.dofs.map(place),
+    selected: selected && index >= 0 ? { ...selected, index } : null,
+    hovered: null,
+    hidden: new Set([...hidden].map(link).filter((found) => found >= 0)),
+    pair: pieces?.every(([of]) => of >= 0) ? pieces : null,
+  };
 }
 
 /** Why a robot has no links. */

@@ -1,4 +1,7 @@
-/** Folders and archives that are dropped or selected. They are read in this browser, and never sent anywhere. */
+/**
+ * Folders and files that are dropped or selected. URDDs are read in this browser. URDFs, with the files that they may
+ * name, go to the `urdd view` of this page.
+ */
 
 import type { RobotSource } from "./engine/protocol";
 
@@ -6,13 +9,27 @@ import type { RobotSource } from "./engine/protocol";
 const MAX_FILES = 50_000;
 const MAX_BYTES = 1_000_000_000;
 
-interface Dropped {
+/** Maximum size of a URDF with its files, as `src/view/drops.rs` takes it. */
+const MAX_SENT = 256 * 2 ** 20;
+/** The files that a URDF, a xacro or a mesh may name. */
+const OF_URDF =
+  /\.(?:urdf|xacro|xml|ya?ml|stl|dae|obj|mtl|ply|glb|gltf|bin|png|jpe?g|tga|bmp|dds|gif|tiff?|webp|hdr|exr|ktx2|ppm|pgm)$/i;
+const IS_URDF = /\.(?:urdf|xacro)$/i;
+
+/** What a page without the program says. */
+export const NEEDS_PROGRAM =
+  "This is a URDF, not a URDD. A page by itself cannot generate a URDD: run `urdd view` with the URDF on this machine, or drop it on that page.";
+
+export interface Dropped {
   path: string;
   file: File;
 }
 
+/** A robot that can be opened, or URDFs that have to be generated. */
+export type Taken = RobotSource | { kind: "urdf"; files: Dropped[] };
+
 /** The files of a drop. Call it during the event: afterwards its entries are gone. */
-export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
+export function dropped(transfer: DataTransfer): () => Promise<Taken> {
   const entries = [...transfer.items].flatMap((item) => item.webkitGetAsEntry() ?? []);
   const files = [...transfer.files];
   return async () => {
@@ -28,7 +45,7 @@ export function dropped(transfer: DataTransfer): () => Promise<RobotSource> {
 }
 
 /** The files of a file dialog. */
-export function chosen(files: File[], folder: boolean): Promise<RobotSource> {
+export function chosen(files: File[], folder: boolean): Promise<Taken> {
   if (!folder) return ofFile(files);
   return Promise.resolve(ofFolder(files.map((file) => ({ path: file.webkitRelativePath || file.name, file }))));
 }
@@ -59,7 +76,7 @@ async function walk(root: FileSystemEntry): Promise<Dropped[]> {
 function check(found: Dropped[]): void {
   const size = found.reduce((sum, { file }) => sum + file.size, 0);
   if (found.length > MAX_FILES)
-    throw new Error(`This folder has more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one URDD.`);
+    throw new Error(`This folder has more than ${MAX_FILES.toLocaleString("en")} files. Drop the folder of one robot.`);
   if (size > MAX_BYTES)
     throw new Error("This folder has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
 }
@@ -67,7 +84,7 @@ function check(found: Dropped[]): void {
 const IS_URDD =
   /^(?:urdd\.json|(?:mesh_modules\/|link_shapes_modules\/|bevy_modules\/)?[a-z0-9_]+_module\/module\.json)$/;
 
-function ofFolder(all: Dropped[]): RobotSource {
+function ofFolder(all: Dropped[]): Taken {
   check(all);
   // The root is the highest folder that looks like a URDD.
   const roots = new Map<string, Dropped[]>();
@@ -82,24 +99,28 @@ function ofFolder(all: Dropped[]): RobotSource {
   }
   const names = [...roots.keys()].sort((a, b) => a.length - b.length || (a < b ? -1 : 1));
   const [root] = names.filter((name) => !names.some((other) => other !== name && name.startsWith(`${other}/`)));
-  if (root === undefined) throw new Error(notAUrdd(all));
+  if (root === undefined) return ofUrdf(all);
   const prefix = root === "" ? "" : `${root}/`;
   const inside = all.filter(({ path }) => path.startsWith(prefix));
   const files = inside.map(({ path, file }) => ({ path: path.slice(prefix.length), file }));
   return { kind: "local", name: root.split("/").pop() ?? "robot", files };
 }
 
-function notAUrdd(all: Dropped[]): string {
-  const urdf = all.find(({ path }) => /\.(?:urdf|xacro)$/i.test(path));
-  return urdf
-    ? `This is a URDF, not a URDD yet. Generate one on this machine: urdd generate ${urdf.path.split("/").pop() ?? "robot.urdf"} -o my_robot, or view it directly: urdd view ${urdf.path.split("/").pop() ?? "robot.urdf"}`
-    : "This is not a URDD: it has no folder with urdd.json or a module such as urdf_module/module.json.";
+function ofUrdf(all: Dropped[]): Taken {
+  if (!all.some(({ path }) => IS_URDF.test(path)))
+    throw new Error(
+      "This is not a URDD: it has no folder with urdd.json or a module such as urdf_module/module.json. It has no .urdf file either.",
+    );
+  const files = all.filter(({ path }) => OF_URDF.test(path) && !/(?:^|\/)\./.test(path));
+  if (files.reduce((sum, { file }) => sum + file.size, 0) > MAX_SENT)
+    throw new Error("These URDFs and meshes have more than 256 MB. Give their path to `urdd view` instead.");
+  return { kind: "urdf", files };
 }
 
-async function ofFile(files: File[]): Promise<RobotSource> {
+async function ofFile(files: File[]): Promise<Taken> {
   const [file] = files;
-  if (!file) throw new Error("Nothing was dropped. Drop the folder of a URDD, or a .zip of it.");
-  if (!/\.zip$/i.test(file.name)) throw new Error(notAUrdd(files.map((file) => ({ path: file.name, file }))));
+  if (!file) throw new Error("Nothing was dropped. Drop a URDF, the folder of a URDD, or a .zip of it.");
+  if (!/\.zip$/i.test(file.name)) return ofUrdf(files.map((file) => ({ path: file.name, file })));
   if (file.size > MAX_BYTES)
     throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };

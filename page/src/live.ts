@@ -4,35 +4,49 @@ import type { App } from "./app";
 import { Gone, Refused } from "./site";
 import type { State } from "./state";
 import { fill, h } from "./ui/dom";
+import { lines } from "./ui/format";
 
+/** Pauses between polls, ms. Whoever edits a URDF waits for the picture. */
 const PERIOD = 1000;
+const PERIOD_OF_URDF = 300;
 const GONE = "gone";
 
 export function follow(app: App): void {
   /** The last change that was reported to the user. */
   let told: string | null = null;
   const look = async (): Promise<void> => {
-    const { robot, server } = app.store.now;
+    const { robot, server, loading } = app.store.now;
     // A missing token is reported elsewhere.
     if (app.site.token === null) return;
     if (robot?.source.kind !== "url") {
-      await app.site.answers();
+      const entries = await app.site.robots();
       app.store.set({ server: "here" });
+      // Others may have opened or dropped robots.
+      if (!robot && !loading && !same(entries, app.store.now.entries)) app.store.set({ entries });
       return;
     }
-    const revision = await app.site.revision(robot.entry);
+    const { revision, entry } = await app.site.revision(robot.entry);
     app.store.set({ server: "here" });
     if (server !== "here") app.note("`urdd view` is back.");
-    if (app.store.now.robot !== robot || app.revision === null || revision === app.revision) return;
-    if (revision === told) return;
+    if (app.store.now.robot !== robot || app.revision === null) return;
+    const { making, failure } = entry;
+    if (!same(app.store.now.making, { making, failure })) app.store.set({ making: { making, failure } });
+    if (revision === app.revision || revision === told) return;
     told = revision;
+    const { temporary } = robot.entry;
     if (revision === GONE) {
       app.note("The files of this robot are gone. The page shows the last version.");
     } else if (app.store.now.skips.dirty) {
-      app.note("The files changed on disk. Your edits of skips stay here, but cannot be saved.");
+      app.note(
+        temporary
+          ? "The URDF changed. Your decisions on skips stay here: take them back to see the new robot."
+          : "The files changed on disk. Your edits of skips stay here, but cannot be saved.",
+      );
     } else {
-      await app.reopen();
-      app.note("The files changed: the robot was reloaded.");
+      await app.reopen(entry);
+      // The rest of a robot comes after its picture without a change.
+      if (!temporary) app.note("The files changed: the robot was reloaded.");
+      else if (making) app.note("The URDF or its meshes changed: this is the new robot.");
     }
   };
   const again = (): void => {
@@ -41,9 +55,25 @@ export function follow(app: App): void {
         const server: State["server"] = error instanceof Refused ? "another" : error instanceof Gone ? "gone" : "here";
         app.store.set({ server });
       })
-      .finally(() => setTimeout(again, PERIOD));
+      .finally(() => setTimeout(again, app.store.now.robot?.entry.temporary ? PERIOD_OF_URDF : PERIOD));
   };
   again();
+}
+
+function same(a: unknown, b: unknown): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
+}
+
+/** A line that says that the URDF cannot be generated any more, and why. */
+export function brokenLine(app: App): HTMLElement {
+  const line = h("div", { class: "broken", role: "alert" });
+  app.store.on(["making", "robot", "server"], ({ making: { failure }, robot, server }) => {
+    line.hidden = failure === null || robot === null || server !== "here";
+    const text = failure === null ? "" : `The page shows the last version that could be read. ${failure}`;
+    const shown = lines(text);
+    if (line.textContent !== shown) fill(line, shown);
+  });
+  return line;
 }
 
 /** A line that says that the server ended, and what to do. */

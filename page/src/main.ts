@@ -7,7 +7,7 @@ import { Engine } from "./engine/client";
 import { Hand } from "./hand";
 import * as inline from "./inline";
 import { keys } from "./keys";
-import { follow, serverLine } from "./live";
+import { brokenLine, follow, serverLine } from "./live";
 import { saveDialog } from "./making";
 import { named } from "./named";
 import { findings } from "./panels/findings";
@@ -111,6 +111,7 @@ function start(): void {
     byId("page"),
     header(app, actions),
     serverLine(app),
+    brokenLine(app),
     h("div", { class: "columns" }, tree(app), middle, tabs(app, panels)),
     status(app),
     saving.element,

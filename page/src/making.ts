@@ -1,31 +1,33 @@
-/** Robots that `urdd view` generates while the page is open: their progress, and saving them. */
+/** Robots that `urdd view` generates: their progress, and saving them. */
 
 import type { App } from "./app";
 import { message } from "./app";
 import type { Entry } from "./model";
 import { button, fill, h } from "./ui/dom";
-import { name } from "./ui/format";
+import { lines, name } from "./ui/format";
 
-const PERIOD = 250;
+/** Pauses between polls while a robot is generated, and after that failed, ms. */
+const SOON = 50;
+const PERIOD = 500;
 
-/** Polls until all robots are generated. Returns the wanted one as soon as possible. */
-export async function untilMade(app: App, id: string | null): Promise<Entry | null> {
-  for (;;) {
-    const { entries } = app.store.now;
-    const wanted = entries.find((entry) => entry.id === id);
-    if (wanted && !wanted.making) {
-      app.store.set({ loading: null });
-      if (wanted.failure === null) return wanted;
-      app.store.set({ failure: `Generation of ${name(wanted.name)} failed: ${name(wanted.failure)}` });
-      return null;
-    }
-    if (!entries.some(({ making }) => making)) return null;
-    if (wanted?.making) {
-      const { what, done, of } = wanted.making;
-      app.store.set({ loading: { title: `Generating ${name(wanted.name)}:`, what: name(what), done, of } });
-    }
-    await new Promise((resolve) => setTimeout(resolve, PERIOD));
-    app.store.set({ entries: await app.site.robots() });
+/**
+ * Polls until a robot has something to show, which makes `urdd view` generate it. After a failure too: the URDF may be
+ * mended. Null if the page shows something else by then.
+ */
+export async function untilReady(app: App, first: Entry, isWanted: () => boolean): Promise<Entry | null> {
+  for (let entry = first; ;) {
+    if (entry.ready) return entry;
+    ({ entry } = await app.site.revision(entry));
+    if (!isWanted()) return null;
+    const { making, failure } = entry;
+    const words = { title: `Generating ${name(entry.name)}:`, what: name(making?.what ?? "the URDF") };
+    app.store.set({
+      entries: app.store.now.entries.map((known) => (known.id === entry.id ? entry : known)),
+      failure: failure === null ? null : `Generation of ${name(entry.name)} failed: ${lines(failure)}`,
+      loading: failure === null ? { ...words, done: making?.done ?? 0, of: making?.of ?? 0 } : null,
+    });
+    if (!entry.ready) await new Promise((resolve) => setTimeout(resolve, failure === null ? SOON : PERIOD));
+    if (!isWanted()) return null;
   }
 }
 
@@ -58,7 +60,7 @@ export function saveDialog(app: App): { element: HTMLElement; open: () => void }
     void save(app, folder.value)
       .then((where) => {
         element.close();
-        app.note(`Saved in ${name(where)}. Edits of skips are saved there from now on.`);
+        app.note(`Saved in ${name(where)}. The page shows that folder now, and no longer follows the URDF.`);
       })
       .catch((error: unknown) => {
         wrong.textContent = message(error);
@@ -93,7 +95,6 @@ async function save(app: App, folder: string): Promise<string> {
   const answer = (await app.site.post(path, { folder })) as { folder: string };
   const entries = await app.site.robots();
   app.store.set({ entries });
-  const entry = entries.find(({ id }) => id === robot.entry.id);
-  if (entry) await app.open(entry, await app.site.source(entry), true);
+  await app.reopen(entries.find(({ id }) => id === robot.entry.id) ?? robot.entry);
   return answer.folder;
 }

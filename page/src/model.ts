@@ -12,7 +12,9 @@ export interface Entry {
   writable: boolean;
   /** Whether it is deleted when `urdd view` ends, unless it is saved. */
   temporary: boolean;
-  /** The progress of its generation; null otherwise. */
+  /** Whether there is something to show: a robot of a URDF has nothing before somebody opens it. */
+  ready: boolean;
+  /** The progress of its generation; null otherwise. A robot that is ready then has only what the picture needs. */
   making: { what: string; done: number; of: number } | null;
   /** Why its generation failed. */
   failure: string | null;
@@ -35,6 +37,7 @@ export function unknown(name: string): Entry {
     name,
     writable: false,
     temporary: false,
+    ready: true,
     making: null,
     failure: null,
     links: null,

@@ -48,14 +48,9 @@ export class Site {
   }
 
   async robots(): Promise<Entry[]> {
-    const robots = this.mode === "inline" ? inline.robots() : ((await this.json(named("robots.json"))) as Entry[]);
+    const robots =
+      this.mode === "inline" ? inline.robots() : ((await this.json(named("robots.json"), PATIENCE)) as Entry[]);
     return robots.map((entry) => ({ ...unknown(entry.name), ...entry }));
-  }
-
-  /** Checks that the server answers and accepts the token. Throws `Gone` or `Refused` otherwise. */
-  async answers(): Promise<void> {
-    const response = await this.fetch("robots.json", { method: "HEAD", signal: AbortSignal.timeout(PATIENCE) });
-    if (response.status === 403) throw new Refused();
   }
 
   async source(entry: Entry): Promise<RobotSource> {
@@ -99,14 +94,28 @@ export class Site {
     return response.status === 200 ? URL.createObjectURL(await response.blob()) : null;
   }
 
-  /** A word that changes with the robot's files; `gone` if they no longer exist. */
-  async revision(entry: Entry): Promise<string> {
+  /**
+   * A word that changes with the robot's files: `gone` if they no longer exist, null if there are none yet. Asking tells
+   * `urdd view` that this page shows the robot, or waits for it.
+   */
+  async revision(entry: Entry): Promise<{ revision: string | null; entry: Entry }> {
     const path = `robots/${encodeURIComponent(entry.id)}/revision.json`;
-    return ((await this.json(path, PATIENCE)) as { revision: string }).revision;
+    return (await this.json(path, PATIENCE)) as { revision: string | null; entry: Entry };
+  }
+
+  /** Sends URDFs and their meshes to `urdd view`. Returns the ids of their robots. */
+  async drop(files: { path: string; file: File }[]): Promise<string[]> {
+    const list = JSON.stringify(files.map(({ path, file }) => ({ path, size: file.size })));
+    const body = new Blob([list, "\n", ...files.map(({ file }) => file)]);
+    return ((await this.send("drops", body)) as { robots: string[] }).robots;
   }
 
   async post(path: string, body: unknown): Promise<unknown> {
-    const response = await this.fetch(path, { method: "POST", body: JSON.stringify(body) });
+    return this.send(path, JSON.stringify(body));
+  }
+
+  private async send(path: string, body: string | Blob): Promise<unknown> {
+    const response = await this.fetch(path, { method: "POST", body });
     const text = await response.text();
     if (!response.ok) throw new Error(text || `the server answered ${response.status}`);
     return JSON.parse(text) as unknown;
@@ -114,7 +123,7 @@ export class Site {
 
   private async fetch(path: string, init: RequestInit = {}): Promise<Response> {
     const headers: Record<string, string> = this.token === null ? {} : { "x-urdd-token": this.token };
-    if (init.body) headers["content-type"] = "application/json";
+    if (typeof init.body === "string") headers["content-type"] = "application/json";
     try {
       return await fetch(path, { ...init, headers });
     } catch {

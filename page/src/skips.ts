@@ -3,6 +3,7 @@
 import { strToU8, zipSync } from "fflate";
 import type { App } from "./app";
 import { message } from "./app";
+import { PARTIAL } from "./state";
 import { count } from "./ui/format";
 import { offer } from "./ui/offer";
 import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
@@ -11,7 +12,11 @@ import type { PairDistance, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/pr
 const ALL = 1e9;
 
 export async function load(app: App, shapes: ShapeKind): Promise<void> {
-  const { skips } = app.store.now;
+  const { skips, robot } = app.store.now;
+  if (robot?.entry.making) {
+    app.store.set({ skips: { ...skips, answer: null, error: PARTIAL } });
+    return;
+  }
   const edits = skips.dirty ? skips.answer?.edits : null;
   try {
     const answer = edits
@@ -78,7 +83,7 @@ async function post(app: App, wish: Record<string, unknown>, done: string): Prom
     const path = `robots/${encodeURIComponent(robot.entry.id)}/skips`;
     const answer = (await app.site.post(path, { ...wish, revision })) as { revision: string; undo: number };
     app.store.set({ skips: { ...app.store.now.skips, before: [], dirty: false, saved: answer.undo } });
-    await app.reopen();
+    await app.reopen(robot.entry);
     app.note(done);
   } catch (error) {
     app.note(`Nothing was saved: ${message(error)}`);

@@ -156,15 +156,29 @@ export class Stage {
       const found = answer?.nearest.find((at) => samePair(pair, pairOf(at))) ?? null;
       this.witness.show(found, this.size);
     });
-    store.on(["loading"], ({ loading }) => {
+    store.on(["loading"], ({ loading, robot }) => {
+      if (!loading && !robot) this.retire();
       this.progress.hidden = !loading;
       this.progress.style.setProperty("--share", String(loading && loading.of > 0 ? loading.done / loading.of : 0));
     });
   }
 
+  /** The last version of a robot that is reloaded: visible until the new one is. */
+  private former: RobotScene | null = null;
+
+  private retire(): void {
+    this.former?.dispose();
+    this.former = null;
+  }
+
   /** Shows another robot, or none. */
   private take(robot: RobotModel | null): void {
-    this.scene?.dispose();
+    const isReload = robot === null ? this.app.store.now.loading !== null : robot.entry.id === this.lookedAt;
+    if (this.scene) {
+      this.retire();
+      this.former = this.scene;
+    }
+    if (!isReload) this.retire();
     this.scene = null;
     this.overlays.clear();
     this.model = robot;
@@ -198,6 +212,7 @@ export class Stage {
       if (scene !== this.scene) return;
     }
     if (look) this.settle(scene);
+    this.retire();
     // Another call may still be loading: the last one ends it.
     if (busy.size > 0 || this.settledOn === model) return;
     this.settledOn = model;

@@ -106,6 +106,8 @@ export interface State {
   /** A temporary line in the status bar. */
   note: string | null;
   units: Units;
+  /** The generation of the open robot, which goes on while its picture is shown: its progress, or why it failed. */
+  making: Pick<Entry, "making" | "failure">;
   /** Whether `urdd view` answers, has ended, or was replaced by another one. */
   server: "here" | "gone" | "another";
   /** The unfolded panel in a narrow window. */
@@ -113,6 +115,11 @@ export interface State {
 }
 
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };
+
+export const NOT_MADE: State["making"] = { making: null, failure: null };
+
+/** What panels say of a robot that has only what its picture needs. */
+export const PARTIAL = "this robot is still being generated.";
 
 /** The pair that fades other links, in the Proximity tab only. */
 export function ghosted({ pair, tab }: Readonly<State>): Pair | null {
@@ -165,6 +172,7 @@ export function initial(): State {
     sample: null,
     note: null,
     units: keptUnits(),
+    making: NOT_MADE,
     server: "here",
     unfolded: null,
   };

@@ -7,7 +7,7 @@ import { createServer } from "node:net";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { drawn, inPage, open, run, setting, soon, state, tab } from "./world.mjs";
+import { drawn, dropOn, inPage, open, run, setting, soon, state, tab } from "./world.mjs";
 
 async function freePort() {
   const probe = createServer();
@@ -73,6 +73,14 @@ inPage(set, "the site shows its robots, with their reports, and writes nothing",
   await state(page, "skips", (value) => value.answer !== null);
   assert.equal(await page.getByRole("button", { name: "Save", exact: true }).count(), 0);
   assert.equal(await page.getByRole("button", { name: "Download the files" }).count(), 1);
+});
+
+inPage(set, "a URDF that is dropped on a site: it needs the program", async (page) => {
+  await page.waitForSelector(".card");
+  const urdf = join(set.made.folder, "alone.urdf");
+  writeFileSync(urdf, `<robot name="alone"><link name="a"/></robot>`);
+  await dropOn(page, urdf);
+  await page.getByText(/A page by itself cannot generate a URDD: run `urdd view`/).waitFor();
 });
 
 inPage(set, "a link of the site opens its view in another browser, and Back leads to the gallery", async (page) => {

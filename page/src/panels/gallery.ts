@@ -30,7 +30,7 @@ export function gallery(
     h("div", { class: "headline" }, title, h("span", { class: "spring" }), search),
     list,
     empty,
-    dropHere(choose),
+    dropHere(app.site.mode === "live", choose),
   );
   const cards = new Map<string, Card>();
   const asker = new Asker(app, (entry) => {
@@ -59,7 +59,7 @@ export function gallery(
         asker.watch(made);
       }
     }
-    title.textContent = entries.length > 0 ? count(entries.length, "robot") : "See and validate a URDD";
+    title.textContent = entries.length > 0 ? count(entries.length, "robot") : "See and validate a robot";
     search.hidden = entries.length < 2;
     filter();
   });
@@ -76,13 +76,13 @@ function listed(entry: Entry): Partial<Entry> {
   );
 }
 
-function dropHere(choose: (files: FileList | null, folder: boolean) => void): HTMLElement {
+function dropHere(isLive: boolean, choose: (files: FileList | null, folder: boolean) => void): HTMLElement {
   const picker = (folder: boolean, text: string): HTMLElement => {
     const input = h("input", {
       type: "file",
       hidden: true,
-      accept: folder ? null : ".zip,.urdf",
       webkitdirectory: folder,
+      multiple: true,
     });
     input.addEventListener("change", () => {
       choose(input.files, folder);
@@ -94,9 +94,21 @@ function dropHere(choose: (files: FileList | null, folder: boolean) => void): HT
   return h(
     "div",
     { class: "drop" },
-    h("p", {}, "Drop the folder of a URDD here, or a .zip of it, to see and validate it."),
-    h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose a .zip")),
-    h("p", { class: "hint" }, "It stays in this browser. Nothing is uploaded."),
+    h(
+      "p",
+      {},
+      isLive
+        ? "Drop the folder of a URDD here, a .zip of it, or a URDF with its meshes, such as the folder of a ROS package."
+        : "Drop the folder of a URDD here, or a .zip of it, to see and validate it.",
+    ),
+    h("div", { class: "actions" }, picker(true, "Choose a folder"), picker(false, "Choose files")),
+    h(
+      "p",
+      { class: "hint" },
+      isLive
+        ? "A URDD stays in this browser. `urdd view` generates a URDF on this machine, in a temporary folder."
+        : "It stays in this browser. Nothing is uploaded. A URDF needs `urdd view`.",
+    ),
   );
 }
 
@@ -123,20 +135,24 @@ function card(first: Entry, open: (entry: Entry) => void): Card {
         .join(" · ");
       verdict.className = `verdict ${entry.verdict ?? ""}`;
       verdict.textContent = words(entry);
-      element.disabled = entry.making !== null;
     },
   };
   made.show(first);
   return made;
 }
 
-function words({ making, failure, verdict, findings }: Entry): string {
+function words({ ready, making, failure, verdict, findings }: Entry): string {
   if (making) return making.of > 0 ? `generating: ${making.done} of ${making.of}` : "generating";
   if (failure !== null) return "generation failed";
+  if (!ready) return "URDF: generated when it is opened";
   if (verdict === null) return "";
   const [errors, warnings] = [findings?.error ?? 0, findings?.warning ?? 0];
   const passes = warnings > 0 ? `passes, ${count(warnings, "warning")}` : "passes";
   return { pass: passes, fail: `fails: ${count(errors, "error")}` }[verdict] ?? verdict;
+}
+
+function isMade({ ready, making }: Entry): boolean {
+  return ready && making === null;
 }
 
 /** Requests missing data of visible cards. */
@@ -153,7 +169,7 @@ class Asker {
     this.seen = new IntersectionObserver((changes) => {
       for (const { isIntersecting, target } of changes) {
         const card = this.cards.get(target);
-        if (!isIntersecting || !card || card.entry.making) continue;
+        if (!isIntersecting || !card || !isMade(card.entry)) continue;
         this.seen.unobserve(target);
         this.waiting.push(card);
       }
@@ -161,12 +177,15 @@ class Asker {
     });
     // Data of a robot can be requested once it is generated.
     app.store.on(["entries"], () => {
-      for (const [element, { entry }] of this.cards) {
-        if (entry.making === null && entry.verdict === null) {
-          this.seen.unobserve(element);
-          this.seen.observe(element);
+      // Once the cards have the new entries.
+      queueMicrotask(() => {
+        for (const [element, { entry }] of this.cards) {
+          if (isMade(entry) && entry.verdict === null) {
+            this.seen.unobserve(element);
+            this.seen.observe(element);
+          }
         }
-      }
+      });
     });
   }
 

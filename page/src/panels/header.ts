@@ -74,7 +74,7 @@ export function header(
     touching.className = `chip ${kind === "bad" ? "error" : kind}`;
     if (touching.textContent !== text) touching.textContent = text;
   });
-  app.store.on(["robot", "entries", "report", "absent"], ({ robot, entries, report, absent }) => {
+  app.store.on(["robot", "entries", "report", "absent", "making"], ({ robot, entries, report, absent, making }) => {
     const several = entries.length > 1;
     fill(
       title,
@@ -106,6 +106,7 @@ export function header(
         ),
       touching,
       absentChip(app, robot ? absent.length : 0),
+      robot && making.making && h("span", { class: "chip making" }, progress(making.making)),
       robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
       robot &&
         robot.entry.notes.length > 0 &&
@@ -125,6 +126,10 @@ export function header(
     frames.setAttribute("aria-pressed", String(overlays.frames));
   });
   return bar;
+}
+
+function progress({ done, of }: { done: number; of: number }): string {
+  return of > 0 ? `generating: ${done} of ${of}` : "generating";
 }
 
 function version(metadata: Record<string, unknown> | null, profile: string): string {

@@ -135,6 +135,11 @@ export function bytes(n: number): string {
   return `${number(value)} ${units[unit] ?? ""}`;
 }
 
+/** As `name`, for a text of several lines. */
+export function lines(text: string): string {
+  return text.split("\n").map(name).join("\n");
+}
+
 /** A name from a file on one line: invisible characters and marks of text direction are shown as their codes. */
 export function name(text: string): string {
   let shown = "";
