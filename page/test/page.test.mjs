@@ -318,11 +318,13 @@ describe("the page", { concurrency: false }, () => {
     assert.deepEqual(report, native);
   });
 
-  inPage(set, "what is no URDD is told so", async (page) => {
+  inPage(set, "a URDF without a robot, and a .zip without a URDD, are told so", async (page) => {
     await page.waitForSelector(".card");
     const file = page.locator('input[type="file"]').nth(1);
     await file.setInputFiles({ name: "arm.urdf", mimeType: "text/xml", buffer: Buffer.from("<robot/>") });
-    await soon(async () => assert.match(await page.locator(".failure").textContent(), /urdd generate arm\.urdf/));
+    await soon(async () =>
+      assert.match(await page.locator(".failure").textContent(), /arm\.urdf.*contains no `<link>`/),
+    );
     await page.getByRole("button", { name: "Back" }).click();
     await file.setInputFiles({ name: "a.zip", mimeType: "application/zip", buffer: Buffer.from("PK nothing") });
     await page.waitForSelector(".failure:not([hidden])");
