@@ -22,7 +22,7 @@ pub struct Page {
 }
 
 fn collection(py: Python<'_>, path: &Path) -> PyResult<Collection> {
-    let mut robots = Collection::default();
+    let robots = Collection::default();
     let added = robots.add(path);
     added.map_err(|error| raise(py, "OpenError", error, &[]))?;
     Ok(robots)
@@ -77,7 +77,7 @@ impl Drop for Page {
 #[pyfunction]
 pub fn page_html(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let robots = collection(py, &path)?;
-    let made = work::run(py, move |_| match robots.robots() {
+    let made = work::run(py, move |_| match &robots.robots()[..] {
         [robot] => urdd::view::page_with(robot).map_err(|error| error.to_string()),
         several => Err(format!("{} robots, and a page holds one", several.len())),
     })?;

@@ -96,7 +96,7 @@ pub fn explain(
         Some(rule) => Ok((
             rule.name,
             rule.severity.as_str(),
-            rule.clause,
+            rule.clause.unwrap_or_default(),
             rule.explanation().to_string(),
         )),
         None => {

@@ -13,12 +13,12 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 
 use super::collection::{Collection, Making, Shown, Source};
-use super::{includes, revision};
+use super::revision;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::{Job, Observer, caught};
-use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings};
+use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings, included};
 
 /// How often the files are compared.
 const PAUSE: Duration = Duration::from_millis(200);
@@ -171,7 +171,7 @@ impl Live<'_> {
         });
         let settings = self.settings_of(&robot.source);
         let mut files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
-        for file in includes::of(&robot.job.source, &settings) {
+        for file in included(&robot.job.source, &settings) {
             let word = revision::of_file(&file);
             files.entry(file).or_insert(word);
         }

@@ -9,7 +9,6 @@ pub mod export;
 mod export_error;
 mod guard;
 mod http;
-mod includes;
 mod keep;
 pub mod live;
 mod one_file;

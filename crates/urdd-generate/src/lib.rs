@@ -74,6 +74,8 @@ pub use settings::{MeshFormats, Pieces, Settings};
 pub(crate) use size::MOST_LINKS;
 pub use source::XacroSettings;
 #[doc(hidden)]
+pub use source::includes::included;
+#[doc(hidden)]
 pub use source::read_urdf;
 #[doc(hidden)]
 pub use source_meshes::{

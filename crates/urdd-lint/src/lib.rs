@@ -43,13 +43,14 @@ use urdd_directory::source::Memory;
 use urdd_format::index::Count;
 use urdd_format::report::{Kind, Place, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
-use urdd_generate::{SourceMeshes, open_source_text, read_source, well_formed};
+use urdd_generate::{SourceMeshes, included, open_source_text, read_source, well_formed};
 use urdd_validate::code::Code;
 use urdd_validate::engine::caught;
 use urdd_validate::finding::{Finding, Findings};
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::Settings;
 use urdd_validate::{Examined, Run};
+use written::Sources;
 
 /// How URDFs are linted.
 #[derive(Debug, Clone, Default)]
@@ -141,6 +142,16 @@ fn lint_file(
             Err(error) => return Ok(unreadable(&name, error.to_string())),
         };
         let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
+        if read.is_expanded
+            && examined
+                .checks
+                .iter()
+                .any(|check| !check.findings.is_empty())
+        {
+            let mut files = included(path, &settings.source);
+            files.extend(path.canonicalize());
+            Sources::read(&files, &read.folder).place(&mut examined.checks);
+        }
         stale.extend(unused);
         if let Some(baseline) = &settings.baseline {
             stale.extend(baseline.apply(path, &mut examined));

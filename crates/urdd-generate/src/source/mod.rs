@@ -1,6 +1,7 @@
 //! Reads the source file: yields the robot and the text that the URDD stores.
 
 mod decode;
+pub(crate) mod includes;
 pub(crate) mod repair;
 pub(crate) mod xacro;
 

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use urdd_generate::Settings;
-use urdd_generate::process::{Ended, Running};
+use crate::process::{Ended, Running};
+use crate::settings::Settings;
 
 /// Maximum length of the list, bytes, and maximum number of files.
 const MAX_LIST: u64 = 1 << 20;
@@ -16,7 +16,7 @@ const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
 /// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, the xacro and
 /// YAML files of the robot's package. None for a URDF without macros.
-pub fn of(file: &Path, settings: &Settings) -> Vec<PathBuf> {
+pub fn included(file: &Path, settings: &Settings) -> Vec<PathBuf> {
     let is_xacro = file.extension().is_some_and(|ending| ending == "xacro");
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
         true => listed(file, settings).unwrap_or_else(|| beside(file)),
