@@ -29,6 +29,8 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     explanation = with_links(rule["explanation"], known, codes - {rule["code"]}, "../SPEC.md", "")
     number = rule["clause"]
     clause = f"[SPEC {number}](../SPEC.md#{number})" if number in known else f"SPEC {number}"
+    if number is None:
+        clause = "[about URDFs](../docs/lint.md)" + ("" if rule["on_by_default"] else ", off by default")
     effect = f"; concerns *{rule['consequence']}*" if rule["consequence"] else ""
     found = cases.section(root / "conformance/invalid" / rule["code"])
     head = f"---\ntitle: {rule['code']} {rule['name']}\nsearch:\n  boost: 4\n---\n"

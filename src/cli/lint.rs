@@ -30,7 +30,7 @@ const MAX_BASELINE_BYTES: u64 = 64 << 20;
     program)."
 )]
 pub struct LintArguments {
-    /// URDFs or xacro files, or folders with .urdf and .urdf.xacro files at any depth. `name:=value` is an argument for
+    /// URDFs or xacro files, or folders with .urdf files at any depth (with --xacro, also .urdf.xacro). `name:=value` is an argument for
     /// xacro.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,

@@ -10,7 +10,7 @@ use urdd_generate::XacroSettings;
 /// How xacro files are expanded.
 #[derive(Args)]
 pub(super) struct XacroArguments {
-    /// Also expands macros in .urdf files, and the xacro files named in a recipe or found in a folder by `view`.
+    /// Also expands macros in .urdf files, and the xacro files named in a recipe or found in a folder by `view` or `lint`.
     #[arg(long)]
     pub(super) xacro: bool,
 

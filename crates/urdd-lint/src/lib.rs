@@ -72,6 +72,9 @@ pub enum LintError {
     /// One of the paths has nothing to examine.
     #[error(transparent)]
     Batch(#[from] BatchError),
+    /// Folders with nothing but xacro files.
+    #[error("there are only xacro files, which are programs: --xacro expands those in folders")]
+    OnlyXacro,
     /// Cancelled through the settings.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -97,6 +100,13 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
 /// The files to lint, and the number of those that the settings exclude.
 fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<(Vec<PathBuf>, usize), LintError> {
     let mut files: Vec<PathBuf> = jobs(paths)?.into_iter().map(|job| job.source).collect();
+    // A xacro file is a program: it runs where somebody names it, or asks for xacro.
+    let found = files.len();
+    let is_named = |file: &PathBuf| paths.contains(file) || settings.source.xacro.expand_urdf;
+    files.retain(|file| is_named(file) || file.extension().is_none_or(|end| end != "xacro"));
+    if files.is_empty() && found > 0 {
+        return Err(LintError::OnlyXacro);
+    }
     let all = files.len();
     files.retain(|path| {
         let seen = seen_from(path, paths);
@@ -209,6 +219,10 @@ fn examined(
     };
     let is_macro = subject.macros().is_some();
     let applies = |rule: &&LintRule| !is_macro || rule.description.code == Code::LNT051;
+    if is_macro {
+        // LNT051 says it all.
+        examined.checks.clear();
+    }
     for rule in rules::all()
         .into_iter()
         .filter(|rule| runs(rule))

@@ -36,3 +36,20 @@ fn written(text: &str) -> (tempfile::TempDir, std::path::PathBuf) {
     fs::write(&file, text).expect("written");
     (folder, file)
 }
+
+#[test]
+fn a_xacro_file_in_a_folder_is_left_out_unless_it_is_asked_for() {
+    let (folder, file) = written(SLIDE);
+    fs::write(folder.path().join("arm.urdf.xacro"), "<robot").expect("written");
+    let run = lint(&[folder.path().to_owned()], &LintSettings::default()).expect("a report");
+    let names: Vec<&str> = run
+        .report
+        .urdds
+        .iter()
+        .map(|urdf| urdf.path.as_str())
+        .collect();
+    assert_eq!(names, ["slide.urdf"]);
+    fs::remove_file(&file).expect("removed");
+    let refused = lint(&[folder.path().to_owned()], &LintSettings::default());
+    assert_eq!(refused.err(), Some(urdd_lint::LintError::OnlyXacro));
+}

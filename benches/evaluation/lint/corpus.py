@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""How often each rule of `urdd lint` finds something on a corpus of URDFs (corpus.md), and how often it is right.
+
+    python3 benches/evaluation/lint/corpus.py target/release/urdd FOLDER [FINDINGS.jsonl]
+
+FOLDER has a folder for each package. Verdicts and their intervals are those of evidence.md, which were given on the findings
+of prototype.py. Writes benches/results/lint.json, and every finding as a JSON line if a file is named.
+"""
+
+from __future__ import annotations
+
+import collections
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+import results  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+ROW = re.compile(r"\| (LNT\d{3}) \| \S+ \| .* \| (\d+ of \d+ \(\d+\)|none) \| ?(\d+ to \d+)? ?\|")
+
+
+def verdicts() -> dict[str, tuple[str, str]]:
+    """Rule -> how many of the judged findings are right, of how many packages, and the interval in percent."""
+    rows = ROW.finditer((HERE / "evidence.md").read_text("utf-8"))
+    return {row[1]: (row[2], row[3] or "") for row in rows}
+
+
+def main() -> None:
+    program, corpus = sys.argv[1], Path(sys.argv[2])
+    explained = subprocess.run([program, "explain", "LNT", "--format", "json"], check=True, capture_output=True)
+    rules = json.loads(explained.stdout)
+    found: dict[str, list[tuple[str, str]]] = collections.defaultdict(list)
+    files, lines, seconds = [], [], 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        settings = Path(folder) / "urdd.toml"
+        off = [rule["code"] for rule in rules if not rule["on_by_default"]]
+        settings.write_text("[severity]\n" + "".join(f'{code} = "info"\n' for code in off))
+        for package in sorted(path for path in corpus.iterdir() if path.is_dir()):
+            began = time.monotonic()
+            command = [program, "lint", "--format", "json", "--config", str(settings), str(package)]
+            ran = subprocess.run(command, capture_output=True, text=True)
+            if not ran.stdout:
+                continue  # no URDF
+            seconds += time.monotonic() - began
+            for urdf in json.loads(ran.stdout)["urdds"]:
+                if urdf["verdict"] == "incomplete":
+                    sys.exit(f"{package.name}/{urdf['path']}: {urdf['reason'] or 'a rule crashed'}")
+                file = f"{package.name}/{urdf['path']}"
+                files.append(file)
+                for finding in urdf["findings"]:
+                    for place in finding["places"]:
+                        found[finding["code"]].append((package.name, file))
+                        message = place["message"] or finding["message"]
+                        lines.append({"file": file, "code": finding["code"], "subject": place["subject"], "message": message})
+    judged = verdicts()
+    rows = []
+    for rule in rules:
+        of = found[rule["code"]]
+        right, interval = judged.get(rule["code"], ("none", ""))
+        rows.append([
+            f"{rule['code']} {rule['name']}",
+            rule["severity"] if rule["on_by_default"] else "off",
+            f"{len(of):,}",
+            f"{len({file for _, file in of}):,}",
+            str(len({package for package, _ in of})),
+            right,
+            f"{interval} %" if interval else "",
+        ])
+    columns = ["rule", "default", "findings", "URDFs", "packages", "right of judged (packages)", "95 % interval"]
+    packages = len({file.split("/")[0] for file in files})
+    items: dict[str, results.Table | str] = {
+        "rules": {"columns": columns, "rows": rows},
+        "corpus": f"{len(files):,} URDFs of {packages} packages",
+        "time": f"{seconds:.0f} s",
+    }
+    results.write("lint", items, "urdd " + subprocess.check_output([program, "--version"], text=True).split()[-1])
+    if len(sys.argv) > 3:
+        Path(sys.argv[3]).write_text("".join(json.dumps(line) + "\n" for line in lines))
+
+
+if __name__ == "__main__":
+    main()
