@@ -1,6 +1,7 @@
 //! Convex hulls with what rules ask of them.
 
 use std::collections::HashMap;
+use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
@@ -46,6 +47,32 @@ impl Hull {
             planes,
             volume,
         })
+    }
+
+    /// The hull of points, or of the farthest of them in as many directions: one with many corners takes long to compare, and
+    /// what is left out is a small part of the size.
+    pub fn coarse(points: &[Vector3<f64>]) -> Option<Self> {
+        /// Number of directions, evenly over the sphere.
+        const DIRECTIONS: usize = 256;
+        if points.len() <= DIRECTIONS {
+            return Hull::of(points.iter().copied());
+        }
+        // Fibonacci's spiral.
+        let turn = PI * (3.0 - 5.0_f64.sqrt());
+        let directions = (0..DIRECTIONS).map(|number| {
+            let z = 1.0 - (2 * number + 1) as f64 / DIRECTIONS as f64;
+            let (sine, cosine) = (number as f64 * turn).sin_cos();
+            let radius = (1.0 - z * z).sqrt();
+            Vector3::new(radius * cosine, radius * sine, z)
+        });
+        let farthest = directions.filter_map(|direction| {
+            let along = |point: &&Vector3<f64>| point.dot(&direction);
+            points
+                .iter()
+                .max_by(|a, b| along(a).total_cmp(&along(b)))
+                .copied()
+        });
+        Hull::of(farthest)
     }
 
     /// How far a point is outside, m, by the farthest plane of a face: at most the distance. Negative inside.

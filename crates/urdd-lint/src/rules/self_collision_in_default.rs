@@ -38,7 +38,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         for shape in shapes.shapes.iter().filter(|shape| shape.kind == GeometryKind::Collision) {
             let place = |corner: &nalgebra::Vector3<f64>| poses[link].transform_point(&Point3::from(*corner)).coords;
             let corners: Vec<_> = shape.corners.iter().map(place).collect();
-            if let (Some(bounds), Some(hull)) = (bounds(corners.iter().copied()), Hull::of(corners.into_iter())) {
+            if let (Some(bounds), Some(hull)) = (bounds(corners.iter().copied()), Hull::coarse(&corners)) {
                 items.push((link, bounds, hull));
             }
         }
