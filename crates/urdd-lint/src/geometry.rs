@@ -69,6 +69,8 @@ pub struct LinkGeometry {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
+    /// Whether a shape is of a glTF, which some programs turn from y-up to z-up and others do not.
+    pub is_turned: bool,
 }
 
 /// The shapes of a body, in its topmost link's frame.
@@ -78,6 +80,8 @@ pub struct BodyGeometry {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing.
     pub is_partial: bool,
+    /// Whether a shape is of a glTF, as in [`LinkGeometry::is_turned`].
+    pub is_turned: bool,
     /// The hull of all shapes; `None` if they span no volume.
     pub hull: Option<Hull>,
 }
@@ -198,6 +202,10 @@ fn of_links(
                         let named = meshes.get(&(index, kind, place));
                         let file = named.and_then(|mesh| mesh.file.as_ref().ok());
                         let facts = file.and_then(|file| files.get(file)?.as_ref().ok());
+                        let is_gltf = |facts: &Arc<MeshFacts>| {
+                            matches!(facts.format, Format::Gltf | Format::Glb)
+                        };
+                        geometry.is_turned |= facts.is_some_and(is_gltf);
                         let scale = mesh.scale.unwrap_or([1.0; 3]);
                         facts.map(|facts| scaled(&facts.corners, scale))
                     }
@@ -237,6 +245,7 @@ fn of_body(top: usize, bodies: &Bodies, links: &[LinkGeometry]) -> BodyGeometry 
     for link in bodies.members(top) {
         let geometry = &links[link];
         body.is_partial |= geometry.is_partial;
+        body.is_turned |= geometry.is_turned;
         let pose = bodies.pose[link];
         let place = |point: &Vector3<f64>| pose.transform_point(&Point3::from(*point)).coords;
         body.shapes

@@ -32,7 +32,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         return Some(());
     }
     for (index, link) in robot.links.iter().enumerate() {
-        let body = &geometry.bodies.get(&bodies.top[index]).filter(|body| !body.is_partial);
+        let body = &geometry.bodies.get(&bodies.top[index]).filter(|body| !body.is_partial && !body.is_turned);
         let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };

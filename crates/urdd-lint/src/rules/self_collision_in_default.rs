@@ -34,7 +34,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
     let poses = at_default(robot, bodies);
     let mut items = Vec::new();
-    for (link, shapes) in geometry.links.iter().enumerate() {
+    for (link, shapes) in geometry.links.iter().enumerate().filter(|(_, link)| !link.is_turned) {
         for shape in shapes.shapes.iter().filter(|shape| shape.kind == GeometryKind::Collision) {
             let place = |corner: &nalgebra::Vector3<f64>| poses[link].transform_point(&Point3::from(*corner)).coords;
             let corners: Vec<_> = shape.corners.iter().map(place).collect();

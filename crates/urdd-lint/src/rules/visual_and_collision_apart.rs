@@ -28,7 +28,7 @@ const CLOSE: f64 = 0.03;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
-    for (index, link) in geometry.links.iter().enumerate().filter(|(_, link)| !link.is_partial) {
+    for (index, link) in geometry.links.iter().enumerate().filter(|(_, link)| !link.is_partial && !link.is_turned) {
         let visual = bounds(link.corners_of(GeometryKind::Visual));
         let collision = bounds(link.corners_of(GeometryKind::Collision));
         let Some(((a, b), (c, d))) = visual.zip(collision) else {
