@@ -3,10 +3,10 @@
 //! The language server for URDF and xacro files and for the documents of URDDs: `urdd lsp`. Editors start it and talk
 //! to it over standard input and output, by the Language Server Protocol.
 //!
-//! One feature is one file. [`server`] receives messages and keeps the open documents; everything else computes
-//! something from one version of one document ([`document::Snapshot`]), in threads of its own ([`pool`]), so that a
-//! large mesh delays no key stroke. Names and places come from the text as it is, half typed or not ([`markup`]); poses
-//! and meshes from the last version that described a robot ([`robot`]).
+//! One feature is one file. `server` receives messages and keeps the open documents; everything else computes
+//! something from one version of one document (`document::Snapshot`), in threads of its own (`pool`), so that a
+//! large mesh delays no key stroke. Names and places come from the text as it is, half typed or not (`markup`); poses
+//! and meshes from the last version that described a robot (`robot`).
 
 mod analysis;
 mod capabilities;
