@@ -18,7 +18,9 @@ const MORE_THAN_A_TURN: f64 = 7.0;
 const STEP: f64 = 5.0;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let origins = urdf.parts().filter(|node| node.tag_name().name() == "origin");
+    let origins = urdf
+        .parts()
+        .filter(|node| node.tag_name().name() == "origin");
     for origin in origins {
         let Some(angles) = numbers::<3>(origin, "rpy") else {
             continue;
@@ -28,7 +30,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             angle.abs() >= MORE_THAN_A_TURN && (steps - steps.round()).abs() < 1e-9
         };
         if angles.iter().any(is_degrees) {
-            let message = "the angles look like degrees, and are taken as radians; divide them by 57.2958";
+            let message =
+                "the angles look like degrees, and are taken as radians; divide them by 57.2958";
             let [roll, pitch, yaw] = angles;
             urdf.at_attribute(origin, "rpy", message)
                 .actual(format!("{roll} {pitch} {yaw}"))

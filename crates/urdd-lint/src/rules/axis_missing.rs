@@ -17,7 +17,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for joint in urdf.joints_of(&WITH_AXIS) {
         let axis = child(joint, "axis");
         if axis.is_none_or(|axis| !axis.has_attribute("xyz")) {
-            let message = "the joint has no axis, and programs take `1 0 0`; write `<axis xyz=\"...\"/>`";
+            let message =
+                "the joint has no axis, and programs take `1 0 0`; write `<axis xyz=\"...\"/>`";
             urdf.at(axis.unwrap_or(joint), message).report(findings);
         }
     }

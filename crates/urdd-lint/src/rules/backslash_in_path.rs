@@ -17,7 +17,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let message = "only Windows takes a backslash as a separator; write `/`";
-        let mut finding = urdf.at_attribute(file.node, "filename", message).actual(file.name);
+        let mut finding = urdf
+            .at_attribute(file.node, "filename", message)
+            .actual(file.name);
         if let Some(range) = urdf.value(file.node, "filename") {
             let mended = urdf.text[range.clone()].replace('\\', "/");
             finding = finding.fix(urdf.fix("write `/`", range, mended));

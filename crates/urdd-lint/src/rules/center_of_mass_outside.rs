@@ -32,12 +32,19 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         return Some(());
     }
     for (index, link) in robot.links.iter().enumerate() {
-        let body = &geometry.bodies.get(&bodies.top[index]).filter(|body| !body.is_partial && !body.is_turned);
+        let body = &geometry
+            .bodies
+            .get(&bodies.top[index])
+            .filter(|body| !body.is_partial && !body.is_turned);
         let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };
         let has_shapes = !link.visual.is_empty() || !link.collision.is_empty();
-        let Some(hull) = body.hull.as_ref().filter(|_| has_shapes && inertial.mass > LIGHT) else {
+        let Some(hull) = body
+            .hull
+            .as_ref()
+            .filter(|_| has_shapes && inertial.mass > LIGHT)
+        else {
             continue;
         };
         let points = body.in_frame(&bodies.pose[index]);

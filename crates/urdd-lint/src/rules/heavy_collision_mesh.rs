@@ -24,7 +24,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 "the collision mesh has {} triangles; take its convex hull, or a few boxes",
                 facts.triangles
             );
-            urdf.at_attribute(node, "filename", message).report(findings);
+            urdf.at_attribute(node, "filename", message)
+                .report(findings);
         }
     }
     Some(())

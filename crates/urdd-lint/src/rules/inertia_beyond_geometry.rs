@@ -37,7 +37,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let inertials: Vec<Option<Inertial>> = robot.links.iter().map(Inertial::of).collect();
     let mut of_body: HashMap<usize, f64> = HashMap::new();
     for (link, inertial) in inertials.iter().enumerate() {
-        *of_body.entry(bodies.top[link]).or_default() += inertial.map_or(0.0, |inertial| inertial.trace());
+        *of_body.entry(bodies.top[link]).or_default() +=
+            inertial.map_or(0.0, |inertial| inertial.trace());
     }
     for (link, inertial) in inertials.iter().enumerate() {
         let top = bodies.top[link];
@@ -51,8 +52,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let points = body.in_frame(&bodies.pose[link]);
         let margin = PART * diagonal(points.iter().copied()) + MARGIN;
         let largest = largest_radii(inertial, &points, margin);
-        let radii = inertial.moments.map(|moment| (moment / inertial.mass).max(0.0).sqrt());
-        let worst = (0..3).max_by(|a, b| (radii[*a] / largest[*a]).total_cmp(&(radii[*b] / largest[*b])))?;
+        let radii = inertial
+            .moments
+            .map(|moment| (moment / inertial.mass).max(0.0).sqrt());
+        let worst = (0..3)
+            .max_by(|a, b| (radii[*a] / largest[*a]).total_cmp(&(radii[*b] / largest[*b])))?;
         if radii[worst] > largest[worst] {
             let message = format!(
                 "the inertia is that of the whole mass {} from an axis through its centre; the link's shapes allow {} at most. \
@@ -73,10 +77,21 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 /// with this centre: by the farthest point from the axis, and by the largest variance of a distribution on an interval
 /// whose mean is given, (high - mean)(mean - low) (Bhatia and Davis 2000).
 fn largest_radii(inertial: &Inertial, points: &[Vector3<f64>], margin: f64) -> Vector3<f64> {
-    let seen: Vec<Vector3<f64>> = points.iter().map(|point| inertial.axes.tr_mul(&(point - inertial.center))).collect();
+    let seen: Vec<Vector3<f64>> = points
+        .iter()
+        .map(|point| inertial.axes.tr_mul(&(point - inertial.center)))
+        .collect();
     let variance = |axis: usize| {
-        let low = seen.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min) - margin;
-        let high = seen.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max) + margin;
+        let low = seen
+            .iter()
+            .map(|point| point[axis])
+            .fold(f64::INFINITY, f64::min)
+            - margin;
+        let high = seen
+            .iter()
+            .map(|point| point[axis])
+            .fold(f64::NEG_INFINITY, f64::max)
+            + margin;
         match low < 0.0 && high > 0.0 {
             true => -low * high,
             // The centre is outside: LNT002 says so.
@@ -86,7 +101,11 @@ fn largest_radii(inertial: &Inertial, points: &[Vector3<f64>], margin: f64) -> V
     let variances = [0, 1, 2].map(variance);
     let radius = |axis: usize| {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-        let farthest = seen.iter().map(|point| point[j].hypot(point[k])).fold(0.0, f64::max) + margin;
+        let farthest = seen
+            .iter()
+            .map(|point| point[j].hypot(point[k]))
+            .fold(0.0, f64::max)
+            + margin;
         farthest.powi(2).min(variances[j] + variances[k]).sqrt()
     };
     Vector3::new(radius(0), radius(1), radius(2))

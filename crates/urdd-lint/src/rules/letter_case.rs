@@ -16,12 +16,17 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Err(missing) = &mesh.file else {
             continue;
         };
-        let name = missing.other_case.as_deref().and_then(|file| file.file_name()?.to_str());
+        let name = missing
+            .other_case
+            .as_deref()
+            .and_then(|file| file.file_name()?.to_str());
         let Some(name) = name else {
             continue;
         };
         let message = format!("the file is called `{name}`; write it so");
-        let mut finding = urdf.at_attribute(node, "filename", message).actual(&mesh.filename);
+        let mut finding = urdf
+            .at_attribute(node, "filename", message)
+            .actual(&mesh.filename);
         let range = urdf.value(node, "filename");
         let end = range.filter(|range| {
             let written = &urdf.text[range.clone()];
@@ -31,7 +36,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         });
         if let Some(range) = end {
             let range = range.end - name.len()..range.end;
-            finding = finding.fix(urdf.fix("write the name as the file has it", range, name.to_owned()));
+            finding =
+                finding.fix(urdf.fix("write the name as the file has it", range, name.to_owned()));
         }
         finding.report(findings);
     }

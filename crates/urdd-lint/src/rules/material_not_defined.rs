@@ -22,7 +22,9 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let named = |node: Node<'_, '_>, wanted: &str| node.tag_name().name() == wanted;
     let global = children(urdf.root).filter(|(name, _)| *name == "material");
-    let mut defined: BTreeSet<&str> = global.filter_map(|(_, node)| node.attribute("name")).collect();
+    let mut defined: BTreeSet<&str> = global
+        .filter_map(|(_, node)| node.attribute("name"))
+        .collect();
     let mut links: Vec<_> = urdf.links.iter().collect();
     links.sort_by_key(|link| link.attribute("name"));
     let mut told = BTreeSet::new();
@@ -40,7 +42,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                     define it in `<robot>`",
                     urdd_format::escape::line(name)
                 );
-                urdf.at_attribute(material, "name", message).report(findings);
+                urdf.at_attribute(material, "name", message)
+                    .report(findings);
             }
         }
     }

@@ -37,7 +37,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if let Some((node, _)) = rest.iter().find(|(_, file)| bytes(file) != first) {
             let message = "another collision mesh in another folder has this file name, and MuJoCo before 4.0 takes one for both; \
                 rename one of them";
-            urdf.at_attribute(*node, "filename", message).report(findings);
+            urdf.at_attribute(*node, "filename", message)
+                .report(findings);
         }
     }
     Some(())

@@ -25,7 +25,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             name: &mesh.filename,
         };
         // Other rules say these.
-        if missing.other_case.is_some() || missing.no_package.is_some() || file.is_absolute() || file.is_on_a_host() {
+        if missing.other_case.is_some()
+            || missing.no_package.is_some()
+            || file.is_absolute()
+            || file.is_on_a_host()
+        {
             continue;
         }
         let mut above = urdf.folder.ancestors().skip(1).take(LEVELS);

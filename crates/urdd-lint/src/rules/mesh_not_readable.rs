@@ -17,10 +17,17 @@ const READ: [&str; 5] = ["stl", "dae", "obj", "gltf", "glb"];
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Err(reason) = mesh.facts else { continue };
-        let ending = mesh.file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let ending = mesh
+            .file
+            .extension()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase();
         if READ.contains(&ending.as_str()) {
-            let message = format!("the mesh cannot be read: {reason}; export it again, or fetch it");
-            urdf.at_attribute(node, "filename", message).report(findings);
+            let message =
+                format!("the mesh cannot be read: {reason}; export it again, or fetch it");
+            urdf.at_attribute(node, "filename", message)
+                .report(findings);
         }
     }
     Some(())

@@ -22,7 +22,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         let message = if [x, y, z].contains(&0.0) {
             "a factor of 0 flattens the mesh; write what it is to be multiplied by"
-        } else if x.signum() * y.signum() * z.signum() < 0.0 && mesh.geometry == GeometryKind::Collision {
+        } else if x.signum() * y.signum() * z.signum() < 0.0
+            && mesh.geometry == GeometryKind::Collision
+        {
             "the scale mirrors the mesh, so that its faces are inside out; export a mirrored mesh"
         } else {
             continue;

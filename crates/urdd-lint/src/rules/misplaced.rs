@@ -14,7 +14,13 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for Unknown { node, what, meant, belongs } in urdf.unknown() {
+    for Unknown {
+        node,
+        what,
+        meant,
+        belongs,
+    } in urdf.unknown()
+    {
         if meant.is_some() || belongs.is_empty() {
             continue;
         }
@@ -26,7 +32,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 urdf.at(node, message)
             }
             What::Attribute(name) => {
-                let message = format!("programs ignore the attribute `{name}` here; it belongs to {places}");
+                let message =
+                    format!("programs ignore the attribute `{name}` here; it belongs to {places}");
                 urdf.at_attribute(node, name, message)
             }
         }

@@ -14,7 +14,10 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for Unknown { node, what, meant, .. } in urdf.unknown() {
+    for Unknown {
+        node, what, meant, ..
+    } in urdf.unknown()
+    {
         let Some(meant) = meant else {
             continue;
         };
@@ -26,7 +29,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             What::Attribute(name) => {
                 let message = format!("programs ignore the attribute `{name}`; write `{meant}`");
                 let mut finding = urdf.at_attribute(node, name, message);
-                let range = node.attribute_node(name).map(|attribute| attribute.range_qname());
+                let range = node
+                    .attribute_node(name)
+                    .map(|attribute| attribute.range_qname());
                 if let (Some(range), false) = (range, node.has_attribute(meant)) {
                     let fix = urdf.fix(format!("write `{meant}`"), range, meant.to_owned());
                     finding = finding.fix(fix);

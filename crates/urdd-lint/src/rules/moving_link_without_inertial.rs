@@ -17,7 +17,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let has_mass = |link: usize| {
         let inertial = robot.links[link].inertial.as_ref();
-        inertial.and_then(|inertial| inertial.mass).is_some_and(|mass| mass != 0.0)
+        inertial
+            .and_then(|inertial| inertial.mass)
+            .is_some_and(|mass| mass != 0.0)
     };
     let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
     if !(0..robot.links.len()).any(has_mass) {

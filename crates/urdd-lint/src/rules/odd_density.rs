@@ -30,7 +30,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     // LNT022 finds larger ones.
     let longest = urdf.longest_part(findings)?;
     for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
-        let masses = bodies.members(top).filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
+        let masses = bodies
+            .members(top)
+            .filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
         let mass: f64 = masses.sum();
         let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
             continue;
@@ -42,11 +44,21 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             hulls.map(|hull| hull.volume).sum()
         };
         let sums = [GeometryKind::Visual, GeometryKind::Collision].map(sum);
-        let least = sums.into_iter().filter(|sum| *sum > 0.0).fold(f64::INFINITY, f64::min);
-        let least = if least.is_finite() { least } else { hull.volume };
+        let least = sums
+            .into_iter()
+            .filter(|sum| *sum > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        let least = if least.is_finite() {
+            least
+        } else {
+            hull.volume
+        };
         let (volume, wrong) = if mass / hull.volume > GREATEST && mass >= DUMMY {
             (hull.volume, "denser than any metal")
-        } else if mass / least < LEAST && urdf.moves() && diagonal(hull.corners.iter().copied()) <= longest {
+        } else if mass / least < LEAST
+            && urdf.moves()
+            && diagonal(hull.corners.iter().copied()) <= longest
+        {
             (least, "lighter than foam")
         } else {
             continue;
@@ -57,7 +69,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             number(volume * 1000.0, 3),
             number(mass / volume, 3)
         );
-        urdf.at(urdf.inertial(top, "mass"), message).report(findings);
+        urdf.at(urdf.inertial(top, "mass"), message)
+            .report(findings);
     }
     Some(())
 }

@@ -34,11 +34,24 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
     let poses = at_default(robot, bodies);
     let mut items = Vec::new();
-    for (link, shapes) in geometry.links.iter().enumerate().filter(|(_, link)| !link.is_turned) {
-        for shape in shapes.shapes.iter().filter(|shape| shape.kind == GeometryKind::Collision) {
-            let place = |corner: &nalgebra::Vector3<f64>| poses[link].transform_point(&Point3::from(*corner)).coords;
+    for (link, shapes) in geometry
+        .links
+        .iter()
+        .enumerate()
+        .filter(|(_, link)| !link.is_turned)
+    {
+        for shape in shapes
+            .shapes
+            .iter()
+            .filter(|shape| shape.kind == GeometryKind::Collision)
+        {
+            let place = |corner: &nalgebra::Vector3<f64>| {
+                poses[link].transform_point(&Point3::from(*corner)).coords
+            };
             let corners: Vec<_> = shape.corners.iter().map(place).collect();
-            if let (Some(bounds), Some(hull)) = (bounds(corners.iter().copied()), Hull::coarse(&corners)) {
+            if let (Some(bounds), Some(hull)) =
+                (bounds(corners.iter().copied()), Hull::coarse(&corners))
+            {
                 items.push((link, bounds, hull));
             }
         }
@@ -53,9 +66,14 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (number, (a, (low_a, high_a), first)) in items.iter().enumerate() {
         for (b, (low_b, high_b), second) in &items[number + 1..] {
             let (top_a, top_b) = (bodies.top[*a], bodies.top[*b]);
-            let is_near = top_a == top_b || above(top_a) == Some(top_b) || above(top_b) == Some(top_a);
-            let is_apart = (0..3).any(|axis| low_a[axis] > high_b[axis] || low_b[axis] > high_a[axis]);
-            if is_near || is_apart || disabled.contains(&pair(&robot.links[*a].name, &robot.links[*b].name)) {
+            let is_near =
+                top_a == top_b || above(top_a) == Some(top_b) || above(top_b) == Some(top_a);
+            let is_apart =
+                (0..3).any(|axis| low_a[axis] > high_b[axis] || low_b[axis] > high_a[axis]);
+            if is_near
+                || is_apart
+                || disabled.contains(&pair(&robot.links[*a].name, &robot.links[*b].name))
+            {
                 continue;
             }
             let depth = first.depth(second);

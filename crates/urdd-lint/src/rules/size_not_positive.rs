@@ -23,7 +23,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             for (name, shape) in children(geometry) {
                 let length = |name| numbers::<1>(shape, name).map_or(f64::INFINITY, |[size]| size);
                 let least = match name {
-                    "box" => numbers::<3>(shape, "size").map_or(f64::INFINITY, |[x, y, z]| x.min(y).min(z)),
+                    "box" => numbers::<3>(shape, "size")
+                        .map_or(f64::INFINITY, |[x, y, z]| x.min(y).min(z)),
                     "sphere" => length("radius"),
                     "cylinder" | "capsule" => length("radius").min(length("length")),
                     _ => continue,

@@ -20,10 +20,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let is_cut = facts.notes.iter().any(|note| note.code == NoteCode::CutOff);
         let message = match facts.format {
             Format::StlAscii => "the STL is text, which MuJoCo refuses; export it as binary STL",
-            Format::StlBinary if is_cut => "the STL is cut off, and MuJoCo refuses it; export it again",
+            Format::StlBinary if is_cut => {
+                "the STL is cut off, and MuJoCo refuses it; export it again"
+            }
             _ => continue,
         };
-        urdf.at_attribute(node, "filename", message).report(findings);
+        urdf.at_attribute(node, "filename", message)
+            .report(findings);
     }
     Some(())
 }

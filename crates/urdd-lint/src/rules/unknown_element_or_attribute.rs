@@ -13,14 +13,24 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for Unknown { node, what, meant, belongs } in urdf.unknown() {
+    for Unknown {
+        node,
+        what,
+        meant,
+        belongs,
+    } in urdf.unknown()
+    {
         if meant.is_some() || !belongs.is_empty() {
             continue;
         }
         match what {
-            What::Element => urdf.at(node, "URDF does not define this element; programs ignore it"),
+            What::Element => urdf.at(
+                node,
+                "URDF does not define this element; programs ignore it",
+            ),
             What::Attribute(name) => {
-                let message = format!("URDF does not define the attribute `{name}`; programs ignore it");
+                let message =
+                    format!("URDF does not define the attribute `{name}`; programs ignore it");
                 urdf.at_attribute(node, name, message)
             }
         }

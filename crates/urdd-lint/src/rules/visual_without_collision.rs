@@ -31,7 +31,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if robot.links[top].name == "world" || bodies.members(top).any(collides) {
             continue;
         }
-        let visuals = body.shapes.iter().filter(|shape| shape.kind == GeometryKind::Visual);
+        let visuals = body
+            .shapes
+            .iter()
+            .filter(|shape| shape.kind == GeometryKind::Visual);
         let size = diagonal(visuals.flat_map(|shape| shape.corners.iter().copied()));
         if size >= SMALL {
             let message = format!(

@@ -39,7 +39,7 @@ const KEPT: &AsciiSet = &NON_ALPHANUMERIC
 /// exit status of the program.
 ///
 /// # Errors
-/// Never for the report of a [`Run`](crate::Run).
+/// Never for the report of a [`Run`].
 pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<String> {
     let report = &run.report;
     let rules = Rules::used(run);
