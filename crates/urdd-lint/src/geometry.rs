@@ -69,8 +69,6 @@ pub struct LinkGeometry {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing: its mesh was not found or read, or there are too many corners.
     pub is_partial: bool,
-    /// Whether a shape is of a glTF, which some programs turn from y-up to z-up and others do not.
-    pub is_turned: bool,
 }
 
 /// The shapes of a body, in its topmost link's frame.
@@ -80,8 +78,6 @@ pub struct BodyGeometry {
     pub shapes: Vec<Shape>,
     /// Whether a shape is missing.
     pub is_partial: bool,
-    /// Whether a shape is of a glTF, as in [`LinkGeometry::is_turned`].
-    pub is_turned: bool,
     /// The hull of all shapes; `None` if they span no volume.
     pub hull: Option<Hull>,
 }
@@ -91,11 +87,18 @@ pub struct BodyGeometry {
 pub struct Shape {
     /// Whether a visual or a collision element has it.
     pub kind: GeometryKind,
+    /// Whether it is of a glTF, which some programs turn from y-up to z-up and others do not.
+    pub is_turned: bool,
     /// Points whose convex hull is that of the shape, m.
     pub corners: Vec<Vector3<f64>>,
 }
 
 impl LinkGeometry {
+    /// Whether one of its shapes is turned, as in [`Shape::is_turned`].
+    pub fn is_turned(&self) -> bool {
+        self.shapes.iter().any(|shape| shape.is_turned)
+    }
+
     /// The corners of all shapes.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.shapes
@@ -111,6 +114,11 @@ impl LinkGeometry {
 }
 
 impl BodyGeometry {
+    /// Whether one of its shapes is turned, as in [`Shape::is_turned`].
+    pub fn is_turned(&self) -> bool {
+        self.shapes.iter().any(|shape| shape.is_turned)
+    }
+
     /// The corners of all shapes in the frame of a link whose pose in the topmost link's frame is given.
     pub fn in_frame(&self, link: &Isometry3<f64>) -> Vec<Vector3<f64>> {
         let corners = self.shapes.iter().flat_map(|shape| &shape.corners);
@@ -197,6 +205,7 @@ fn of_links(
                 let Some(shape) = &element.geometry else {
                     continue;
                 };
+                let mut is_turned = false;
                 let points = match shape {
                     Geometry::Mesh(mesh) => {
                         let named = meshes.get(&(index, kind, place));
@@ -205,7 +214,7 @@ fn of_links(
                         let is_gltf = |facts: &Arc<MeshFacts>| {
                             matches!(facts.format, Format::Gltf | Format::Glb)
                         };
-                        geometry.is_turned |= facts.is_some_and(is_gltf);
+                        is_turned = facts.is_some_and(is_gltf);
                         let scale = mesh.scale.unwrap_or([1.0; 3]);
                         facts.map(|facts| scaled(&facts.corners, scale))
                     }
@@ -218,6 +227,7 @@ fn of_links(
                 match points {
                     Some(points) => geometry.shapes.push(Shape {
                         kind,
+                        is_turned,
                         corners: placed(points, element),
                     }),
                     None => geometry.is_partial = true,
@@ -245,12 +255,12 @@ fn of_body(top: usize, bodies: &Bodies, links: &[LinkGeometry]) -> BodyGeometry 
     for link in bodies.members(top) {
         let geometry = &links[link];
         body.is_partial |= geometry.is_partial;
-        body.is_turned |= geometry.is_turned;
         let pose = bodies.pose[link];
         let place = |point: &Vector3<f64>| pose.transform_point(&Point3::from(*point)).coords;
         body.shapes
             .extend(geometry.shapes.iter().map(|shape| Shape {
                 kind: shape.kind,
+                is_turned: shape.is_turned,
                 corners: shape.corners.iter().map(place).collect(),
             }));
     }

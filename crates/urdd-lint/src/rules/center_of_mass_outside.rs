@@ -35,7 +35,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let body = &geometry
             .bodies
             .get(&bodies.top[index])
-            .filter(|body| !body.is_partial && !body.is_turned);
+            .filter(|body| !body.is_partial && !body.is_turned());
         let Some((inertial, body)) = Inertial::of(link).zip(*body) else {
             continue;
         };

@@ -46,7 +46,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let is_little = inertial.trace() <= 0.0 || inertial.trace() < LEAST * of_body[&top];
-        if body.is_partial || body.is_turned || body.shapes.is_empty() || is_little {
+        if body.is_partial || body.is_turned() || body.shapes.is_empty() || is_little {
             continue;
         }
         let points = body.in_frame(&bodies.pose[link]);

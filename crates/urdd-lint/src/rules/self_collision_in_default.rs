@@ -34,16 +34,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
     let poses = at_default(robot, bodies);
     let mut items = Vec::new();
-    for (link, shapes) in geometry
-        .links
-        .iter()
-        .enumerate()
-        .filter(|(_, link)| !link.is_turned)
-    {
+    for (link, shapes) in geometry.links.iter().enumerate() {
         for shape in shapes
             .shapes
             .iter()
-            .filter(|shape| shape.kind == GeometryKind::Collision)
+            .filter(|shape| shape.kind == GeometryKind::Collision && !shape.is_turned)
         {
             let place = |corner: &nalgebra::Vector3<f64>| {
                 poses[link].transform_point(&Point3::from(*corner)).coords

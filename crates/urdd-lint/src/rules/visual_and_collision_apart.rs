@@ -32,7 +32,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         .links
         .iter()
         .enumerate()
-        .filter(|(_, link)| !link.is_partial && !link.is_turned)
+        .filter(|(_, link)| !link.is_partial && !link.is_turned())
     {
         let visual = bounds(link.corners_of(GeometryKind::Visual));
         let collision = bounds(link.corners_of(GeometryKind::Collision));
