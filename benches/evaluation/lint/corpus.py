@@ -70,7 +70,7 @@ def main() -> None:
             f"{len({file for _, file in of}):,}",
             str(len({package for package, _ in of})),
             right,
-            f"{interval} %" if interval else "",
+            f"{interval} %" if interval else "none",
         ])
     columns = ["rule", "default", "findings", "URDFs", "packages", "right of judged (packages)", "95 % interval"]
     packages = len({file.split("/")[0] for file in files})
