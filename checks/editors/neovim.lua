@@ -70,7 +70,7 @@ end
 -- Findings, with their places: one of the text, one about shapes.
 local found = wait("LNT012", function() return with_code("LNT012") end)
 check(found[1].lnum == 16 and found[1].col == 10, "the place of LNT012", found)
-check(found[1].severity == vim.diagnostic.severity.INFO, "the severity of LNT012", found)
+check(found[1].severity == vim.diagnostic.severity.WARN, "the severity of LNT012", found)
 wait("LNT002", function() return with_code("LNT002") end)
 
 local hover = ask("textDocument/hover", at('link="upper', 8))

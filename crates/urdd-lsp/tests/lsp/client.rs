@@ -44,14 +44,14 @@ pub const ARM: &str = r#"<?xml version="1.0"?>
     </collision>
   </link>
   <link name="lower"/>
-  <joint name="shoulder" type="revolute">
+  <joint name="shoulder" type="prismatic">
     <origin xyz="0 0 1" rpy="0 0 0.5"/>
     <parent link="base"/>
     <child link="upper"/>
     <axis xyz="0 0 2"/>
     <limit lower="-1" upper="1.5" effort="10" velocity="2"/>
   </joint>
-  <joint name="elbow" type="revolute">
+  <joint name="elbow" type="prismatic">
     <origin xyz="1 0 0"/>
     <parent link="upper"/>
     <child link="lower"/>

@@ -71,7 +71,7 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
             "gr",
         ),
         (
-            arm("type=\"revolute\"", "type=\"rev|olute\""),
+            arm("type=\"prismatic\"", "type=\"pris|matic\""),
             vec![
                 "revolute",
                 "continuous",
@@ -81,7 +81,7 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
                 "planar",
                 "spherical",
             ],
-            "revolute",
+            "prismatic",
         ),
         (
             arm("<link name=\"lower\"/>", "<link name=\"|lower\"/>"),

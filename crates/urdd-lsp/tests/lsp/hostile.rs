@@ -111,7 +111,7 @@ fn a_large_text_is_said_to_be_too_large() {
 fn many_findings_are_cut_with_a_word() {
     let joint = |index: usize| {
         format!(
-            "<link name='l{index}'/><joint name='j{index}' type='continuous'><parent link='b'/><child link='l{index}'/><axis xyz='0 0 2'/></joint>\n"
+            "<link name='l{index}'/><joint name='j{index}' type='prismatic'><parent link='b'/><child link='l{index}'/><axis xyz='0 0 2'/></joint>\n"
         )
     };
     let joints: String = (0..1500).map(joint).collect();

@@ -18,7 +18,7 @@ fn a_link_has_its_pose_mass_and_children() {
         "**link `upper`**",
         "mass: 2.5 kg",
         "pose in `base`, default configuration: xyz 0 0 1 m, rpy 0 0 0.5 rad",
-        "moved by joint `shoulder` (revolute), on link `base`",
+        "moved by joint `shoulder` (prismatic), on link `base`",
         "children: `lower`",
         "0 visual, 1 collision",
     ] {
@@ -27,7 +27,7 @@ fn a_link_has_its_pose_mass_and_children() {
     // The elbow follows the shoulder, and is at its offset.
     let hover = client.at("textDocument/hover", &uri, ARM, "link name=\"lower\"", 1);
     let text = shown(&hover);
-    assert!(text.contains("rpy 0 0 0.6 rad"), "{text}");
+    assert!(text.contains("1.1 m, rpy 0 0 0.5 rad"), "{text}");
     assert!(
         text.contains("mass: none") && text.contains("children: none"),
         "{text}"
@@ -38,8 +38,9 @@ fn a_link_has_its_pose_mass_and_children() {
 fn a_joint_has_its_limits_in_both_units() {
     let mut client = Client::new();
     let uri = "untitled:Untitled-1";
-    client.open(uri, ARM);
-    let hover = client.at("textDocument/hover", uri, ARM, "mimic joint", 9);
+    let arm = &ARM.replace("prismatic", "revolute");
+    client.open(uri, arm);
+    let hover = client.at("textDocument/hover", uri, arm, "mimic joint", 9);
     let text = shown(&hover);
     for part in [
         "**joint `shoulder`**: revolute",
@@ -51,7 +52,7 @@ fn a_joint_has_its_limits_in_both_units() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
-    let hover = client.at("textDocument/hover", uri, ARM, "name=\"elbow\"", 8);
+    let hover = client.at("textDocument/hover", uri, arm, "name=\"elbow\"", 8);
     assert!(
         shown(&hover).contains("mimics `shoulder`: position = 2 × its position + 0.1"),
         "{hover:#?}"

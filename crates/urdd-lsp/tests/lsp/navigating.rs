@@ -101,7 +101,7 @@ fn the_outline_is_the_kinematic_tree() {
         inner = &symbol["children"];
     }
     assert_eq!(names, ["base", "shoulder", "upper", "elbow", "lower"]);
-    assert_eq!(symbols[0]["children"][0]["detail"], "revolute");
+    assert_eq!(symbols[0]["children"][0]["detail"], "prismatic");
 
     let mut client = Client::with(json!({}), json!({}));
     client.open(address, ARM);
