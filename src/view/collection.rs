@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::drops::Drops;
+use super::drop_folder::Drops;
 use super::revision;
 use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};

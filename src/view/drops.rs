@@ -6,12 +6,12 @@
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use serde::Deserialize;
 use serde_json::json;
 
 use super::collection::{Collection, Source};
+use super::drop_folder::Drops;
 use super::reply::Reply;
 use super::save::Failure;
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
@@ -20,27 +20,10 @@ use urdd_generate::batch;
 
 /// Maximum size of one drop, bytes.
 pub const MAX_BODY: u64 = 256 << 20;
-/// Maximum size of all drops, bytes.
-const MAX_TOTAL: u64 = 1 << 30;
 /// Maximum number of files of one drop.
 const MAX_FILES: usize = 10_000;
 /// The prefix of mesh names in a package.
 const IN_PACKAGE: &str = "package://";
-
-/// Where dropped files go.
-#[derive(Debug)]
-pub struct Drops {
-    folder: PathBuf,
-    /// Whether xacro files may run.
-    with_xacro: bool,
-    taken: Mutex<Taken>,
-}
-
-#[derive(Debug, Default)]
-struct Taken {
-    drops: usize,
-    bytes: u64,
-}
 
 /// A file of a drop.
 #[derive(Debug, Deserialize)]
@@ -48,31 +31,6 @@ struct Taken {
 struct Item {
     path: String,
     size: u64,
-}
-
-impl Drops {
-    /// Drops into a folder, created when the first one comes.
-    pub(super) fn new(folder: PathBuf, with_xacro: bool) -> Self {
-        Drops {
-            folder,
-            with_xacro,
-            taken: Mutex::default(),
-        }
-    }
-
-    /// A new folder for so many bytes.
-    fn begin(&self, bytes: u64) -> Result<PathBuf, Failure> {
-        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
-        if taken.bytes.saturating_add(bytes) > MAX_TOTAL {
-            let why = "more than 1 GiB was dropped; give the path to `urdd view` instead";
-            return Err((413, why.to_owned()));
-        }
-        taken.bytes += bytes;
-        taken.drops += 1;
-        let folder = self.folder.join(taken.drops.to_string());
-        fs::create_dir_all(&folder).map_err(|error| (500, error.to_string()))?;
-        Ok(folder)
-    }
 }
 
 /// Takes a drop, and adds its robots to the collection.

@@ -4,6 +4,7 @@
 pub mod assets;
 pub mod collection;
 mod connections;
+mod drop_folder;
 mod drops;
 pub mod export;
 mod export_error;

@@ -1,0 +1,51 @@
+//! The temporary folder of what is dropped on the page.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+/// Maximum size of all drops, bytes.
+const MAX_TOTAL: u64 = 1 << 30;
+
+/// Where dropped files go.
+#[derive(Debug)]
+pub struct Drops {
+    folder: PathBuf,
+    /// Whether xacro files may run.
+    pub(super) with_xacro: bool,
+    taken: Mutex<Taken>,
+}
+
+#[derive(Debug, Default)]
+struct Taken {
+    drops: usize,
+    bytes: u64,
+}
+
+impl Drops {
+    /// Drops into a folder, created when the first one comes.
+    pub(super) fn new(folder: PathBuf, with_xacro: bool) -> Self {
+        Drops {
+            folder,
+            with_xacro,
+            taken: Mutex::default(),
+        }
+    }
+
+    /// A new folder for so many bytes.
+    ///
+    /// # Errors
+    /// A status of HTTP and the reason, if there is no room.
+    pub(super) fn begin(&self, bytes: u64) -> Result<PathBuf, (u16, String)> {
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        if taken.bytes.saturating_add(bytes) > MAX_TOTAL {
+            let why = "more than 1 GiB was dropped; give the path to `urdd view` instead";
+            return Err((413, why.to_owned()));
+        }
+        taken.bytes += bytes;
+        taken.drops += 1;
+        let folder = self.folder.join(taken.drops.to_string());
+        fs::create_dir_all(&folder).map_err(|error| (500, error.to_string()))?;
+        Ok(folder)
+    }
+}
