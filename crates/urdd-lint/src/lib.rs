@@ -12,6 +12,7 @@ mod fix;
 mod geometry;
 mod hull;
 mod inertial;
+mod named_file;
 mod places;
 mod pose;
 mod primitives;

@@ -11,6 +11,7 @@ use roxmltree::{Document, Node};
 use super::bodies::Bodies;
 use super::elements::{child, numbers, text};
 use super::geometry::{NamedMesh, RobotGeometry};
+use super::named_file::NamedFile;
 use super::unknown::{Unknown, unknown};
 use super::vocabulary::nearest;
 use urdd_directory::position::LineIndex;
@@ -45,44 +46,6 @@ pub struct Subject<'a> {
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
     without_meshes: bool,
-}
-
-/// A file that the URDF names.
-#[derive(Debug, Clone, Copy)]
-pub struct NamedFile<'a, 'n> {
-    /// The element with the attribute `filename`.
-    pub node: Node<'a, 'a>,
-    /// The name.
-    pub name: &'n str,
-}
-
-impl<'n> NamedFile<'_, 'n> {
-    /// Whether it is an absolute path.
-    pub fn is_absolute(&self) -> bool {
-        let path = self.without_scheme();
-        let mut first = path.chars();
-        let is_drive = first
-            .next()
-            .is_some_and(|letter| letter.is_ascii_alphabetic())
-            && first.next() == Some(':')
-            && matches!(first.next(), Some('/' | '\\'));
-        path.starts_with('/') || is_drive
-    }
-
-    /// Whether a word that is no path follows `file://`.
-    pub fn is_on_a_host(&self) -> bool {
-        let rest = self.name.strip_prefix("file://");
-        rest.is_some_and(|rest| !rest.starts_with('/') && !self.is_absolute())
-    }
-
-    /// The path, if it is absolute.
-    pub fn path(&self) -> Option<&'n Path> {
-        self.is_absolute().then(|| Path::new(self.without_scheme()))
-    }
-
-    fn without_scheme(&self) -> &'n str {
-        self.name.strip_prefix("file://").unwrap_or(self.name)
-    }
 }
 
 impl<'a> Subject<'a> {

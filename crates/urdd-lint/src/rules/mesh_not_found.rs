@@ -1,12 +1,14 @@
+use crate::named_file::NamedFile;
 use crate::rule::declare_lint;
-use crate::subject::{NamedFile, Subject};
+use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A mesh is not there.
     ///
     /// MuJoCo and PyBullet refuse the robot, Pinocchio its geometry. RViz shows nothing at that place, and planners see no
-    /// collision. A mesh of a package that is not found is LNT037's.
+    /// collision. A mesh of a package that is not found is LNT037's. A file that is there, outside of the robot's folder and
+    /// packages, is no finding; its shape is read with `--allow-folder`.
     ///
     /// Correct the name, or add the file. A relative name is relative to the URDF.
     LNT029 "mesh-not-found", Error, MissingGeometry, since "1.1.0"
@@ -27,6 +29,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         // Other rules say these.
         if missing.other_case.is_some()
             || missing.no_package.is_some()
+            || missing.outside.is_some()
             || file.is_absolute()
             || file.is_on_a_host()
         {
