@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use super::vocabulary::{CLOSED, KNOWN, Known, nearest, of};
+use super::vocabulary::{CLOSED, KNOWN, Known, near, of};
 use urdd_xml::element::children;
 
 /// Something that URDF does not define.
@@ -14,6 +14,8 @@ pub struct Unknown<'a> {
     pub what: What<'a>,
     /// What it is a misspelling of.
     pub meant: Option<&'static str>,
+    /// Whether no other name is as near.
+    pub is_only: bool,
     /// The elements that something of this name belongs to.
     pub belongs: Vec<&'static str>,
 }
@@ -45,10 +47,12 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                 let has = |known: &&Known| {
                     known.attributes.contains(&name) && !EVERYWHERE.contains(&name)
                 };
+                let near = near(name, known.attributes);
                 found.push(Unknown {
                     node,
                     what: What::Attribute(name),
-                    meant: nearest(name, known.attributes),
+                    meant: near.map(|(meant, _)| meant),
+                    is_only: near.is_some_and(|(_, is_only)| is_only),
                     belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
                 });
             }
@@ -59,10 +63,12 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                 left.extend(inside.map(|known| (child, known)));
             } else if !known.other_children.contains(&name) {
                 let has = |known: &&Known| known.children.contains(&name);
+                let near = near(name, known.children);
                 found.push(Unknown {
                     node: child,
                     what: What::Element,
-                    meant: nearest(name, known.children),
+                    meant: near.map(|(meant, _)| meant),
+                    is_only: near.is_some_and(|(_, is_only)| is_only),
                     belongs: KNOWN.iter().filter(has).map(|known| known.name).collect(),
                 });
             }

@@ -223,6 +223,24 @@ pub fn of(name: &str) -> Option<&'static Known> {
 /// The name that another one is a misspelling of: the nearest, one edit away, or two where both have six letters, in any
 /// case; or the only one that it is the beginning of.
 pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    near(name, known).map(|(best, _)| best)
+}
+
+/// Whether a value is one that an attribute of URDF can have: as many numbers as it needs, or a word.
+pub fn fits(attribute: &str, value: &str) -> bool {
+    let wanted = match attribute {
+        "name" | "type" | "version" | "filename" | "link" | "joint" => return !value.is_empty(),
+        "xyz" | "rpy" | "size" | "scale" => 3,
+        "rgba" | "quat_xyzw" => 4,
+        _ => 1,
+    };
+    let mut numbers = value.split_ascii_whitespace().map(str::parse);
+    let is_finite = |number: Result<f64, _>| number.is_ok_and(f64::is_finite);
+    numbers.clone().count() == wanted && numbers.all(is_finite)
+}
+
+/// As [`nearest`], and whether no other name is as near.
+pub fn near<'a>(name: &str, known: &[&'a str]) -> Option<(&'a str, bool)> {
     const LONG: usize = 100;
     if name.len() > LONG {
         return None;
@@ -231,7 +249,7 @@ pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     let longer = known.iter().filter(|known| known.starts_with(&lower));
     let longer: Vec<_> = longer.collect();
     if let ([one], true) = (&longer[..], lower.chars().count() >= 5) {
-        return Some(one);
+        return Some((one, true));
     }
     let edits = |known: &str| strsim::osa_distance(&lower, known);
     let best = known.iter().min_by_key(|known| (edits(known), **known))?;
@@ -241,7 +259,9 @@ pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
         3..6 => 1,
         _ => 2,
     };
-    (edits(best) <= allowed).then_some(best)
+    let least = edits(best);
+    let is_only = known.iter().filter(|known| edits(known) == least).count() == 1;
+    (least <= allowed).then_some((best, is_only))
 }
 
 #[cfg(test)]
@@ -260,5 +280,15 @@ mod tests {
         assert_eq!(nearest("soft_", controller), None, "the beginning of two");
         assert_eq!(nearest("k_positon", controller), Some("k_position"));
         assert_eq!(nearest("xy", of("axis").expect("it").attributes), None);
+        let inertia = of("inertia").expect("it").attributes;
+        assert_eq!(near("iaz", inertia), Some(("ixz", false)), "or iyz, izz");
+        assert_eq!(near("ixxx", inertia), Some(("ixx", true)));
+    }
+
+    #[test]
+    fn a_value_fits_its_attribute() {
+        assert!(fits("upper", "-1.5") && fits("xyz", " 0 0\t1 ") && fits("name", "a b"));
+        assert!(!fits("upper", "abc") && !fits("upper", "1 2") && !fits("upper", "inf"));
+        assert!(!fits("rgba", "1 0 0") && !fits("filename", ""));
     }
 }

@@ -1,3 +1,5 @@
+use std::path::Path;
+
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
@@ -20,11 +22,28 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let mut finding = urdf
             .at_attribute(file.node, "filename", message)
             .actual(file.name);
-        if let Some(range) = urdf.value(file.node, "filename") {
+        let range = urdf.value(file.node, "filename");
+        if let Some(range) = range.filter(|_| is_there(urdf, file.name)) {
             let mended = urdf.text[range.clone()].replace('\\', "/");
             finding = finding.fix(urdf.fix("write `/`", range, mended));
         }
         finding.report(findings);
     }
     Some(())
+}
+
+/// Whether the file is there with slashes, and not with the backslashes that Linux has in names.
+fn is_there(urdf: &Subject, name: &str) -> bool {
+    let source = urdf.source(&mut Findings::default());
+    let mut meshes = source.iter().flat_map(|source| &source.meshes);
+    let mesh = meshes.find(|mesh| mesh.filename == name);
+    let by_slashes = |path: &Path| path.is_file() && !path.to_string_lossy().contains('\\');
+    match mesh.map(|mesh| &mesh.file) {
+        Some(Ok(file)) => by_slashes(file),
+        Some(Err(missing)) => missing.outside.as_deref().is_some_and(by_slashes),
+        None => {
+            let in_folder = |name: &str| urdf.folder.join(name).is_file();
+            !in_folder(name) && in_folder(&name.replace('\\', "/"))
+        }
+    }
 }

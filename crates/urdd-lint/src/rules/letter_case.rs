@@ -1,3 +1,6 @@
+use std::fs;
+use std::path::Path;
+
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
@@ -16,11 +19,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Err(missing) = &mesh.file else {
             continue;
         };
-        let name = missing
-            .other_case
-            .as_deref()
-            .and_then(|file| file.file_name()?.to_str());
-        let Some(name) = name else {
+        let file = missing.other_case.as_deref();
+        let Some((file, name)) = file.and_then(|file| Some((file, file.file_name()?.to_str()?)))
+        else {
             continue;
         };
         let message = format!("the file is called `{name}`; write it so");
@@ -28,7 +29,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             .at_attribute(node, "filename", message)
             .actual(&mesh.filename);
         let range = urdf.value(node, "filename");
-        let end = range.filter(|range| {
+        let end = range.filter(|_| is_only(file, name)).filter(|range| {
             let written = &urdf.text[range.clone()];
             written.len() >= name.len()
                 && written.is_char_boundary(written.len() - name.len())
@@ -42,4 +43,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         finding.report(findings);
     }
     Some(())
+}
+
+/// Whether no other file of the folder has this name in some case.
+fn is_only(file: &Path, name: &str) -> bool {
+    let name = name.to_lowercase();
+    let entries = file.parent().and_then(|folder| fs::read_dir(folder).ok());
+    let names = entries.into_iter().flatten().flatten();
+    let names = names.map(|entry| entry.file_name().to_string_lossy().to_lowercase());
+    names.filter(|other| *other == name).count() == 1
 }

@@ -1,6 +1,7 @@
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::unknown::{Unknown, What};
+use crate::vocabulary::fits;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
@@ -14,9 +15,14 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
+    let all = urdf.unknown();
     for Unknown {
-        node, what, meant, ..
-    } in urdf.unknown()
+        node,
+        what,
+        meant,
+        is_only,
+        ..
+    } in all.iter().cloned()
     {
         let Some(meant) = meant else {
             continue;
@@ -29,10 +35,17 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             What::Attribute(name) => {
                 let message = format!("programs ignore the attribute `{name}`; write `{meant}`");
                 let mut finding = urdf.at_attribute(node, name, message);
-                let range = node
+                // Two attributes of one name are no XML.
+                let others = all.iter().filter(|other| {
+                    let is_attribute = matches!(other.what, What::Attribute(_));
+                    is_attribute && other.node == node && other.meant == Some(meant)
+                });
+                let has_one_meaning = is_only && others.count() == 1 && !node.has_attribute(meant);
+                let attribute = node
                     .attribute_node(name)
-                    .map(|attribute| attribute.range_qname());
-                if let (Some(range), false) = (range, node.has_attribute(meant)) {
+                    .filter(|attribute| has_one_meaning && fits(meant, attribute.value()));
+                if let Some(attribute) = attribute {
+                    let range = attribute.range_qname();
                     let fix = urdf.fix(format!("write `{meant}`"), range, meant.to_owned());
                     finding = finding.fix(fix);
                 }

@@ -18,6 +18,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         what,
         meant,
         belongs,
+        ..
     } in urdf.unknown()
     {
         if meant.is_some() || !belongs.is_empty() {

@@ -77,3 +77,52 @@ fn what_is_allowed_or_ignored_is_not_mended() {
     settings.report.selection.ignore = vec!["LNT012".parse().expect("a code")];
     assert_eq!(of(&file, &settings), []);
 }
+
+/// What the fixes make of a text, if they change it. `files` are beside it.
+fn mended(text: &str, files: &[&str]) -> Option<String> {
+    let (folder, file) = written(text);
+    for name in files {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, include_bytes!("../cases/LNT027/meshes/box.stl")).expect("written");
+    }
+    let mended = mend(&[file], &LintSettings::default()).expect("it");
+    mended.into_iter().next().map(|mended| mended.after)
+}
+
+#[test]
+fn a_misspelt_attribute_is_mended_where_it_can_mean_one_thing() {
+    let arm = include_str!("../cases/LNT040/near_miss.urdf");
+    let with = |from: &str, to: &str| {
+        assert!(arm.contains(from), "{from}");
+        (
+            arm.replacen(from, to, 1),
+            mended(&arm.replacen(from, to, 1), &[]),
+        )
+    };
+    let (text, after) = with("upper=\"2\"", "uper=\"2\"");
+    assert_eq!(after, Some(text.replace("uper=", "upper=")));
+    let (_, two) = with("upper=\"2\"", "uper=\"2\" uppr=\"1\"");
+    assert_eq!(two, None, "two attributes of one name are no XML");
+    let (_, unfit) = with("upper=\"2\"", "uper=\"abc\"");
+    assert_eq!(unfit, None, "not a number");
+    let (_, unclear) = with("ixz=\"0\"", "iaz=\"0\"");
+    assert_eq!(unclear, None, "ixz, iyz or izz");
+}
+
+#[test]
+fn a_file_name_is_mended_where_that_file_is_there() {
+    let arm = include_str!("../cases/LNT029/near_miss.urdf");
+    let named = |name: &str| arm.replace("meshes/box.stl", name);
+    let slashes = ["meshes/box.stl"];
+    let backslash = named("meshes\\box.stl");
+    assert_eq!(mended(&backslash, &slashes), Some(arm.to_owned()));
+    assert_eq!(mended(&backslash, &[]), None, "not there");
+    if cfg!(target_os = "linux") {
+        let both = ["meshes/box.stl", "meshes\\box.stl"];
+        assert_eq!(mended(&backslash, &both), None, "a name of Linux");
+        let case = ["meshes/Box.stl", "meshes/BOX.stl"];
+        assert_eq!(mended(arm, &case[..1]), Some(named(case[0])));
+        assert_eq!(mended(arm, &case), None, "one of two");
+    }
+}
