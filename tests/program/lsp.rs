@@ -71,15 +71,21 @@ impl Server {
     }
 }
 
-#[test]
-fn an_editor_opens_a_file_and_leaves() {
+/// Opens a robot with a fault. Returns its address.
+fn open_broken(server: &mut Server) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots/gripper.urdf");
     let uri = format!("file://{}", path.display());
     let text = std::fs::read_to_string(&path).expect("a robot");
-    let mut server = Server::start();
-    server.initialize();
     let item = json!({"uri": uri, "languageId": "xml", "version": 7, "text": text.replacen("</link>", "</lin>", 1)});
     server.send(json!({"method": "textDocument/didOpen", "params": {"textDocument": item}}));
+    uri
+}
+
+#[test]
+fn an_editor_opens_a_file_and_leaves() {
+    let mut server = Server::start();
+    server.initialize();
+    let uri = open_broken(&mut server);
     let published = server.receive();
     assert_eq!(published["method"], "textDocument/publishDiagnostics");
     assert_eq!(
@@ -89,6 +95,19 @@ fn an_editor_opens_a_file_and_leaves() {
     assert_eq!(published["params"]["diagnostics"][0]["source"], "urdd");
     server.send(json!({"id": 2, "method": "shutdown"}));
     while server.receive()["id"] != 2 {}
+    server.send(json!({"method": "exit"}));
+    assert_eq!(server.end(), (Some(0), String::new()));
+}
+
+#[test]
+fn an_editor_that_leaves_gets_no_more_findings() {
+    let mut server = Server::start();
+    server.initialize();
+    open_broken(&mut server);
+    server.send(json!({"id": 2, "method": "shutdown"}));
+    while server.receive()["id"] != 2 {}
+    // The findings that are computed meanwhile.
+    std::thread::sleep(Duration::from_secs(1));
     server.send(json!({"method": "exit"}));
     assert_eq!(server.end(), (Some(0), String::new()));
 }

@@ -150,6 +150,8 @@ impl Server {
 
     fn event(&mut self, event: Event) {
         match event {
+            // An editor that has asked for the end expects no more findings.
+            Event::Analysed(..) if self.is_shut_down => {}
             Event::Analysed(snapshot, depth, analysis) => self.analysed(&snapshot, depth, analysis),
             // A request that was cancelled has its answer already.
             Event::Answered(id, answer) => {
