@@ -8,6 +8,7 @@ mod allow;
 mod baseline;
 mod bodies;
 mod elements;
+mod examine;
 mod fix;
 mod geometry;
 mod hull;
@@ -16,6 +17,7 @@ mod named_file;
 mod places;
 mod pose;
 mod primitives;
+mod refusal;
 mod rule;
 pub mod rules;
 mod srdf;
@@ -28,27 +30,16 @@ pub use baseline::{Baseline, BaselineError};
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 
-use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-use subject::Subject;
+use examine::examined;
 use urdd_directory::cancellation::Cancelled;
-use urdd_directory::read_error::ReadError;
-use urdd_directory::root::Root;
-use urdd_directory::source::Memory;
-use urdd_format::index::Count;
-use urdd_format::report::{Kind, Place, StaleIgnore, Verdict};
+use urdd_format::report::{Kind, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
-use urdd_generate::{SourceMeshes, included, open_source_text, read_source, well_formed};
-use urdd_validate::code::Code;
-use urdd_validate::engine::caught;
-use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::selection::Codes;
+use urdd_generate::{included, read_source};
 use urdd_validate::settings::Settings;
 use urdd_validate::{Examined, Run};
 use written::Sources;
@@ -186,115 +177,4 @@ fn unreadable(name: &str, reason: String) -> Examined {
 /// those that change what the rules compute apply here.
 pub fn lint_text(text: &str, name: &str, folder: &Path, settings: &LintSettings) -> Examined {
     examined(text, name, folder, settings).0
-}
-
-/// The result, and the comments that allow what was not found.
-fn examined(
-    text: &str,
-    name: &str,
-    folder: &Path,
-    settings: &LintSettings,
-) -> (Examined, Vec<StaleIgnore>) {
-    let mut examined = by_validator(text, name);
-    // URD011 says what is wrong; the rest can be looked at nevertheless.
-    let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
-        Ok(_) => (Cow::Borrowed(text), 0),
-        Err(_) => {
-            let (mended, lines) = well_formed(text);
-            (Cow::Owned(mended), lines)
-        }
-    };
-    let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
-        return (examined, Vec::new());
-    };
-    let source: Option<SourceMeshes> = open_source_text(text, name, folder, &settings.source).ok();
-    let subject = Subject::new(name, folder, &document, source.as_ref());
-    let subject = subject.without_meshes(settings.without_meshes);
-    let report = &settings.report;
-    let runs = |rule: &LintRule| {
-        let code = rule.description.code;
-        let select = &report.selection.select;
-        let is_selected = select.is_empty() || select.iter().any(|codes| codes.holds(code));
-        let is_named = select.contains(&Codes::One(code)) || report.severities.contains_key(&code);
-        is_selected && (rule.on_by_default || is_named)
-    };
-    let is_macro = subject.macros().is_some();
-    let applies = |rule: &&LintRule| !is_macro || rule.description.code == Code::LNT051;
-    if is_macro {
-        // LNT051 says it all.
-        examined.checks.clear();
-    }
-    for rule in rules::all()
-        .into_iter()
-        .filter(|rule| runs(rule))
-        .filter(applies)
-    {
-        if settings.report.cancellation.is_cancelled() {
-            break;
-        }
-        let mut check = caught(&rule.description, &mut Findings::default(), |findings| {
-            (rule.check)(&subject, findings)
-        });
-        let is_mended = matches!(mended, Cow::Owned(_));
-        for place in check.findings.iter_mut().flat_map(places) {
-            as_reported(place, lines, is_mended);
-        }
-        examined.checks.push(check);
-    }
-    let stale = allow::apply(&document, name, &mut examined.checks);
-    (examined, stale)
-}
-
-/// All places of a finding.
-fn places(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
-    std::iter::once(&mut finding.place).chain(&mut finding.more)
-}
-
-/// The pointers that findings are folded by are no pointers into a document. In a text that was mended, lines at the
-/// beginning are missing, and fixes would not fit.
-fn as_reported(place: &mut Place, lines: u32, is_mended: bool) {
-    place.pointer = None;
-    place.line = place.line.map(|line| Count(line.0 + lines));
-    if is_mended {
-        place.fixes.clear();
-    }
-    for related in &mut place.related {
-        as_reported(related, lines, is_mended);
-    }
-}
-
-/// What the validator says of the URDF alone.
-fn by_validator(text: &str, name: &str) -> Examined {
-    urdd_validate::caught(Kind::Urdf, name, || {
-        let bytes: Arc<[u8]> = Arc::from(text.as_bytes());
-        // Its own name could be one that no URDD may hold.
-        const FILE: &str = "robot.urdf";
-        let memory = Memory::new(name, BTreeMap::from([(FILE.to_owned(), bytes)]));
-        let memory = memory.map_err(|_| ReadError::Missing)?;
-        let mut examined = urdd_validate::bare_urdf::examine_file(
-            Root::of(memory),
-            FILE,
-            &urdd_validate::rules::all(),
-        )?;
-        examined.report.path = name.to_owned();
-        for finding in examined
-            .checks
-            .iter_mut()
-            .flat_map(|check| &mut check.findings)
-        {
-            renamed(finding, name);
-        }
-        Ok(examined)
-    })
-}
-
-fn renamed(finding: &mut Finding, name: &str) {
-    for place in places(finding) {
-        let related = place.related.iter_mut().map(|place| &mut place.file);
-        let edits = place.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
-        edits.for_each(|edit| edit.file = name.to_owned());
-        for file in related.chain([&mut place.file]).flatten() {
-            *file = name.to_owned();
-        }
-    }
 }

@@ -41,7 +41,7 @@ pub struct Subject<'a> {
     /// Each `<joint>` of the robot, in order.
     pub joints: Vec<Node<'a, 'a>>,
     lines: LineIndex<'a>,
-    source: Option<&'a SourceMeshes>,
+    source: Result<&'a SourceMeshes, SkipReason>,
     robot: OnceLock<(Robot, Option<Bodies>)>,
     geometry: OnceLock<RobotGeometry>,
     unknown: OnceLock<Vec<Unknown<'a>>>,
@@ -49,12 +49,12 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// A URDF. `source` is the same text as the reader of `generate` understands it; `None` if it refuses it.
+    /// A URDF. `source` is the same text as the reader of `generate` understands it, or why that reader refuses it.
     pub fn new(
         file: &'a str,
         folder: &'a Path,
         document: &'a Document<'a>,
-        source: Option<&'a SourceMeshes>,
+        source: Result<&'a SourceMeshes, &SkipReason>,
     ) -> Self {
         let root = document.root_element();
         let named = |wanted: &str| {
@@ -63,16 +63,22 @@ impl<'a> Subject<'a> {
         };
         let (links, joints) = (named("link"), named("joint"));
         // Elements are found by their indices in both.
-        let alike = |source: &&SourceMeshes| {
-            (source.robot.links.len(), source.robot.joints.len()) == (links.len(), joints.len())
-        };
+        let source = source.map_err(Clone::clone).and_then(|source| {
+            let robot = &source.robot;
+            match (robot.links.len(), robot.joints.len()) == (links.len(), joints.len()) {
+                true => Ok(source),
+                false => Err(SkipReason::Refused(
+                    "its links and joints could not be told apart".to_owned(),
+                )),
+            }
+        });
         Subject {
             file,
             folder,
             text: document.input_text(),
             root,
             lines: LineIndex::new(document.input_text()),
-            source: source.filter(alike),
+            source,
             without_meshes: false,
             links,
             joints,
@@ -96,9 +102,9 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The robot with its mesh files. Skips the rule if the URDF describes none (URD011 says why).
+    /// The robot with its mesh files. Skips the rule if the URDF describes none.
     pub fn source(&self, findings: &mut Findings) -> Option<&'a SourceMeshes> {
-        findings.or_skip(self.source.ok_or(SkipReason::Failed(Code::URD011)))
+        findings.or_skip(self.source.clone())
     }
 
     /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).

@@ -53,6 +53,10 @@ pub enum SkipReason {
         /// Whether `--deep` was requested, which allows more.
         deep: bool,
     },
+    /// The URDF makes no robot, for this reason.
+    Refused(String),
+    /// The file has xacro macros, which were not expanded.
+    NotExpanded,
     /// No mesh file is read, as while somebody types.
     WithoutMeshes,
     /// The settings ignore every finding, for this reason.
@@ -89,6 +93,8 @@ impl SkipReason {
                 | SkipReason::KinematicsOpen
                 | SkipReason::Kinematics(_)
                 | SkipReason::Reference(_)
+                | SkipReason::Refused(_)
+                | SkipReason::NotExpanded
         )
     }
 
@@ -148,6 +154,10 @@ impl fmt::Display for SkipReason {
             SkipReason::TooMuchWork { deep: true } => f.write_str(
                 "counting its collisions again takes more work than even --deep allows",
             ),
+            SkipReason::Refused(why) => write!(f, "the URDF makes no robot: {why}"),
+            SkipReason::NotExpanded => {
+                f.write_str("the file has xacro macros, which were not expanded (LNT051)")
+            }
             SkipReason::Ignored(reason) => write!(f, "ignored: {reason}"),
             SkipReason::WithoutMeshes => f.write_str("no mesh file was read"),
         }

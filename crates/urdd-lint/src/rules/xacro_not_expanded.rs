@@ -6,7 +6,7 @@ declare_lint! {
     /// A .urdf is a xacro file.
     ///
     /// Programs ignore its `xacro:` elements, and take `${...}` and `$(...)` as text: the robot is empty, or has meshes
-    /// called `$(arg ...)`. No other rule of this family looks at such a file.
+    /// called `$(arg ...)`. No other rule looks at such a file; the report lists them as not checked.
     ///
     /// Expand it, `xacro robot.urdf.xacro > robot.urdf`, or lint it with `--xacro`.
     LNT051 "xacro-not-expanded", Error, Format, since "1.1.0"

@@ -7,6 +7,7 @@ mod allow;
 mod baseline;
 mod cases;
 mod fix;
+mod skips;
 
 use std::fs;
 use std::path::Path;

@@ -1,0 +1,182 @@
+//! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use roxmltree::Document;
+
+use super::refusal::refusal;
+use super::rule::{Description, LintRule};
+use super::subject::Subject;
+use super::{LintSettings, allow, rules};
+use urdd_directory::read_error::ReadError;
+use urdd_directory::root::Root;
+use urdd_directory::source::Memory;
+use urdd_format::index::Count;
+use urdd_format::report::{Kind, Place, StaleIgnore};
+use urdd_generate::{open_source_text, well_formed};
+use urdd_validate::Examined;
+use urdd_validate::code::Code;
+use urdd_validate::engine::{Check, Outcome, caught};
+use urdd_validate::finding::{Finding, Findings};
+use urdd_validate::selection::Codes;
+use urdd_validate::skip::SkipReason;
+
+/// The family of this crate's rules.
+const FAMILY: &str = "LNT";
+
+/// A text as the rules see it.
+#[derive(Clone, Copy)]
+struct Job<'a> {
+    text: &'a str,
+    name: &'a str,
+    folder: &'a Path,
+    settings: &'a LintSettings,
+}
+
+/// The result, and the comments that allow what was not found. `name` is the file's in the report; relative mesh names
+/// refer to `folder`.
+pub fn examined(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    settings: &LintSettings,
+) -> (Examined, Vec<StaleIgnore>) {
+    let job = Job {
+        text,
+        name,
+        folder,
+        settings,
+    };
+    let mut examined = by_validator(text, name);
+    // URD011 says what is wrong; the rest can be looked at nevertheless.
+    let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
+        Ok(_) => (Cow::Borrowed(text), 0),
+        Err(_) => {
+            let (mended, lines) = well_formed(text);
+            (Cow::Owned(mended), lines)
+        }
+    };
+    let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
+        let skipped = rules_to_run(settings)
+            .map(|rule| skipped(&rule.description, SkipReason::Failed(Code::URD011)));
+        examined.checks.extend(skipped);
+        return (examined, Vec::new());
+    };
+    job.run(&document, &mut examined.checks);
+    let is_mended = matches!(mended, Cow::Owned(_));
+    let of_family = |check: &&mut Check| check.rule.code.family() == FAMILY;
+    for check in examined.checks.iter_mut().filter(of_family) {
+        for place in check.findings.iter_mut().flat_map(places) {
+            as_reported(place, lines, is_mended);
+        }
+    }
+    let stale = allow::apply(&document, name, &mut examined.checks);
+    (examined, stale)
+}
+
+impl Job<'_> {
+    /// Runs the rules of the family LNT after those of the validator.
+    fn run(self, document: &Document, checks: &mut Vec<Check>) {
+        let source = open_source_text(self.text, self.name, self.folder, &self.settings.source);
+        let source = source.map_err(|error| refusal(&error, checks));
+        let subject = Subject::new(self.name, self.folder, document, source.as_ref());
+        let subject = subject.without_meshes(self.settings.without_meshes);
+        let is_macro = subject.macros().is_some();
+        if is_macro {
+            // LNT051 says it all: what others find is about the text of macros.
+            let ran = |check: &&mut Check| !matches!(check.outcome, Outcome::Crashed(_));
+            for check in checks.iter_mut().filter(ran) {
+                *check = skipped(check.rule, SkipReason::NotExpanded);
+            }
+        }
+        for rule in rules_to_run(self.settings) {
+            if self.settings.report.cancellation.is_cancelled() {
+                break;
+            }
+            let description = &rule.description;
+            checks.push(match is_macro && description.code != Code::LNT051 {
+                true => skipped(description, SkipReason::NotExpanded),
+                false => caught(description, &mut Findings::default(), |findings| {
+                    (rule.check)(&subject, findings)
+                }),
+            });
+        }
+    }
+}
+
+/// The rules of the family that the settings ask for.
+fn rules_to_run(settings: &LintSettings) -> impl Iterator<Item = &'static LintRule> {
+    let report = &settings.report;
+    let runs = |rule: &&LintRule| {
+        let code = rule.description.code;
+        let select = &report.selection.select;
+        let is_selected = select.is_empty() || select.iter().any(|codes| codes.holds(code));
+        let is_named = select.contains(&Codes::One(code)) || report.severities.contains_key(&code);
+        is_selected && (rule.on_by_default || is_named)
+    };
+    rules::all().into_iter().filter(runs)
+}
+
+/// A rule that does not run.
+fn skipped(rule: &'static Description, reason: SkipReason) -> Check {
+    caught(rule, &mut Findings::default(), |findings| {
+        findings.skip(reason)
+    })
+}
+
+/// All places of a finding.
+fn places(finding: &mut Finding) -> impl Iterator<Item = &mut Place> {
+    std::iter::once(&mut finding.place).chain(&mut finding.more)
+}
+
+/// The pointers that findings are folded by are no pointers into a document. In a text that was mended, lines at the
+/// beginning are missing, and fixes would not fit.
+fn as_reported(place: &mut Place, lines: u32, is_mended: bool) {
+    place.pointer = None;
+    place.line = place.line.map(|line| Count(line.0 + lines));
+    if is_mended {
+        place.fixes.clear();
+    }
+    for related in &mut place.related {
+        as_reported(related, lines, is_mended);
+    }
+}
+
+/// What the validator says of the URDF alone.
+fn by_validator(text: &str, name: &str) -> Examined {
+    urdd_validate::caught(Kind::Urdf, name, || {
+        let bytes: Arc<[u8]> = Arc::from(text.as_bytes());
+        // Its own name could be one that no URDD may hold.
+        const FILE: &str = "robot.urdf";
+        let memory = Memory::new(name, BTreeMap::from([(FILE.to_owned(), bytes)]));
+        let memory = memory.map_err(|_| ReadError::Missing)?;
+        let mut examined = urdd_validate::bare_urdf::examine_file(
+            Root::of(memory),
+            FILE,
+            &urdd_validate::rules::all(),
+        )?;
+        examined.report.path = name.to_owned();
+        for finding in examined
+            .checks
+            .iter_mut()
+            .flat_map(|check| &mut check.findings)
+        {
+            renamed(finding, name);
+        }
+        Ok(examined)
+    })
+}
+
+fn renamed(finding: &mut Finding, name: &str) {
+    for place in places(finding) {
+        let related = place.related.iter_mut().map(|place| &mut place.file);
+        let edits = place.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
+        edits.for_each(|edit| edit.file = name.to_owned());
+        for file in related.chain([&mut place.file]).flatten() {
+            *file = name.to_owned();
+        }
+    }
+}

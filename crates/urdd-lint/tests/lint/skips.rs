@@ -1,0 +1,60 @@
+//! What could not be checked is said, with its reason.
+
+use super::{linted, written};
+use urdd_lint::LintSettings;
+
+/// A robot of two links.
+const ARM: &str = include_str!("../cases/LNT040/near_miss.urdf");
+/// A file of macros.
+const MACROS: &str = include_str!("../cases/LNT051/invalid.urdf");
+
+/// The rules that are said not to have checked a text, with their reasons.
+fn not_checked(text: &str, select: &[&str]) -> Vec<(Vec<String>, String)> {
+    let (_folder, file) = written(text);
+    let mut settings = LintSettings::default();
+    let select = select.iter().map(|codes| codes.parse().expect("codes"));
+    settings.report.selection.select = select.collect();
+    let run = linted(&file, &settings);
+    let open = run
+        .report
+        .urdds
+        .into_iter()
+        .flat_map(|urdf| urdf.not_checked);
+    open.map(|open| (open.codes, open.reason)).collect()
+}
+
+#[test]
+fn macros_leave_every_rule_but_one_not_checked() {
+    for (select, rules) in [(&["SRC006"][..], 1), (&["LNT001", "SRC006"], 2), (&[], 50)] {
+        let open = not_checked(MACROS, select);
+        let [(codes, reason)] = &open[..] else {
+            panic!("{open:?}");
+        };
+        assert!(codes.len() >= rules && codes.contains(&"SRC006".to_owned()));
+        assert!(reason.contains("LNT051"), "{reason}");
+    }
+    assert_eq!(not_checked(MACROS, &["LNT051"]), []);
+}
+
+#[test]
+fn the_rule_that_refused_the_file_is_named() {
+    let reason = |from: &str, to: &str| {
+        assert!(ARM.contains(from), "{from}");
+        let open = not_checked(&ARM.replace(from, to), &["LNT001", "LNT029"]);
+        let [(codes, reason)] = &open[..] else {
+            panic!("{open:?}");
+        };
+        assert_eq!(codes, &["LNT001", "LNT029"]);
+        reason.clone()
+    };
+    let unknown = reason("child link=\"upper\"", "child link=\"uper\"");
+    assert_eq!(unknown, "URD007 found a fault");
+    let two = reason("link name=\"upper\"", "link name=\"base\"");
+    assert_eq!(two, "URD002 found a fault");
+    let unknown_type = reason("revolute", "revolve");
+    assert_eq!(unknown_type, "URD011 found a fault");
+    let axis = reason("xyz=\"0 0 1\"", "xyz=\"0 0 0\"");
+    assert_eq!(axis, "URD010 found a fault");
+    let no_xml = reason("</robot>", "<<<");
+    assert_eq!(no_xml, "URD011 found a fault");
+}
