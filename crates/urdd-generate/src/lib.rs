@@ -79,6 +79,6 @@ pub use source::includes::included;
 pub use source::read_urdf;
 #[doc(hidden)]
 pub use source_meshes::{
-    MissingMesh, SourceMesh, SourceMeshes, SourceText, open_source, open_source_text, read_source,
-    well_formed,
+    MissingMesh, OtherCase, SourceMesh, SourceMeshes, SourceText, open_source, open_source_text,
+    read_source, well_formed,
 };

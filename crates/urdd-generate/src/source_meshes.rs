@@ -7,6 +7,8 @@ use std::sync::Arc;
 use super::error::GenerateError;
 use super::meshes::inspect::inspect;
 use super::meshes::original::named;
+use super::meshes::package::Packages;
+pub use super::meshes::resolve::OtherCase;
 use super::meshes::resolve::{FoundMesh, NotFound, resolve};
 use super::meshes::roots::{Place, Roots};
 use super::settings::Settings;
@@ -23,6 +25,8 @@ pub struct SourceMeshes {
     pub robot: UrdfModule,
     /// Its mesh references: links in order, visual before collision, elements in order.
     pub meshes: Vec<SourceMesh>,
+    folder: PathBuf,
+    packages: Packages,
     roots: Roots,
     places: BTreeMap<PathBuf, Place>,
 }
@@ -47,8 +51,8 @@ pub struct SourceMesh {
 pub struct MissingMesh {
     /// The reason, for people.
     pub reason: String,
-    /// A file in the same folder whose name differs in case alone.
-    pub other_case: Option<PathBuf>,
+    /// A file whose path differs in case alone.
+    pub other_case: Option<Box<OtherCase>>,
     /// The file, which is outside of the folders that it may be in.
     pub outside: Option<PathBuf>,
     /// The package, if there is none of this name.
@@ -91,6 +95,15 @@ impl SourceMeshes {
     pub fn read(&self, file: &Path) -> Result<Arc<Scene>, String> {
         let place = self.places.get(file).ok_or("the URDF does not name it")?;
         inspect(file, place, &self.roots).scene
+    }
+
+    /// Finds another file that the URDF names, such as a texture, as meshes are found.
+    ///
+    /// # Errors
+    /// The reason why there is none.
+    pub fn find(&self, filename: &str) -> Result<PathBuf, MissingMesh> {
+        let found = resolve(filename, &self.folder, &self.packages, &self.roots)?;
+        Ok(found.file)
     }
 }
 
@@ -174,6 +187,8 @@ fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
     SourceMeshes {
         robot: source.reading.robot,
         meshes,
+        folder: source.folder,
+        packages: packages.clone(),
         roots,
         places,
     }

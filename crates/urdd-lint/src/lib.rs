@@ -22,6 +22,7 @@ mod rule;
 pub mod rules;
 mod srdf;
 mod subject;
+mod textures;
 mod unknown;
 mod vocabulary;
 mod written;

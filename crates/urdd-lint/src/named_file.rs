@@ -32,6 +32,12 @@ impl<'n> NamedFile<'_, 'n> {
         rest.is_some_and(|rest| !rest.starts_with('/') && !self.is_absolute())
     }
 
+    /// Whether some programs fetch it over the network.
+    pub fn is_fetched(&self) -> bool {
+        let schemes = ["http://", "https://", "ftp://"];
+        schemes.iter().any(|scheme| self.name.starts_with(scheme))
+    }
+
     /// The path, if it is absolute.
     pub fn path(&self) -> Option<&'n Path> {
         self.is_absolute().then(|| Path::new(self.without_scheme()))

@@ -79,9 +79,9 @@ pub fn at_the_top(snapshot: &Snapshot, severity: DiagnosticSeverity, message: &s
 
 /// The findings of a rule, each place by itself.
 pub fn of_check(snapshot: &Snapshot, check: &Check) -> Vec<Found> {
-    let severity = severity(check.severity);
     let mut found = Vec::new();
     for finding in &check.findings {
+        let severity = severity(finding.severity.unwrap_or(check.severity));
         for place in std::iter::once(&finding.place).chain(&finding.more) {
             found.push(of_place(snapshot, check, severity, finding, place));
         }

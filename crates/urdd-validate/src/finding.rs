@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::memory::bytes;
 use super::part::{Part, Why};
+use super::rule::Severity;
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use super::tolerance::number_tolerance;
@@ -29,6 +30,8 @@ pub struct Finding {
     pub place: Place,
     /// What is wrong and what to do, for people.
     pub message: String,
+    /// Its severity, if it is not that of its rule.
+    pub severity: Option<Severity>,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
     /// The faulty meshes, if the finding is about meshes of single links. Does not include those of findings that were
@@ -74,6 +77,7 @@ impl Finding {
         Finding {
             place: Place::default(),
             message: message.into(),
+            severity: None,
             tolerance: None,
             parts: Vec::new(),
             count: 1,
@@ -106,6 +110,12 @@ impl Finding {
             .actual(format!("{actual:?}"))
             .tolerance(number_tolerance(expected, actual))
             .off_by(expected - actual, "")
+    }
+
+    /// Sets another severity than that of its rule. Settings that name the rule come first.
+    pub fn severity(mut self, severity: Severity) -> Self {
+        self.severity = Some(severity);
+        self
     }
 
     /// Sets the tolerance of the comparison.
@@ -186,7 +196,7 @@ pub fn point([x, y, z]: [f64; 3]) -> String {
 #[derive(Debug, Default)]
 pub struct Findings {
     findings: Vec<Finding>,
-    by_place: HashMap<(Option<String>, String), usize>,
+    by_place: HashMap<(Option<String>, String, Option<Severity>), usize>,
     reported: usize,
     kept: usize,
     skipped: Option<SkipReason>,
@@ -271,7 +281,7 @@ impl Findings {
             Some(pointer) => without_indices(pointer),
             None => finding.message.clone(),
         };
-        let key = (finding.place.file.clone(), kind);
+        let key = (finding.place.file.clone(), kind, finding.severity);
         let full = self.findings.len() >= KEPT_FINDINGS;
         match (self.by_place.get(&key), self.findings.last_mut()) {
             (None, Some(last)) if full => last.count += finding.count,

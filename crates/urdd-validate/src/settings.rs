@@ -171,6 +171,11 @@ impl Settings {
             for check in &mut *checks {
                 if let Some(severity) = self.severities.get(&check.rule.code) {
                     check.severity = *severity;
+                    let own = check
+                        .findings
+                        .iter_mut()
+                        .map(|finding| &mut finding.severity);
+                    own.for_each(|own| *own = None);
                 }
                 let mut reason = None;
                 check.findings.retain(|finding| {

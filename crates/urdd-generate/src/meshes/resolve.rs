@@ -8,6 +8,10 @@ use super::roots::{Place, Roots};
 
 /// Maximum number of searched places in a message.
 const MOST_TOLD: usize = 4;
+/// Maximum number of folders or files that are taken for a name in another case.
+const MOST_ALIKE: usize = 16;
+/// Maximum number of folders in a name that is compared in another case.
+const MOST_PARTS: usize = 32;
 
 /// A resolved mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,10 +33,21 @@ pub(crate) struct NotFound {
     pub hint: Option<String>,
     /// An existing file outside all allowed folders.
     pub outside: Option<PathBuf>,
-    /// An existing file whose name differs in case alone.
-    pub other_case: Option<PathBuf>,
+    /// An existing file whose path differs in case alone.
+    pub other_case: Option<Box<OtherCase>>,
     /// The package, if there is none of this name.
     pub no_package: Option<String>,
+}
+
+/// A file whose path differs from a name in the case of letters alone.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OtherCase {
+    /// The file.
+    pub file: PathBuf,
+    /// Its path from the folder that the name refers to, with forward slashes; of an absolute name, the last part.
+    pub written: String,
+    /// Whether no other file fits as well.
+    pub is_only: bool,
 }
 
 impl NotFound {
@@ -159,7 +174,7 @@ impl Search<'_> {
             return None;
         }
         // `join` replaces the folder if the name is an absolute path.
-        self.try_file(&urdf_folder.join(name), None)
+        self.try_file(urdf_folder, name, None)
     }
 
     fn in_package(
@@ -180,13 +195,13 @@ impl Search<'_> {
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
         for folder in &folders {
-            let found = self.try_file(&folder.join(rest), Some((package, folder)));
+            let found = self.try_file(folder, rest, Some((package, folder)));
             if found.is_some() {
                 return found;
             }
         }
         if let Some(folder) = packages.crawl(package) {
-            let found = self.try_file(&folder.join(rest), Some((package, &folder)));
+            let found = self.try_file(&folder, rest, Some((package, &folder)));
             if found.is_some() {
                 return found;
             }
@@ -208,8 +223,14 @@ impl Search<'_> {
         None
     }
 
-    fn try_file(&mut self, path: &Path, package: Option<(&str, &Path)>) -> Option<FoundMesh> {
-        match fs::metadata(path) {
+    fn try_file(
+        &mut self,
+        folder: &Path,
+        name: &str,
+        package: Option<(&str, &Path)>,
+    ) -> Option<FoundMesh> {
+        let path = folder.join(name);
+        match fs::metadata(&path) {
             Ok(metadata) if metadata.is_file() => {
                 let file = path.canonicalize().ok()?;
                 if let Some(place) = self.roots.place(&file, package) {
@@ -224,10 +245,10 @@ impl Search<'_> {
             }
             Ok(_) => {}
             Err(_) => {
-                if let Some(near) = other_case(path) {
-                    let hint = format!("there is {}, whose case differs", near.display());
+                if let Some(near) = other_case(folder, name) {
+                    let hint = format!("there is {}, whose case differs", near.file.display());
                     self.not_found.hint.get_or_insert(hint);
-                    self.not_found.other_case.get_or_insert(near);
+                    self.not_found.other_case.get_or_insert(Box::new(near));
                 }
             }
         }
@@ -252,18 +273,59 @@ fn is_package_name(word: &str) -> bool {
     matches!(parts.next(), Some(Component::Normal(_))) && parts.next().is_none()
 }
 
-/// A file in the same folder whose name differs only in case.
-fn other_case(path: &Path) -> Option<PathBuf> {
-    let name = path.file_name()?.to_str()?.to_lowercase();
-    let mut near: Vec<PathBuf> = fs::read_dir(path.parent()?)
-        .ok()?
-        .flatten()
-        .filter(|entry| Some(entry.file_name().as_os_str()) != path.file_name())
-        .filter(|entry| entry.file_name().to_string_lossy().to_lowercase() == name)
-        .map(|entry| entry.path())
+/// The file in a folder whose path differs from a name only in case.
+fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
+    let mut folder = folder.to_owned();
+    let mut parts: Vec<Component> = Path::new(name).components().collect();
+    if Path::new(name).is_absolute() {
+        // Above the last folder is the machine's own matter.
+        folder = Path::new(name).parent()?.to_owned();
+        parts = parts.pop().into_iter().collect();
+    }
+    if parts.len() > MOST_PARTS {
+        return None;
+    }
+    let mut near = vec![(folder, String::new())];
+    let mut is_cut = false;
+    for part in parts {
+        let mut next = Vec::new();
+        for (folder, written) in near {
+            for name in alike(&folder, part)? {
+                let slash = if written.is_empty() { "" } else { "/" };
+                next.push((folder.join(&name), format!("{written}{slash}{name}")));
+            }
+        }
+        is_cut |= next.len() > MOST_ALIKE;
+        next.truncate(MOST_ALIKE);
+        near = next;
+    }
+    near.retain(|(path, _)| path.is_file());
+    let is_only = near.len() == 1 && !is_cut;
+    let (file, written) = near.into_iter().next()?;
+    Some(OtherCase {
+        file,
+        written,
+        is_only,
+    })
+}
+
+/// The names in a folder that differ from a part of a path in case at most, that part itself first. `None` if a path does not
+/// go on with it.
+fn alike(folder: &Path, part: Component) -> Option<Vec<String>> {
+    let name = match part {
+        Component::Normal(name) => name.to_str()?,
+        Component::ParentDir => return Some(vec!["..".to_owned()]),
+        Component::CurDir => return Some(vec![".".to_owned()]),
+        Component::RootDir | Component::Prefix(_) => return None,
+    };
+    let lower = name.to_lowercase();
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut names: Vec<String> = names
+        .filter(|other| other.to_lowercase() == lower)
         .collect();
-    near.sort();
-    near.into_iter().next()
+    names.sort_by_key(|other| (other != name, other.clone()));
+    Some(names)
 }
 
 /// Decodes percent-encoding such as `%20`; returns the name unchanged if the result is not UTF-8.

@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use crate::textures::textures;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
@@ -16,12 +17,15 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let mut told = BTreeSet::new();
-    for (node, mesh) in urdf.meshes(findings)? {
-        let missing = mesh.file.as_ref().err();
-        let Some(package) = missing.and_then(|missing| missing.no_package.as_deref()) else {
+    let meshes = urdf.meshes(findings)?.into_iter();
+    let meshes = meshes.map(|(node, mesh)| (node, mesh.file.clone()));
+    let textures = textures(urdf, findings)?.into_iter();
+    let textures = textures.map(|texture| (texture.named.node, texture.file));
+    for (node, file) in meshes.chain(textures) {
+        let Some(package) = file.err().and_then(|missing| missing.no_package) else {
             continue;
         };
-        if told.insert(package) {
+        if told.insert(package.clone()) {
             let message = format!(
                 "there is no package `{package}` at or above the URDF; say where it is: --package {package}=FOLDER"
             );

@@ -6,14 +6,15 @@ use urdd_format::meshes::GeometryKind;
 
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use crate::textures::textures;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
-    /// A texture, or the material library of an OBJ, is not there.
+    /// A texture of a mesh or of a `<material>`, or the material library of an OBJ, is not there.
     ///
-    /// The part is white or grey. Meshcat and Drake warn.
+    /// The part is white or grey. Meshcat and Drake warn. Textures of a package that is not found are LNT037's.
     ///
-    /// Add the file beside the mesh, or correct the name in the mesh.
+    /// Add the file, or correct the name in the mesh or in the URDF. A mesh names files beside itself.
     LNT030 "texture-missing", Info, Appearance, since "1.1.0"
 }
 
@@ -33,6 +34,29 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                     .report(findings);
             }
         }
+    }
+    for texture in textures(urdf, findings)? {
+        let (Err(missing), named) = (texture.file, texture.named) else {
+            continue;
+        };
+        // Other rules say these.
+        let in_other_case = missing.other_case.is_some_and(|near| near.is_only);
+        if in_other_case
+            || missing.no_package.is_some()
+            || missing.outside.is_some()
+            || named.is_absolute()
+            || named.is_on_a_host()
+            || named.is_fetched()
+        {
+            continue;
+        }
+        urdf.at_attribute(
+            named.node,
+            "filename",
+            "the texture is not there; correct the name, or add the file",
+        )
+        .actual(named.name)
+        .report(findings);
     }
     Some(())
 }

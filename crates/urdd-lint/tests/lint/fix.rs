@@ -124,5 +124,13 @@ fn a_file_name_is_mended_where_that_file_is_there() {
         let case = ["meshes/Box.stl", "meshes/BOX.stl"];
         assert_eq!(mended(arm, &case[..1]), Some(named(case[0])));
         assert_eq!(mended(arm, &case), None, "one of two");
+        let folder = ["Meshes/BOX.stl", "meshes/tin.stl"];
+        assert_eq!(mended(arm, &folder), Some(named(folder[0])));
+        let up = |folder: &str| named(&format!("./{folder}/../{folder}/box.stl"));
+        assert_eq!(mended(&up("Meshes"), &slashes), Some(up("meshes")));
+        let both = ["Meshes/box.stl", "MESHES/box.stl"];
+        assert_eq!(mended(arm, &both), None, "one of two folders");
+        let back = named("MESHES\\box.stl");
+        assert_eq!(mended(&back, &slashes), Some(arm.to_owned()), "both faults");
     }
 }

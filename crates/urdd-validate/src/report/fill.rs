@@ -178,7 +178,7 @@ fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {
     Finding {
         code: check.rule.code.to_string(),
         name: check.rule.name.to_owned(),
-        severity: check.severity,
+        severity: found.severity.unwrap_or(check.severity),
         default_severity: check.rule.severity,
         clause: check.rule.clause.map(str::to_owned),
         consequence: check.rule.consequence,
