@@ -5,6 +5,8 @@ use std::path::Path;
 
 use crate::source::{Edits, camel, with_module};
 
+/// The family of the rules about URDFs.
+const OF_LINT: &str = "LNT";
 const CODES: &str = "crates/urdd-validate/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
@@ -49,6 +51,11 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         (Some(room), Some(_)) => {
             return Err(format!(
                 "{family} is the family of {RULES}/{room}: leave out --family"
+            ));
+        }
+        (None, _) if family == OF_LINT => {
+            return Err(format!(
+                "{OF_LINT} are the rules about URDFs: copy one of crates/urdd-lint/src/rules with its cases, and add the code to {CODES}"
             ));
         }
         (None, None) => {
