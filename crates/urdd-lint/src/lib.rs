@@ -82,12 +82,43 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
     let linted = files
         .par_iter()
         .map(|path| lint_file(path, paths, settings));
-    let (examined, stale): (Vec<Examined>, Vec<Vec<StaleIgnore>>) = linted.unzip();
+    let linted = linted.collect();
     settings.report.cancellation.check()?;
+    Ok(run_of(&files, linted, excluded, settings))
+}
+
+/// Lints a URDF or xacro file. Returns also the text that lines refer to, which is the expanded one of a xacro file;
+/// `None` if the file cannot be read.
+///
+/// # Errors
+/// If the run is cancelled.
+pub fn lint_with_text(
+    path: &Path,
+    settings: &LintSettings,
+) -> Result<(Run, Option<String>), Cancelled> {
+    let paths = [path.to_owned()];
+    let mut linted = lint_file(path, &paths, settings);
+    settings.report.cancellation.check()?;
+    let text = linted.text.take();
+    Ok((run_of(&paths, vec![linted], 0, settings), text))
+}
+
+/// What was found in a file.
+struct Linted {
+    examined: Examined,
+    /// Ignores and comments that matched nothing.
+    stale: Vec<StaleIgnore>,
+    /// What was examined.
+    text: Option<String>,
+}
+
+fn run_of(files: &[PathBuf], linted: Vec<Linted>, excluded: usize, settings: &LintSettings) -> Run {
     let folders = files.iter().map(|path| stems(path).0).collect();
+    let linted = linted.into_iter().map(|one| (one.examined, one.stale));
+    let (examined, stale): (Vec<Examined>, Vec<Vec<StaleIgnore>>) = linted.unzip();
     let mut run = Run::of(examined, folders, excluded, &settings.report);
     run.report.stale_ignores.extend(stale.into_iter().flatten());
-    Ok(run)
+    run
 }
 
 /// The files to lint, and the number of those that the settings exclude.
@@ -132,13 +163,9 @@ fn seen_from(path: &Path, given: &[PathBuf]) -> String {
     }
 }
 
-fn lint_file(
-    path: &Path,
-    given: &[PathBuf],
-    settings: &LintSettings,
-) -> (Examined, Vec<StaleIgnore>) {
+fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted {
     let (seen, name) = (seen_from(path, given), stems(path).1);
-    let mut stale = Vec::new();
+    let (mut stale, mut text) = (Vec::new(), None);
     let mut examined = urdd_validate::caught(Kind::Urdf, &seen, || {
         let read = match read_source(path, &settings.source) {
             Ok(read) => read,
@@ -155,6 +182,7 @@ fn lint_file(
             files.extend(path.canonicalize());
             Sources::read(&files, &read.folder).place(&mut examined.checks);
         }
+        text = Some(read.text);
         stale.extend(unused);
         if let Some(baseline) = &settings.baseline {
             stale.extend(baseline.apply(path, &mut examined));
@@ -162,7 +190,11 @@ fn lint_file(
         Ok(examined)
     });
     examined.report.path = seen;
-    (examined, stale)
+    Linted {
+        examined,
+        stale,
+        text,
+    }
 }
 
 fn unreadable(name: &str, reason: String) -> Examined {

@@ -13,7 +13,7 @@ use super::elements::{child, numbers, text};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
 use super::unknown::{Unknown, unknown};
-use super::vocabulary::nearest;
+use super::vocabulary::hint;
 use urdd_directory::position::LineIndex;
 use urdd_document::robot::{Robot, of_urdf};
 use urdd_format::index::Count;
@@ -110,6 +110,12 @@ impl<'a> Subject<'a> {
     /// The robot and its bodies. Skips the rule if the URDF describes no tree (URD004 to URD011 say why).
     pub fn bodies(&self, findings: &mut Findings) -> Option<(&Robot, &Bodies)> {
         let source = self.source(findings)?;
+        // URDD readers take 0 for them; rules would tell of poses that are not there.
+        let poses = match self.parts().any(is_unreadable) {
+            true => Err(SkipReason::Failed(Code::URD011)),
+            false => Ok(()),
+        };
+        findings.or_skip(poses)?;
         let (robot, bodies) = self.robot.get_or_init(|| {
             let robot = of_urdf(&source.robot);
             let bodies = Bodies::new(&robot);
@@ -279,9 +285,8 @@ impl<'a> Subject<'a> {
         let known: Vec<&str> = self.names(&self.joints).collect();
         let named = node.attribute("name").filter(|name| !known.contains(name));
         let Some(name) = named else { return };
-        let near = nearest(name, &known);
-        let near = near.map_or(String::new(), |near| format!(", but there is `{near}`"));
-        let message = format!("no joint is called `{name}`{near}; write the name of a joint");
+        let hint = hint(name, &known);
+        let message = format!("no joint is called `{name}`{hint}; write the name of a joint");
         self.at_attribute(node, "name", message).report(findings);
     }
 
@@ -366,4 +371,15 @@ fn part<'a>(node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
         in_robot && matches!(one.tag_name().name(), "link" | "joint")
     };
     node.ancestors().find(is_part)
+}
+
+/// Whether an element has numbers that cannot be read.
+fn is_unreadable(node: Node) -> bool {
+    let is_bad =
+        |attribute| node.has_attribute(attribute) && numbers::<3>(node, attribute).is_none();
+    match name(node) {
+        "origin" => is_bad("xyz") || is_bad("rpy"),
+        "mesh" => is_bad("scale"),
+        _ => false,
+    }
 }

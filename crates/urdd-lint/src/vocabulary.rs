@@ -226,6 +226,21 @@ pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
     near(name, known).map(|(best, _)| best)
 }
 
+/// What a message says of the name that is meant, if any: nothing where numbers differ, as those of `arm_1` and `arm_2`.
+pub fn hint(name: &str, known: &[&str]) -> String {
+    let digits = |name: &str| name.replace(|letter: char| !letter.is_ascii_digit(), " ");
+    let digits_of = |name| {
+        digits(name)
+            .split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    match nearest(name, known).filter(|near| digits_of(near) == digits_of(name)) {
+        Some(near) => format!(", but there is `{near}`"),
+        None => String::new(),
+    }
+}
+
 /// Whether a value is one that an attribute of URDF can have: as many numbers as it needs, or a word.
 pub fn fits(attribute: &str, value: &str) -> bool {
     let wanted = match attribute {

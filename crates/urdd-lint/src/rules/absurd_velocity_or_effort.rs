@@ -20,7 +20,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         let bound = |name| number(limit, name).unwrap_or(0.0);
         let is_free = joint.attribute("type") == Some("continuous");
-        if !is_free && bound("lower") == bound("upper") {
+        // PyBullet takes a lower limit above the upper one as "free", and SRC tells others.
+        if !is_free && bound("lower") >= bound("upper") {
             continue;
         }
         for (name, other) in [("velocity", "effort"), ("effort", "velocity")] {

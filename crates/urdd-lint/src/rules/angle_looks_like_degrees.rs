@@ -14,8 +14,8 @@ declare_lint! {
 
 /// More than a turn, rad.
 const MORE_THAN_A_TURN: f64 = 7.0;
-/// Degrees are mostly multiples of this.
-const STEP: f64 = 5.0;
+/// Degrees that somebody types are mostly multiples of this. Drones have 55 and 95 rad, and mean them.
+const STEP: f64 = 15.0;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let origins = urdf

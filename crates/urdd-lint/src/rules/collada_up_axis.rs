@@ -7,8 +7,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// A COLLADA file says that another axis than z is up.
     ///
-    /// Robotics programs ignore it: RViz, MoveIt, Pinocchio, PyBullet, trimesh, and `urdd`. three.js, so viewers in
-    /// browsers, and plain assimp turn the mesh.
+    /// Robotics programs ignore it: RViz, MoveIt, Pinocchio, PyBullet, trimesh, and `urdd`. Others turn the mesh, such as
+    /// Foxglove.
     ///
     /// Export the mesh with z up, as it is to be in the link.
     LNT053 "collada-up-axis", Info, WrongPlace, since "1.1.0", off by default
@@ -22,7 +22,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             .iter()
             .any(|note| note.code == NoteCode::UpAxisIgnored)
         {
-            let message = "the mesh says that another axis than z is up, and viewers in browsers turn it; export it with z up";
+            let message = "the mesh says that another axis than z is up, and some viewers turn it; export it with z up";
             urdf.at_attribute(node, "filename", message)
                 .report(findings);
         }

@@ -6,8 +6,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// A continuous joint has a lower and an upper limit.
     ///
-    /// URDF has none for continuous joints. MuJoCo, Pinocchio and MoveIt leave them out, PyBullet keeps to them: a
-    /// steering joint turns without end in one program and stops in another.
+    /// URDF has none for continuous joints. MuJoCo, Pinocchio and MoveIt leave them out, PyBullet cuts targets of
+    /// positions to them: a steering joint turns without end in one program and stops in another.
     ///
     /// Make the joint `revolute` if it has stops. Otherwise remove `lower` and `upper`.
     LNT014 "continuous-with-limits", Warning, WrongMotion, since "1.1.0"

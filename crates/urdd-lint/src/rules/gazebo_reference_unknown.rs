@@ -1,6 +1,6 @@
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use crate::vocabulary::nearest;
+use crate::vocabulary::hint;
 use urdd_validate::finding::Findings;
 use urdd_xml::element::children;
 
@@ -23,10 +23,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Some(reference) = reference.filter(|name| !known.contains(name)) else {
             continue;
         };
-        let near = nearest(reference, &known);
-        let near = near.map_or(String::new(), |near| format!(", but there is `{near}`"));
+        let hint = hint(reference, &known);
         let message = format!(
-            "neither a link nor a joint is called `{reference}`{near}; write a name that is there"
+            "neither a link nor a joint is called `{reference}`{hint}; write a name that is there"
         );
         urdf.at_attribute(node, "reference", message)
             .report(findings);

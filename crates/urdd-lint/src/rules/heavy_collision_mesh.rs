@@ -1,3 +1,4 @@
+use roxmltree::Node;
 use urdd_format::meshes::GeometryKind;
 
 use crate::rule::declare_lint;
@@ -19,7 +20,12 @@ const MANY: usize = 50_000;
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Ok(facts) = mesh.facts else { continue };
-        if mesh.kind == GeometryKind::Collision && facts.triangles > MANY {
+        // PyBullet is asked for the triangles: scenery that robots move in.
+        let is_concave = |above: Node<'_, '_>| above.attribute("concave") == Some("yes");
+        if mesh.kind == GeometryKind::Collision
+            && facts.triangles > MANY
+            && !node.ancestors().any(is_concave)
+        {
             let message = format!(
                 "the collision mesh has {} triangles; take its convex hull, or a few boxes",
                 facts.triangles

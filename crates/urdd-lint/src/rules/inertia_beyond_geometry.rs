@@ -59,8 +59,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             .max_by(|a, b| (radii[*a] / largest[*a]).total_cmp(&(radii[*b] / largest[*b])))?;
         if radii[worst] > largest[worst] {
             let message = format!(
-                "the inertia is that of the whole mass {} from an axis through its centre; the link's shapes allow {} at most. \
-                Compute it from the link's geometry, about the centre of mass, in kg m²",
+                "the radius of gyration, √(inertia / mass), is {}; the shapes of the link, and of what is fixed to it, allow \
+                {} at most. Compute the inertia from the link's geometry, about the centre of mass, in kg m²",
                 metres(radii[worst]),
                 metres(largest[worst])
             );

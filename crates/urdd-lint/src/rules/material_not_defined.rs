@@ -11,9 +11,8 @@ use urdd_xml::element::children;
 declare_lint! {
     /// A visual names a material that is not defined.
     ///
-    /// urdfdom before version 6, so ROS, refuses the whole robot: `material 'X' undefined`. Newer ones draw the link in a
-    /// default colour. urdfdom reads links in the order of their names, so a definition in a link of a later name does
-    /// not count.
+    /// urdfdom 1.0 refuses the whole robot: `material 'X' undefined`. Others log an error, and draw the link in a default
+    /// colour. urdfdom reads links in the order of the file, so a definition in a later link does not count.
     ///
     /// Define the material directly in `<robot>`, or write its colour here.
     LNT041 "material-not-defined", Warning, Appearance, since "1.1.0"
@@ -25,10 +24,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let mut defined: BTreeSet<&str> = global
         .filter_map(|(_, node)| node.attribute("name"))
         .collect();
-    let mut links: Vec<_> = urdf.links.iter().collect();
-    links.sort_by_key(|link| link.attribute("name"));
     let mut told = BTreeSet::new();
-    for link in links {
+    for link in &urdf.links {
         let visuals = link.children().filter(|node| named(*node, "visual"));
         for material in visuals.filter_map(|visual| child(visual, "material")) {
             let Some(name) = material.attribute("name").filter(|name| !name.is_empty()) else {
@@ -38,8 +35,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 defined.insert(name);
             } else if !defined.contains(name) && told.insert(name) {
                 let message = format!(
-                    "material `{}` is not defined in `<robot>`, nor in a link before this one in the order of names; \
-                    define it in `<robot>`",
+                    "material `{}` is not defined in `<robot>`, nor in a link before this one; define it \
+                     in `<robot>`",
                     urdd_format::escape::line(name)
                 );
                 urdf.at_attribute(material, "name", message)

@@ -8,8 +8,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// The scale of a collision mesh mirrors it, or flattens it.
     ///
-    /// A mirrored mesh has its faces inside out: MuJoCo has wrong normals for it, and Gazebo's collisions fail. Two negative
-    /// factors are a rotation, and no finding. With a factor of 0, MuJoCo refuses the robot.
+    /// A mirrored mesh has its faces inside out, and Gazebo's collisions fail with it. MuJoCo 4 and trimesh turn the faces.
+    /// Two negative factors are a rotation, and no finding. With a factor of 0, MuJoCo refuses the robot.
     ///
     /// Export a mirrored mesh, and write positive factors.
     LNT023 "mirrored-scale", Warning, Collisions, since "1.1.0"

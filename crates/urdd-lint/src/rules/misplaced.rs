@@ -1,3 +1,5 @@
+use roxmltree::Node;
+
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::unknown::{Unknown, What};
@@ -9,7 +11,8 @@ declare_lint! {
     /// Programs ignore it without a word: a `<mass>` directly in `<link>` is 0 kg for Pinocchio, 1 kg for PyBullet, and
     /// for MuJoCo what the volume gives.
     ///
-    /// Move it to the element that it belongs to.
+    /// Move it to the element that it belongs to. An `<origin>` of zeros, or `rpy="0 0 0"`, changes nothing anywhere, and is
+    /// left out.
     LNT046 "misplaced", Warning, Format, since "1.1.0"
 }
 
@@ -22,7 +25,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         ..
     } in urdf.unknown()
     {
-        if meant.is_some() || belongs.is_empty() {
+        if meant.is_some() || belongs.is_empty() || is_zero(node, what) {
             continue;
         }
         let places: Vec<String> = belongs.iter().map(|place| format!("`<{place}>`")).collect();
@@ -41,4 +44,20 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         .report(findings);
     }
     Some(())
+}
+
+/// Whether it says only what holds without it: numbers that are all 0.
+fn is_zero(node: Node, what: What) -> bool {
+    let zeros = |text: &str| {
+        let mut words = text.split_ascii_whitespace();
+        words.all(|word| word.parse() == Ok(0.0))
+    };
+    match what {
+        What::Element => {
+            let is_empty = !node.children().any(|child| child.is_element());
+            let mut attributes = node.attributes();
+            is_empty && attributes.len() > 0 && attributes.all(|one| zeros(one.value()))
+        }
+        What::Attribute(name) => node.attribute(name).is_some_and(zeros),
+    }
 }

@@ -21,9 +21,15 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             .and_then(|inertial| inertial.mass)
             .is_some_and(|mass| mass != 0.0)
     };
+    // SRC003 tells of a moving link that says 0.
+    let says_zero = |link: usize| {
+        let inertial = robot.links[link].inertial.as_ref();
+        inertial.is_some_and(|inertial| inertial.mass.is_some()) && !has_mass(link)
+    };
     let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
     if !(0..robot.links.len()).any(has_mass) {
-        if (0..robot.joints.len()).any(|joint| moves(&joint)) {
+        let is_told = bodies.tops().any(says_zero);
+        if !is_told && (0..robot.joints.len()).any(|joint| moves(&joint)) {
             let message = "no link has a mass: simulators invent masses, or refuse the robot; write an `<inertial>` for each";
             urdf.at(urdf.root, message).report(findings);
         }
@@ -33,7 +39,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Some(joint) = bodies.tree.parent_joint[top].filter(moves) else {
             continue;
         };
-        if !bodies.members(top).any(has_mass) {
+        if !bodies.members(top).any(has_mass) && !says_zero(top) {
             let message = format!(
                 "joint `{}` moves this link, and it has no mass: simulators invent one, or refuse the robot; write an \
                 `<inertial>`",

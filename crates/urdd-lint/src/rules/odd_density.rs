@@ -10,7 +10,7 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// The mass and the shapes of a body make no density of a thing that is built.
     ///
-    /// Above 20,000 kg/m³ it is heavier than solid tungsten, although the convex hull is larger than the part. Below 10 kg/m³ it is
+    /// Above 20,000 kg/m³, unless it is the base, it is heavier than solid tungsten, although the convex hull is larger than the part. Below 10 kg/m³ it is
     /// lighter than foam. The mass is in grams, the shapes are in other units, or the mass was never filled in. Where a
     /// heavy part touches a far too light one, simulators need tiny steps, or explode.
     ///
@@ -53,7 +53,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             hull.volume
         };
-        let (volume, wrong) = if mass / hull.volume > GREATEST && mass >= DUMMY {
+        // A heavy base holds the robot in place.
+        let is_dense = bodies.tree.parent_joint[top].is_some() && mass > DUMMY;
+        let (volume, wrong) = if mass / hull.volume > GREATEST && is_dense {
             (hull.volume, "denser than any metal")
         } else if mass / least < LEAST
             && urdf.moves()
@@ -64,12 +66,19 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let message = format!(
-            "{} kg in {} litres are {} kg/m³, {wrong}; write the mass in kilograms, and the shapes in metres",
+            "{} kg in {} litres are {} kg/m³, {wrong}; write the mass that the part has, in kilograms, and its shapes in \
+            metres",
             number(mass, 3),
             number(volume * 1000.0, 3),
             number(mass / volume, 3)
         );
-        urdf.at(urdf.inertial(top, "mass"), message)
+        let mass_of = |link: &usize| robot.links[*link].inertial.as_ref()?.mass;
+        let heaviest = bodies.members(top).max_by(|a, b| {
+            mass_of(a)
+                .unwrap_or(0.0)
+                .total_cmp(&mass_of(b).unwrap_or(0.0))
+        });
+        urdf.at(urdf.inertial(heaviest.unwrap_or(top), "mass"), message)
             .report(findings);
     }
     Some(())

@@ -17,6 +17,8 @@ declare_lint! {
 
 /// Number of links, and of different sizes: a left and a right twin are no defaults.
 const MANY: usize = 3;
+/// Links without a mass of their own, such as frames, are written with less than this, kg: their mass is that of others.
+const MASSLESS: f64 = 1e-3;
 /// A size is another one from this ratio of volumes on.
 const APART: f64 = 1.1;
 
@@ -28,7 +30,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let inertial = link.inertial.as_ref();
         let numbers = inertial.and_then(|inertial| Some((inertial.mass?, inertial.inertia?)));
         if let Some((mass, [a, b, c, d, e, f])) = numbers
-            && mass > 0.0
+            && mass > MASSLESS
             && [a, b, c, d, e, f] != [0.0; 6]
         {
             let key = [mass, a, b, c, d, e, f].map(f64::to_bits);

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 
 use urdd_format::meshes::GeometryKind;
 
+use crate::elements::child;
 use crate::geometry::bounds;
 use crate::hull::Hull;
 use crate::pose::at_default;
@@ -95,7 +96,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         robot.links[b].name,
         metres(depth)
     );
-    urdf.at(urdf.root, message).report(findings);
+    let node = child(urdf.links[a], "collision").unwrap_or(urdf.links[a]);
+    urdf.at(node, message).report(findings);
     Some(())
 }
 

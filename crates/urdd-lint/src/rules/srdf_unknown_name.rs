@@ -27,6 +27,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
+/// Pinocchio's name of the joint that holds a free robot: its pose is a part of configurations in SRDFs.
+const FREE_BASE: &str = "root_joint";
+
 fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findings) {
     let root = document.root_element();
     let links: BTreeSet<&str> = urdf.names(&urdf.links).collect();
@@ -53,7 +56,9 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
                 continue;
             };
             let known = if is_link { &links } else { &joints };
+            let is_free_base = !is_link && name == FREE_BASE;
             if known.contains(name)
+                || is_free_base
                 || virtual_joints.contains(name)
                 || !told.insert((is_link, name.to_owned()))
             {

@@ -27,11 +27,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         match what {
             What::Element => urdf.at(
                 node,
-                "URDF does not define this element; programs ignore it",
+                "URDF does not define this element; programs that do not know it ignore it",
             ),
             What::Attribute(name) => {
                 let message =
-                    format!("URDF does not define the attribute `{name}`; programs ignore it");
+                    format!("URDF does not define the attribute `{name}`; programs that do not know it ignore it");
                 urdf.at_attribute(node, name, message)
             }
         }

@@ -48,7 +48,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let apart = ((a + b - c - d) / 2.0).norm();
         let message = if is_same(&visual, &collision) && apart > APART * seen.max(solid) {
             format!(
-                "visuals and collisions have the same size, but are {} apart; give both the same origin",
+                "visuals and collisions have the same size, but are {} apart; put both in the same place",
                 metres(apart)
             )
         } else if UNITS.iter().any(|unit| (ratio / unit - 1.0).abs() < CLOSE) {

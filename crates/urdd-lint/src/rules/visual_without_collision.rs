@@ -14,7 +14,7 @@ declare_lint! {
     /// without any collision, are left out.
     ///
     /// Add a `<collision>`: a box or cylinder is often enough.
-    LNT020 "visual-without-collision", Info, Collisions, since "1.1.0"
+    LNT020 "visual-without-collision", Info, Collisions, since "1.1.0", off by default
 }
 
 /// Smaller bodies are screws and finger tips, m.
@@ -41,7 +41,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 "this is drawn {} long, and nothing can collide with it; add a `<collision>`",
                 metres(size)
             );
-            urdf.at(urdf.links[top], message).report(findings);
+            let mut members = bodies.members(top);
+            let drawn = members.find(|link| !robot.links[*link].visual.is_empty());
+            urdf.at(urdf.links[drawn.unwrap_or(top)], message)
+                .report(findings);
         }
     }
     Some(())

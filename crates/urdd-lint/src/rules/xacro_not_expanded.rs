@@ -8,7 +8,8 @@ declare_lint! {
     /// Programs ignore its `xacro:` elements, and take `${...}` and `$(...)` as text: the robot is empty, or has meshes
     /// called `$(arg ...)`. No other rule looks at such a file; the report lists them as not checked.
     ///
-    /// Expand it, `xacro robot.urdf.xacro > robot.urdf`, or lint it with `--xacro`.
+    /// Expand it, `xacro robot.urdf.xacro > robot.urdf`, or lint it with `--xacro`, and
+    /// `name:=value` for its arguments. Parts that another file includes are linted with that file.
     LNT051 "xacro-not-expanded", Error, Format, since "1.1.0"
 }
 

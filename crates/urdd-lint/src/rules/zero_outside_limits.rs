@@ -10,7 +10,8 @@ declare_lint! {
     /// first step: without any load it was at 1.2 rad/s after 0.4 s. MoveIt refuses 0 as a start, and RViz shows a pose
     /// that the robot does not have.
     ///
-    /// Turn the joint's `<origin>` so that 0 is within the limits, or give programs a start of your own.
+    /// Give programs a start within the limits, such as a `<group_state>` of the SRDF, a keyframe of MuJoCo, or
+    /// `initial_value` of ros2_control. A joint that is still being designed can have its 0 within the limits.
     LNT011 "zero-outside-limits", Info, WrongMotion, since "1.1.0"
 }
 
@@ -29,8 +30,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let message = format!(
-            "0 is outside of the limits {lower} to {upper}, and most programs start there; turn the joint's origin, or \
-            start elsewhere"
+            "0 is outside of the limits {lower} to {upper}, and most programs start there; give them another \
+            start"
         );
         urdf.at(limit, message).report(findings);
     }

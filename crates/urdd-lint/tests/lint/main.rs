@@ -54,3 +54,34 @@ fn a_xacro_file_in_a_folder_is_left_out_unless_it_is_asked_for() {
     let refused = lint(&[folder.path().to_owned()], &LintSettings::default());
     assert_eq!(refused.err(), Some(urdd_lint::LintError::OnlyXacro));
 }
+
+/// A case with a text in place of another, and what is found in it.
+fn changed(case: &str, old: &str, new: &str) -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let text = fs::read_to_string(folder.join(case)).expect("a case");
+    assert!(text.contains(old), "{case}");
+    let (_folder, file) = written(&text.replace(old, new));
+    let run = lint(&[file], &LintSettings::default()).expect("a report");
+    let findings = run.report.urdds.into_iter().flat_map(|urdf| urdf.findings);
+    findings.map(|finding| finding.code).collect()
+}
+
+#[test]
+fn what_the_validator_says_is_not_said_again() {
+    let link = "<link name=\"upper\">\n";
+    let zero = "<inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>";
+    let massless = format!("{link}{zero}");
+    assert_eq!(
+        changed("LNT006/invalid_all.urdf", link, &massless),
+        ["SRC003"]
+    );
+    let limits = "lower=\"-2\" upper=\"2\"";
+    let crossed = "lower=\"1\" upper=\"-1\"";
+    assert_eq!(changed("LNT013/invalid.urdf", limits, crossed), ["SRC001"]);
+    // A pose that cannot be read: nothing is said about where shapes are.
+    let pose = "<origin xyz=";
+    assert_eq!(
+        changed("LNT050/invalid.urdf", pose, "<origin rpy=\"0 0 0 0\" xyz="),
+        ["URD011"]
+    );
+}
