@@ -180,8 +180,11 @@ export class App {
 
   /** Called when the first picture of the robot is complete, or cannot be drawn. */
   settled(): void {
-    this.drawn = this.store.now.robot;
+    const { robot } = this.store.now;
+    this.drawn = robot;
     this.measure();
+    // What is wrong with a URDF is said without being asked for.
+    if (robot?.entry.temporary) void this.loadReport();
   }
 
   useShapes(shapes: ShapeKind): void {
@@ -230,17 +233,28 @@ export class App {
     this.store.set({ hidden });
   }
 
+  /** Loads the report again, after the URDF broke or was mended. */
+  async renewReport(): Promise<void> {
+    this.store.set({ report: { report: null, error: null, busy: null } });
+    await this.loadReport();
+  }
+
   /** Loads the report from the site, or validates here. */
   async loadReport(): Promise<void> {
     const { robot, report } = this.store.now;
     if (!robot || report.busy !== null || report.report) return;
-    if (robot.entry.making) {
+    const { making, temporary } = robot.entry;
+    // The findings of a URDF need no URDD.
+    if (making && !temporary) {
       this.store.set({ report: { report: null, error: PARTIAL, busy: null } });
       return;
     }
-    this.store.set({ report: { report: null, error: null, busy: "Validating" } });
+    const begun = { report: null, error: null, busy: temporary ? "Examining the URDF" : "Validating" };
+    this.store.set({ report: begun });
+    let last: State["report"] = begun;
     const set = (report: Report | null, error: string | null): void => {
-      if (this.store.now.robot === robot) this.store.set({ report: { report, error, busy: null } });
+      // Another robot, or another run, may have taken its place.
+      if (this.store.now.report === last) this.store.set({ report: { report, error, busy: null } });
     };
     try {
       const known = robot.entry.id !== "" ? await this.site.report(robot.entry) : null;
@@ -248,7 +262,9 @@ export class App {
         known ??
         (await this.engine.aside("validate", { name: robot.entry.name }, ({ done, of }) => {
           const busy = `Validating: ${done} of ${of} files`;
-          if (this.store.now.robot === robot) this.store.set({ report: { report: null, error: null, busy } });
+          if (this.store.now.report !== last) return;
+          last = { report: null, error: null, busy };
+          this.store.set({ report: last });
         }));
       set(made, null);
     } catch (error) {

@@ -2,6 +2,7 @@
 
 import type { Finding, Report, Severity } from "./engine/protocol";
 import type { RobotModel } from "./model";
+import type { State } from "./state";
 
 const RANK: Record<Severity | "unverified", number> = { unverified: 0, info: 1, warning: 2, error: 3 };
 export type Worst = Severity | "unverified";
@@ -27,9 +28,11 @@ export function linkOf(
   if (typeof place.subject === "string") {
     const subject = place.subject;
     const named = robot.links.findIndex((link) => subject.includes(`\`${link.name}\``));
-    if (named >= 0) return named;
     const moved = robot.joints.findIndex((joint) => subject.includes(`\`${joint.name}\``));
-    if (moved >= 0) return robot.joints[moved]?.child ?? null;
+    // A joint may have the name of a link.
+    const isJoint = moved >= 0 && (named < 0 || subject.startsWith("joint "));
+    if (isJoint) return robot.joints[moved]?.child ?? null;
+    if (named >= 0) return named;
   }
   return null;
 }
@@ -47,6 +50,10 @@ export interface Place {
   expected: string | null;
   actual: string | null;
   message: string | null;
+  /** For the expansion of a xacro file: where it is written. */
+  written_at?: { file: string; line: number | null; macro_name: string | null } | null;
+  /** Changes that mend it, the best first. `urdd lint --fix` makes those that are safe. */
+  fixes?: { message: string; is_safe: boolean }[];
   /** Other places to look at; their message says what is there. */
   related: Place[];
 }
@@ -125,7 +132,13 @@ export function namedLinks(robot: RobotModel, report: Report | null): NamedLinks
   return [...found].map(([code, links]) => ({ code, links, isSystematic: links.size > most }));
 }
 
-/** What links are painted by: their worst finding that stands out, or the findings of one rule. */
+/** What links are painted by now: unless it was chosen, those of a URDF by their worst finding, beside the findings. */
+export function paintNow({ painted, tab, robot }: Readonly<State>): "worst" | { code: string } | null {
+  if (painted !== "auto") return painted;
+  return tab === "Findings" && robot?.entry.temporary ? "worst" : null;
+}
+
+/** The colours of links: their worst finding that stands out, or the findings of one rule. */
 export function paintOf(
   robot: RobotModel,
   report: Report | null,

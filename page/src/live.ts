@@ -30,7 +30,9 @@ export function follow(app: App): void {
     if (server !== "here") app.note("`urdd view` is back.");
     if (app.store.now.robot !== robot || app.revision === null) return;
     const { making, failure } = entry;
+    const { failure: before } = app.store.now.making;
     if (!same(app.store.now.making, { making, failure })) app.store.set({ making: { making, failure } });
+    if (failure !== before) void app.renewReport();
     if (revision === app.revision || revision === told) return;
     told = revision;
     const { temporary } = robot.entry;

@@ -74,7 +74,10 @@ export class Site {
 
   async report(entry: Entry): Promise<Report> {
     if (this.mode === "inline") return inline.report();
-    return (await this.json(entry.report ?? `robots/${encodeURIComponent(entry.id)}/report.json`)) as Report;
+    const path = entry.report ?? `robots/${encodeURIComponent(entry.id)}/report.json`;
+    const report = (await this.json(path)) as Report | { error: string };
+    if ("error" in report) throw new Error(report.error);
+    return report;
   }
 
   /** The explanation of a rule, if the page includes it. */

@@ -97,8 +97,8 @@ export interface State {
   report: { report: Report | null; error: string | null; busy: string | null };
   /** Meshes that the URDF references and the URDD lacks. */
   absent: AbsentMesh[];
-  /** What links are painted by: their worst finding, one rule, or nothing. */
-  painted: "worst" | { code: string } | null;
+  /** What links are painted by: their worst finding, one rule, or nothing; `auto` until it is chosen. */
+  painted: "worst" | { code: string } | null | "auto";
   /** Whether links are coloured by part, for a combined robot. */
   byPart: boolean;
   /** The pose errors of the displayed sample. */
@@ -167,7 +167,7 @@ export function initial(): State {
     skips: NO_SKIPS,
     report: { report: null, error: null, busy: null },
     absent: [],
-    painted: null,
+    painted: "auto",
     byPart: true,
     sample: null,
     note: null,

@@ -1,12 +1,11 @@
-// The picture of the page in README: made here, by `URDD_UPDATE=1 npm --prefix page test`, and held to what the page
-// looks like now.
+// The pictures of the page in README and docs: made here, by `URDD_UPDATE=1 npm --prefix page test`, and held to what the
+// page looks like now.
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { inPage, repository, setting, soon, state } from "./world.mjs";
+import { drawn, inPage, repository, setting, soon, state, view } from "./world.mjs";
 
-const FILE = join(repository, "docs/picture/page.png");
 /** Share of a colour by which pictures may differ on average: fonts and drivers draw otherwise. */
 const ALIKE = 0.06;
 
@@ -33,6 +32,21 @@ function difference(page, ...pictures) {
   );
 }
 
+/** Compares the page with a picture of the documentation. */
+async function shows(page, name) {
+  await page.getByRole("button", { name: "Fit" }).click();
+  await page.mouse.move(450, 708);
+  await page.waitForTimeout(800);
+  const file = join(repository, "docs/picture", name);
+  if (process.env.URDD_UPDATE) writeFileSync(file, await page.screenshot({ type: "png" }));
+  const kept = readFileSync(file);
+  assert.ok(kept.length < 200_000, `${kept.length} bytes`);
+  await soon(async () => {
+    const apart = await difference(page, await page.screenshot({ type: "png" }), kept);
+    assert.ok(apart < ALIKE, `${apart}: look at the page, then URDD_UPDATE=1`);
+  });
+}
+
 inPage(set, "README shows the page as it is", async (page) => {
   await page.waitForFunction(() => globalThis.urdd?.stage.settledOn);
   await page.evaluate(() => {
@@ -53,14 +67,21 @@ inPage(set, "README shows the page as it is", async (page) => {
     });
   });
   await page.locator('.pair[aria-pressed="true"]').scrollIntoViewIfNeeded();
-  await page.getByRole("button", { name: "Fit" }).click();
-  await page.mouse.move(450, 708);
-  await page.waitForTimeout(800);
-  if (process.env.URDD_UPDATE) writeFileSync(FILE, await page.screenshot({ type: "png" }));
-  const kept = readFileSync(FILE);
-  assert.ok(kept.length < 200_000, `${kept.length} bytes`);
-  await soon(async () => {
-    const apart = await difference(page, await page.screenshot({ type: "png" }), kept);
-    assert.ok(apart < ALIKE, `${apart}: look at the page, then URDD_UPDATE=1`);
+  await shows(page, "page.png");
+});
+
+const faulty = setting([], () => view(join(repository, "examples/robots/arm_with_faults.urdf")));
+
+inPage(faulty, "docs/lint.md shows a finding on a robot, and its lines in the text", async (page) => {
+  await drawn(page, "arm_with_faults");
+  await page.click("#tab-Findings");
+  await state(page, "report", ({ report }) => report !== null);
+  await page.locator(".place", { hasText: "joint bend" }).first().click();
+  await page.locator(".line.at").waitFor();
+  await page.evaluate(() => {
+    globalThis.urdd.app.move([0.6, 0.7]);
+    globalThis.urdd.app.select(null);
   });
+  await state(page, "making", ({ making }) => making === null);
+  await shows(page, "lint.png");
 });

@@ -87,7 +87,9 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     // Generated URDDs exist as long as this value.
     let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
     let drops = temporary.path().join("dropped");
-    let collection = Collection::default().with_drops(drops, arguments.xacro.xacro);
+    let collection = Collection::default()
+        .with_drops(drops, arguments.xacro.xacro)
+        .with_settings(settings.clone());
     for path in &paths {
         add(path, arguments.xacro.xacro, &collection)?;
     }

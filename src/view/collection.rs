@@ -11,6 +11,7 @@ use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use urdd_directory::replacement::Files;
 use urdd_directory::root::{ReadError, Root};
+use urdd_generate::Settings;
 
 /// A displayed robot.
 #[derive(Debug)]
@@ -41,6 +42,18 @@ pub struct Source {
     pub file: PathBuf,
     /// Folders of packages besides those of the settings, each as `NAME=PATH`.
     pub packages: Vec<String>,
+}
+
+impl Source {
+    /// The settings to read it with: with its own packages.
+    pub fn settings(&self, all: &Settings) -> Settings {
+        let mut settings = all.clone();
+        for package in &self.packages {
+            // A folder that is gone: its meshes are not found, and the page says so.
+            let _ = settings.packages.add(package);
+        }
+        settings
+    }
 }
 
 /// The mutable state of a displayed robot.
@@ -209,6 +222,8 @@ pub struct Collection {
     listed: Mutex<Listed>,
     /// Where dropped files go, if they are accepted.
     pub(super) drops: Option<Drops>,
+    /// How URDFs are read.
+    pub(super) settings: Settings,
 }
 
 #[derive(Debug, Default)]
@@ -225,6 +240,12 @@ impl Collection {
             drops: Some(Drops::new(folder, with_xacro)),
             ..self
         }
+    }
+
+    /// Reads URDFs by these settings.
+    #[must_use]
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Collection { settings, ..self }
     }
 
     /// Adds every URDD at or below a path.

@@ -157,7 +157,7 @@ impl Live<'_> {
             let settings = Settings {
                 selection,
                 donors: donors([&target]),
-                ..self.settings_of(&robot.source)
+                ..robot.source.settings(self.settings)
             };
             let make = || {
                 caught(&robot.job.source, || {
@@ -169,7 +169,7 @@ impl Live<'_> {
                 None => make(),
             }
         });
-        let settings = self.settings_of(&robot.source);
+        let settings = robot.source.settings(self.settings);
         let mut files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
         for file in included(&robot.job.source, &settings) {
             let word = revision::of_file(&file);
@@ -234,7 +234,7 @@ impl Live<'_> {
         let settings = Settings {
             donors: donors([&target, &robot.picture_path()]),
             cancellation: cancellation.clone(),
-            ..self.settings_of(&robot.source)
+            ..robot.source.settings(self.settings)
         };
         let progress = Told {
             terminal: self.observer.begin(&robot.job),
@@ -249,15 +249,6 @@ impl Live<'_> {
             self.observer.done(&robot.job, &outcome);
         }
         outcome
-    }
-
-    fn settings_of(&self, source: &Source) -> Settings {
-        let mut settings = self.settings.clone();
-        for package in &source.packages {
-            // A folder that is gone: its meshes are not found, and the page says so.
-            let _ = settings.packages.add(package);
-        }
-        settings
     }
 }
 

@@ -12,6 +12,7 @@ mod guard;
 mod http;
 mod keep;
 pub mod live;
+mod meanings;
 mod one_file;
 mod picture;
 mod reply;

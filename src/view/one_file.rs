@@ -18,12 +18,12 @@ use super::assets;
 use super::collection::Shown;
 use super::export::{Published, published, unread};
 use super::export_error::ExportError;
+use super::meanings::meanings;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_directory::root::{EntryKind, ReadError, Root};
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::registry::ModuleKind;
-use urdd_validate::rules;
 
 /// Maximum size of a robot in a page, in bytes.
 const MAX_ROBOT_BYTES: u64 = 100_000_000;
@@ -93,7 +93,12 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
     };
     for (id, bytes) in [
         ("robots.json", json!([entry]).to_string().into_bytes()),
-        ("rules.json", meanings(&report).to_string().into_bytes()),
+        (
+            "rules.json",
+            meanings(&serde_json::from_str(&report).unwrap_or_default())
+                .to_string()
+                .into_bytes(),
+        ),
         ("report.json", report.into_bytes()),
         ("robot.zip", archive(robot, &root)?),
         ("app.js", script.into_bytes()),
@@ -135,31 +140,6 @@ fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
     let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     encoder.finish()
-}
-
-/// The explanations of the rules in a report, since the page's module contains no rules.
-fn meanings(report: &str) -> Value {
-    let report: Value = serde_json::from_str(report).unwrap_or_default();
-    let findings = report["urdds"][0]["findings"].as_array();
-    let codes: BTreeSet<&str> = findings
-        .into_iter()
-        .flatten()
-        .filter_map(|finding| finding["code"].as_str())
-        .collect();
-    let known = rules::all();
-    let told = known
-        .iter()
-        .filter(|rule| codes.contains(&*rule.code.to_string()));
-    told.map(|rule| {
-        json!({
-            "code": rule.code.to_string(),
-            "name": rule.name,
-            "severity": rule.severity.as_str(),
-            "clause": rule.clause,
-            "explanation": rule.explanation(),
-        })
-    })
-    .collect()
 }
 
 /// The files that the page needs, in an archive.

@@ -135,7 +135,9 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
                 "revision": revision,
             })))
         }),
-        Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(robot)))),
+        Route::Report(id) => with(id, &|robot| {
+            Ok(Reply::json_text(report_of(collection, robot)))
+        }),
         Route::File(id, path) => with(id, &|robot| {
             let (file, size) = robot.own_files()?.open_file(path)?;
             match size > MAX_FILE_BYTES {
@@ -147,7 +149,10 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
             }
         }),
         Route::Summary(id) => with(id, &|robot| {
-            Ok(Reply::json(&entry_with(robot, &report_of(robot))))
+            Ok(Reply::json(&entry_with(
+                robot,
+                &report_of(collection, robot),
+            )))
         }),
         Route::Picture(id) => with(id, &|robot| {
             Ok(match picture_of(robot) {

@@ -261,6 +261,8 @@ export interface Finding {
 }
 
 export interface UrddReport {
+  /** Whether it is about a URDD, or a URDF by itself. */
+  kind: "urdd" | "urdf";
   path: string;
   name: string | null;
   verdict: "pass" | "fail" | "incomplete" | "unreadable";
@@ -279,13 +281,17 @@ export interface Report {
   spec_version: string;
   urdds: UrddReport[];
   totals: Record<string, number>;
+  /** For a URDF by itself: its text, expanded if it is xacro, unless it is too large; and the rules of its findings. */
+  text?: string | null;
+  rules?: Explanation[];
 }
 
 export interface Explanation {
   code: string;
   name: string;
   severity: Severity;
-  clause: string;
+  /** Null if the rule is about robots and not about URDDs. */
+  clause: string | null;
   explanation: string;
 }
 

@@ -64,10 +64,12 @@ function placeList(app: App, finding: Finding): HTMLElement {
 function placeRow(app: App, place: Place): HTMLElement {
   const { robot } = app.store.now;
   const link = robot ? linkOf(robot, place) : null;
+  const written = place.written_at;
+  const fix = place.fixes?.[0];
   const where = place.file ? `${place.file}${place.line ? `:${place.line}` : ""}` : null;
   const texts = [place.subject, where, place.pointer].filter((text): text is string => Boolean(text));
   const text = h("div", { class: "excerpt", hidden: true });
-  const label = prose(name(texts[0] ?? "the URDD as a whole"));
+  const label = prose(name(texts[0] ?? "the robot as a whole"));
   const go = button(label, { class: "place", title: texts.map(name).join("\n") }, () => {
     if (link !== null) app.select({ kind: "link", index: link });
     if (place.file !== null && place.line !== null) void showText(app, place.file, place.line, place.column, text);
@@ -79,7 +81,14 @@ function placeRow(app: App, place: Place): HTMLElement {
     {},
     go,
     place.subject && where && h("span", { class: "kind" }, ` ${name(where)}`),
+    written && h("span", { class: "kind" }, ` written at ${name(said(written))}`),
     place.message && h("span", { class: "what" }, ...prose(name(place.message))),
+    fix &&
+      h(
+        "span",
+        { class: "what" },
+        ...prose(`Fix: ${name(fix.message)}${fix.is_safe ? "; `urdd lint --fix` does it" : ""}`),
+      ),
     (place.expected ?? place.actual) !== null &&
       h(
         "dl",
@@ -94,6 +103,19 @@ function placeRow(app: App, place: Place): HTMLElement {
   );
 }
 
+function said({ file, line, macro_name }: NonNullable<Place["written_at"]>): string {
+  return `${file}${line === null ? "" : `:${line}`}${macro_name === null ? "" : `, macro ${macro_name}`}`;
+}
+
+/** The text of a file in the report. */
+async function textOf(app: App, path: string): Promise<string> {
+  const { report } = app.store.now.report;
+  const urdd = report?.urdds[0];
+  if (urdd?.kind !== "urdf") return new TextDecoder().decode(await app.engine.ask("file", { path }));
+  if (urdd.path !== path || !report?.text) throw new Error("the page does not have this file");
+  return report.text;
+}
+
 /** Shows the lines around a place; a second click hides them. */
 async function showText(app: App, path: string, line: number, column: number | null, into: HTMLElement): Promise<void> {
   const button = into.parentElement?.querySelector(".place");
@@ -101,8 +123,7 @@ async function showText(app: App, path: string, line: number, column: number | n
   button?.setAttribute("aria-expanded", String(!into.hidden));
   if (into.hidden || into.childElementCount > 0) return;
   try {
-    const text = new TextDecoder().decode(await app.engine.ask("file", { path }));
-    const found = excerpt(text, line, column);
+    const found = excerpt(await textOf(app, path), line, column);
     if (!found) throw new Error("the file no longer has this line");
     fill(
       into,
@@ -126,10 +147,11 @@ async function explain(app: App, code: string, into: HTMLElement): Promise<void>
     return;
   }
   try {
-    const rule = app.site.explanation(code) ?? (await app.engine.ask("explain", { code }));
+    const known = app.store.now.report.report?.rules?.find((rule) => rule.code === code);
+    const rule = known ?? app.site.explanation(code) ?? (await app.engine.ask("explain", { code }));
     fill(
       into,
-      h("p", { class: "hint" }, `SPEC ${rule.clause}`),
+      rule.clause !== null && h("p", { class: "hint" }, `SPEC ${rule.clause}`),
       ...rule.explanation.split("\n\n").map((text) => h("p", {}, ...prose(text))),
     );
   } catch (error) {

@@ -2,7 +2,7 @@
 
 import type { App } from "../app";
 import type { Finding, Severity, UrddReport } from "../engine/protocol";
-import { linkOf, namedLinks, paintOf, places, tally, toMend } from "../findings";
+import { linkOf, namedLinks, paintNow, paintOf, places, tally, toMend } from "../findings";
 import type { State } from "../state";
 import { button, fill, h, prose } from "../ui/dom";
 import { count, name } from "../ui/format";
@@ -118,7 +118,7 @@ function groupsOf(app: App, finding: Finding, grouping: Grouping): [string, Find
   if (grouping === "severity")
     return [[{ error: "Errors", warning: "Warnings", info: "Info" }[finding.severity], finding]];
   if (grouping === "module")
-    return [[typeof finding["module"] === "string" ? finding["module"] : "The URDD as a whole", finding]];
+    return [[typeof finding["module"] === "string" ? finding["module"] : "No module", finding]];
   const { robot } = app.store.now;
   const all = places(finding);
   const parts = new Map<string, unknown[]>();
@@ -154,8 +154,9 @@ function painting(app: App): HTMLElement {
       ...named.map(({ code, links }) => h("option", { value: code }, `${code}: ${count(links.size, "link")}`)),
     );
   });
-  app.store.on(["robot", "report", "painted"], (state) => {
-    choice.value = state.painted === null ? "" : state.painted === "worst" ? "worst" : state.painted.code;
+  app.store.on(["robot", "report", "painted", "tab"], (state) => {
+    const by = paintNow(state);
+    choice.value = by === null ? "" : by === "worst" ? "worst" : by.code;
     // A new report may no longer have the rule.
     if (choice.selectedIndex < 0) choice.value = "";
     fill(legend, ...keys(state));
@@ -163,7 +164,10 @@ function painting(app: App): HTMLElement {
   return h("div", {}, h("div", { class: "check" }, h("label", { for: "painted" }, "Paint"), choice), legend);
 }
 
-function keys({ robot, report: { report }, painted }: Readonly<State>): Node[] {
+function keys(state: Readonly<State>): Node[] {
+  const { robot } = state;
+  const { report } = state.report;
+  const painted = paintNow(state);
   if (!robot || !report || painted === null) return [];
   const worst = [...paintOf(robot, report, painted).values()];
   const n = (kind: string): number => worst.filter((one) => one === kind).length;

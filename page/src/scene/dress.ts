@@ -2,7 +2,7 @@
 
 import { Color } from "three";
 import { placeKey } from "../contacts";
-import { paintOf } from "../findings";
+import { paintNow, paintOf } from "../findings";
 import { partColor } from "../parts";
 import { ghosted } from "../state";
 import type { LayerKind, State } from "../state";
@@ -23,7 +23,7 @@ export function looks(state: Readonly<State>): (link: number, piece: number, lay
     const place = layer === "pieces" || layer.startsWith("piece-") ? piece : 0;
     // In the layer of the checked shapes, only the shapes that touch; in other layers the whole link.
     const touches =
-      !state.painted &&
+      !paintNow(state) &&
       (isExact ? (contacts?.places.has(placeKey(link, place)) ?? false) : (contacts?.links.has(link) ?? false));
     let fade = 1;
     if (ghost) {
@@ -53,19 +53,21 @@ function tinted({ robot, selected, hovered, pair, tab }: Readonly<State>): Map<n
   return tints;
 }
 
-function painted({ robot, painted, byPart, report: { report } }: Readonly<State>): (link: number) => Color | null {
+function painted(state: Readonly<State>): (link: number) => Color | null {
+  const { robot, byPart, report } = state;
+  const by = paintNow(state);
   const parts = new Map<number, Color>();
   if (byPart)
     robot?.parts.forEach(({ links }, part) => {
       for (const link of links) parts.set(link, new Color(partColor(part)));
     });
-  if (!robot || painted === null) return (link) => parts.get(link) ?? null;
-  const worst = paintOf(robot, report, painted);
+  if (!robot || by === null) return (link) => parts.get(link) ?? null;
+  const worst = paintOf(robot, report.report, by);
   const names = { error: "--error", warning: "--warning", info: "--info", unverified: "--open" };
   return (link) => {
     const found = worst.get(link);
     // If only one rule counts, a link that it does not name is neither good nor bad.
-    const rest = report && painted === "worst" ? "--good" : "--open";
+    const rest = report.report && by === "worst" ? "--good" : "--open";
     return new Color(color(found ? names[found] : rest));
   };
 }

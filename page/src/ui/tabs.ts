@@ -53,7 +53,9 @@ export function tabs(app: App, panels: Record<Tab, HTMLElement>): HTMLElement {
     if (!button) return;
     const badge = h("span", { class: `badge ${kind}` }, counts?.all.toLocaleString("en"));
     fill(button, "Findings", counts !== null && counts.all > 0 && badge);
-    button.title = counts ? `${count(counts.all, "finding")}, as \`urdd validate\` counts them` : "";
+    button.title = counts
+      ? `${count(counts.all, "finding")}, as \`urdd ${report.report?.urdds[0]?.kind === "urdf" ? "lint" : "validate"}\` counts them`
+      : "";
   });
   const panel = h("aside", { class: "tabs" }, list, ...bodies);
   app.store.on(["unfolded"], ({ unfolded }) => {

@@ -160,6 +160,53 @@ fn the_picture_comes_first_and_a_change_is_shown() {
 }
 
 #[test]
+fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let urdf = folder.path().join("arm.urdf");
+    let text = robot(1.0, r#"<sphere radius="0.3"/>"#);
+    let text = text.replace(" velocity=\"1\"", "");
+    fs::write(&urdf, &text).expect("written");
+    living(of(&[&urdf]), |server| {
+        until(server, "arm", |answer| answer["entry"]["ready"] == true);
+        let report = || server.json("/robots/arm/report.json");
+        let first = report();
+        assert_eq!(first["text"], text);
+        let found = &first["urdds"][0];
+        assert_eq!(
+            (&found["kind"], &found["path"]),
+            (&"urdf".into(), &"arm.urdf".into())
+        );
+        let has = |report: &Value, code: &str, of: &str| {
+            let all = match of {
+                "rules" => &report["rules"],
+                _ => &report["urdds"][0]["findings"],
+            };
+            let mut all = all.as_array().expect("a list").iter();
+            all.any(|one| one["code"] == code)
+        };
+        assert!(
+            has(&first, "LNT017", "findings") && has(&first, "LNT017", "rules"),
+            "{first}"
+        );
+
+        // It is that of the file as it is now, also where no robot can be made of it.
+        fs::write(&urdf, &text[..text.len() - 9]).expect("written");
+        let broken = report();
+        assert!(has(&broken, "URD011", "findings"), "{broken}");
+        fs::write(&urdf, robot(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
+        assert!(!has(&report(), "LNT017", "findings"));
+
+        // A robot that is saved is a URDD.
+        until(server, "arm", is_whole);
+        let wish = serde_json::json!({ "folder": folder.path().join("saved").to_str() });
+        assert_eq!(server.post("/robots/arm/keep", &wish).status, 200);
+        let saved = report();
+        assert_eq!(saved["urdds"][0]["kind"], "urdd");
+        assert!(saved["text"].is_null());
+    });
+}
+
+#[test]
 fn meshes_are_followed_and_those_that_are_missing_too() {
     let folder = tempfile::tempdir().expect("a folder");
     let urdf = folder.path().join("arm.urdf");
