@@ -45,7 +45,7 @@ class Table(TypedDict):
 
 def pages() -> list[Path]:
     """The pages that may hold results."""
-    folders = ["", "docs", "conformance", "python", "wasm"]
+    folders = ["", "docs", "conformance", "python", "wasm", "benches/evaluation/lint"]
     found = [page for folder in folders for page in (ROOT / folder).glob("*.md")]
     return sorted([*found, *(ROOT / "tests" / "figures").rglob("*.md")])
 

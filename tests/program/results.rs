@@ -13,6 +13,15 @@ const BEGIN: &str = "<!-- results: ";
 const END: &str = "<!-- end of results -->";
 /// Values that do not depend on the machine: columns of tables whose first column is the robot.
 const FACTS: [&str; 5] = ["links", "DOFs", "triangles", "pieces", "pairs"];
+/// Folders with pages, as in `benches/results.py`.
+const FOLDERS: [&str; 6] = [
+    "",
+    "docs",
+    "conformance",
+    "python",
+    "wasm",
+    "benches/evaluation/lint",
+];
 /// Pages that state measurements.
 const MEASURED: [&str; 2] = ["README.md", "docs/evaluation.md"];
 
@@ -40,7 +49,7 @@ fn parts() -> BTreeMap<String, Value> {
 
 /// The pages that may hold results, as `benches/results.py` finds them: path and text.
 fn pages() -> Vec<(String, String)> {
-    let mut paths: Vec<PathBuf> = ["", "docs", "conformance", "python", "wasm"]
+    let mut paths: Vec<PathBuf> = FOLDERS
         .iter()
         .flat_map(|folder| markdown_in(&root().join(folder)))
         .collect();
