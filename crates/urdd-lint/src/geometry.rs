@@ -16,9 +16,19 @@ use urdd_format::urdf::Geometry;
 use urdd_generate::{SourceMesh, SourceMeshes};
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Format, Note, Scene};
+use urdd_validate::part::Why;
 
 /// Maximum number of corners that are placed for one robot: it may name one large mesh very often.
 const MAX_CORNERS: usize = 10_000_000;
+
+/// Formats that are read here. Nobody reads all of the others.
+const READ: [&str; 5] = ["stl", "dae", "obj", "gltf", "glb"];
+
+/// Whether a file's name is that of a format that is read here.
+pub fn is_read_here(file: &Path) -> bool {
+    let ending = file.extension().unwrap_or_default();
+    READ.contains(&ending.to_string_lossy().to_lowercase().as_str())
+}
 
 /// What rules need of a mesh file.
 #[derive(Debug)]
@@ -47,6 +57,8 @@ pub struct RobotGeometry {
     pub bodies: BTreeMap<usize, BodyGeometry>,
     /// Every mesh file that is there.
     pub files: HashMap<PathBuf, ReadMesh>,
+    /// The links of which a mesh was not read though no rule finds a fault in it, and why.
+    pub not_verified: Vec<(usize, Why)>,
 }
 
 /// A mesh of the robot whose file is there.
@@ -161,9 +173,25 @@ impl RobotGeometry {
         RobotGeometry {
             bodies: bodies.collect(),
             links,
+            not_verified: not_verified(source, &files),
             files,
         }
     }
+}
+
+fn not_verified(source: &SourceMeshes, files: &HashMap<PathBuf, ReadMesh>) -> Vec<(usize, Why)> {
+    let why = |mesh: &SourceMesh| match &mesh.file {
+        Ok(file) => {
+            let is_unread = files.get(file).is_some_and(Result::is_err);
+            (is_unread && !is_read_here(file)).then_some(Why::OtherFormat)
+        }
+        Err(missing) if missing.outside.is_some() => Some(Why::Outside),
+        Err(missing) => missing.no_package.as_ref().map(|_| Why::NoPackage),
+    };
+    let meshes = source.meshes.iter();
+    meshes
+        .filter_map(|mesh| Some((mesh.link, why(mesh)?)))
+        .collect()
 }
 
 fn facts(scene: &Scene) -> MeshFacts {

@@ -23,6 +23,7 @@ use urdd_format::urdf::JointType;
 use urdd_generate::{SourceMesh, SourceMeshes};
 use urdd_validate::code::Code;
 use urdd_validate::finding::{Finding, Findings};
+use urdd_validate::part::Part;
 use urdd_validate::skip::SkipReason;
 use urdd_xml::element::{children, name};
 
@@ -126,12 +127,17 @@ impl<'a> Subject<'a> {
     }
 
     /// The shapes of links and bodies, read on first use. Skips the rule as [`Self::bodies`] does, and if no mesh file is read.
+    /// Links with meshes that could not be read are not verified by it.
     pub fn geometry(&self, findings: &mut Findings) -> Option<&RobotGeometry> {
         self.reads_meshes(findings)?;
         let source = self.source(findings)?;
         let (robot, bodies) = self.bodies(findings)?;
         let read = || RobotGeometry::read(source, robot, bodies);
-        Some(self.geometry.get_or_init(read))
+        let geometry = self.geometry.get_or_init(read);
+        for (link, why) in &geometry.not_verified {
+            findings.not_verified(Part::Plain(*link), *why);
+        }
+        Some(geometry)
     }
 
     /// The meshes of links that the URDF names, each file's name once a link and kind, with their elements. Skips the rule if the

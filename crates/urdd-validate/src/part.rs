@@ -40,6 +40,12 @@ pub enum Why {
     Unreadable,
     /// A mesh that the URDF names for it is not carried or cannot be read.
     SourceMissing,
+    /// A mesh that the URDF names is outside of the robot's folder and packages, and was not read.
+    Outside,
+    /// A mesh that the URDF names is in a package that is not found.
+    NoPackage,
+    /// A mesh that the URDF names is in a format that this program does not read.
+    OtherFormat,
 }
 
 /// A part that a rule did not verify.
@@ -114,6 +120,13 @@ impl std::fmt::Display for Why {
             Why::SourceMissing => {
                 f.write_str("a mesh that the URDF names is not carried, or cannot be read")
             }
+            Why::Outside => f.write_str(
+                "a mesh is outside of the robot's folder and packages; --allow-folder reads it",
+            ),
+            Why::NoPackage => {
+                f.write_str("a mesh is in a package that is not found; --package says where it is")
+            }
+            Why::OtherFormat => f.write_str("a mesh is in a format that is not read here"),
         }
     }
 }

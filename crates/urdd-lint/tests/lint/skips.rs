@@ -1,5 +1,8 @@
 //! What could not be checked is said, with its reason.
 
+use std::fs;
+
+use super::cases::copied;
 use super::{linted, written};
 use urdd_lint::LintSettings;
 
@@ -57,4 +60,43 @@ fn the_rule_that_refused_the_file_is_named() {
     assert_eq!(axis, "URD010 found a fault");
     let no_xml = reason("</robot>", "<<<");
     assert_eq!(no_xml, "URD011 found a fault");
+}
+
+#[test]
+fn links_whose_meshes_were_not_read_are_named() {
+    let case = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/cases/LNT029/near_miss.urdf"
+    );
+    let (folder, file) = copied(case.as_ref());
+    let text = fs::read_to_string(&file).expect("it");
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let outside = elsewhere.path().join("box.stl");
+    fs::copy(folder.path().join("meshes/box.stl"), &outside).expect("copied");
+    fs::write(folder.path().join("box.vtk"), "a format").expect("written");
+    let mut settings = LintSettings::default();
+    settings.report.selection.ignore = vec!["LNT026".parse().expect("a code")];
+    // The links that a robot with this mesh has not verified, by how many rules, and why.
+    let open = |name: &str, settings: &LintSettings| {
+        fs::write(&file, text.replace("meshes/box.stl", name)).expect("written");
+        let report = linted(&file, settings).report.urdds.remove(0);
+        assert_eq!(report.findings, [], "{name}");
+        let links = report.geometry_not_verified.into_iter();
+        let open = links.map(|link| (link.link.get(), link.codes.len(), link.reasons.join("; ")));
+        open.collect::<Vec<_>>()
+    };
+    for (name, reason) in [
+        (outside.to_str().expect("UTF-8"), "--allow-folder"),
+        ("package://not_here/box.stl", "--package"),
+        ("box.vtk", "format"),
+    ] {
+        let open = open(name, &settings);
+        let [(1, rules, why)] = &open[..] else {
+            panic!("{name}: {open:?}");
+        };
+        assert!(*rules > 5 && why.contains(reason), "{name}: {open:?}");
+    }
+    assert_eq!(open("meshes/box.stl", &settings), []);
+    settings.source.allowed_folders = vec![elsewhere.path().to_owned()];
+    assert_eq!(open(outside.to_str().expect("UTF-8"), &settings), []);
 }
