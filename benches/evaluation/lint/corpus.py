@@ -4,7 +4,7 @@
     python3 benches/evaluation/lint/corpus.py target/release/urdd FOLDER [FINDINGS.jsonl]
 
 FOLDER has a folder for each package. Verdicts and their intervals are those of evidence.md, which were given on the findings
-of prototype.py. Writes benches/results/lint.json, and every finding as a JSON line if a file is named.
+of prototype.py; those of the second judge are of second_judge.jsonl, as far as the program still has the finding. Writes benches/results/lint.json, and every finding as a JSON line if a file is named.
 """
 
 from __future__ import annotations
@@ -29,6 +29,28 @@ def verdicts() -> dict[str, tuple[str, str]]:
     """Rule -> how many of the judged findings are right, of how many packages, and the interval in percent."""
     rows = ROW.finditer((HERE / "evidence.md").read_text("utf-8"))
     return {row[1]: (row[2], row[3] or "") for row in rows}
+
+
+# Findings that stand at another place of the file since they were judged.
+MOVED = {"LNT003", "LNT020", "LNT050"}
+
+
+def second_verdicts(lines: list[dict[str, str | None]]) -> dict[str, str]:
+    """Rule -> how many of the findings that the second judge saw, and that are still found, are right."""
+    now = {(line["code"], line["file"], line["subject"]) for line in lines}
+    files = {(line["code"], line["file"]) for line in lines}
+    counts: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
+    for text in (HERE / "second_judge.jsonl").read_text("utf-8").splitlines():
+        judged = json.loads(text)
+        code, file = judged["code"], judged["file"]
+        if (code, file, judged["subject"]) in now or (code in MOVED and (code, file) in files):
+            counts[code][judged["verdict"]] += 1
+
+    def said(count: collections.Counter[str]) -> str:
+        rest = [f"{count[kind]} {kind}" for kind in ("wrong", "unsure") if count[kind]]
+        return ", ".join([f"{count['right']} of {count.total()}", *rest])
+
+    return {code: said(count) for code, count in counts.items()}
 
 
 def main() -> None:
@@ -58,7 +80,7 @@ def main() -> None:
                         found[finding["code"]].append((package.name, file))
                         message = place["message"] or finding["message"]
                         lines.append({"file": file, "code": finding["code"], "subject": place["subject"], "message": message})
-    judged = verdicts()
+    judged, second = verdicts(), second_verdicts(lines)
     rows = []
     for rule in rules:
         of = found[rule["code"]]
@@ -71,8 +93,9 @@ def main() -> None:
             str(len({package for package, _ in of})),
             right,
             f"{interval} %" if interval else "none",
+            second.get(rule["code"], "none"),
         ])
-    columns = ["rule", "default", "findings", "URDFs", "packages", "right of judged (packages)", "95 % interval"]
+    columns = ["rule", "default", "findings", "URDFs", "packages", "right of judged (packages)", "95 % interval", "right, second judge"]
     packages = len({file.split("/")[0] for file in files})
     items: dict[str, results.Table | str] = {
         "rules": {"columns": columns, "rows": rows},

@@ -9,8 +9,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// The inertia of a link is less than a thousandth of what its mass and shapes give.
     ///
-    /// All of the mass would be in a ball of 3 % of the link's size. Explicit integrators explode at such inertias, and small
-    /// time steps are needed everywhere. Where it is 0, SRC004 says so.
+    /// All of the mass would be in a ball of 3 % of the link's size. Joints answer to forces a thousand times more than
+    /// the real ones, and MuJoCo refuses the smallest. Where it is 0, SRC004 says so.
     ///
     /// Compute the tensor from the link's geometry, in kg m²: `1e-6` is often a default.
     LNT005 "inertia-far-below-geometry", Warning, WrongMotion, since "1.1.0"

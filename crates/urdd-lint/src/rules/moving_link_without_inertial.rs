@@ -6,7 +6,7 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// A joint moves links of which none has a mass.
     ///
-    /// MuJoCo fills a link that has shapes with 1000 kg/m³, and refuses a robot where it has none. PyBullet gives it 1 kg,
+    /// MuJoCo fills a link that has shapes and no `<inertial>` with 1000 kg/m³, and refuses a robot where it has none. PyBullet gives it 1 kg,
     /// Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
     ///
     /// Write an `<inertial>`, or make the joint `fixed`.
