@@ -4,11 +4,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::code::Code;
 use super::context::Context;
-use super::engine::{Check, Outcomes, run_all};
+use super::engine::{Check, Outcome, Outcomes, run_all};
 use super::examined::Examined;
 use super::report;
 use super::rule::{Judges, Need, Rule};
+use super::skip::SkipReason;
 use urdd_directory::discover::Found;
 use urdd_directory::root::{Listing, ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};
@@ -66,6 +68,9 @@ pub fn examine_file(
     let by_urdf = context.by_urdf();
     let judged = by_urdf.as_ref().unwrap_or(&context);
     let mut checks: Vec<Check> = run_all(judged, rules.collect(), &mut outcomes);
+    if by_urdf.is_none() {
+        say_that_it_is_unreadable(&mut checks);
+    }
     checks.sort_by_key(|check| check.rule.code);
     let robot = judged.robot();
     let report = format::Urdd {
@@ -78,6 +83,20 @@ pub fn examine_file(
         ..report::blank(Kind::Urdf, name)
     };
     Ok(Examined { report, checks })
+}
+
+/// Where URD011 found a fault, there is no robot for that reason, not because a module is not here.
+fn say_that_it_is_unreadable(checks: &mut [Check]) {
+    let is_fault =
+        |check: &Check| check.rule.code == Code::URD011 && check.outcome == Outcome::Failed;
+    if !checks.iter().any(is_fault) {
+        return;
+    }
+    for check in checks {
+        if let Outcome::Skipped(SkipReason::Absent(_) | SkipReason::NoneUsable(_)) = check.outcome {
+            check.outcome = Outcome::Skipped(SkipReason::Failed(Code::URD011));
+        }
+    }
 }
 
 /// Whether a rule needs only the source.
