@@ -7,11 +7,12 @@ use std::str::FromStr;
 
 use roxmltree::{Document, Node};
 
-use super::places::retain;
 use urdd_directory::position::{LineIndex, Position};
 use urdd_format::report::StaleIgnore;
 use urdd_validate::engine::{Check, Outcome};
+use urdd_validate::places::retain;
 use urdd_validate::selection::Codes;
+use urdd_validate::skip::SkipReason;
 
 /// A code in a comment.
 struct Allow {
@@ -31,7 +32,8 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
     let mut allows = allows(document);
     for check in checks.iter_mut().filter(|check| !check.findings.is_empty()) {
         let code = check.rule.code;
-        retain(check, "a comment in the file allows it", |place| {
+        let reason = SkipReason::Ignored("a comment in the file allows it".to_owned());
+        retain(check, reason, |_, place| {
             let (Some(line), Some(column)) = (place.line, place.column) else {
                 return true;
             };

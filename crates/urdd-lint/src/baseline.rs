@@ -3,15 +3,18 @@
 //! A baseline counts the findings of a file by rule and link or joint, not by line: the file may grow. What is found more
 //! often than it was counted is reported.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::places::retain;
 use urdd_format::report::{Kind, StaleIgnore};
+use urdd_validate::code::Code;
+use urdd_validate::consequence::{At, Consequence, at};
 use urdd_validate::engine::Check;
+use urdd_validate::places::retain;
+use urdd_validate::skip::SkipReason;
 use urdd_validate::{Examined, Run};
 
 /// The only version of the file.
@@ -99,8 +102,22 @@ impl Baseline {
             return Vec::new();
         };
         let mut left = counts.clone();
+        let mut known = HashSet::new();
         for check in &mut examined.checks {
-            leave_out(check, &mut left);
+            leave_out(check, &mut left, &mut known);
+        }
+        // What follows from them is not in the baseline, but known as well.
+        for check in &mut examined.checks {
+            let follows = check.consequences.clone();
+            retain(check, in_the_baseline(), |_, place| {
+                let is_known = |one: &Consequence| {
+                    let is_this = Some(one.at) == at(place);
+                    is_this
+                        && Some(&one.message) == place.message.as_ref()
+                        && known.contains(&one.cause)
+                };
+                !follows.iter().any(is_known)
+            });
         }
         let ran = |key: &str| {
             let code = key.split(' ').next();
@@ -126,12 +143,22 @@ impl Baseline {
     }
 }
 
-fn leave_out(check: &mut Check, left: &mut BTreeMap<String, usize>) {
+fn in_the_baseline() -> SkipReason {
+    SkipReason::Ignored("it is in the baseline".to_owned())
+}
+
+/// Leaves out what is counted in `left`, and adds its place to `known`.
+fn leave_out(
+    check: &mut Check,
+    left: &mut BTreeMap<String, usize>,
+    known: &mut HashSet<(Code, At)>,
+) {
     let code = check.rule.code;
-    retain(check, "it is in the baseline", |place| {
+    retain(check, in_the_baseline(), |_, place| {
         match left.get_mut(&key(code.as_str(), place.subject.as_deref())) {
             Some(count) if *count > 0 => {
                 *count -= 1;
+                known.extend(at(place).map(|at| (code, at)));
                 false
             }
             _ => true,

@@ -10,13 +10,13 @@ use roxmltree::Document;
 use super::refusal::refusal;
 use super::rule::{Description, LintRule};
 use super::subject::Subject;
-use super::{LintSettings, allow, rules};
+use super::{LintSettings, allow, consequences, rules};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;
 use urdd_format::index::Count;
 use urdd_format::report::{Kind, Place, StaleIgnore};
-use urdd_generate::{open_source_text, well_formed};
+use urdd_generate::{SourceMeshes, open_source_text, well_formed};
 use urdd_validate::Examined;
 use urdd_validate::code::Code;
 use urdd_validate::engine::{Check, Outcome, caught};
@@ -65,7 +65,9 @@ pub fn examined(
         examined.checks.extend(skipped);
         return (examined, Vec::new());
     };
-    job.run(&document, &mut examined.checks);
+    let source = job.source(&examined.checks);
+    let subject = job.subject(&document, &source);
+    job.run(&subject, &mut examined.checks);
     let is_mended = matches!(mended, Cow::Owned(_));
     let of_family = |check: &&mut Check| check.rule.code.family() == FAMILY;
     for check in examined.checks.iter_mut().filter(of_family) {
@@ -73,17 +75,34 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
+    if !is_mended {
+        consequences::mark(&subject, &mut examined.checks, |text| job.again(text));
+    }
     let stale = allow::apply(&document, name, &mut examined.checks);
     (examined, stale)
 }
 
-impl Job<'_> {
-    /// Runs the rules of the family LNT after those of the validator.
-    fn run(self, document: &Document, checks: &mut Vec<Check>) {
+impl<'a> Job<'a> {
+    /// The robot with its mesh files, or why there is none. `checks` are those of the validator.
+    fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
         let source = open_source_text(self.text, self.name, self.folder, &self.settings.source);
-        let source = source.map_err(|error| refusal(&error, checks));
+        source.map_err(|error| refusal(&error, checks))
+    }
+
+    fn subject<'d>(
+        self,
+        document: &'d Document<'d>,
+        source: &'d Result<SourceMeshes, SkipReason>,
+    ) -> Subject<'d>
+    where
+        'a: 'd,
+    {
         let subject = Subject::new(self.name, self.folder, document, source.as_ref());
-        let subject = subject.without_meshes(self.settings.without_meshes);
+        subject.without_meshes(self.settings.without_meshes)
+    }
+
+    /// Runs the rules of the family LNT after those of the validator.
+    fn run(self, subject: &Subject, checks: &mut Vec<Check>) {
         let is_macro = subject.macros().is_some();
         if is_macro {
             // LNT051 says it all: what others find is about the text of macros.
@@ -100,10 +119,20 @@ impl Job<'_> {
             checks.push(match is_macro && description.code != Code::LNT051 {
                 true => skipped(description, SkipReason::NotExpanded),
                 false => caught(description, &mut Findings::default(), |findings| {
-                    (rule.check)(&subject, findings)
+                    (rule.check)(subject, findings)
                 }),
             });
         }
+    }
+
+    /// What all rules find in another text; `None` if it is no XML.
+    fn again(self, text: &str) -> Option<Vec<Check>> {
+        let job = Job { text, ..self };
+        let document = urdd_xml::parse(text, urdd_xml::Kind::Robot).ok()?;
+        let mut checks = by_validator(text, self.name).checks;
+        let source = job.source(&checks);
+        job.run(&job.subject(&document, &source), &mut checks);
+        Some(checks)
     }
 }
 

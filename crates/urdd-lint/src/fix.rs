@@ -8,7 +8,6 @@ use thiserror::Error;
 
 use super::{LintError, LintSettings, sources, stems};
 use urdd_directory::position::LineIndex;
-use urdd_format::index::Count;
 use urdd_format::report::{Fix, Place, TextEdit};
 use urdd_xml::element::{Edit, apply};
 
@@ -142,8 +141,8 @@ fn with_fixes<'a>(
 }
 
 fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
-    let start = offset(text, lines, edit.line, edit.column)?;
-    let end = offset(text, lines, edit.end_line, edit.end_column)?;
+    let start = offset(text, lines, edit.line.get(), edit.column.get())?;
+    let end = offset(text, lines, edit.end_line.get(), edit.end_column.get())?;
     (start <= end).then(|| Edit {
         range: start..end,
         text: edit.text.clone(),
@@ -151,9 +150,9 @@ fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
 }
 
 /// The byte offset of a line and column, both from 1.
-fn offset(text: &str, lines: &LineIndex, line: Count, column: Count) -> Option<usize> {
-    let start = lines.line_start(line.get())?;
+pub(crate) fn offset(text: &str, lines: &LineIndex, line: usize, column: usize) -> Option<usize> {
+    let start = lines.line_start(line)?;
     let rest = text.get(start..)?;
     let mut ends = rest.char_indices().map(|(at, _)| at).chain([rest.len()]);
-    Some(start + ends.nth(column.get().checked_sub(1)?)?)
+    Some(start + ends.nth(column.checked_sub(1)?)?)
 }

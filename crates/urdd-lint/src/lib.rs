@@ -7,6 +7,7 @@
 mod allow;
 mod baseline;
 mod bodies;
+mod consequences;
 mod elements;
 mod examine;
 mod fix;
@@ -14,7 +15,6 @@ mod geometry;
 mod hull;
 mod inertial;
 mod named_file;
-mod places;
 mod pose;
 mod primitives;
 mod refusal;

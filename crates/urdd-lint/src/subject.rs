@@ -301,6 +301,18 @@ impl<'a> Subject<'a> {
         node.attribute_node(attribute).map(|one| one.range_value())
     }
 
+    /// Where the name of an element is in the text: in its start tag, and in its end tag if it has one.
+    pub fn tag_names(&self, node: Node<'a, 'a>) -> Vec<Range<usize>> {
+        let (range, length) = (node.range(), name(node).len());
+        let start = range.start + 1;
+        let end = self.text[range.clone()]
+            .rfind("</")
+            .map(|end| range.start + end + 2);
+        let end = end.filter(|_| !self.text[range].ends_with("/>"));
+        let starts = std::iter::once(start).chain(end);
+        starts.map(|start| start..start + length).collect()
+    }
+
     /// A finding about an element.
     pub fn at(&self, node: Node<'a, 'a>, message: impl Into<String>) -> Finding {
         self.placed(node, node.range().start, message)

@@ -47,7 +47,7 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
                 let has = |known: &&Known| {
                     known.attributes.contains(&name) && !EVERYWHERE.contains(&name)
                 };
-                let near = near(name, known.attributes);
+                let near = near_attribute(node, name, known.attributes);
                 found.push(Unknown {
                     node,
                     what: What::Attribute(name),
@@ -76,4 +76,16 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
     }
     found.sort_by_key(|unknown| unknown.node.range().start);
     found
+}
+
+/// The name that an attribute is a misspelling of: of several as near, one that the element does not have.
+fn near_attribute(node: Node, name: &str, known: &[&'static str]) -> Option<(&'static str, bool)> {
+    let best = near(name, known)?;
+    if best.1 || !node.has_attribute(best.0) {
+        return Some(best);
+    }
+    let missing = known.iter().filter(|known| !node.has_attribute(**known));
+    let missing: Vec<&'static str> = missing.copied().collect();
+    let other = near(name, &missing).map(|(other, _)| (other, false));
+    other.or(Some(best))
 }

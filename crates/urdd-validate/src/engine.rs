@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::code::Code;
+use super::consequence::Consequence;
 use super::context::Context;
 use super::finding::{Finding, Findings};
 use super::locate::locate;
@@ -38,6 +39,8 @@ pub struct Check {
     pub outcome: Outcome,
     /// Its findings.
     pub findings: Vec<Finding>,
+    /// Which of these follow from findings of other rules.
+    pub consequences: Vec<Consequence>,
     /// The parts of the robot that it did not verify.
     pub not_verified: Vec<NotVerified>,
     /// The parts with findings.
@@ -57,6 +60,7 @@ impl Check {
             severity: rule.severity,
             outcome,
             findings,
+            consequences: Vec::new(),
             not_verified: Vec::new(),
             faulted: Faulted::default(),
             scope: Scope::default(),

@@ -30,7 +30,7 @@ pub struct Finding {
     pub place: Place,
     /// What is wrong and what to do, for people.
     pub message: String,
-    /// Its severity, if it is not that of its rule.
+    /// Its severity, if it is not that of its rule. Settings that name the rule come first.
     pub severity: Option<Severity>,
     /// Where numbers were compared: the tolerance, in the unit of the numbers.
     pub tolerance: Option<f64>,
@@ -110,12 +110,6 @@ impl Finding {
             .actual(format!("{actual:?}"))
             .tolerance(number_tolerance(expected, actual))
             .off_by(expected - actual, "")
-    }
-
-    /// Sets another severity than that of its rule. Settings that name the rule come first.
-    pub fn severity(mut self, severity: Severity) -> Self {
-        self.severity = Some(severity);
-        self
     }
 
     /// Sets the tolerance of the comparison.

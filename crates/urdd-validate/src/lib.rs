@@ -22,6 +22,8 @@ pub mod bare_urdf;
 mod bound;
 pub mod code;
 #[doc(hidden)]
+pub mod consequence;
+#[doc(hidden)]
 pub mod context;
 mod distances;
 #[doc(hidden)]
@@ -41,6 +43,8 @@ mod names;
 mod needs;
 #[doc(hidden)]
 pub mod part;
+#[doc(hidden)]
+pub mod places;
 #[doc(hidden)]
 pub mod reference;
 pub mod report;

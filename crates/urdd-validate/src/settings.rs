@@ -7,6 +7,7 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use super::code::Code;
+use super::consequence::fold;
 use super::engine::Outcome;
 use super::examined::Examined;
 use super::rule::Severity;
@@ -164,7 +165,8 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Applies severities, ignores and the selection. Returns the ignores that match nothing.
+    /// Applies severities, ignores and the selection, then leaves out what follows from what is left. Returns the ignores that
+    /// match nothing.
     pub fn apply(&self, examined: &mut [Examined]) -> Vec<StaleIgnore> {
         let mut used = vec![false; self.ignores.len()];
         for Examined { report, checks } in examined {
@@ -198,6 +200,7 @@ impl Settings {
                 }
             }
             self.selection.apply(checks);
+            fold(checks);
         }
         let stale = self.ignores.iter().zip(used).filter(|(_, used)| !used);
         stale

@@ -7,7 +7,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// The name of a mesh or texture has a backslash.
     ///
-    /// Only Windows takes it as a separator. MuJoCo finds the file elsewhere too; Pinocchio and PyBullet refuse it.
+    /// Only Windows takes it as a separator. MuJoCo finds the file elsewhere too; Pinocchio and PyBullet refuse it. Where no
+    /// file is there with `/` either, this finding says that as well.
     ///
     /// Write `/`.
     LNT027 "backslash-in-path", Warning, MissingGeometry, since "1.1.0"

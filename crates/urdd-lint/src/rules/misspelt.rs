@@ -10,6 +10,8 @@ declare_lint! {
     /// Most programs ignore what they do not know: with `<limits>` for `<limit>` MuJoCo has a joint without limits, and
     /// Pinocchio and PyBullet refuse the robot; with `uper` for `upper` Pinocchio's joint goes from -1 to 0.
     ///
+    /// What other rules find because of it, such as a missing limit, is told here and not by itself; it is then as severe.
+    ///
     /// Write the name that is meant.
     LNT040 "misspelt", Warning, Format, since "1.1.0"
 }

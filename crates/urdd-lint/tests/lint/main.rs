@@ -6,6 +6,7 @@
 mod allow;
 mod baseline;
 mod cases;
+mod consequences;
 mod fix;
 mod skips;
 
