@@ -2,6 +2,7 @@
 //! that another rule finds wrong.
 
 use std::collections::{HashMap, HashSet};
+use std::hash::Hash;
 
 use super::subject::Subject;
 use super::unknown::{Unknown, What};
@@ -16,6 +17,17 @@ use urdd_xml::element::{Edit, apply};
 const AT_THE_SAME_PLACE: [(Code, Code); 2] =
     [(Code::LNT029, Code::LNT027), (Code::LNT030, Code::LNT027)];
 
+/// A rule whose findings follow from those of another about the same link: an inertia or a centre of mass that is computed
+/// again mends both.
+const OF_ONE_LINK: [(Code, Code); 6] = [
+    (Code::LNT001, Code::SRC004),
+    (Code::LNT001, Code::SRC005),
+    (Code::LNT001, Code::LNT002),
+    (Code::LNT005, Code::SRC004),
+    (Code::LNT005, Code::SRC005),
+    (Code::SRC003, Code::LNT008),
+];
+
 /// A misspelt name.
 struct Misspelling {
     at: At,
@@ -24,23 +36,23 @@ struct Misspelling {
     edits: Vec<Edit>,
 }
 
-/// Marks the consequences among the findings. `again` runs the rules on another text; `None` if it is no XML.
-pub fn mark(urdf: &Subject, checks: &mut [Check], again: impl FnOnce(&str) -> Option<Vec<Check>>) {
+/// Marks the findings that follow from others by where they are.
+pub fn mark(checks: &mut [Check]) {
     for (effect, cause) in AT_THE_SAME_PLACE {
-        let places: HashSet<At> = reported(checks, cause)
-            .filter_map(|(place, _)| at(place))
-            .collect();
-        let effects = reported(checks, effect).filter_map(|(place, message)| {
-            let at = at(place).filter(|at| places.contains(at))?;
-            Some(Consequence {
-                at,
-                message: message.to_owned(),
-                cause: (cause, at),
-            })
-        });
-        let effects: Vec<Consequence> = effects.collect();
-        add(checks, effect, effects);
+        follow(checks, effect, cause, at);
     }
+    for (effect, cause) in OF_ONE_LINK {
+        follow(checks, effect, cause, |place| place.subject.clone());
+    }
+}
+
+/// Marks the findings that go away when misspelt names are mended. `again` runs the rules on another text; `None` if it is
+/// no XML.
+pub fn mark_misspelt(
+    urdf: &Subject,
+    checks: &mut [Check],
+    again: impl FnOnce(&str) -> Option<Vec<Check>>,
+) {
     let misspelt: HashSet<At> = reported(checks, Code::LNT040)
         .filter_map(|(place, _)| at(place))
         .collect();
@@ -78,10 +90,25 @@ pub fn mark(urdf: &Subject, checks: &mut [Check], again: impl FnOnce(&str) -> Op
     }
 }
 
-fn add(checks: &mut [Check], code: Code, consequences: Vec<Consequence>) {
-    let check = checks.iter_mut().find(|check| check.rule.code == code);
-    if let Some(check) = check {
-        check.consequences.extend(consequences);
+/// Marks the findings of a rule that follow from those of another with the same `key`.
+fn follow<K: Eq + Hash>(
+    checks: &mut [Check],
+    effect: Code,
+    cause: Code,
+    key: impl Fn(&Place) -> Option<K>,
+) {
+    let causes = reported(checks, cause).filter_map(|(place, _)| Some((key(place)?, at(place)?)));
+    let causes: HashMap<K, At> = causes.collect();
+    let effects = reported(checks, effect).filter_map(|(place, message)| {
+        Some(Consequence {
+            at: at(place)?,
+            message: message.to_owned(),
+            cause: (cause, *causes.get(&key(place)?)?),
+        })
+    });
+    let effects: Vec<Consequence> = effects.collect();
+    if let Some(check) = checks.iter_mut().find(|check| check.rule.code == effect) {
+        check.consequences.extend(effects);
     }
 }
 

@@ -65,18 +65,26 @@ pub fn examined(
         examined.checks.extend(skipped);
         return (examined, Vec::new());
     };
+    let of_mended = match &mended {
+        Cow::Owned(mended) => complete(&mut examined, by_validator(mended, name)),
+        Cow::Borrowed(_) => Vec::new(),
+    };
     let source = job.source(&examined.checks);
     let subject = job.subject(&document, &source);
     job.run(&subject, &mut examined.checks);
     let is_mended = matches!(mended, Cow::Owned(_));
-    let of_family = |check: &&mut Check| check.rule.code.family() == FAMILY;
-    for check in examined.checks.iter_mut().filter(of_family) {
+    let is_of_mended = |check: &&mut Check| {
+        let code = check.rule.code;
+        code.family() == FAMILY || of_mended.contains(&code)
+    };
+    for check in examined.checks.iter_mut().filter(is_of_mended) {
         for place in check.findings.iter_mut().flat_map(places) {
             as_reported(place, lines, is_mended);
         }
     }
+    consequences::mark(&mut examined.checks);
     if !is_mended {
-        consequences::mark(&subject, &mut examined.checks, |text| job.again(text));
+        consequences::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
     }
     let stale = allow::apply(&document, name, &mut examined.checks);
     (examined, stale)
@@ -154,6 +162,26 @@ fn skipped(rule: &'static Description, reason: SkipReason) -> Check {
     caught(rule, &mut Findings::default(), |findings| {
         findings.skip(reason)
     })
+}
+
+/// Takes over what rules say of the mended text that could not look at the text itself. Returns these rules.
+fn complete(examined: &mut Examined, of_mended: Examined) -> Vec<Code> {
+    let is_skipped = |check: &Check| matches!(check.outcome, Outcome::Skipped(_));
+    let mut taken = Vec::new();
+    for check in of_mended
+        .checks
+        .into_iter()
+        .filter(|check| !is_skipped(check))
+    {
+        let mut known = examined.checks.iter_mut();
+        let known = known.find(|known| known.rule.code == check.rule.code && is_skipped(known));
+        if let Some(known) = known {
+            taken.push(check.rule.code);
+            *known = check;
+        }
+    }
+    (examined.report.name, examined.report.size) = (of_mended.report.name, of_mended.report.size);
+    taken
 }
 
 /// All places of a finding.

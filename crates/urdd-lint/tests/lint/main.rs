@@ -79,10 +79,35 @@ fn what_the_validator_says_is_not_said_again() {
     let limits = "lower=\"-2\" upper=\"2\"";
     let crossed = "lower=\"1\" upper=\"-1\"";
     assert_eq!(changed("LNT013/invalid.urdf", limits, crossed), ["SRC001"]);
+    // A tensor that no body has: that it is also larger than the link's shapes allow follows.
+    let izz = "izz=\"0.002\"";
+    assert_eq!(
+        changed("LNT001/invalid.urdf", izz, "izz=\"-0.002\""),
+        ["SRC004"]
+    );
     // A pose that cannot be read: nothing is said about where shapes are.
     let pose = "<origin xyz=";
     assert_eq!(
         changed("LNT050/invalid.urdf", pose, "<origin rpy=\"0 0 0 0\" xyz="),
         ["URD011"]
+    );
+}
+
+#[test]
+fn a_robot_that_is_no_xml_is_looked_at_as_far_as_it_can_be_mended() {
+    let name = "<robot name=\"arm\">";
+    let late = format!("\n<?xml version=\"1.0\"?>\n{name}");
+    let izz = "izz=\"0.002\"";
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/LNT001");
+    let text = fs::read_to_string(folder.join("invalid.urdf")).expect("a case");
+    let text = text.replace(name, &late).replace(izz, "izz=\"-0.002\"");
+    let (_folder, file) = written(&text);
+    let run = linted(&file, &LintSettings::default());
+    assert_eq!(codes(&run), ["URD011", "SRC004"]);
+    let line = run.report.urdds[0].findings[1].line.expect("a line").get();
+    let shown = text.lines().nth(line - 1).expect("a line");
+    assert!(
+        shown.contains("<inertia ") || shown.contains("<link "),
+        "{shown}"
     );
 }
