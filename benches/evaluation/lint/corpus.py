@@ -37,20 +37,26 @@ MOVED = {"LNT003", "LNT020", "LNT050"}
 
 def second_verdicts(lines: list[dict[str, str | None]]) -> dict[str, str]:
     """Rule -> how many of the findings that the second judge saw, and that are still found, are right."""
+    # Findings in other files than the URDF have no subject.
     now = {(line["code"], line["file"], line["subject"]) for line in lines}
+    said = {(line["code"], line["file"], line["message"]) for line in lines}
     files = {(line["code"], line["file"]) for line in lines}
     counts: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
-    for text in (HERE / "second_judge.jsonl").read_text("utf-8").splitlines():
-        judged = json.loads(text)
+    for row in (HERE / "second_judge.jsonl").read_text("utf-8").splitlines():
+        judged = json.loads(row)
         code, file = judged["code"], judged["file"]
-        if (code, file, judged["subject"]) in now or (code in MOVED and (code, file) in files):
+        if "message" in judged:
+            is_there = (code, file, judged["message"]) in said
+        else:
+            is_there = (code, file, judged["subject"]) in now
+        if is_there or (code in MOVED and (code, file) in files):
             counts[code][judged["verdict"]] += 1
 
-    def said(count: collections.Counter[str]) -> str:
+    def text(count: collections.Counter[str]) -> str:
         rest = [f"{count[kind]} {kind}" for kind in ("wrong", "unsure") if count[kind]]
         return ", ".join([f"{count['right']} of {count.total()}", *rest])
 
-    return {code: said(count) for code, count in counts.items()}
+    return {code: text(count) for code, count in counts.items()}
 
 
 def main() -> None:
