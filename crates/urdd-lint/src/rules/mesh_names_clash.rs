@@ -30,14 +30,16 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     }
     for files in by_name.into_values().filter(|files| files.len() > 1) {
         let bytes = |file: &Path| regular::read(file, MAX_DOCUMENT_BYTES).ok();
-        let Some(((_, first), rest)) = files.split_first() else {
+        let Some(((first_node, first), rest)) = files.split_first() else {
             continue;
         };
         let first = bytes(first);
         if let Some((node, _)) = rest.iter().find(|(_, file)| bytes(file) != first) {
             let message = "another collision mesh in another folder has this file name, and MuJoCo before 4.0 takes one for both; \
                 rename one of them";
+            let first = urdf.at_attribute(*first_node, "filename", "the other mesh is here");
             urdf.at_attribute(*node, "filename", message)
+                .related(first)
                 .report(findings);
         }
     }

@@ -43,6 +43,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 "the file is there only from the folder `{}` above, where few programs look; name it relative to the URDF",
                 folder.file_name().unwrap_or_default().to_string_lossy()
             ),
+            None if mesh.filename.starts_with("package:///") => {
+                "the name has no package, which stands after `package://`; write it".to_owned()
+            }
             None => "the file is not there; correct the name, or add the file".to_owned(),
         };
         urdf.at_attribute(node, "filename", message)
