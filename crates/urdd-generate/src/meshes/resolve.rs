@@ -299,7 +299,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
         next.truncate(MOST_ALIKE);
         near = next;
     }
-    near.retain(|(path, _)| path.is_file());
+    near.retain(|(path, _)| path.exists() && !path.is_dir());
     let is_only = near.len() == 1 && !is_cut;
     let (file, written) = near.into_iter().next()?;
     Some(OtherCase {
