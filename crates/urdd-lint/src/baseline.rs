@@ -11,7 +11,8 @@ use thiserror::Error;
 
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_validate::code::Code;
-use urdd_validate::consequence::{At, Consequence, at};
+use urdd_validate::consequence::at;
+use urdd_validate::effect::{At, Consequence};
 use urdd_validate::engine::Check;
 use urdd_validate::places::retain;
 use urdd_validate::skip::SkipReason;

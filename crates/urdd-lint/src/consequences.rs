@@ -4,12 +4,14 @@
 use std::collections::{HashMap, HashSet};
 use std::hash::Hash;
 
+use super::offset::offset;
 use super::subject::Subject;
 use super::unknown::{Unknown, What};
 use urdd_directory::position::LineIndex;
 use urdd_format::report::Place;
 use urdd_validate::code::Code;
-use urdd_validate::consequence::{At, Consequence, at, said};
+use urdd_validate::consequence::{at, said};
+use urdd_validate::effect::{At, Consequence};
 use urdd_validate::engine::{Check, Outcome};
 use urdd_xml::element::{Edit, apply};
 
@@ -174,7 +176,7 @@ impl<'a> Moved<'a> {
     }
 
     fn at(&self, (line, column): At) -> Option<At> {
-        let mut offset = super::fix::offset(self.text, &self.from, line, column)?;
+        let mut offset = offset(self.text, &self.from, line, column)?;
         let before = offset;
         for edit in self.edits.iter().filter(|edit| edit.range.start < before) {
             offset = (offset + edit.text.len()).checked_sub(edit.range.len())?;

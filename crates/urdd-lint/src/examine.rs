@@ -9,8 +9,9 @@ use roxmltree::Document;
 
 use super::refusal::refusal;
 use super::rule::{Description, LintRule};
+use super::settings::LintSettings;
 use super::subject::Subject;
-use super::{LintSettings, allow, consequences, rules};
+use super::{allow, consequences, rules};
 use urdd_directory::read_error::ReadError;
 use urdd_directory::root::Root;
 use urdd_directory::source::Memory;

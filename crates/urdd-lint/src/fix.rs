@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use thiserror::Error;
 
+use super::offset::offset;
 use super::{LintError, LintSettings, sources, stems};
 use urdd_directory::position::LineIndex;
 use urdd_format::report::{Fix, Place, TextEdit};
@@ -147,12 +148,4 @@ fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
         range: start..end,
         text: edit.text.clone(),
     })
-}
-
-/// The byte offset of a line and column, both from 1.
-pub(crate) fn offset(text: &str, lines: &LineIndex, line: usize, column: usize) -> Option<usize> {
-    let start = lines.line_start(line)?;
-    let rest = text.get(start..)?;
-    let mut ends = rest.char_indices().map(|(at, _)| at).chain([rest.len()]);
-    Some(start + ends.nth(column.checked_sub(1)?)?)
 }

@@ -15,11 +15,13 @@ mod geometry;
 mod hull;
 mod inertial;
 mod named_file;
+mod offset;
 mod pose;
 mod primitives;
 mod refusal;
 mod rule;
 pub mod rules;
+mod settings;
 mod srdf;
 mod subject;
 mod textures;
@@ -30,6 +32,7 @@ mod written;
 pub use baseline::{Baseline, BaselineError};
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
+pub use settings::LintSettings;
 
 use std::path::{Path, PathBuf};
 
@@ -41,22 +44,8 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_format::report::{Kind, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
 use urdd_generate::{included, read_source};
-use urdd_validate::settings::Settings;
 use urdd_validate::{Examined, Run};
 use written::Sources;
-
-/// How URDFs are linted.
-#[derive(Debug, Clone, Default)]
-pub struct LintSettings {
-    /// What is reported, and how severe it is.
-    pub report: Settings,
-    /// Where packages and meshes are, and how xacro files are expanded.
-    pub source: urdd_generate::Settings,
-    /// What was found before, and is not reported.
-    pub baseline: Option<Baseline>,
-    /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
-    pub without_meshes: bool,
-}
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]

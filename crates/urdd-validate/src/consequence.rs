@@ -3,26 +3,13 @@
 use std::collections::{HashMap, HashSet};
 
 use super::code::Code;
+use super::effect::{At, Consequence};
 use super::engine::{Check, Outcome};
 use super::finding::Finding;
 use super::places::{parted, retain};
 use super::rule::Severity;
 use super::skip::SkipReason;
 use urdd_format::report::Place;
-
-/// A line and a column.
-pub type At = (usize, usize);
-
-/// A finding of a rule that goes away when the fault of another one is mended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Consequence {
-    /// Where it is.
-    pub at: At,
-    /// What it says.
-    pub message: String,
-    /// The finding that it follows from: its rule, and where it is.
-    pub cause: (Code, At),
-}
 
 /// Where a place is.
 pub fn at(place: &Place) -> Option<At> {
@@ -44,6 +31,9 @@ type Effects = HashMap<(Code, At), Vec<(Severity, Place)>>;
 /// Leaves out the consequences of what is reported. Their causes name them, and are as severe as the worst of them. A rule
 /// with consequences alone was prevented by the rule of the cause.
 pub(crate) fn fold(checks: &mut [Check]) {
+    if checks.iter().all(|check| check.consequences.is_empty()) {
+        return;
+    }
     let reported: HashSet<(Code, At)> = checks.iter().flat_map(reported).collect();
     let mut effects = Effects::new();
     let mut prevented: HashMap<Code, Code> = HashMap::new();

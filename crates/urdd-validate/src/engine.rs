@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::code::Code;
-use super::consequence::Consequence;
 use super::context::Context;
+use super::effect::Consequence;
 use super::finding::{Finding, Findings};
 use super::locate::locate;
 use super::part::{NotVerified, Part, Parts};

@@ -27,6 +27,7 @@ pub mod consequence;
 pub mod context;
 mod distances;
 #[doc(hidden)]
+pub mod effect;
 pub mod engine;
 mod examined;
 mod find_errors;
