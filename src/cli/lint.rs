@@ -11,13 +11,9 @@ use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
-use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_lint::{Baseline, LintSettings, Mended};
 use urdd_validate::Run;
-
-/// Maximum size of a baseline, in bytes.
-const MAX_BASELINE_BYTES: u64 = 64 << 20;
 
 /// Arguments of `urdd lint`.
 #[derive(Args)]
@@ -43,7 +39,7 @@ pub struct LintArguments {
     #[arg(long, conflicts_with = "fix")]
     diff: bool,
 
-    /// Leaves out the findings in this file, which --write-baseline made.
+    /// Leaves out the findings in this file, which --write-baseline made; in urdd.toml it is `baseline`.
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
 
@@ -68,14 +64,14 @@ pub fn run(arguments: &LintArguments, color: Color) -> ExitCode {
 
 fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
+    let file = arguments.report.settings_file()?;
+    // A new one has all that is found.
+    let usual = file.baseline.filter(|_| arguments.write_baseline.is_none());
+    let baseline = arguments.baseline.as_deref().or(usual.as_deref());
     let mut settings = LintSettings {
-        report: arguments.report.settings()?,
+        report: file.settings,
         source: arguments.packages.settings(&signals)?,
-        baseline: arguments
-            .baseline
-            .as_deref()
-            .map(read_baseline)
-            .transpose()?,
+        baseline: baseline.map(read_baseline).transpose()?,
         without_meshes: false,
     };
     settings.report.cancellation = signals.cancellation();
@@ -140,12 +136,7 @@ fn write(mended: &[Mended]) -> Result<(), String> {
 }
 
 fn read_baseline(file: &Path) -> Result<Baseline, String> {
-    let shown = file.display().to_string();
-    let shown = escape::line(&shown);
-    let bytes =
-        regular::read(file, MAX_BASELINE_BYTES).map_err(|error| format!("{shown}: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{shown}: it is not UTF-8"))?;
-    Baseline::from_json(&text, folder_of(file)).map_err(|error| format!("{shown}: {error}"))
+    Baseline::read(file).map_err(|error| error.to_string())
 }
 
 /// Writes a baseline. A file that is there must be one.

@@ -7,8 +7,6 @@ use clap::{Args, ValueEnum};
 
 use super::output::{self, Color};
 use super::words::Level;
-use urdd_directory::regular;
-use urdd_format::escape;
 use urdd_format::report::{Report, Severity, Verdict};
 use urdd_validate::Run;
 use urdd_validate::report::place::places;
@@ -16,9 +14,7 @@ use urdd_validate::report::style::Style;
 use urdd_validate::report::{self, human};
 use urdd_validate::selection::Codes;
 use urdd_validate::settings::{Exclude, Settings};
-
-/// Maximum size of a settings file, in bytes.
-const MAX_SETTINGS_BYTES: u64 = 1 << 20;
+use urdd_validate::settings_file::{SETTINGS_FILE, SettingsFile};
 
 /// Exit status: conforming.
 const CONFORMING: u8 = 0;
@@ -105,18 +101,24 @@ impl Format {
 impl ReportArguments {
     /// The settings, of the file and of the command line.
     pub(super) fn settings(&self) -> Result<Settings, String> {
+        Ok(self.settings_file()?.settings)
+    }
+
+    /// The settings file, with what the command line sets.
+    pub(super) fn settings_file(&self) -> Result<SettingsFile, String> {
         for file in &self.output {
             output::check_name(file)?;
         }
-        let default = PathBuf::from("urdd.toml");
+        let default = PathBuf::from(SETTINGS_FILE);
         let file = match &self.config {
             Some(file) => Some(file),
             None => default.is_file().then_some(&default),
         };
-        let mut settings = match file {
-            None => Settings::default(),
-            Some(file) => read_settings(file)?,
+        let mut read = match file {
+            None => SettingsFile::default(),
+            Some(file) => SettingsFile::read(file).map_err(|error| error.to_string())?,
         };
+        let settings = &mut read.settings;
         for pattern in &self.exclude {
             let exclude = Exclude::new(pattern).map_err(|error| format!("--exclude: {error}"))?;
             settings.excludes.push(exclude);
@@ -124,7 +126,7 @@ impl ReportArguments {
         settings.selection.select.clone_from(&self.select);
         settings.selection.ignore.clone_from(&self.ignore);
         settings.fail_on = self.fail_on.map(Level::severity).or(settings.fail_on);
-        Ok(settings)
+        Ok(read)
     }
 
     /// Writes the report to standard output and to the files; returns the exit status.
@@ -200,13 +202,4 @@ fn status(report: &Report) -> u8 {
     } else {
         FINDINGS
     }
-}
-
-fn read_settings(file: &Path) -> Result<Settings, String> {
-    let shown = file.display().to_string();
-    let shown = escape::line(&shown);
-    let bytes =
-        regular::read(file, MAX_SETTINGS_BYTES).map_err(|error| format!("{shown}: {error}"))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{shown}: it is not UTF-8"))?;
-    Settings::from_toml(&text).map_err(|error| format!("{shown}: {error}"))
 }

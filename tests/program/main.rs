@@ -17,6 +17,7 @@ mod fuzz_findings;
 mod generate;
 mod large_inputs;
 mod links;
+mod lint;
 mod lsp;
 mod new_extension;
 mod page_bundle;

@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use urdd_directory::read_error::ReadError;
+use urdd_directory::regular;
+use urdd_format::escape;
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_validate::code::Code;
 use urdd_validate::consequence::at;
@@ -20,6 +23,8 @@ use urdd_validate::{Examined, Run};
 
 /// The only version of the file.
 const VERSION: u32 = 1;
+/// Maximum size of a baseline, in bytes.
+const MAX_BASELINE_BYTES: u64 = 64 << 20;
 
 /// Findings that are there already.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,6 +39,31 @@ pub struct Baseline {
 #[error("it is not a baseline of urdd ({0}); `urdd lint --write-baseline FILE` writes one")]
 pub struct BaselineError(String);
 
+/// Why a baseline file cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}: {fault}", escape::line(&file.display().to_string()))]
+pub struct BaselineFileError {
+    /// The file, as it was named.
+    pub file: PathBuf,
+    /// What is wrong with it.
+    pub fault: BaselineFileFault,
+}
+
+/// What is wrong with a baseline file.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum BaselineFileFault {
+    /// It cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Not UTF-8.
+    #[error("it is not UTF-8")]
+    NotUtf8,
+    /// Not a baseline.
+    #[error(transparent)]
+    Content(#[from] BaselineError),
+}
+
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -43,6 +73,23 @@ struct File {
 }
 
 impl Baseline {
+    /// Reads a baseline file.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not a baseline.
+    pub fn read(file: &Path) -> Result<Self, BaselineFileError> {
+        let read = || {
+            let bytes = regular::read(file, MAX_BASELINE_BYTES)?;
+            let text = String::from_utf8(bytes).map_err(|_| BaselineFileFault::NotUtf8)?;
+            let folder = file.parent().unwrap_or(Path::new("."));
+            Ok(Baseline::from_json(&text, folder)?)
+        };
+        read().map_err(|fault| BaselineFileError {
+            file: file.to_owned(),
+            fault,
+        })
+    }
+
     /// Reads the text of a baseline file that is in `folder`.
     ///
     /// # Errors

@@ -26,10 +26,10 @@ mod srdf;
 mod subject;
 mod textures;
 mod unknown;
-mod vocabulary;
+pub mod vocabulary;
 mod written;
 
-pub use baseline::{Baseline, BaselineError};
+pub use baseline::{Baseline, BaselineError, BaselineFileError, BaselineFileFault};
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 pub use settings::LintSettings;
@@ -43,7 +43,7 @@ use examine::examined;
 use urdd_directory::cancellation::Cancelled;
 use urdd_format::report::{Kind, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
-use urdd_generate::{included, read_source};
+use urdd_generate::{SourceText, included, read_source};
 use urdd_validate::{Examined, Run};
 use written::Sources;
 
@@ -160,17 +160,7 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
             Ok(read) => read,
             Err(error) => return Ok(unreadable(&name, error.to_string())),
         };
-        let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
-        if read.is_expanded
-            && examined
-                .checks
-                .iter()
-                .any(|check| !check.findings.is_empty())
-        {
-            let mut files = included(path, &settings.source);
-            files.extend(path.canonicalize());
-            Sources::read(&files, &read.folder).place(&mut examined.checks);
-        }
+        let (mut examined, unused) = of_source(path, &read, settings);
         text = Some(read.text);
         stale.extend(unused);
         if let Some(baseline) = &settings.baseline {
@@ -184,6 +174,28 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
         stale,
         text,
     }
+}
+
+/// Lints the text of a file as [`read_source`] gives it. Where xacro made the text, places also say where links and joints
+/// are written. Of the settings, only those that change what the rules compute apply here.
+pub fn lint_source(path: &Path, read: &SourceText, settings: &LintSettings) -> Examined {
+    of_source(path, read, settings).0
+}
+
+fn of_source(
+    path: &Path,
+    read: &SourceText,
+    settings: &LintSettings,
+) -> (Examined, Vec<StaleIgnore>) {
+    let name = stems(path).1;
+    let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
+    let mut checks = examined.checks.iter();
+    if read.is_expanded && checks.any(|check| !check.findings.is_empty()) {
+        let mut files = included(path, &settings.source);
+        files.extend(path.canonicalize());
+        Sources::read(&files, &read.folder).place(&mut examined.checks);
+    }
+    (examined, unused)
 }
 
 fn unreadable(name: &str, reason: String) -> Examined {

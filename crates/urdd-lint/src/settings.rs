@@ -1,6 +1,9 @@
 //! How URDFs are linted.
 
+use std::path::Path;
+
 use super::baseline::Baseline;
+use urdd_validate::Examined;
 use urdd_validate::settings::Settings;
 
 /// How URDFs are linted.
@@ -14,4 +17,19 @@ pub struct LintSettings {
     pub baseline: Option<Baseline>,
     /// Whether no mesh file is read, as while somebody types: rules about the shapes of links are skipped.
     pub without_meshes: bool,
+}
+
+impl LintSettings {
+    /// Leaves out of the result for one file what the baseline and the settings leave out, and changes severities, as
+    /// [`lint`](super::lint) does. `seen` is the path that patterns of the settings match.
+    pub fn apply(&self, path: Option<&Path>, seen: String, mut examined: Examined) -> Examined {
+        examined.report.path = seen;
+        if let (Some(baseline), Some(path)) = (&self.baseline, path) {
+            baseline.apply(path, &mut examined);
+        }
+        let mut examined = [examined];
+        self.report.apply(&mut examined);
+        let [examined] = examined;
+        examined
+    }
 }

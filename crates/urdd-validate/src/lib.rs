@@ -56,6 +56,7 @@ pub mod rules;
 mod scope;
 pub mod selection;
 pub mod settings;
+pub mod settings_file;
 #[doc(hidden)]
 pub mod skip;
 #[doc(hidden)]

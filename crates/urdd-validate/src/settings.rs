@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use globset::{Glob, GlobSet};
 use serde::Deserialize;
 use thiserror::Error;
+use toml::Spanned;
 
 use super::code::Code;
 use super::consequence::fold;
@@ -14,6 +15,7 @@ use super::rule::Severity;
 use super::selection::Selection;
 use super::skip::SkipReason;
 use urdd_directory::cancellation::Cancellation;
+use urdd_directory::position::{self, Position};
 use urdd_format::report::{Kind, StaleIgnore};
 use urdd_format::root_metadata::ConformanceClass;
 
@@ -112,57 +114,110 @@ pub enum SettingsError {
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 struct File {
-    class: Option<String>,
-    fail_on: Option<String>,
-    severity: BTreeMap<String, String>,
+    class: Option<Spanned<String>>,
+    fail_on: Option<Spanned<String>>,
+    severity: BTreeMap<Spanned<String>, Spanned<String>>,
     ignore: Vec<FileIgnore>,
-    exclude: Vec<String>,
+    exclude: Vec<Spanned<String>>,
+    baseline: Option<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FileIgnore {
-    code: Option<String>,
-    path: String,
-    reason: String,
+    code: Option<Spanned<String>>,
+    path: Spanned<String>,
+    reason: Spanned<String>,
+}
+
+/// The content of a settings file.
+pub(crate) struct Parsed {
+    /// The settings.
+    pub(crate) settings: Settings,
+    /// The file that `baseline` names.
+    pub(crate) baseline: Option<String>,
+}
+
+impl Parsed {
+    /// Parses the text of a settings file; what is wrong comes with its place.
+    pub(crate) fn new(text: &str) -> Result<Self, (Option<Position>, SettingsError)> {
+        let file: File = toml::from_str(text).map_err(|error| {
+            let place = error
+                .span()
+                .map(|span| position::position(text, span.start));
+            (place, SettingsError::Syntax(error.message().to_owned()))
+        })?;
+        let baseline = file.baseline.clone();
+        let settings = file.settings().map_err(|(start, error)| {
+            let place = position::position(text, start);
+            (Some(place), error)
+        })?;
+        Ok(Parsed { settings, baseline })
+    }
+}
+
+impl File {
+    /// The settings; what is wrong comes with its byte offset.
+    fn settings(self) -> Result<Settings, (usize, SettingsError)> {
+        let mut settings = Settings {
+            class: self
+                .class
+                .map(|class| parsed(&class, parse_class))
+                .transpose()?,
+            fail_on: self
+                .fail_on
+                .map(|name| parsed(&name, parse_severity))
+                .transpose()?,
+            ..Settings::default()
+        };
+        for (rule, severity) in &self.severity {
+            let rule = parsed(rule, parse_code)?;
+            settings
+                .severities
+                .insert(rule, parsed(severity, parse_severity)?);
+        }
+        for ignore in self.ignore {
+            if ignore.reason.get_ref().trim().is_empty() {
+                let error = SettingsError::EmptyReason(ignore.path.into_inner());
+                return Err((ignore.reason.span().start, error));
+            }
+            settings.ignores.push(Ignore {
+                code: ignore
+                    .code
+                    .map(|code| parsed(&code, parse_code))
+                    .transpose()?,
+                path: parsed(&ignore.path, matcher)?,
+                pattern: ignore.path.into_inner(),
+                reason: ignore.reason.into_inner(),
+            });
+        }
+        for pattern in &self.exclude {
+            settings.excludes.push(parsed(pattern, Exclude::new)?);
+        }
+        Ok(settings)
+    }
+}
+
+fn parsed<T>(
+    text: &Spanned<String>,
+    parse: impl Fn(&str) -> Result<T, SettingsError>,
+) -> Result<T, (usize, SettingsError)> {
+    parse(text.get_ref()).map_err(|error| (text.span().start, error))
 }
 
 impl Settings {
-    /// Parses the text of a `urdd.toml`.
+    /// Parses the text of a `urdd.toml`. Its `baseline` is left to [`SettingsFile`](super::settings_file::SettingsFile).
     ///
     /// # Errors
     /// If it is not TOML, or has unknown keys, unknown codes or invalid patterns.
     pub fn from_toml(text: &str) -> Result<Settings, SettingsError> {
-        let file: File =
-            toml::from_str(text).map_err(|error| SettingsError::Syntax(error.to_string()))?;
-        let code = |text: &str| {
-            Code::parse(text).ok_or_else(|| SettingsError::UnknownCode(text.to_owned()))
-        };
-        let mut settings = Settings {
-            class: file.class.as_deref().map(parse_class).transpose()?,
-            fail_on: file.fail_on.as_deref().map(parse_severity).transpose()?,
-            ..Settings::default()
-        };
-        for (rule, severity) in &file.severity {
-            settings
-                .severities
-                .insert(code(rule)?, parse_severity(severity)?);
-        }
-        for ignore in file.ignore {
-            if ignore.reason.trim().is_empty() {
-                return Err(SettingsError::EmptyReason(ignore.path));
+        let parsed = Parsed::new(text).map_err(|(place, error)| match (place, error) {
+            (Some(place), SettingsError::Syntax(words)) => {
+                SettingsError::Syntax(format!("at {place}: {words}"))
             }
-            settings.ignores.push(Ignore {
-                code: ignore.code.as_deref().map(code).transpose()?,
-                path: matcher(&ignore.path)?,
-                pattern: ignore.path,
-                reason: ignore.reason,
-            });
-        }
-        for pattern in &file.exclude {
-            settings.excludes.push(Exclude::new(pattern)?);
-        }
-        Ok(settings)
+            (_, error) => error,
+        })?;
+        Ok(parsed.settings)
     }
 
     /// Applies severities, ignores and the selection, then leaves out what follows from what is left. Returns the ignores that
@@ -230,6 +285,10 @@ fn matcher(pattern: &str) -> Result<GlobSet, SettingsError> {
     Glob::new(pattern)
         .and_then(|glob| GlobSet::builder().add(glob).build())
         .map_err(|error| refused(error.kind().to_string()))
+}
+
+fn parse_code(text: &str) -> Result<Code, SettingsError> {
+    Code::parse(text).ok_or_else(|| SettingsError::UnknownCode(text.to_owned()))
 }
 
 /// A severity by its name.
