@@ -89,3 +89,94 @@ fn a_fault_in_urdd_toml_is_said_with_its_place() {
         assert!(words.contains(&format!("urdd.toml{place}")), "{words}");
     }
 }
+
+/// With a program in place of xacro: what it prints for such files is that of xacro 2.1.
+#[cfg(unix)]
+pub mod xacro {
+    use std::os::unix::fs::PermissionsExt;
+    use std::process::Command;
+
+    use super::*;
+
+    const MAIN: &str = "<robot name=\"hand\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
+        <xacro:include filename=\"parts/finger.xacro\"/>\n\
+        <link name=\"a\"/>\n\
+        <xacro:finger prefix=\"left\"/>\n\
+        </robot>\n";
+    const MACRO: &str = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n\
+        <xacro:macro name=\"finger\" params=\"prefix\">\n\
+        <link name=\"${prefix}_tip\"/>\n\
+        <joint name=\"${prefix}_slide\" type=\"prismatic\"><axis xyz=\"0 0 2\"/></joint>\n\
+        </xacro:macro>\n\
+        </robot>\n";
+
+    /// A folder with the two files, and a program `xacro` that knows them.
+    pub fn hand(name: &str) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().expect("a folder");
+        let root = folder.path();
+        write(root, &format!("{name}/hand.urdf.xacro"), MAIN);
+        write(root, &format!("{name}/parts/finger.xacro"), MACRO);
+        let joint = super::SLIDE.replace("slide", "left_slide");
+        let joint = joint.replace("\"b\"", "\"left_tip\"");
+        let expanded = format!(
+            "<robot name=\"hand\">\n<link name=\"a\"/>\n<link name=\"left_tip\"/>\n{joint}\n</robot>\n"
+        );
+        write(root, "expanded", &expanded);
+        let script = "#!/bin/sh\n\
+            if [ \"$1\" = --deps ]; then printf %s \"${2%/*}/parts/finger.xacro\"; exit; fi\n\
+            while read -r line; do echo \"$line\"; done < \"${1%/*/*}/expanded\"\n";
+        write(root, "bin/xacro", script);
+        let mode = fs::Permissions::from_mode(0o755);
+        fs::set_permissions(root.join("bin/xacro"), mode).expect("a program");
+        folder
+    }
+
+    fn lint(folder: &Path, arguments: &[&str]) -> String {
+        let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .arg("lint")
+            .args(arguments)
+            .current_dir(folder)
+            .env("PATH", folder.join("bin"))
+            .output()
+            .expect("the program");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+
+    #[test]
+    fn a_finding_in_a_macro_of_an_included_file_names_file_line_and_macro() {
+        // xacro lists files with blanks between them: a name with a blank cannot be told from two.
+        for name in ["hand", "my hand"] {
+            let folder = hand(name);
+            let file = format!("{name}/hand.urdf.xacro");
+            let text = lint(folder.path(), &[&file]);
+            let expected = "at hand.urdf.xacro:4:91 (joint `left_slide`)\n      \
+                written at parts/finger.xacro:4:1 (macro \"finger\")\n";
+            assert!(text.contains(expected), "{text}");
+            assert!(text.contains("\n  the URDF\n"), "{text}");
+            let json = lint(folder.path(), &[&file, "--format", "json"]);
+            let report: Value = serde_json::from_str(&json).expect("JSON");
+            let findings = report["urdds"][0]["findings"].as_array().expect("a list");
+            let axis = findings
+                .iter()
+                .find(|one| one["code"] == "LNT012")
+                .expect("it");
+            let written = &axis["places"][0]["written_at"];
+            assert_eq!(written["file"], "parts/finger.xacro");
+            assert_eq!(written["line"], 4);
+            assert_eq!(written["macro_name"], "finger");
+        }
+    }
+
+    #[test]
+    fn what_xacro_refuses_is_said_as_xacro_says_it() {
+        let folder = hand("hand");
+        let script = "#!/bin/sh\necho \"error: name 'lft' is not defined \n\
+            when evaluating expression 'lft'\nwhen instantiating macro: finger (parts/finger.xacro)\n\
+            in file: hand.urdf.xacro\" >&2; exit 2\n";
+        write(folder.path(), "bin/xacro", script);
+        let text = lint(folder.path(), &["hand/hand.urdf.xacro"]);
+        assert!(text.contains("name 'lft' is not defined"), "{text}");
+        assert!(text.contains("in file: hand.urdf.xacro"), "{text}");
+        assert!(!text.contains("`urdd lint` finds more"), "{text}");
+    }
+}

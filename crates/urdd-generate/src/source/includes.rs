@@ -14,8 +14,8 @@ const MAX_FILES: usize = 2000;
 /// Files that xacro reads.
 const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
-/// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, the xacro and
-/// YAML files of the robot's package. None for a URDF without macros.
+/// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
+/// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros.
 pub fn included(file: &Path, settings: &Settings) -> Vec<PathBuf> {
     let is_xacro = file.extension().is_some_and(|ending| ending == "xacro");
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
@@ -49,8 +49,9 @@ fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
         return None;
     }
     let text = output.join().ok()??;
-    let files = text.split_whitespace().map(PathBuf::from);
-    Some(files.filter(|file| file.is_file()).collect())
+    let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
+    // A name with a blank is listed as two.
+    files.iter().all(|file| file.is_file()).then_some(files)
 }
 
 /// The files with such endings in the folder of the file's package, or else in its own.

@@ -123,11 +123,20 @@ fn read_beside(
     receiver
 }
 
-/// The last lines, which state the error below a Python traceback.
+/// The lines that state the error: xacro's own, with the macros and files around it, or the last ones below a Python
+/// traceback.
 fn last_lines(words: &[u8]) -> Option<String> {
     let words = String::from_utf8_lossy(words);
     let lines = words.lines().filter(|line| !line.trim().is_empty());
     let lines: Vec<&str> = lines.collect();
+    if let Some(own) = lines.iter().rposition(|line| line.starts_with("error: ")) {
+        let own = lines[own..]
+            .iter()
+            .take(MOST_LINES + 1)
+            .map(|line| line.trim());
+        let own = own.collect::<Vec<_>>().join("; ");
+        return Some(own.chars().take(MOST_CHARACTERS).collect());
+    }
     let last = lines[lines.len().saturating_sub(MOST_LINES)..].join("; ");
     let start = last.chars().count().saturating_sub(MOST_CHARACTERS);
     let last: String = last.chars().skip(start).collect();

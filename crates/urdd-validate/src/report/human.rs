@@ -90,7 +90,7 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
             .checks
             .iter()
             .any(|check| check.code.starts_with("LNT"));
-        if urdd.kind == Kind::Urdf && !is_linted {
+        if urdd.kind == Kind::Urdf && !is_linted && urdd.verdict != Verdict::Unreadable {
             let hint =
                 "this is a URDF: `urdd lint` finds more in it, `urdd generate` makes a URDD of it";
             writeln!(out, "  {}", style.paint(DIM, hint))?;
@@ -104,7 +104,7 @@ fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Resul
     for finding in &urdd.findings {
         let title = match (&finding.module, &finding.file) {
             (Some(module), _) => module.as_str(),
-            (None, Some(file)) if file.ends_with(".urdf") => "the URDF",
+            (None, Some(file)) if urdd.kind == Kind::Urdf || file.ends_with(".urdf") => "the URDF",
             _ => "the directory",
         };
         if above != Some(title) {
