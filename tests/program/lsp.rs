@@ -15,7 +15,11 @@ struct Server {
 
 impl Server {
     fn start() -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
+        Server::run(&mut Command::new(env!("CARGO_BIN_EXE_urdd")))
+    }
+
+    fn run(command: &mut Command) -> Self {
+        let mut child = command
             .args(["lsp", "--stdio"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -51,7 +55,15 @@ impl Server {
     }
 
     fn initialize(&mut self) {
-        let params = json!({"processId": std::process::id(), "capabilities": {}});
+        self.initialize_with(&json!({}));
+    }
+
+    fn initialize_with(&mut self, options: &Value) {
+        let params = json!({
+            "processId": std::process::id(),
+            "capabilities": {"textDocument": {"publishDiagnostics": {"relatedInformation": true}}},
+            "initializationOptions": options,
+        });
         self.send(json!({"id": 1, "method": "initialize", "params": params}));
         assert_eq!(self.receive()["result"]["serverInfo"]["name"], "urdd");
         self.send(json!({"method": "initialized", "params": {}}));
@@ -124,4 +136,97 @@ fn it_ends_when_its_input_does_or_is_no_message() {
         .write_all(b"GET / HTTP/1.1\r\n\r\nhello")
         .expect("a server");
     assert_eq!(server.end(), (Some(2), String::new()));
+}
+
+/// With the program in place of xacro that `urdd lint` is tried with.
+#[cfg(unix)]
+mod xacro {
+    use super::*;
+    use crate::lint::xacro::hand;
+
+    /// What is shown of a file after it is saved.
+    fn saved(folder: &Path, file: &str) -> Vec<Value> {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
+        let mut server = Server::run(command.env("PATH", folder.join("bin")));
+        server.initialize_with(&json!({"xacro": true, "debounce": 0}));
+        let path = folder.canonicalize().expect("a folder").join(file);
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let document = json!({"uri": format!("file://{}", path.display())});
+        let mut item = document.clone();
+        item["languageId"] = json!("xml");
+        item["version"] = json!(1);
+        item["text"] = json!(text);
+        server.send(json!({"method": "textDocument/didOpen", "params": {"textDocument": item}}));
+        let before = server.receive();
+        assert_eq!(
+            before["params"]["diagnostics"],
+            json!([]),
+            "before it is saved"
+        );
+        server
+            .send(json!({"method": "textDocument/didSave", "params": {"textDocument": document}}));
+        let mut after = server.receive();
+        server.send(json!({"id": 2, "method": "shutdown"}));
+        while server.receive()["id"] != 2 {}
+        server.send(json!({"method": "exit"}));
+        assert_eq!(server.end().0, Some(0));
+        let Value::Array(found) = after["params"]["diagnostics"].take() else {
+            panic!("{after}")
+        };
+        found
+    }
+
+    #[test]
+    fn a_finding_in_an_included_macro_is_shown_at_the_include_with_its_place() {
+        let folder = hand("hand");
+        let found = saved(folder.path(), "hand/hand.urdf.xacro");
+        let axis = found
+            .iter()
+            .find(|one| one["code"] == "LNT012")
+            .expect("LNT012");
+        assert_eq!(
+            axis["range"]["start"],
+            json!({"line": 1, "character": 0}),
+            "{axis}"
+        );
+        let message = axis["message"].as_str().expect("a message");
+        let words = "(written at parts/finger.xacro:4, in the macro `finger`)";
+        assert!(
+            message.contains("`left_slide`") && message.contains(words),
+            "{message}"
+        );
+        let place = &axis["relatedInformation"][0]["location"];
+        assert!(
+            place["uri"]
+                .as_str()
+                .expect("it")
+                .ends_with("/hand/parts/finger.xacro")
+        );
+        assert_eq!(place["range"]["start"]["line"], 3);
+        let link = found
+            .iter()
+            .find(|one| one["code"] == "LNT006")
+            .expect("LNT006");
+        assert!(
+            !link["message"].as_str().expect("it").contains("written"),
+            "{link}"
+        );
+    }
+
+    #[test]
+    fn a_file_that_others_include_is_no_robot_without_links() {
+        let folder = hand("hand");
+        let path = folder.path().join("hand/parts/finger.xacro");
+        assert_eq!(saved(folder.path(), "hand/parts/finger.xacro"), [""; 0]);
+        // With a name, and with macros alone.
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let text = text.replace("<robot ", "<robot name=\"finger\" ");
+        std::fs::write(&path, text).expect("written");
+        std::fs::write(
+            folder.path().join("hand/expanded"),
+            "<robot name=\"finger\"/>\n",
+        )
+        .expect("written");
+        assert_eq!(saved(folder.path(), "hand/parts/finger.xacro"), [""; 0]);
+    }
 }

@@ -127,7 +127,9 @@ pub fn open_source_text(
     folder: &Path,
     settings: &Settings,
 ) -> Result<SourceMeshes, GenerateError> {
-    let source = source::load_text(text.as_bytes().to_owned(), shown, folder)?;
+    // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let source = source::load_text_in(text.as_bytes().to_owned(), shown, folder)?;
     Ok(with_meshes(source, settings))
 }
 

@@ -6,12 +6,13 @@ use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, at_the_top, of_check};
 use crate::document::{MAX_TEXT_BYTES, Snapshot};
-use crate::failures::{failures, not_well_formed};
+use crate::failures::failures;
 use crate::kind::Kind;
+use crate::project::Project;
 use crate::urdd_documents;
 use crate::xacro;
 use urdd_directory::cancellation::Cancellation;
-use urdd_lint::lint_text;
+use urdd_lint::{LintSettings, lint_text};
 use urdd_validate::Examined;
 use urdd_validate::engine::Outcome;
 use urdd_validate::skip::SkipReason;
@@ -55,24 +56,16 @@ impl Analysis {
         if snapshot.is_too_large() {
             return Some(too_large(snapshot));
         }
-        let analysis = match (&snapshot.kind, depth) {
-            (Kind::Urdf, depth) => of_urdf(snapshot, depth, cancellation),
-            (Kind::Xacro, Depth::Text) => Analysis {
-                found: not_well_formed(snapshot).into_iter().collect(),
-                postponed: Postponed::All,
-            },
-            (Kind::Xacro, Depth::Files) => Analysis {
-                found: xacro::findings(snapshot, cancellation),
-                postponed: Postponed::None,
-            },
-            (Kind::Urdd { schema, is_yaml }, _) => {
+        let analysis = match &snapshot.kind {
+            Kind::Urdf | Kind::Xacro => of_xml(snapshot, depth, cancellation),
+            Kind::Urdd { schema, is_yaml } => {
                 let found = urdd_documents::check(snapshot, *schema, *is_yaml);
                 Analysis {
                     found: found.into_iter().map(Found::from).collect(),
                     postponed: Postponed::None,
                 }
             }
-            (Kind::Other, _) => Analysis::default(),
+            Kind::Other => Analysis::default(),
         };
         (!cancellation.is_cancelled()).then_some(analysis)
     }
@@ -94,14 +87,34 @@ fn too_large(snapshot: &Snapshot) -> Analysis {
     }
 }
 
-fn of_urdf(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Analysis {
-    let mut settings = snapshot.options.lint_settings(cancellation);
-    settings.without_meshes = depth == Depth::Text;
+fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Analysis {
+    let project = Project::of(snapshot, cancellation);
+    if project.is_excluded() {
+        return Analysis::default();
+    }
+    let mut analysis = match (&snapshot.kind, depth) {
+        (Kind::Xacro, Depth::Text) => Analysis {
+            found: xacro::of_text(snapshot),
+            postponed: Postponed::All,
+        },
+        (Kind::Xacro, Depth::Files) => Analysis {
+            found: xacro::of_files(snapshot, &project),
+            postponed: Postponed::None,
+        },
+        _ => of_urdf(snapshot, depth, &project),
+    };
+    analysis.found.extend(project.faults);
+    analysis
+}
+
+fn of_urdf(snapshot: &Snapshot, depth: Depth, project: &Project) -> Analysis {
+    let settings = LintSettings {
+        without_meshes: depth == Depth::Text,
+        ..project.settings.clone()
+    };
     let text = snapshot.text.content();
     let examined = lint_text(text, &snapshot.name(), &snapshot.folder, &settings);
-    let mut examined = [examined];
-    settings.report.apply(&mut examined);
-    let [examined] = examined;
+    let examined = project.apply(snapshot, examined);
     let waiting = examined
         .checks
         .iter()

@@ -22,6 +22,8 @@ pub struct Options {
     pub xacro: bool,
     /// Folders with ROS packages.
     pub package_paths: Vec<PathBuf>,
+    /// The baseline, whose findings are not shown, if the user names one.
+    pub baseline: Option<PathBuf>,
     /// How long after a change findings are computed.
     pub debounce: Duration,
 }
@@ -31,6 +33,7 @@ impl Default for Options {
         Options {
             xacro: false,
             package_paths: Vec::new(),
+            baseline: None,
             debounce: DEBOUNCE,
         }
     }
@@ -38,23 +41,26 @@ impl Default for Options {
 
 impl Options {
     /// Takes over what a value sets: `{"xacro": false, "packagePaths": []}`, alone or as `urdd`. What it does not name,
-    /// or has of another type, stays. Relative folders are below `root`.
+    /// or has of another type, stays. Relative paths are below `root`.
     pub fn update(&mut self, value: &Value, root: Option<&Path>) {
         let value = value.get("urdd").unwrap_or(value);
         if let Some(xacro) = value.get("xacro").and_then(Value::as_bool) {
             self.xacro = xacro;
         }
+        let absolute = |path: &str| root.map_or_else(|| path.into(), |root| root.join(path));
         if let Some(paths) = value.get("packagePaths").and_then(Value::as_array) {
             let paths = paths.iter().filter_map(Value::as_str);
-            let absolute = |path: &str| root.map_or_else(|| path.into(), |root| root.join(path));
             self.package_paths = paths.map(absolute).collect();
+        }
+        if let Some(file) = value.get("baseline").and_then(Value::as_str) {
+            self.baseline = (!file.is_empty()).then(|| absolute(file));
         }
         if let Some(debounce) = value.get("debounce").and_then(Value::as_u64) {
             self.debounce = Duration::from_millis(debounce.min(LONGEST_DEBOUNCE));
         }
     }
 
-    /// The settings of a run of the rules.
+    /// The settings of a run of the rules, without those of files.
     pub fn lint_settings(&self, cancellation: &Cancellation) -> LintSettings {
         let mut settings = LintSettings::default();
         settings.source.packages = Packages::from_environment(|name| {
@@ -92,7 +98,7 @@ mod tests {
     fn what_is_not_named_or_of_another_type_stays() {
         let mut options = Options::default();
         options.update(
-            &json!({"xacro": true, "packagePaths": ["/a b", "c", 7]}),
+            &json!({"xacro": true, "packagePaths": ["/a b", "c", 7], "baseline": "b.json"}),
             Some(Path::new("/w")),
         );
         assert!(options.xacro);
@@ -100,11 +106,16 @@ mod tests {
             options.package_paths,
             [PathBuf::from("/a b"), PathBuf::from("/w/c")]
         );
-        options.update(&json!({"urdd": {"xacro": "yes", "debounce": 99_999}}), None);
+        options.update(
+            &json!({"urdd": {"xacro": "yes", "baseline": null, "debounce": 99_999}}),
+            None,
+        );
         assert!(options.xacro);
+        assert_eq!(options.baseline, Some(PathBuf::from("/w/b.json")));
         assert_eq!(options.debounce, Duration::from_secs(10));
         options.update(&json!(null), None);
-        options.update(&json!({"urdd": {"xacro": false, "packagePaths": []}}), None);
-        assert!(!options.xacro && options.package_paths.is_empty());
+        let none = json!({"xacro": false, "packagePaths": [], "baseline": "", "debounce": 150});
+        options.update(&json!({"urdd": none}), None);
+        assert_eq!(options, Options::default());
     }
 }

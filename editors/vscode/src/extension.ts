@@ -53,11 +53,13 @@ function configuration(): WorkspaceConfiguration {
 /** What the server gets. xacro runs code: never in a workspace that is not trusted, whatever the user's own settings. */
 function settings(): Settings {
   const root = workspace.workspaceFolders?.[0]?.uri.fsPath ?? homedir();
+  const baseline = configuration().get<string>("baseline", "");
   return {
     xacro: workspace.isTrusted && configuration().get("xacro", false),
     packagePaths: configuration()
       .get<string[]>("packagePaths", [])
       .map((path) => resolve(root, path)),
+    baseline: baseline === "" ? "" : resolve(root, baseline),
   };
 }
 

@@ -9,6 +9,8 @@ export interface Settings {
   xacro: boolean;
   /** Folders with ROS packages. */
   packagePaths: string[];
+  /** A file with findings that are not shown; none if it is empty. */
+  baseline: string;
 }
 
 /**
@@ -59,5 +61,6 @@ export function section(settings: Settings, name: string | undefined): unknown {
   if (name === "urdd") return settings;
   if (name === "urdd.xacro") return settings.xacro;
   if (name === "urdd.packagePaths") return settings.packagePaths;
+  if (name === "urdd.baseline") return settings.baseline;
   return undefined;
 }

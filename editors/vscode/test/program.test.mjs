@@ -38,7 +38,7 @@ test("the message says what to do", () => {
 });
 
 test("folders of packages come before those of ROS", () => {
-  const settings = { xacro: false, packagePaths: ["/a b", "/c"] };
+  const settings = { xacro: false, packagePaths: ["/a b", "/c"], baseline: "" };
   const ros = { HOME: "/root", ROS_PACKAGE_PATH: "/opt/ros" };
   const all = ["/a b", "/c", "/opt/ros"].join(delimiter);
   assert.deepEqual(withPackages(settings, ros), { HOME: "/root", ROS_PACKAGE_PATH: all });
@@ -46,10 +46,11 @@ test("folders of packages come before those of ROS", () => {
 });
 
 test("the server gets its own settings and no others", () => {
-  const settings = { xacro: false, packagePaths: ["/opt/ros"] };
+  const settings = { xacro: false, packagePaths: ["/opt/ros"], baseline: "/known.json" };
   assert.deepEqual(section(settings, "urdd"), settings);
   assert.equal(section(settings, "urdd.xacro"), false);
   assert.deepEqual(section(settings, "urdd.packagePaths"), ["/opt/ros"]);
+  assert.equal(section(settings, "urdd.baseline"), "/known.json");
   for (const other of [undefined, "", "urdd.path", "editor", "constructor"]) {
     assert.equal(section(settings, other), undefined);
   }

@@ -169,18 +169,30 @@ pub(crate) fn load_text(
     shown: &str,
     folder: &Path,
 ) -> Result<Source, GenerateError> {
+    let folder = folder.canonicalize().map_err(|error| GenerateError::Read {
+        file: shown.to_owned(),
+        reason: error.to_string(),
+    })?;
+    load_text_in(bytes, shown, folder)
+}
+
+/// As [`load_text`], in a folder that may be missing.
+///
+/// # Errors
+/// If it is not a valid robot.
+pub(crate) fn load_text_in(
+    bytes: Vec<u8>,
+    shown: &str,
+    folder: PathBuf,
+) -> Result<Source, GenerateError> {
     let shown = shown.to_owned();
-    let unreadable = |reason: String| GenerateError::Read {
-        file: shown.clone(),
-        reason,
-    };
     if bytes.len() as u64 > MAX_SOURCE_BYTES {
         let limit = MAX_SOURCE_BYTES >> 20;
-        return Err(unreadable(format!("it is longer than {limit} MiB")));
+        return Err(GenerateError::Read {
+            file: shown,
+            reason: format!("it is longer than {limit} MiB"),
+        });
     }
-    let folder = folder
-        .canonicalize()
-        .map_err(|error| unreadable(error.to_string()))?;
     let mut notes = Vec::new();
     let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
     let names = names(Path::new("robot.urdf"));

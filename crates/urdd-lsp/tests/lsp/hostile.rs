@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::client::{Client, position};
+use crate::client::{ARM, Client, position, robot_folder};
 
 const SMALL: &str = "<?xml version=\"1.0\"?>\r\n<robot name=\"\u{1F916}\"><!-- c -->\r\n\
     <link name=\"a\"><visual><origin rpy='0 0 1'/><geometry><mesh filename=\"m.stl\"/></geometry>\
@@ -128,4 +128,32 @@ fn many_findings_are_cut_with_a_word() {
             .unwrap()
             .contains("more findings are not shown")
     );
+}
+
+#[test]
+fn a_file_in_a_folder_that_is_not_there_is_a_robot_without_meshes() {
+    let (folder, _, uri) = robot_folder();
+    let mut client = Client::new();
+    let hover = |client: &mut Client, uri: &str| {
+        let hover = client.at("textDocument/hover", uri, ARM, "<link name=\"upper", 14);
+        hover["contents"]["value"].to_string()
+    };
+    for gone in [
+        "file:///nowhere/arm.urdf",
+        "file:///c%3A/my%20robots/arm.urdf",
+    ] {
+        client.open(gone, ARM);
+        client.published.clear();
+        client.with_code(1, "LNT002");
+        assert!(hover(&mut client, gone).contains("mass: 2.5 kg"));
+    }
+    client.open(&uri, ARM);
+    client.published.clear();
+    client.with_code(1, "LNT002");
+    drop(folder);
+    client.published.clear();
+    client.change(&uri, 2, ARM);
+    client.save(&uri);
+    client.with_code(2, "LNT002");
+    assert!(hover(&mut client, &uri).contains("mass: 2.5 kg"));
 }

@@ -12,4 +12,5 @@ mod hostile;
 mod hovering;
 mod lifecycle;
 mod navigating;
+mod settings_files;
 mod xacro_files;

@@ -1,0 +1,104 @@
+//! The settings that count for a document: those of the editor, of the nearest `urdd.toml`, and a baseline.
+
+use std::path::{Path, PathBuf};
+
+use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, Position, Range};
+
+use crate::diagnostics::{Found, at_the_top};
+use crate::document::Snapshot;
+use crate::uri;
+use urdd_directory::cancellation::Cancellation;
+use urdd_lint::{Baseline, LintSettings};
+use urdd_validate::Examined;
+use urdd_validate::settings_file::{SETTINGS_FILE, SettingsFile, SettingsFileError};
+
+/// The settings that count for a document.
+pub struct Project {
+    /// How it is linted.
+    pub settings: LintSettings,
+    /// What is wrong with the settings, shown in the document.
+    pub faults: Vec<Found>,
+    /// The document's path from the folder of `urdd.toml`: patterns match it.
+    seen: String,
+}
+
+impl Project {
+    /// Reads the settings. They are read for each analysis: a change needs no restart.
+    pub fn of(snapshot: &Snapshot, cancellation: &Cancellation) -> Self {
+        let mut settings = snapshot.options.lint_settings(cancellation);
+        let mut faults = Vec::new();
+        let nearest = nearest(&snapshot.folder);
+        let read = nearest.as_deref().map(SettingsFile::read).transpose();
+        let file = read.unwrap_or_else(|error| {
+            faults.push(broken(snapshot, &error));
+            None
+        });
+        let file = file.unwrap_or_default();
+        let cancellation = std::mem::take(&mut settings.report.cancellation);
+        settings.report = file.settings;
+        settings.report.cancellation = cancellation;
+        // The user's own comes first.
+        let baseline = snapshot.options.baseline.clone().or(file.baseline);
+        match baseline.as_deref().map(Baseline::read).transpose() {
+            Ok(baseline) => settings.baseline = baseline,
+            Err(error) => {
+                let message = format!("{error}; all findings are shown");
+                faults.push(at_the_top(snapshot, DiagnosticSeverity::WARNING, &message));
+            }
+        }
+        let folder = nearest.as_deref().and_then(Path::parent);
+        Project {
+            settings,
+            faults,
+            seen: seen_from(snapshot, folder),
+        }
+    }
+
+    /// Whether `urdd.toml` excludes the document.
+    pub fn is_excluded(&self) -> bool {
+        let mut excludes = self.settings.report.excludes.iter();
+        excludes.any(|exclude| exclude.matches(&self.seen))
+    }
+
+    /// The result of the rules without what the settings leave out.
+    pub fn apply(&self, snapshot: &Snapshot, examined: Examined) -> Examined {
+        let path = snapshot.path.as_deref();
+        self.settings.apply(path, self.seen.clone(), examined)
+    }
+}
+
+/// The settings file in a folder, or in the nearest one above it.
+fn nearest(folder: &Path) -> Option<PathBuf> {
+    // A text that is not saved, and no open folder.
+    if !folder.is_absolute() {
+        return None;
+    }
+    let mut files = folder.ancestors().map(|above| above.join(SETTINGS_FILE));
+    files.find(|file| file.is_file())
+}
+
+fn seen_from(snapshot: &Snapshot, folder: Option<&Path>) -> String {
+    let inside = snapshot.path.as_deref().zip(folder);
+    match inside.and_then(|(path, folder)| path.strip_prefix(folder).ok()) {
+        Some(inside) => inside.to_string_lossy().replace('\\', "/"),
+        None => snapshot.name(),
+    }
+}
+
+fn broken(snapshot: &Snapshot, error: &SettingsFileError) -> Found {
+    let message = format!("{error}; until it is mended, the defaults count");
+    let mut found = at_the_top(snapshot, DiagnosticSeverity::WARNING, &message);
+    let place = error.at.map_or_else(Position::default, |at| Position {
+        line: at.line.saturating_sub(1),
+        character: 0,
+    });
+    let related = uri::of_path(&error.file).map(|uri| DiagnosticRelatedInformation {
+        location: Location {
+            uri,
+            range: Range::new(place, place),
+        },
+        message: error.fault.to_string(),
+    });
+    found.diagnostic.related_information = related.map(|one| vec![one]);
+    found
+}
