@@ -67,7 +67,7 @@ pub const KNOWN: &[Known] = &[
         )
     },
     Known {
-        other_attributes: &["concave"],
+        other_attributes: &["type", "concave"],
         other_children: &[
             "contact",
             "self_collision_checking",
@@ -79,11 +79,7 @@ pub const KNOWN: &[Known] = &[
             "laser_inertia",
             "self_collision",
         ],
-        ..known(
-            "link",
-            &["name", "type"],
-            &["inertial", "visual", "collision"],
-        )
+        ..known("link", &["name"], &["inertial", "visual", "collision"])
     },
     known("inertial", &[], &["origin", "mass", "inertia"]),
     Known {

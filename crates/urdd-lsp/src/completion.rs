@@ -8,7 +8,7 @@ use lsp_types::{CompletionItem, CompletionItemKind, CompletionTextEdit, Position
 use crate::document::Snapshot;
 use crate::markup::{Place, escaped};
 use crate::reference::{Names, names};
-use crate::vocabulary::{JOINT_TYPES, find};
+use crate::vocabulary::{self, JOINT_TYPES};
 
 /// What can be written at a position.
 pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
@@ -39,7 +39,7 @@ pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
                 Some(parent) => {
                     let around = markup.elements[element].parent;
                     let around = around.and_then(|parent| markup.parent_name(text, parent));
-                    find(around.unwrap_or_default(), parent).map_or(&[][..], |word| word.children)
+                    vocabulary::children(around.unwrap_or_default(), parent)
                 }
             };
             let range = markup.elements[element].name.clone();
@@ -181,9 +181,6 @@ fn attributes(
     let markup = snapshot.markup();
     let one = &markup.elements[element];
     let parent = markup.parent_name(text, element).unwrap_or_default();
-    let Some(word) = find(parent, markup.name(text, element)) else {
-        return Vec::new();
-    };
     let current = at.and_then(|at| one.attributes.get(at));
     let range = current.map_or(offset..offset, |attribute| attribute.name.clone());
     // The name alone, if it has a value.
@@ -194,13 +191,11 @@ fn attributes(
         .filter(|attribute| current != Some(attribute))
         .map(|attribute| &text[attribute.name.clone()])
         .collect();
-    let free = word
-        .attributes
-        .iter()
-        .filter(|name| !written.contains(**name));
+    let free = vocabulary::attributes(parent, markup.name(text, element)).into_iter();
+    let free = free.filter(|name| !written.contains(name));
     free.map(|name| {
         let new = match has_value {
-            true => (*name).to_owned(),
+            true => name.to_owned(),
             false => format!("{name}=\"\""),
         };
         item(

@@ -1,138 +1,43 @@
-//! The elements of a URDF, with their attributes and what they contain.
+//! The elements and attributes that can be written in a URDF: those that `urdd lint` knows, and those in transmissions and
+//! in ros2_control, whose content it leaves to other programs.
 
-/// An element.
-pub struct Word {
-    /// The element that contains it; empty for any.
-    pub parent: &'static str,
-    /// Its name.
-    pub name: &'static str,
-    /// Its attributes.
-    pub attributes: &'static [&'static str],
-    /// What it contains.
-    pub children: &'static [&'static str],
-}
+use urdd_lint::vocabulary::of;
 
-const fn word(
-    parent: &'static str,
-    name: &'static str,
-    attributes: &'static [&'static str],
-    children: &'static [&'static str],
-) -> Word {
-    Word {
-        parent,
-        name,
-        attributes,
-        children,
-    }
-}
+/// An element: where it is, its name, its attributes, and what it contains.
+type Word = (
+    &'static str,
+    &'static str,
+    &'static [&'static str],
+    &'static [&'static str],
+);
 
-const SHAPES: &[&str] = &["mesh", "box", "cylinder", "sphere", "capsule"];
-
-/// The elements. Where two have the same name, the one with the right parent counts.
+/// Elements that other programs read.
 const WORDS: &[Word] = &[
-    word(
-        "",
+    ("robot", "gazebo", &["reference"], &[]),
+    (
         "robot",
-        &["name", "version", "xmlns:xacro"],
-        &[
-            "link",
-            "joint",
-            "material",
-            "transmission",
-            "gazebo",
-            "ros2_control",
-        ],
-    ),
-    word(
-        "robot",
-        "link",
-        &["name"],
-        &["inertial", "visual", "collision"],
-    ),
-    word("link", "inertial", &[], &["origin", "mass", "inertia"]),
-    word(
-        "link",
-        "visual",
-        &["name"],
-        &["origin", "geometry", "material"],
-    ),
-    word("link", "collision", &["name"], &["origin", "geometry"]),
-    word("", "origin", &["xyz", "rpy", "quat_xyzw"], &[]),
-    word("", "mass", &["value"], &[]),
-    word(
-        "",
-        "inertia",
-        &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"],
-        &[],
-    ),
-    word("", "geometry", &[], SHAPES),
-    word("", "mesh", &["filename", "scale"], &[]),
-    word("", "box", &["size"], &[]),
-    word("", "cylinder", &["radius", "length"], &[]),
-    word("", "capsule", &["radius", "length"], &[]),
-    word("", "sphere", &["radius"], &[]),
-    word("", "material", &["name"], &["color", "texture"]),
-    word("", "color", &["rgba"], &[]),
-    word("", "texture", &["filename"], &[]),
-    word("transmission", "joint", &["name"], &["hardwareInterface"]),
-    word(
-        "ros2_control",
-        "joint",
-        &["name"],
-        &["command_interface", "state_interface", "param"],
-    ),
-    word(
-        "",
-        "joint",
-        &["name", "type"],
-        &[
-            "origin",
-            "parent",
-            "child",
-            "axis",
-            "limit",
-            "dynamics",
-            "mimic",
-            "safety_controller",
-            "calibration",
-        ],
-    ),
-    word("", "parent", &["link"], &[]),
-    word("", "child", &["link"], &[]),
-    word("", "axis", &["xyz"], &[]),
-    word("", "limit", &["lower", "upper", "effort", "velocity"], &[]),
-    word("", "dynamics", &["damping", "friction"], &[]),
-    word("", "mimic", &["joint", "multiplier", "offset"], &[]),
-    word(
-        "",
-        "safety_controller",
-        &[
-            "soft_lower_limit",
-            "soft_upper_limit",
-            "k_position",
-            "k_velocity",
-        ],
-        &[],
-    ),
-    word("", "calibration", &["rising", "falling"], &[]),
-    word(
-        "",
         "transmission",
         &["name"],
         &["type", "joint", "actuator"],
     ),
-    word(
-        "",
+    ("transmission", "joint", &["name"], &["hardwareInterface"]),
+    (
+        "transmission",
         "actuator",
         &["name"],
         &["hardwareInterface", "mechanicalReduction"],
     ),
-    word("", "gazebo", &["reference"], &[]),
-    word(
-        "",
+    (
+        "robot",
         "ros2_control",
         &["name", "type"],
         &["hardware", "joint", "sensor", "gpio"],
+    ),
+    (
+        "ros2_control",
+        "joint",
+        &["name"],
+        &["command_interface", "state_interface", "param"],
     ),
 ];
 
@@ -147,12 +52,25 @@ pub const JOINT_TYPES: &[&str] = &[
     "spherical",
 ];
 
-/// The element of a name in another element.
-pub fn find(parent: &str, name: &str) -> Option<&'static Word> {
-    let named = || WORDS.iter().filter(|word| word.name == name);
-    let in_parent = named().find(|word| word.parent == parent);
-    in_parent.or_else(|| {
-        named()
-            .find(|word| word.parent.is_empty() || word.parent == "robot" || word.parent == "link")
-    })
+/// The attributes of an element in another one.
+pub fn attributes(parent: &str, name: &str) -> Vec<&'static str> {
+    let attributes = match find(parent, name) {
+        Some((_, _, attributes, _)) => attributes,
+        None => of(name).map_or(&[][..], |known| known.attributes),
+    };
+    // A declaration that only xacro needs.
+    let xacro = (name == "robot").then_some("xmlns:xacro");
+    attributes.iter().copied().chain(xacro).collect()
+}
+
+/// What an element in another one contains.
+pub fn children(parent: &str, name: &str) -> &'static [&'static str] {
+    match find(parent, name) {
+        Some((.., children)) => children,
+        None => of(name).map_or(&[][..], |known| known.children),
+    }
+}
+
+fn find(parent: &str, name: &str) -> Option<&'static Word> {
+    WORDS.iter().find(|word| (word.0, word.1) == (parent, name))
 }

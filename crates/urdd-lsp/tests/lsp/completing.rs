@@ -123,7 +123,33 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
             vec!["length"],
             "",
         ),
-        (arm("velocity=\"2\"", "vel|"), vec!["velocity"], "vel"),
+        (
+            arm("velocity=\"2\"", "vel|"),
+            vec!["velocity", "acceleration", "deceleration", "jerk"],
+            "vel",
+        ),
+        (arm("<link name=\"lower\"/>", "<link |/>"), vec!["name"], ""),
+        (
+            arm("<robot name=\"arm\">", "<robot name=\"arm\" |>"),
+            vec!["version", "xmlns:xacro"],
+            "",
+        ),
+        (
+            arm(
+                "</robot>",
+                "<transmission name='t'><|</transmission></robot>",
+            ),
+            vec!["type", "joint", "actuator"],
+            "",
+        ),
+        (
+            arm(
+                "</robot>",
+                "<ros2_control name='c'><joint name='elbow'><|</joint></ros2_control></robot>",
+            ),
+            vec!["command_interface", "state_interface", "param"],
+            "",
+        ),
         (arm("</collision>", "</|"), vec!["collision"], ""),
         (arm("<color", "<!-- | --><color"), vec![], ""),
     ];
