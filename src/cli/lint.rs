@@ -104,7 +104,7 @@ fn work(
     if let Some(file) = &arguments.write_baseline {
         return write_baseline(file, &run);
     }
-    arguments.report.write(&run, &settings.report, color)
+    arguments.report.write(&run, &settings.report, true, color)
 }
 
 /// Prints what would change, as a patch.

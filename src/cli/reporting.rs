@@ -129,8 +129,15 @@ impl ReportArguments {
         Ok(read)
     }
 
-    /// Writes the report to standard output and to the files; returns the exit status.
-    pub(super) fn write(&self, run: &Run, settings: &Settings, color: Color) -> Result<u8, String> {
+    /// Writes the report to standard output and to the files; returns the exit status. `is_lint`: what `urdd lint` says
+    /// need not point to it.
+    pub(super) fn write(
+        &self,
+        run: &Run,
+        settings: &Settings,
+        is_lint: bool,
+        color: Color,
+    ) -> Result<u8, String> {
         if run.report.urdds.is_empty() {
             let excluded = run.excluded;
             return Err(format!(
@@ -146,6 +153,7 @@ impl ReportArguments {
             quiet: self.quiet,
             full: self.full,
             max_places: self.max_places.into(),
+            suggests_lint: !is_lint,
             width: output::width().unwrap_or(Style::default().width),
         };
         let render = |format: Format| -> Result<String, String> {

@@ -60,5 +60,5 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
         }
     });
     let _ = std::panic::take_hook();
-    arguments.report.write(&run?, &settings, color)
+    arguments.report.write(&run?, &settings, false, color)
 }

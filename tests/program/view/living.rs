@@ -118,8 +118,10 @@ fn has(server: &Running, module: &str) -> bool {
 
 #[test]
 fn the_picture_comes_first_and_a_change_is_shown() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let urdf = folder.path().join("arm.urdf");
+    let around = tempfile::tempdir().expect("a folder");
+    let folder = around.path().join("a robot");
+    fs::create_dir(&folder).expect("a folder");
+    let urdf = folder.join("arm.urdf");
     let sphere = r#"<sphere radius="0.3"/>"#;
     fs::write(&urdf, robot(1.0, sphere)).expect("written");
     living(of(&[&urdf]), |server| {
@@ -150,12 +152,20 @@ fn the_picture_comes_first_and_a_change_is_shown() {
         fs::remove_file(&urdf).expect("removed");
         let gone = |answer: &Value| answer["entry"]["failure"] != why && is_broken(answer);
         until(server, "arm", gone);
-        let beside = folder.path().join("arm.urdf.new");
+        let beside = folder.join("arm.urdf.new");
         fs::write(&beside, robot(3.0, sphere)).expect("written");
         fs::rename(&beside, &urdf).expect("renamed");
         until(server, "arm", is_whole);
         let _ = server.json("/robots/arm/files.json");
         assert_eq!(upper(server), 3.0);
+
+        // The folder goes, and comes back.
+        let away = around.path().join("away");
+        fs::rename(&folder, &away).expect("renamed");
+        let gone = until(server, "arm", is_broken);
+        assert_eq!(gone["entry"]["ready"], true);
+        fs::rename(&away, &folder).expect("renamed");
+        until(server, "arm", is_whole);
     });
 }
 

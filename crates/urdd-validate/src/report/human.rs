@@ -86,11 +86,8 @@ fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> f
     }
     if !brief {
         write_skipped(urdd, style, out)?;
-        let is_linted = urdd
-            .checks
-            .iter()
-            .any(|check| check.code.starts_with("LNT"));
-        if urdd.kind == Kind::Urdf && !is_linted && urdd.verdict != Verdict::Unreadable {
+        let is_read = urdd.verdict != Verdict::Unreadable;
+        if style.suggests_lint && urdd.kind == Kind::Urdf && is_read {
             let hint =
                 "this is a URDF: `urdd lint` finds more in it, `urdd generate` makes a URDD of it";
             writeln!(out, "  {}", style.paint(DIM, hint))?;

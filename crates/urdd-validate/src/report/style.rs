@@ -15,6 +15,8 @@ pub struct Style {
     pub full: bool,
     /// Maximum number of places per finding.
     pub max_places: usize,
+    /// Whether to point to `urdd lint` below a URDF.
+    pub suggests_lint: bool,
     /// Maximum line length of the summary, in characters.
     pub width: usize,
 }
@@ -26,6 +28,7 @@ impl Default for Style {
             quiet: false,
             full: false,
             max_places: 3,
+            suggests_lint: false,
             width: 100,
         }
     }
