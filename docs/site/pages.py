@@ -26,6 +26,8 @@ PAGES = [
     "wasm/README.md",
     "wasm/npm/README.md",
     "fuzz/README.md",
+    "benches/evaluation/lint/corpus.md",
+    "benches/evaluation/lint/evidence.md",
     "page/README.md",
     "tests/figures/exports/README.md",
     "tests/figures/geometry/README.md",

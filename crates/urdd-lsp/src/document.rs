@@ -33,11 +33,19 @@ pub struct Snapshot {
     pub text: Text,
     /// What the user set.
     pub options: Options,
-    /// The robot of the last earlier version that described one.
-    earlier: Option<Arc<RobotModel>>,
+    earlier: Option<Earlier>,
     robot: OnceLock<Option<Arc<RobotModel>>>,
     markup: OnceLock<Markup>,
     outline: OnceLock<Outline>,
+}
+
+/// What described a robot before.
+#[derive(Clone)]
+enum Earlier {
+    /// The robot of the last version that described one.
+    Robot(Arc<RobotModel>),
+    /// A version whose robot was not asked for yet. It has no such version before it: at most one is kept.
+    Version(Arc<Snapshot>),
 }
 
 impl Snapshot {
@@ -69,7 +77,15 @@ impl Snapshot {
     }
 
     /// The next version.
-    pub fn next(&self, version: i32, text: Text, options: &Options) -> Self {
+    pub fn next(self: &Arc<Self>, version: i32, text: Text, options: &Options) -> Self {
+        let earlier = match self.robot.get() {
+            Some(Some(robot)) => Some(Earlier::Robot(Arc::clone(robot))),
+            Some(None) => self.earlier.clone(),
+            None => {
+                let this = || Earlier::Version(Arc::clone(self));
+                self.earlier.clone().or_else(|| Some(this()))
+            }
+        };
         Snapshot {
             uri: self.uri.clone(),
             path: self.path.clone(),
@@ -78,12 +94,7 @@ impl Snapshot {
             version,
             text,
             options: options.clone(),
-            earlier: self
-                .robot
-                .get()
-                .cloned()
-                .flatten()
-                .or_else(|| self.earlier.clone()),
+            earlier,
             robot: OnceLock::new(),
             markup: OnceLock::new(),
             outline: OnceLock::new(),
@@ -125,6 +136,10 @@ impl Snapshot {
             let text = self.text.content();
             RobotModel::new(text, &self.name(), &self.folder, &settings.source).map(Arc::new)
         });
-        of_this.clone().or_else(|| self.earlier.clone())
+        of_this.clone().or_else(|| match &self.earlier {
+            Some(Earlier::Robot(robot)) => Some(Arc::clone(robot)),
+            Some(Earlier::Version(version)) => version.robot(),
+            None => None,
+        })
     }
 }
