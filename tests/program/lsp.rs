@@ -214,6 +214,19 @@ mod xacro {
     }
 
     #[test]
+    fn a_misspelt_name_is_as_severe_as_what_follows_from_it() {
+        let folder = hand("hand");
+        let expanded = folder.path().join("expanded");
+        let text = std::fs::read_to_string(&expanded).expect("a file");
+        std::fs::write(&expanded, text.replace(" velocity=", " velocty=")).expect("written");
+        let found = saved(folder.path(), "hand/hand.urdf.xacro");
+        let of = |code: &str| found.iter().filter(|one| one["code"] == code).count();
+        assert_eq!((of("LNT040"), of("LNT017")), (1, 0), "{found:#?}");
+        let misspelt = found.iter().find(|one| one["code"] == "LNT040");
+        assert_eq!(misspelt.expect("it")["severity"], 1, "{misspelt:#?}");
+    }
+
+    #[test]
     fn a_file_that_others_include_is_no_robot_without_links() {
         let folder = hand("hand");
         let path = folder.path().join("hand/parts/finger.xacro");

@@ -63,6 +63,8 @@ mod urdf;
 pub use bounded::MAX_SOURCE_BYTES;
 pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh};
+#[doc(hidden)]
+pub use meshes::package::package_name;
 pub use meshes::{MeshCount, PackagePathError, Packages};
 pub use modules::MadeModule;
 pub(crate) use pose::{has_quaternions, of as origin_pose};

@@ -143,8 +143,9 @@ fn stems(path: &Path) -> (PathBuf, String) {
     (folder.to_owned(), name.to_string_lossy().into_owned())
 }
 
-/// The path of a file from the path that was given; its own name where that is the file.
-fn seen_from(path: &Path, given: &[PathBuf]) -> String {
+/// The path that patterns of settings match: that of a file from the folder that was given, with forward slashes; its own
+/// name where the file itself was given, or is in no such folder.
+pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
     let inside = given.iter().find_map(|given| path.strip_prefix(given).ok());
     match inside.filter(|inside| !inside.as_os_str().is_empty()) {
         Some(inside) => inside.to_string_lossy().replace('\\', "/"),

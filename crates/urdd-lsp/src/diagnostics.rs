@@ -1,10 +1,11 @@
 //! Findings as editors show them.
 
 use std::ops::Range;
+use std::path::Path;
 
 use lsp_types::{
     Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location, NumberOrString,
-    TextEdit,
+    Position, TextEdit,
 };
 
 use crate::document::Snapshot;
@@ -162,21 +163,30 @@ fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInform
                 .text
                 .range(marked(snapshot, offset(snapshot, place))),
         },
-        // Its columns cannot be counted without its text: the line is enough.
         false => {
-            let line = place.line.map_or(0, |line| line.get().saturating_sub(1));
-            let line = u32::try_from(line).unwrap_or(u32::MAX);
-            let at = lsp_types::Position { line, character: 0 };
-            Location {
-                uri: uri::of_path(&snapshot.folder.join(place.file.as_deref()?))?,
-                range: lsp_types::Range { start: at, end: at },
-            }
+            let line = place.line.map_or(1, |line| line.get());
+            line_of(&snapshot.folder.join(place.file.as_deref()?), line)?
         }
     };
-    Some(DiagnosticRelatedInformation {
-        location,
-        message: escape::line(&message.unwrap_or_default()).into_owned(),
+    Some(further(location, &message.unwrap_or_default()))
+}
+
+/// The start of a line of another file, from 1. Its columns cannot be counted without its text: the line is enough.
+pub fn line_of(file: &Path, line: usize) -> Option<Location> {
+    let line = u32::try_from(line.saturating_sub(1)).unwrap_or(u32::MAX);
+    let start = Position { line, character: 0 };
+    Some(Location {
+        uri: uri::of_path(file)?,
+        range: lsp_types::Range { start, end: start },
     })
+}
+
+/// A further place that a diagnostic points to.
+pub fn further(location: Location, message: &str) -> DiagnosticRelatedInformation {
+    DiagnosticRelatedInformation {
+        location,
+        message: escape::line(message).into_owned(),
+    }
 }
 
 /// A fix of a report; `None` if it changes another file.

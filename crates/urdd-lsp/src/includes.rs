@@ -1,5 +1,6 @@
 //! The files that a xacro file includes, as far as the text tells: nothing is expanded.
 
+use std::cell::LazyCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,6 +8,7 @@ use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, diagnostic};
 use crate::document::Snapshot;
+use urdd_generate::package_name;
 
 /// An element that includes a file.
 struct Include {
@@ -16,8 +18,6 @@ struct Include {
 
 /// Elements whose content xacro may leave out.
 const CONDITIONAL: [&str; 3] = ["xacro:if", "xacro:unless", "xacro:macro"];
-/// Maximum number of bytes of a package.xml.
-const MAX_PACKAGE_XML: u64 = 1 << 20;
 
 /// Included files that are not there.
 pub fn missing(snapshot: &Snapshot) -> Vec<Found> {
@@ -43,14 +43,11 @@ pub fn missing(snapshot: &Snapshot) -> Vec<Found> {
         .collect()
 }
 
-/// Byte offset of the element that includes a file.
-pub fn that_includes(snapshot: &Snapshot, file: &Path) -> Option<usize> {
-    let is_it = |one: &Include| {
-        let included = fs::canonicalize(&one.file);
-        included.is_ok_and(|included| included == file)
-    };
-    let found = includes(snapshot).find(is_it)?;
-    Some(snapshot.markup().elements[found.element].tag.start)
+/// The included files that are there, with symbolic links resolved, and the byte offsets of the elements that include them.
+pub fn included(snapshot: &Snapshot) -> Vec<(PathBuf, usize)> {
+    let start = |element: usize| snapshot.markup().elements[element].tag.start;
+    let resolved = |one: Include| Some((fs::canonicalize(one.file).ok()?, start(one.element)));
+    includes(snapshot).filter_map(resolved).collect()
 }
 
 /// The included files whose paths the text tells.
@@ -58,23 +55,25 @@ fn includes(snapshot: &Snapshot) -> impl Iterator<Item = Include> {
     let text = snapshot.text.as_str();
     let markup = snapshot.markup();
     let folder = snapshot.path.as_deref().and_then(Path::parent);
+    let packages = LazyCell::new(move || folder.map(own_packages).unwrap_or_default());
     let all =
         (0..markup.elements.len()).filter(|element| markup.name(text, *element) == "xacro:include");
     all.filter_map(move |element| {
         let name = markup.value(text, element, "filename")?;
         Some(Include {
             element,
-            file: named(&name, folder?)?,
+            file: named(&name, folder?, &packages)?,
         })
     })
 }
 
 /// The file of a name; `None` if only xacro can tell.
-fn named(name: &str, folder: &Path) -> Option<PathBuf> {
+fn named(name: &str, folder: &Path, packages: &[(String, &Path)]) -> Option<PathBuf> {
     let (start, rest) = match name.strip_prefix("$(find ") {
         Some(rest) => {
             let (package, rest) = rest.split_once(")/")?;
-            (own_package(package.trim(), folder)?, rest)
+            let own = packages.iter().find(|(name, _)| name == package.trim())?;
+            (own.1, rest)
         }
         None => (folder, name),
     };
@@ -84,12 +83,8 @@ fn named(name: &str, folder: &Path) -> Option<PathBuf> {
     is_plain.then(|| start.join(rest))
 }
 
-/// The folder of a package that contains a folder: other packages may be anywhere.
-fn own_package<'f>(name: &str, folder: &'f Path) -> Option<&'f Path> {
-    let element = format!("<name>{name}</name>");
-    folder.ancestors().find(|above| {
-        let file = above.join("package.xml");
-        let text = urdd_directory::regular::read(&file, MAX_PACKAGE_XML);
-        text.is_ok_and(|text| String::from_utf8_lossy(&text).contains(&element))
-    })
+/// The packages that contain a folder: others may be anywhere.
+fn own_packages(folder: &Path) -> Vec<(String, &Path)> {
+    let named = |above| Some((package_name(above)?, above));
+    folder.ancestors().filter_map(named).collect()
 }

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use lsp_types::{DiagnosticRelatedInformation, DiagnosticSeverity, Location, Position, Range};
+use lsp_types::DiagnosticSeverity;
 
-use crate::diagnostics::{Found, at_the_top};
+use crate::diagnostics::{Found, at_the_top, further, line_of};
 use crate::document::Snapshot;
-use crate::uri;
 use urdd_directory::cancellation::Cancellation;
-use urdd_lint::{Baseline, LintSettings};
+use urdd_lint::{Baseline, LintSettings, seen_from};
 use urdd_validate::Examined;
 use urdd_validate::settings_file::{SETTINGS_FILE, SettingsFile, SettingsFileError};
 
@@ -47,10 +46,13 @@ impl Project {
             }
         }
         let folder = nearest.as_deref().and_then(Path::parent);
+        let folder = folder.map(Path::to_owned);
+        let path = snapshot.path.as_deref();
+        let seen = path.map(|path| seen_from(path, folder.as_slice()));
         Project {
             settings,
             faults,
-            seen: seen_from(snapshot, folder),
+            seen: seen.unwrap_or_else(|| snapshot.name()),
         }
     }
 
@@ -77,28 +79,12 @@ fn nearest(folder: &Path) -> Option<PathBuf> {
     files.find(|file| file.is_file())
 }
 
-fn seen_from(snapshot: &Snapshot, folder: Option<&Path>) -> String {
-    let inside = snapshot.path.as_deref().zip(folder);
-    match inside.and_then(|(path, folder)| path.strip_prefix(folder).ok()) {
-        Some(inside) => inside.to_string_lossy().replace('\\', "/"),
-        None => snapshot.name(),
-    }
-}
-
 fn broken(snapshot: &Snapshot, error: &SettingsFileError) -> Found {
     let message = format!("{error}; until it is mended, the defaults count");
     let mut found = at_the_top(snapshot, DiagnosticSeverity::WARNING, &message);
-    let place = error.at.map_or_else(Position::default, |at| Position {
-        line: at.line.saturating_sub(1),
-        character: 0,
-    });
-    let related = uri::of_path(&error.file).map(|uri| DiagnosticRelatedInformation {
-        location: Location {
-            uri,
-            range: Range::new(place, place),
-        },
-        message: error.fault.to_string(),
-    });
-    found.diagnostic.related_information = related.map(|one| vec![one]);
+    let line = error.at.map_or(1, |at| at.line as usize);
+    let place = line_of(&error.file, line);
+    let related = place.map(|place| vec![further(place, &error.fault.to_string())]);
+    found.diagnostic.related_information = related;
     found
 }

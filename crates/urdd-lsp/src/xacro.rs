@@ -1,18 +1,17 @@
 //! Findings about what xacro makes of a file, shown in the file.
 
 use std::fs;
+use std::path::PathBuf;
 
-use lsp_types::{
-    Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, Location, Position, Range,
+use lsp_types::{Diagnostic, DiagnosticSeverity, Location};
+
+use crate::diagnostics::{
+    Found, at_the_top, diagnostic, further, line_of, marked, message, severity,
 };
-
-use crate::diagnostics::{Found, at_the_top, diagnostic, marked, message, severity};
 use crate::document::Snapshot;
 use crate::failures::{failures, not_well_formed};
-use crate::includes::{missing, that_includes};
+use crate::includes::{included, missing};
 use crate::project::Project;
-use crate::uri;
-use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_generate::read_source;
 use urdd_lint::lint_source;
@@ -52,10 +51,16 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let examined = lint_source(path, &read, &project.settings);
     let examined = project.apply(snapshot, examined);
     found.extend(failures(snapshot, &examined));
+    let files = Files {
+        own: fs::canonicalize(path).ok(),
+        included: included(snapshot),
+    };
     for check in &examined.checks {
         for finding in &check.findings {
             let places = std::iter::once(&finding.place).chain(&finding.more);
-            found.extend(places.map(|place| of_place(snapshot, check, finding, place).into()));
+            found.extend(
+                places.map(|place| of_place(snapshot, &files, check, finding, place).into()),
+            );
         }
     }
     found
@@ -70,13 +75,19 @@ fn is_part(snapshot: &Snapshot) -> bool {
 
 /// A finding at the place in the file that xacro made the element from, or at the element that includes that place's file;
 /// if that is not known, at the element of the same name; else at the top, with the place in the expansion.
-fn of_place(snapshot: &Snapshot, check: &Check, finding: &Finding, place: &Place) -> Diagnostic {
+fn of_place(
+    snapshot: &Snapshot,
+    files: &Files,
+    check: &Check,
+    finding: &Finding,
+    place: &Place,
+) -> Diagnostic {
     let mut message = message(finding, place);
     let mut related = None;
     let offset = match place
         .written_at
         .as_ref()
-        .map(|at| Written::new(snapshot, at))
+        .map(|at| Written::new(snapshot, files, at))
     {
         Some(Written::Here(offset)) => offset,
         Some(Written::There {
@@ -85,10 +96,7 @@ fn of_place(snapshot: &Snapshot, check: &Check, finding: &Finding, place: &Place
             offset,
         }) => {
             message += &format!(" ({words})");
-            related = location.map(|location| DiagnosticRelatedInformation {
-                location,
-                message: words,
-            });
+            related = location.map(|location| vec![further(location, &words)]);
             offset
         }
         None => same_name(snapshot, place).unwrap_or_else(|| {
@@ -99,13 +107,20 @@ fn of_place(snapshot: &Snapshot, check: &Check, finding: &Finding, place: &Place
     };
     let mut found = diagnostic(
         snapshot.text.range(marked(snapshot, offset)),
-        severity(check.severity),
+        severity(finding.severity.unwrap_or(check.severity)),
         check.rule.code.as_str(),
         &message,
         (place.expected.as_deref(), place.actual.as_deref()),
     );
-    found.related_information = related.map(|one| vec![one]);
+    found.related_information = related;
     found
+}
+
+/// The document's own file, and those that it includes with the byte offsets of the elements that do, with symbolic links
+/// resolved.
+struct Files {
+    own: Option<PathBuf>,
+    included: Vec<(PathBuf, usize)>,
 }
 
 /// Where an element is written.
@@ -121,28 +136,22 @@ enum Written {
 }
 
 impl Written {
-    fn new(snapshot: &Snapshot, at: &WrittenAt) -> Self {
-        let count = |number: Option<Count>| {
-            let number = number.map_or(1, |number| number.get());
-            u32::try_from(number).unwrap_or(u32::MAX)
-        };
-        let (line, column) = (count(at.line), count(at.column));
+    fn new(snapshot: &Snapshot, files: &Files, at: &WrittenAt) -> Self {
+        let line = at.line.map_or(1, |line| line.get());
+        let column = at.column.map_or(1, |column| column.get());
         let file = fs::canonicalize(snapshot.folder.join(&at.file)).unwrap_or_default();
-        let own = snapshot
-            .path
-            .as_ref()
-            .and_then(|path| fs::canonicalize(path).ok());
-        if own.is_some_and(|own| own == file) {
-            return Written::Here(snapshot.text.reported(line, column));
+        if files.own.as_ref() == Some(&file) {
+            let as_u32 = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+            return Written::Here(snapshot.text.reported(as_u32(line), as_u32(column)));
         }
         let in_macro = at.macro_name.as_ref();
         let in_macro = in_macro.map_or_else(String::new, |name| format!(", in the macro `{name}`"));
-        // Its columns cannot be counted without its text: the line is enough.
-        let start = Position::new(line.saturating_sub(1), 0);
+        let mut included = files.included.iter();
+        let element = included.find(|(included, _)| *included == file);
         Written::There {
-            location: uri::of_path(&file).map(|uri| Location::new(uri, Range::new(start, start))),
+            location: line_of(&file, line),
             words: format!("written at {}:{line}{in_macro}", at.file),
-            offset: that_includes(snapshot, &file).unwrap_or_else(|| snapshot.text.content_start()),
+            offset: element.map_or_else(|| snapshot.text.content_start(), |(_, start)| *start),
         }
     }
 }

@@ -137,8 +137,8 @@ fn is_named(folder: &Path, name: &str) -> bool {
     folder.file_name().is_some_and(|found| found == name)
 }
 
-/// The name in a folder's `package.xml`.
-pub(super) fn package_name(folder: &Path) -> Option<String> {
+/// The name in a folder's `package.xml`, if that is there and is well-formed.
+pub fn package_name(folder: &Path) -> Option<String> {
     let bytes = read_file(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
     let text = String::from_utf8(bytes).ok()?;
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
