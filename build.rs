@@ -1,6 +1,6 @@
 //! Packs the conformance suite into the archive that a release build carries.
 
-#[path = "src/conformance/archive.rs"]
+#[path = "src/suite/archive.rs"]
 mod archive;
 
 fn main() {
@@ -29,5 +29,5 @@ fn suite() {
         true => println!("cargo:rerun-if-changed=conformance"),
         false => println!("cargo:rustc-cfg=suite_in_repository"),
     }
-    println!("cargo:rerun-if-changed=src/conformance/archive.rs");
+    println!("cargo:rerun-if-changed=src/suite/archive.rs");
 }

@@ -1,10 +1,10 @@
-// Bundles the page into dist/, each file compressed by brotli, with a stamp of what it was made from.
+// Bundles the page into crates/urdd-view/dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
 //     node build.mjs [URDD_WASM ROBOT_WASM [FOLDER]]
 //
 // URDD_WASM is the module that `cargo build --profile wasm -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
-// a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is page/dist unless
-// it is given; `URDD_DIST=FOLDER npm test` tries what is there.
+// a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is crates/urdd-view/dist
+// unless it is given; `URDD_DIST=FOLDER npm test` tries what is there.
 
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -15,7 +15,7 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const repository = join(here, "..");
-const dist = process.argv[4] ?? join(here, "dist");
+const dist = process.argv[4] ?? join(repository, "crates/urdd-view/dist");
 const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/wasm/urdd_wasm.wasm");
 const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/wasm/robot.wasm");
 
@@ -71,7 +71,7 @@ export function stamp() {
   ];
   const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
   // What the module is not made of.
-  const without = /^crates\/(urdd-generate|urdd-export|urdd-lint|urdd-lsp|[^/]+\/tests)\//;
+  const without = /^crates\/(urdd-(conformance|diff|export|generate|lint|lsp|view)|[^/]+\/tests)\//;
   const hash = createHash("sha256");
   for (const name of names.filter((name) => !without.test(name)).sort(byBytes)) {
     const content = createHash("sha256")

@@ -9,7 +9,7 @@ import type { RobotSource } from "./engine/protocol";
 const MAX_FILES = 50_000;
 const MAX_BYTES = 1_000_000_000;
 
-/** Maximum size of a URDF with its files, as `src/view/drops.rs` takes it. */
+/** Maximum size of a URDF with its files, as `crates/urdd-view/src/drops.rs` takes it. */
 const MAX_SENT = 256 * 2 ** 20;
 /** The files that a URDF, a xacro or a mesh may name. */
 const OF_URDF =

@@ -6,8 +6,8 @@ use std::thread::JoinHandle;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
-use urdd::view::{Collection, Server};
 use urdd_directory::cancellation::Cancellation;
+use urdd_view::{Collection, Server};
 
 use crate::errors::raise;
 use crate::work;
@@ -78,7 +78,7 @@ impl Drop for Page {
 pub fn page_html(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     let robots = collection(py, &path)?;
     let made = work::run(py, move |_| match &robots.robots()[..] {
-        [robot] => urdd::view::page_with(robot).map_err(|error| error.to_string()),
+        [robot] => urdd_view::page_with(robot).map_err(|error| error.to_string()),
         several => Err(format!("{} robots, and a page holds one", several.len())),
     })?;
     made.map_err(PyOSError::new_err)

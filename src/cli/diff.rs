@@ -9,7 +9,7 @@ use super::foreign;
 use super::output;
 use super::packages::PackageArguments;
 use super::signals::Signals;
-use crate::diff::{DiffError, Options, Side, compare, markdown, text};
+use urdd_diff::{DiffError, Options, Side, compare, markdown, text};
 use urdd_validate::report;
 
 /// Exit status: the robots differ.

@@ -12,14 +12,14 @@ use super::output;
 use super::packages::PackageArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
-use crate::view::{
-    Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
-    page_with,
-};
 use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_generate::batch::{self, BatchError, Job};
 use urdd_generate::{Settings, process};
+use urdd_view::{
+    Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
+    page_with,
+};
 
 /// Arguments of `urdd view`.
 #[derive(Args)]

@@ -13,7 +13,7 @@ const repository = join(here, "../..");
 writeFileSync(
   join(here, "urdd.wasm"),
   brotliDecompressSync(
-    readFileSync(join(repository, "page/dist/urdd.wasm.br")),
+    readFileSync(join(repository, "crates/urdd-view/dist/urdd.wasm.br")),
   ),
 );
 for (const licence of ["LICENSE-MIT", "LICENSE-APACHE"])

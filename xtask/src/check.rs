@@ -76,7 +76,7 @@ const TESTS: &[(&str, &str)] = &[
     ),
     (
         PAGE,
-        "needs Node, npm and the target wasm32-unknown-unknown: .ci/page, and commit page/dist. Without them say so in the pull request; a maintainer does it",
+        "needs Node, npm and the target wasm32-unknown-unknown: .ci/page, and commit crates/urdd-view/dist. Without them say so in the pull request; a maintainer does it",
     ),
 ];
 
@@ -147,7 +147,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
             let known = TESTS.iter().find(|(start, _)| test.starts_with(start));
             let remedy = known.map_or("see the message", |(_, remedy)| remedy);
             match test.starts_with(PAGE) {
-                true => println!("\nnote: page/dist is stale\n  {remedy}"),
+                true => println!("\nnote: crates/urdd-view/dist is stale\n  {remedy}"),
                 false => fault(test, &message, remedy),
             }
         }

@@ -2,6 +2,7 @@
 
 use super::index::Count;
 use super::object::{module, object, string_enum};
+use super::registry::PROGRAM_VERSION;
 
 /// Version of the report's own format.
 pub const REPORT_VERSION: &str = "1.0.0";
@@ -39,6 +40,16 @@ object! {
         pub name: String,
         /// Its version.
         pub version: String,
+    }
+}
+
+impl Tool {
+    /// This program.
+    pub fn urdd() -> Tool {
+        Tool {
+            name: "urdd".to_owned(),
+            version: PROGRAM_VERSION.to_owned(),
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use serde_json::Value;
 use super::follow::{Follow, cannot_write};
 use crate::cli::output;
 use crate::cli::signals::Signals;
-use crate::conformance::skips::{self, Skip};
+use urdd_conformance::skips::{self, Skip};
 use urdd_directory::regular;
 use urdd_format::escape;
 use urdd_generate::process;

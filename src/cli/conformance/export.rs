@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use clap::Args;
 
 use crate::cli::output;
-use crate::conformance::catalogue::CATALOGUE;
-use crate::conformance::export::{Exported, export};
+use crate::suite;
+use urdd_conformance::catalogue::CATALOGUE;
+use urdd_conformance::export::{Exported, export};
 
 /// Arguments of `urdd conformance export`.
 #[derive(Args)]
@@ -19,7 +20,9 @@ pub struct ExportArguments {
 
 /// Runs `urdd conformance export`.
 pub fn run(arguments: &ExportArguments) -> ExitCode {
-    let exported = export(&arguments.folder).map_err(|error| error.to_string());
+    let suite = suite::carried().map_err(|error| error.to_string());
+    let exported = suite
+        .and_then(|suite| export(&suite, &arguments.folder).map_err(|error| error.to_string()));
     output::printed(exported.and_then(|exported| output::print(&told(&exported))))
 }
 

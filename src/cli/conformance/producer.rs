@@ -8,8 +8,9 @@ use clap::Args;
 use super::common::{self, RunArguments};
 use crate::cli::signals::Signals;
 use crate::cli::words::Class;
-use crate::conformance::process::Template;
-use crate::conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
+use crate::suite;
+use urdd_conformance::process::Template;
+use urdd_conformance::producer::{Event, Plan, SKIP_FORM, run as run_producer};
 use urdd_format::conformance::{
     ModuleStatus, ProducerResult, RefusedOutcome, RefusedScore, RobotScore, ScoreStatus,
 };
@@ -54,13 +55,14 @@ fn result(arguments: &ProducerArguments, signals: &Signals) -> Result<bool, Stri
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
+    let suite = suite::carried().map_err(|error| error.to_string())?;
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
         Event::Scored(robot) => follow.done(robot.status == ScoreStatus::Failed, Some(robot)),
         Event::Refused(urdf) => follow.done(urdf.status == ScoreStatus::Failed, Some(urdf)),
     };
-    let result = run_producer(&plan, &observe).map_err(|error| error.to_string());
+    let result = run_producer(&plan, &suite, &observe).map_err(|error| error.to_string());
     follow.finish()?;
     let result = result?;
     let mut text = String::new();

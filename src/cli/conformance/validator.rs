@@ -8,8 +8,9 @@ use semver::Version;
 
 use super::common::{self, RunArguments};
 use crate::cli::signals::Signals;
-use crate::conformance::process::Template;
-use crate::conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
+use crate::suite;
+use urdd_conformance::process::Template;
+use urdd_conformance::validator::{Event, Judged, Plan, SKIP_FORM, run as run_validator};
 use urdd_format::conformance::{CaseFault, CaseScore, PrintedCodes, ValidatorResult};
 use urdd_format::registry::SPEC_VERSION;
 
@@ -65,13 +66,14 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Str
         keep: arguments.run.keep.clone(),
         cancellation: signals.cancellation(),
     };
+    let suite = suite::carried().map_err(|error| error.to_string())?;
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
         Event::Judged(judged) => follow.done(judged.fault.is_some(), Some(judged)),
         Event::NotRun => follow.done(false, None::<&Judged>),
     };
-    let result = run_validator(&plan, &observe).map_err(|error| error.to_string());
+    let result = run_validator(&plan, &suite, &observe).map_err(|error| error.to_string());
     follow.finish()?;
     let result = result?;
     let mut text = String::new();

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use rayon::prelude::*;
-use urdd::conformance::case::{Case, Kind, Verdict};
-use urdd::conformance::judge;
-use urdd::conformance::suite::Suite;
-use urdd::conformance::tree::TreeError;
-use urdd::conformance::valid;
+use urdd_conformance::case::{Case, Kind, Verdict};
+use urdd_conformance::judge;
+use urdd_conformance::suite::Suite;
+use urdd_conformance::tree::TreeError;
+use urdd_conformance::valid;
 use urdd_format::report::Report;
 use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
@@ -16,7 +16,7 @@ use urdd_validate::{rules, validate};
 use crate::conformance::in_repository;
 
 fn suite() -> Suite {
-    Suite::carried().expect("the suite reads")
+    urdd::suite::carried().expect("the suite reads")
 }
 
 /// The validator's findings in a case; `None` if this system cannot store it on disk.
@@ -55,7 +55,7 @@ fn every_case_is_judged_as_it_says() {
 fn the_pages_say_how_much_there_is() {
     let cases = format!("more than {} cases", suite().cases.len() / 100 * 100);
     let before = format!("more than {} cases", suite().cases.len() / 100 * 100 - 100);
-    let robots = match valid::robots().len() {
+    let robots = match valid::robots(&suite().data).len() {
         9 => "nine robots",
         others => panic!("{others} robots; the pages say nine"),
     };

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use urdd::conformance::refused;
-use urdd::conformance::suite::Suite;
+use urdd_conformance::refused;
 
 use crate::conformance::{conformance, result, stderr};
 
@@ -178,7 +177,7 @@ fn the_python_example_passes() {
 }
 
 fn to_refuse() -> Vec<String> {
-    let suite = Suite::carried().expect("the suite reads");
+    let suite = urdd::suite::carried().expect("the suite reads");
     let all = refused::all(&suite).expect("no damaged case");
     all.into_iter().map(|urdf| urdf.id).collect()
 }

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use urdd::conformance::export::write_valid;
-use urdd::conformance::tree::{Node, Tree};
-use urdd::conformance::valid;
+use urdd_conformance::export::write_valid;
+use urdd_conformance::tree::{Node, Tree};
+use urdd_conformance::valid;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
@@ -16,11 +16,13 @@ use crate::conformance::in_repository;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
 fn generating_gives_what_is_kept() {
+    let suite = urdd::suite::carried().expect("the suite reads");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let robots = folder.path().join("robots");
-    valid::write_robots(&robots).expect("the robots");
+    valid::write_robots(&suite.data, &robots).expect("the robots");
     write_valid(
-        &valid::robots(),
+        &suite.data,
+        &valid::robots(&suite.data),
         &robots,
         folder.path(),
         &Default::default(),
@@ -28,7 +30,7 @@ fn generating_gives_what_is_kept() {
     .expect("URDDs");
     let update = std::env::var_os("URDD_UPDATE").is_some();
     let mut stale = BTreeSet::new();
-    for robot in valid::robots() {
+    for robot in valid::robots(&suite.data) {
         let made = folder.path().join(&robot);
         let made = valid::kept(&Tree::read(&made, &made).expect("a URDD"));
         let place = in_repository("conformance/valid").join(&robot);
@@ -54,11 +56,19 @@ fn generating_gives_what_is_kept() {
 
 #[test]
 fn nothing_is_found_in_them() {
+    let suite = urdd::suite::carried().expect("the suite reads");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let robots = folder.path().join("robots");
-    valid::write_robots(&robots).expect("the robots");
+    valid::write_robots(&suite.data, &robots).expect("the robots");
     let urdds = folder.path().join("valid");
-    write_valid(&valid::robots(), &robots, &urdds, &Default::default()).expect("URDDs");
+    write_valid(
+        &suite.data,
+        &valid::robots(&suite.data),
+        &robots,
+        &urdds,
+        &Default::default(),
+    )
+    .expect("URDDs");
     let run = validate(&[&urdds], &Settings::default()).expect("URDDs");
     let report = run.report;
     assert_eq!(report.urdds.len(), 9);
@@ -74,8 +84,9 @@ fn nothing_is_found_in_them() {
 
 #[test]
 fn what_is_not_kept_is_in_the_hashes() {
-    for robot in valid::robots() {
-        let kept = valid::carried(&robot);
+    let suite = urdd::suite::carried().expect("the suite reads");
+    for robot in valid::robots(&suite.data) {
+        let kept = valid::carried(&suite.data, &robot);
         let root = kept.file("urdd.json").expect("urdd.json");
         let root: serde_json::Value = serde_json::from_slice(root).expect("JSON");
         let modules = root["modules"].as_array().expect("a list");

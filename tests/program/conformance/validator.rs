@@ -3,8 +3,7 @@
 use std::fs;
 
 use serde_json::{Value, json};
-use urdd::conformance::catalogue::{ItemKind, items};
-use urdd::conformance::suite::Suite;
+use urdd_conformance::catalogue::{ItemKind, items};
 
 use crate::conformance::{conformance, result, stderr};
 
@@ -80,7 +79,7 @@ fn printed_codes_are_scored_apart() {
         (&json!([]), &json!([]))
     );
     // Without valid URDDs, legacy cases, and cases of a SHOULD.
-    let suite = Suite::carried().expect("the suite reads");
+    let suite = urdd::suite::carried().expect("the suite reads");
     let of = |code: &str, kind| {
         let items = items(&suite).into_iter();
         let items = items.filter(|item| item.code.as_deref() == Some(code) && item.kind == kind);

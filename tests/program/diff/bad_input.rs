@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::command::diff;
 use super::{Workshop, differences, open, places};
 use testkit::robots::our_robots;
-use urdd::diff::{Options, Side, compare, markdown, text};
+use urdd_diff::{Options, Side, compare, markdown, text};
 
 #[test]
 fn what_is_no_robot_is_refused_with_advice() {

@@ -2,7 +2,7 @@
 
 use super::Workshop;
 use testkit::fixture::Fixture;
-use urdd::diff::{Options, Side, compare};
+use urdd_diff::{Options, Side, compare};
 
 #[test]
 fn a_mass_that_is_removed_is_a_new_finding() {

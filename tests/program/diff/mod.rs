@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use testkit::repository;
-use urdd::diff::{Options, Side, compare};
+use urdd_diff::{Options, Side, compare};
 use urdd_format::diff_report::{DiffReport, Presence, ValueChange};
 
 /// A folder with our robots' meshes, for changed URDFs.

@@ -8,7 +8,7 @@ use super::by_rules::place;
 use super::{Workshop, differences, open, places};
 use testkit::repository;
 use testkit::robots::{made, our_robots};
-use urdd::diff::compare;
+use urdd_diff::compare;
 use urdd_geometry::read::read;
 use urdd_geometry::write;
 

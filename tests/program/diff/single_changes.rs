@@ -7,7 +7,7 @@ use roxmltree::{Document, Node};
 use super::by_rules::{is_default, place};
 use super::{Workshop, few, open, places};
 use testkit::robots::our_robots;
-use urdd::diff::{Side, compare};
+use urdd_diff::{Side, compare};
 
 /// The text with a range replaced.
 fn replaced(text: &str, range: Range<usize>, by: &str) -> String {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::{few, open, places};
 use testkit::fixture::Fixture;
-use urdd::diff::{Side, compare};
+use urdd_diff::{Side, compare};
 use urdd_format::shape_kind::ShapeKind;
 
 struct Bench {

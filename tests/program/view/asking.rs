@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use serde_json::Value;
-use urdd::view::{Collection, Server};
 use urdd_directory::cancellation::Cancellation;
+use urdd_view::{Collection, Server};
 
 /// A URDD of one of our robots, in a folder of its own.
 pub fn made(robot: &str) -> (tempfile::TempDir, PathBuf) {

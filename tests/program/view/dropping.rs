@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use urdd::view::Collection;
+use urdd_view::Collection;
 
 use super::asking::{Answer, Running};
 use super::living::{is_whole, living, until};

@@ -9,11 +9,11 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use urdd::view::{Collection, may_hold_page, page_with};
 use urdd_directory::listing::EntryKind;
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
 use urdd_robot::{Robot, ShapeKind};
+use urdd_view::{Collection, may_hold_page, page_with};
 
 use super::asking::made;
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use urdd::view::{Collection, Making, Shown, Source};
 use urdd_validate::settings::Settings;
+use urdd_view::{Collection, Making, Shown, Source};
 
 use super::asking::{Running, made};
 

@@ -8,10 +8,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use urdd::view::{Collection, Live, Source};
 use urdd_directory::cancellation::Cancellation;
 use urdd_generate::batch::{Job, Observer};
 use urdd_generate::{GenerateError, Generated, Progress, Settings};
+use urdd_view::{Collection, Live, Source};
 
 use super::asking::Running;
 

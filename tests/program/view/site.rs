@@ -8,9 +8,9 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use urdd::view::{Collection, ExportError, export};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
+use urdd_view::{Collection, ExportError, export};
 
 use super::asking::made;
 

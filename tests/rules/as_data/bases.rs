@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 
-use urdd::conformance::case;
-use urdd::conformance::change::mirror_of;
-use urdd::conformance::data::{BASES, COPIES, URDD};
-use urdd::conformance::seal::add_mirrors;
-use urdd::conformance::suite::Suite;
-use urdd::conformance::tree::{Node, Tree};
+use urdd_conformance::case;
+use urdd_conformance::change::mirror_of;
+use urdd_conformance::data::{BASES, COPIES, URDD};
+use urdd_conformance::seal::add_mirrors;
+use urdd_conformance::tree::{Node, Tree};
 use urdd_directory::canonical;
 
 use super::changes::{Difference, difference, makes};
@@ -30,7 +29,7 @@ pub struct Bases(Vec<(String, Tree)>);
 impl Bases {
     /// The bases of the stored suite.
     pub fn stored() -> Bases {
-        let bases = Suite::carried().expect("the suite reads").bases;
+        let bases = urdd::suite::carried().expect("the suite reads").bases;
         let mut bases: Vec<(String, Tree)> = bases.into_iter().collect();
         let place = |name: &str| MAIN.iter().position(|main| *main == name);
         bases.sort_by_key(|(name, _)| place(name).unwrap_or(MAIN.len()));

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
-use urdd::conformance::change::{Action, Change, Yes, mirror_of, text_of};
-use urdd::conformance::seal::rehash;
-use urdd::conformance::tree::{FilePath, Node, Tree};
+use urdd_conformance::change::{Action, Change, Yes, mirror_of, text_of};
+use urdd_conformance::seal::rehash;
+use urdd_conformance::tree::{FilePath, Node, Tree};
 use urdd_directory::{canonical, digest, file_entry, json as json_text};
 
 use super::patch::patch;

@@ -14,10 +14,10 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use serde_json::Value;
-use urdd::conformance::case::{self, Expected, Kind, Verdict};
-use urdd::conformance::data::{BASES, INVALID};
-use urdd::conformance::judge;
-use urdd::conformance::tree::Tree;
+use urdd_conformance::case::{self, Expected, Kind, Verdict};
+use urdd_conformance::data::{BASES, INVALID};
+use urdd_conformance::judge;
+use urdd_conformance::tree::Tree;
 use urdd_directory::canonical;
 use urdd_validate::rule::Severity;
 use urdd_validate::rules;

@@ -10,7 +10,7 @@ use crate::finding::Finding as Found;
 use crate::settings::Settings;
 use crate::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::registry::{PROGRAM_VERSION, SPEC_VERSION};
+use urdd_format::registry::SPEC_VERSION;
 use urdd_format::report::{
     CheckStatus, Finding, Kind, Module, NotChecked, Place, Report, Severity, Size, Skipped, Status,
     Tool, Totals, Urdd, Verdict,
@@ -30,10 +30,7 @@ pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
         Count::saturating(alike.map(|finding| finding.count.get()).sum())
     };
     Report {
-        tool: Tool {
-            name: "urdd".to_owned(),
-            version: PROGRAM_VERSION.to_owned(),
-        },
+        tool: Tool::urdd(),
         spec_version: SPEC_VERSION.to_owned(),
         stale_ignores,
         totals: Totals {

@@ -1,0 +1,73 @@
+//! Cases: URDDs with one fault or a near miss, and the expected results.
+
+use std::collections::BTreeSet;
+
+use semver::VersionReq;
+use serde::{Deserialize, Serialize};
+
+use crate::change::Change;
+
+/// A test case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Code of the rule under test.
+    pub code: String,
+    /// Its name, unique within the rule.
+    pub name: String,
+    /// Its description.
+    pub title: String,
+    /// Whether there is a fault.
+    pub kind: Kind,
+    /// The versions of the specification to which the verdict applies.
+    pub spec_versions: VersionReq,
+    /// The expected verdict of a validator.
+    pub verdict: Verdict,
+    /// All findings of `urdd validate`, except infos of other rules: legacy URDDs always have some.
+    pub expected: Vec<Expected>,
+    /// The base to change: a valid URDD, or a faithful one of an odd robot.
+    pub base: String,
+    /// The changes, in order.
+    pub changes: Vec<Change>,
+    /// Files whose size and hash in `urdd.json` are not updated after the changes.
+    pub hashes_kept: BTreeSet<String>,
+}
+
+/// The kind of case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Only the rule under test finds something.
+    Invalid,
+    /// Nothing is found.
+    NearMiss,
+}
+
+/// A validator's verdict on a URDD.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The URDD violates a MUST of the specification.
+    Reject,
+    /// The URDD satisfies every MUST; there may be warnings.
+    Accept,
+}
+
+/// An expected finding.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// Code of the rule.
+    pub code: String,
+    /// The file, relative to the URDD's root.
+    pub file: Option<String>,
+    /// JSON Pointer into it.
+    pub pointer: Option<String>,
+}
+
+impl Case {
+    /// Its id: code, slash, name.
+    pub fn id(&self) -> String {
+        format!("{}/{}", self.code, self.name)
+    }
+}

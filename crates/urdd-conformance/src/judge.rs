@@ -1,0 +1,54 @@
+//! Compares the findings of `urdd validate` with those that a case expects.
+
+use crate::case::{Case, Expected, Verdict};
+use urdd_format::report::{self, Finding, Report, Severity};
+
+/// The findings that a case of the rule `code` lists: all except infos of other rules.
+pub fn found(code: &str, report: &Report) -> Vec<Expected> {
+    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    let counts = |finding: &&Finding| finding.severity != Severity::Info || finding.code == code;
+    let mut found: Vec<Expected> = findings
+        .filter(counts)
+        .map(|finding| Expected {
+            code: finding.code.clone(),
+            file: finding.file.clone(),
+            pointer: finding.pointer.clone(),
+        })
+        .collect();
+    found.sort();
+    found
+}
+
+/// The verdict of a report on one URDD.
+pub fn verdict(report: &Report) -> Verdict {
+    match report.count(report::Verdict::Pass) == report.urdds.len() {
+        true => Verdict::Accept,
+        false => Verdict::Reject,
+    }
+}
+
+/// Describes how a report differs from what the case expects; `None` if it matches.
+pub fn difference(case: &Case, report: &Report) -> Option<String> {
+    let (found, verdict) = (found(&case.code, report), verdict(report));
+    if found == case.expected && verdict == case.verdict {
+        return None;
+    }
+    let list = |findings: &[Expected]| -> String {
+        let line = |finding: &Expected| {
+            let file = finding.file.as_deref().unwrap_or("no file");
+            let pointer = finding.pointer.as_deref().unwrap_or_default();
+            format!("\n    {} {file} {pointer}", finding.code)
+        };
+        match findings.is_empty() {
+            true => " nothing".to_owned(),
+            false => findings.iter().map(line).collect(),
+        }
+    };
+    Some(format!(
+        "{}: expected {:?} with{}\n  found {verdict:?} with{}",
+        case.id(),
+        case.verdict,
+        list(&case.expected),
+        list(&found)
+    ))
+}

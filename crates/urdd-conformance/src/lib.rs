@@ -1,0 +1,27 @@
+//! Internal to urdd; no stability promise.
+//!
+//! The conformance suite: its cases, and what runs a producer or a validator on them (`urdd conformance`).
+//!
+//! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a base with changes. It becomes a [`tree::Tree`],
+//! which is written to disk for validation.
+
+pub mod case;
+pub mod catalogue;
+pub mod change;
+pub mod data;
+pub mod examined;
+pub mod export;
+pub mod judge;
+pub mod printed_codes;
+pub mod process;
+pub mod producer;
+pub mod refused;
+pub mod run_error;
+pub mod seal;
+pub mod skips;
+pub mod suite;
+pub mod tally;
+pub mod tree;
+pub mod valid;
+pub mod validator;
+pub mod workplace;

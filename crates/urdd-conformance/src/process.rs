@@ -1,0 +1,263 @@
+//! Runs an external command with a time limit, and ends all its child processes with it.
+
+use std::collections::{BTreeSet, VecDeque};
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, ExitStatus};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use crate::printed_codes::Scan;
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_generate::process::{Ended, PAUSE, Running};
+use urdd_validate::code::Code;
+
+/// Length of the output tail that is kept, bytes.
+const TAIL: usize = 2000;
+/// How long to wait for the last output if another process keeps the stream open.
+const LAST_WORDS: Duration = Duration::from_millis(500);
+
+/// How a command ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// With an exit status.
+    Status(i32),
+    /// By a signal, in the system's notation.
+    Signal(String),
+    /// Stopped at the time limit.
+    TimeLimit,
+    /// Failed to start.
+    NotStarted(String),
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            End::Status(status) => write!(f, "exit status {status}"),
+            End::Signal(signal) => write!(f, "ended by {signal}"),
+            End::TimeLimit => f.write_str("stopped at the time limit"),
+            End::NotStarted(error) => write!(f, "could not be started: {error}"),
+        }
+    }
+}
+
+/// A finished command, with the end of its output.
+#[derive(Debug, Clone)]
+pub struct Ran {
+    /// How it ended.
+    pub end: End,
+    /// The end of its standard output.
+    pub stdout: String,
+    /// The end of its standard error.
+    pub stderr: String,
+    /// The codes of rules in all of its output.
+    pub codes: BTreeSet<Code>,
+}
+
+/// What interpreters and runtimes (Python, Node.js, the JVM, Go, Rust) print of an uncaught exception or a panic.
+const CRASHES: &[&str] = &[
+    "Traceback (most recent call last)",
+    "\nNode.js v",
+    "Exception in thread \"",
+    "\ngoroutine 1 [",
+    "' panicked at ",
+];
+
+impl Ran {
+    /// Whether it seems to have crashed, so that its exit status says nothing.
+    pub fn looks_crashed(&self) -> bool {
+        CRASHES.iter().any(|words| self.stderr.contains(words))
+    }
+}
+
+/// A command with arguments, in which each `{word}` is a placeholder for a path.
+#[derive(Debug, Clone)]
+pub struct Template {
+    words: Vec<String>,
+}
+
+/// Why a command is invalid.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TemplateError {
+    /// The command is empty.
+    #[error("no command given; give it after `--`")]
+    Empty,
+    /// A placeholder is missing.
+    #[error("the command has no {{{0}}}; put it where the path belongs")]
+    Missing(&'static str),
+}
+
+impl Template {
+    /// A command whose arguments contain each of `needed` in braces.
+    ///
+    /// # Errors
+    /// If the command is empty, or a placeholder is missing.
+    pub fn new(words: &[String], needed: &[&'static str]) -> Result<Template, TemplateError> {
+        if words.is_empty() {
+            return Err(TemplateError::Empty);
+        }
+        for name in needed {
+            let place = format!("{{{name}}}");
+            if !words.iter().skip(1).any(|word| word.contains(&place)) {
+                return Err(TemplateError::Missing(name));
+            }
+        }
+        let words = words.to_vec();
+        Ok(Template { words })
+    }
+
+    /// The words as given.
+    pub fn words(&self) -> &[String] {
+        &self.words
+    }
+
+    /// Runs the command with these paths, for at most `limit`.
+    ///
+    /// # Errors
+    /// If cancelled. The command and its child processes have ended then.
+    pub fn run(
+        &self,
+        paths: &[(&str, &Path)],
+        limit: Duration,
+        cancellation: &Cancellation,
+    ) -> Result<Ran, Cancelled> {
+        cancellation.check()?;
+        let filled = |word: &String| {
+            paths.iter().fold(word.clone(), |word, (name, path)| {
+                word.replace(&format!("{{{name}}}"), &path.to_string_lossy())
+            })
+        };
+        let mut words = self.words.iter();
+        let mut command = Command::new(words.next().cloned().unwrap_or_default());
+        command.args(words.map(filled));
+        let mut running = match Running::start(command) {
+            Ok(running) => running,
+            Err(error) => {
+                return Ok(Ran {
+                    end: End::NotStarted(error.to_string()),
+                    stdout: String::new(),
+                    stderr: String::new(),
+                    codes: BTreeSet::new(),
+                });
+            }
+        };
+        let (stdout, stderr) = running.streams();
+        let (stdout, stderr) = (stdout.map(Tail::of), stderr.map(Tail::of));
+        let end = match running.wait(limit, cancellation, || false) {
+            Ok(Ended::Itself(status)) => end(status),
+            Ok(Ended::Cancelled) => return Err(Cancelled),
+            Ok(Ended::TimeLimit | Ended::Enough) => End::TimeLimit,
+            Err(error) => End::Signal(error.to_string()),
+        };
+        let (stdout, mut codes) = stdout.map(Tail::finish).unwrap_or_default();
+        let (stderr, more) = stderr.map(Tail::finish).unwrap_or_default();
+        codes.extend(more);
+        Ok(Ran {
+            end,
+            stdout,
+            stderr,
+            codes,
+        })
+    }
+}
+
+fn end(status: ExitStatus) -> End {
+    match status.code() {
+        Some(status) => End::Status(status),
+        None => End::Signal(status.to_string()),
+    }
+}
+
+/// The end of a stream, and the codes in it. It is read concurrently so that the command never blocks on a full pipe.
+struct Tail {
+    kept: Arc<Mutex<(VecDeque<u8>, Scan)>>,
+    reader: JoinHandle<()>,
+}
+
+impl Tail {
+    fn of(mut stream: impl Read + Send + 'static) -> Tail {
+        let kept = Arc::new(Mutex::new((VecDeque::new(), Scan::default())));
+        let shared = kept.clone();
+        let reader = thread::spawn(move || {
+            let mut piece = [0; 4096];
+            while let Ok(read @ 1..) = stream.read(&mut piece) {
+                let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                let (tail, scan) = &mut *kept;
+                scan.read(&piece[..read]);
+                tail.extend(&piece[..read]);
+                let over = tail.len().saturating_sub(TAIL);
+                tail.drain(..over);
+            }
+        });
+        Tail { kept, reader }
+    }
+
+    fn finish(self) -> (String, BTreeSet<Code>) {
+        let start = Instant::now();
+        while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
+            thread::sleep(PAUSE);
+        }
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let (tail, scan) = &mut *kept;
+        let text = String::from_utf8_lossy(tail.make_contiguous()).into_owned();
+        (text, std::mem::take(scan).finish())
+    }
+}
+
+#[cfg(all(test, unix))]
+#[allow(clippy::unwrap_used)] // Clippy sees no test in `all(test, unix)`.
+mod tests {
+    use super::*;
+
+    fn run(script: &str, limit: u64) -> Ran {
+        let words = ["sh", "-c", script, "sh", "{dir}"].map(str::to_owned);
+        let template = Template::new(&words, &["dir"]).unwrap();
+        let paths = [("dir", Path::new("/some/where"))];
+        let limit = Duration::from_millis(limit);
+        template
+            .run(&paths, limit, &Cancellation::default())
+            .unwrap()
+    }
+
+    #[test]
+    fn tells_how_it_ended_and_what_it_said() {
+        let ran = run("echo \"got $1\"; echo bad >&2; exit 3", 20_000);
+        assert_eq!(ran.end, End::Status(3));
+        assert_eq!(
+            (ran.stdout.as_str(), ran.stderr.as_str()),
+            ("got /some/where\n", "bad\n")
+        );
+        assert!(matches!(run("kill -9 $$", 20_000).end, End::Signal(_)));
+        let long = run("yes | head -c 100000; echo end", 20_000);
+        assert!(long.stdout.len() <= TAIL && long.stdout.ends_with("end\n"));
+        let codes = run("echo DOF003; yes | head -c 100000; echo CHN001 >&2", 20_000).codes;
+        assert_eq!(codes, [Code::DOF003, Code::CHN001].into());
+    }
+
+    #[test]
+    fn what_it_started_ends_with_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("late");
+        let shown = file.display();
+        let start = Instant::now();
+        let ran = run(&format!("(sleep 2; touch {shown}) & sleep 60"), 300);
+        assert_eq!(ran.end, End::TimeLimit);
+        assert!(start.elapsed() < Duration::from_secs(2));
+        thread::sleep(Duration::from_millis(2500));
+        assert!(!file.exists(), "a child outlived the time limit");
+    }
+
+    #[test]
+    fn commands_must_ask_for_their_paths() {
+        let words = ["a".to_owned(), "{dir}/b".to_owned()];
+        assert!(Template::new(&words, &["dir"]).is_ok());
+        let error = Template::new(&words, &["dir", "out"]).unwrap_err();
+        assert_eq!(error, TemplateError::Missing("out"));
+        assert_eq!(Template::new(&[], &[]).unwrap_err(), TemplateError::Empty);
+        let missing = ["/no/such/program".to_owned()];
+        let ran = Template::new(&missing, &[]).unwrap();
+        let ran = ran.run(&[], Duration::from_secs(1), &Cancellation::default());
+        assert!(matches!(ran.unwrap().end, End::NotStarted(_)));
+    }
+}

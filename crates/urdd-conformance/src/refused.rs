@@ -1,0 +1,156 @@
+//! URDFs that have no URDD as they are: a producer refuses or repairs them. They are sources of cases, and a few more.
+
+use std::path::{Path, PathBuf};
+
+use crate::case::Kind;
+use crate::examined::{codes, examine};
+use crate::process::{End, Ran};
+use crate::suite::{CaseError, Suite};
+use crate::tree::{FilePath, Tree, TreeError};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::discover::ROOT_METADATA;
+use urdd_format::conformance::{RefusedOutcome, RefusedScore, ScoreStatus};
+use urdd_format::report::{Severity, Urdd, Verdict};
+use urdd_format::root_metadata::{ConformanceClass, RootMetadata};
+
+/// The folder of those that are not sources of cases, and of all in an exported suite.
+pub const REFUSED: &str = "refused";
+
+/// The cases whose URDF is at fault: faults of their base's URDF, by the rules of 6.1.3 to 6.1.6 and of its reading.
+/// Other bases are odd robots, whose URDFs are right, or are at the limits of size, where they take megabytes.
+const BASE: &str = "toy";
+const SOURCE: &str = "robot.urdf";
+const RULES: std::ops::RangeInclusive<&str> = "URD002"..="URD012";
+
+/// A URDF to refuse.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refused {
+    /// The rule that every URDD of it would break, a slash and a name.
+    pub id: String,
+    /// Its text.
+    pub urdf: Vec<u8>,
+}
+
+/// Every URDF to refuse, by id.
+///
+/// # Errors
+/// If a case is damaged.
+pub fn all(suite: &Suite) -> Result<Vec<Refused>, CaseError> {
+    let mut all = Vec::new();
+    for (path, bytes) in suite.data.below(REFUSED) {
+        all.extend(path.strip_suffix(".urdf").map(|id| Refused {
+            id: id.to_owned(),
+            urdf: bytes.to_owned(),
+        }));
+    }
+    let source = FilePath::from(SOURCE);
+    for case in &suite.cases {
+        let is_at_fault = case.kind == Kind::Invalid
+            && RULES.contains(&case.code.as_str())
+            && case.base == BASE
+            && case.changes.iter().any(|change| change.file == source);
+        if is_at_fault {
+            let tree = suite.tree(case)?;
+            all.extend(tree.file(SOURCE).map(|bytes| Refused {
+                id: case.id(),
+                urdf: bytes.to_owned(),
+            }));
+        }
+    }
+    all.sort_by(|a, b| a.id.cmp(&b.id));
+    Ok(all)
+}
+
+/// The URDFs as files of an exported suite.
+pub fn tree(all: &[Refused]) -> Tree {
+    let mut tree = Tree::default();
+    for urdf in all {
+        let path = format!("{}.urdf", urdf.id);
+        tree.put(FilePath::from(path.as_str()), urdf.urdf.as_slice());
+    }
+    tree
+}
+
+impl Refused {
+    fn name(&self) -> &str {
+        self.id.rsplit('/').next().unwrap_or(&self.id)
+    }
+
+    /// Writes it into a folder of its own. Returns its path, and the path for its URDD.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(PathBuf, PathBuf), TreeError> {
+        let file = format!("{}.urdf", self.name());
+        let mut tree = Tree::default();
+        tree.put(FilePath::from(file.as_str()), self.urdf.as_slice());
+        tree.write(folder)?;
+        Ok((folder.join(file), folder.join(self.name())))
+    }
+
+    /// Scores what a command did with it.
+    pub fn score(
+        &self,
+        ran: Ran,
+        out: &Path,
+        class: ConformanceClass,
+        cancellation: &Cancellation,
+    ) -> RefusedScore {
+        let is_there = out.symlink_metadata().is_ok();
+        let says_why = !ran.stderr.trim().is_empty() || !ran.stdout.trim().is_empty();
+        let (mut unreadable, mut found) = (None, Vec::new());
+        let outcome = match ran.end {
+            End::Status(0) => match repaired(out, class, cancellation) {
+                Ok(urdd) if urdd.verdict == Verdict::Pass => RefusedOutcome::Repaired,
+                Ok(urdd) => {
+                    let mut errors = urdd.findings;
+                    errors.retain(|finding| finding.severity == Severity::Error);
+                    found = codes(errors.iter());
+                    RefusedOutcome::Written
+                }
+                Err(reason) => {
+                    unreadable = reason;
+                    RefusedOutcome::Written
+                }
+            },
+            End::Status(_) if ran.looks_crashed() => RefusedOutcome::Crashed,
+            End::Status(_) if is_there => RefusedOutcome::LeftOver,
+            End::Status(_) if !says_why => RefusedOutcome::Silent,
+            End::Status(_) => RefusedOutcome::Refused,
+            _ => RefusedOutcome::Crashed,
+        };
+        let passed = matches!(outcome, RefusedOutcome::Refused | RefusedOutcome::Repaired);
+        RefusedScore {
+            robot: self.id.clone(),
+            status: match passed {
+                true => ScoreStatus::Passed,
+                false => ScoreStatus::Failed,
+            },
+            skipped_since: None,
+            outcome,
+            end: ran.end.to_string(),
+            stdout: (!passed).then_some(ran.stdout),
+            stderr: (!passed).then_some(ran.stderr),
+            unreadable,
+            codes: found,
+        }
+    }
+}
+
+/// The validator's result on a URDD that carries its source, or the reason why there is none.
+fn repaired(
+    out: &Path,
+    class: ConformanceClass,
+    cancellation: &Cancellation,
+) -> Result<Urdd, Option<String>> {
+    let urdd = examine(out, class, cancellation)?;
+    let text = std::fs::read(out.join(ROOT_METADATA)).unwrap_or_default();
+    let metadata = serde_json::from_slice::<RootMetadata>(&text);
+    let is_carried = metadata.is_ok_and(|metadata| metadata.source.is_some());
+    match urdd.verdict == Verdict::Pass && !is_carried {
+        true => Err(Some(
+            "the URDD carries no source: carry the repaired URDF (SPEC 6.1.8)".to_owned(),
+        )),
+        false => Ok(urdd),
+    }
+}

@@ -1,0 +1,355 @@
+//! Runs an external validator on the suite, and scores its verdicts.
+//!
+//! The verdict is the exit status only: 0 accepts, 1 (or an agreed status) rejects. Any other is not a verdict.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use rayon::prelude::*;
+use semver::Version;
+use serde::Serialize;
+
+use crate::case::{Case, Verdict};
+use crate::catalogue::{Item, ItemKind, items};
+use crate::data::{ROBOTS, URDD, VALID};
+use crate::export::write_valid;
+use crate::printed_codes;
+use crate::process::{End, Ran, Template};
+use crate::run_error::{RunError, with_threads};
+use crate::skips::{Skip, SkipError};
+use crate::suite::Suite;
+use crate::tally::Tally;
+use crate::tree::TreeError;
+use crate::valid;
+use crate::workplace::{Workplace, relative};
+use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_format::conformance::{CaseFault, GroupScore, ValidatorResult, WrongCase};
+use urdd_format::registry::Profile;
+use urdd_format::report::Tool;
+use urdd_validate::code::Code;
+
+/// Settings of a validator run.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The command, with `{dir}`.
+    pub command: Template,
+    /// The version of the specification that the validator implements.
+    pub spec_version: Version,
+    /// Time limit per URDD.
+    pub limit: Duration,
+    /// Known failures: a case, or all cases of a code or a family.
+    pub skips: Vec<Skip>,
+    /// Id prefixes of the cases to run; empty for all.
+    pub only: Vec<String>,
+    /// Whether to include legacy URDDs.
+    pub legacy: bool,
+    /// The exit status for rejection.
+    pub reject_status: i32,
+    /// Number of URDDs to judge in parallel; `None` for the number of processors.
+    pub jobs: Option<usize>,
+    /// A new folder that keeps the URDDs; `None` for a temporary one.
+    pub keep: Option<PathBuf>,
+    /// Cancels the run, with all running commands and their child processes.
+    pub cancellation: Cancellation,
+}
+
+/// The result for one URDD, reported while others are still running.
+#[derive(Debug, Clone, Serialize)]
+pub struct Judged<'a> {
+    /// The case.
+    pub id: &'a str,
+    /// The expected verdict.
+    pub expected: Verdict,
+    /// How the verdict is wrong; `None` if it is right.
+    pub fault: Option<CaseFault>,
+    /// How the command ended.
+    pub end: String,
+    /// Whether the command seems to have crashed, so that its exit status is unreliable.
+    pub crashed: bool,
+    /// The end of its standard error.
+    pub stderr: &'a str,
+    /// The codes of rules that it printed.
+    pub codes: Vec<&'static str>,
+}
+
+/// A URDD to judge.
+struct Chosen<'a> {
+    item: Item,
+    /// `None` for valid URDDs.
+    case: Option<&'a Case>,
+    /// Whether `{dir}` is relative to the current folder.
+    is_relative: bool,
+}
+
+/// Progress of a validator run.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// Start, with the number of URDDs.
+    Start(usize),
+    /// A URDD is judged. Called from any thread.
+    Judged(Judged<'a>),
+    /// A case that this operating system cannot represent.
+    NotRun,
+}
+
+/// Form of a line in a validator's skip list.
+pub const SKIP_FORM: &str = "`case  # reason`, `code  # reason`, or `family  # reason`";
+
+/// Runs a validator on several URDDs in parallel, and calls `observe` after each.
+///
+/// # Errors
+/// If there is nothing to run, the working folder cannot be created, or the run is cancelled.
+pub fn run(
+    plan: &Plan,
+    suite: &Suite,
+    observe: &(dyn Fn(&Event) + Sync),
+) -> Result<ValidatorResult, RunError> {
+    let (data, all) = (&suite.data, urdds(suite));
+    check_skips(&plan.skips, &all)?;
+    let begins = |item: &Item| plan.only.iter().any(|start| item.id.starts_with(start));
+    let chosen = all.into_iter().filter(|Chosen { item, .. }| {
+        item.spec_versions.matches(&plan.spec_version)
+            && (plan.only.is_empty() || begins(item))
+            && (plan.legacy || !is_legacy(item))
+    });
+    let chosen: Vec<Chosen> = chosen.collect();
+    if chosen.is_empty() {
+        return Err(RunError::NoCase);
+    }
+    let folder = Workplace::new(plan.keep.as_deref())?;
+    observe(&Event::Start(chosen.len()));
+    let is_chosen = |robot: &String| {
+        let mut folders = chosen.iter().map(|urdd| &urdd.item.folder);
+        folders.any(|folder| *folder == valid::id(robot))
+    };
+    let names: Vec<String> = valid::robots(data).into_iter().filter(is_chosen).collect();
+    if !names.is_empty() {
+        let robots = folder.path().join(ROBOTS);
+        valid::write_robots(data, &robots)?;
+        let valid = folder.path().join(VALID);
+        write_valid(data, &names, &robots, &valid, &plan.cancellation).map_err(
+            |error| match plan.cancellation.is_cancelled() {
+                true => RunError::Cancelled(Cancelled),
+                false => error.into(),
+            },
+        )?;
+    }
+    let judge = |urdd: &Chosen| -> Result<Option<Ran>, RunError> {
+        let ran = judge(plan, suite, urdd, &folder)?;
+        match &ran {
+            Some(ran) => observe(&Event::Judged(Judged {
+                id: &urdd.item.id,
+                expected: urdd.item.verdict,
+                fault: fault(plan, urdd.item.verdict, &ran.end),
+                end: ran.end.to_string(),
+                crashed: looks_crashed(plan, ran),
+                stderr: &ran.stderr,
+                codes: ran.codes.iter().copied().map(Code::as_str).collect(),
+            })),
+            None => observe(&Event::NotRun),
+        }
+        Ok(ran)
+    };
+    let all = || -> Result<Vec<Option<Ran>>, RunError> { chosen.par_iter().map(judge).collect() };
+    let ran = match plan.jobs {
+        None => all(),
+        Some(jobs) => with_threads(jobs, all),
+    };
+    let items: Vec<Item> = chosen.into_iter().map(|urdd| urdd.item).collect();
+    Ok(scored(plan, &items, ran?))
+}
+
+/// Every URDD of the suite, and two of them again with a relative `{dir}`: one to accept, one to reject.
+fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
+    let case_of = |item: &Item| suite.cases.iter().find(|case| case.id() == item.id);
+    let urdd = |item: Item| Chosen {
+        case: case_of(&item),
+        item,
+        is_relative: false,
+    };
+    let mut urdds: Vec<Chosen> = items(suite).into_iter().map(urdd).collect();
+    for (verdict, id, title) in [
+        (Verdict::Accept, "relative/valid", "a valid URDD"),
+        (Verdict::Reject, "relative/invalid", "a URDD with a fault"),
+    ] {
+        let fits = |urdd: &&Chosen| urdd.item.verdict == verdict && !is_legacy(&urdd.item);
+        let Some(Chosen { item, case, .. }) = urdds.iter().find(fits) else {
+            continue;
+        };
+        let folder = match case {
+            Some(_) => format!("{id}/{URDD}"),
+            None => item.folder.clone(),
+        };
+        let again = Item {
+            id: id.to_owned(),
+            title: format!("{title}, of which {{dir}} is a relative path"),
+            folder,
+            code: None,
+            ..item.clone()
+        };
+        urdds.push(Chosen {
+            item: again,
+            case: *case,
+            is_relative: true,
+        });
+    }
+    urdds
+}
+
+fn is_legacy(item: &Item) -> bool {
+    item.profile == Profile::Legacy.as_str()
+}
+
+/// Runs the command on one URDD; `None` if this operating system cannot represent it.
+fn judge(
+    plan: &Plan,
+    suite: &Suite,
+    urdd: &Chosen,
+    folder: &Workplace,
+) -> Result<Option<Ran>, RunError> {
+    plan.cancellation.check()?;
+    let path = folder.path().join(&urdd.item.folder);
+    if let Some(case) = urdd.case {
+        match suite.tree(case)?.write(&path) {
+            Ok(()) => {}
+            Err(TreeError::Unsupported(_)) => return Ok(None),
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let shown = match urdd.is_relative {
+        true => relative(&path),
+        false => Some(path.clone()),
+    };
+    let Some(shown) = shown else {
+        return Ok(None);
+    };
+    let ran = plan
+        .command
+        .run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
+    if let (Some(_), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
+        debug_assert!(path.ends_with(URDD));
+        fs::remove_dir_all(around).map_err(|error| RunError::Remove {
+            path: around.to_owned(),
+            error,
+        })?;
+    }
+    Ok(Some(ran))
+}
+
+/// How the verdict on a URDD is wrong; `None` if it is right.
+fn fault(plan: &Plan, expected: Verdict, end: &End) -> Option<CaseFault> {
+    let verdict = match end {
+        End::Status(0) => Verdict::Accept,
+        End::Status(status) if *status == plan.reject_status => Verdict::Reject,
+        _ => return Some(CaseFault::Undecided),
+    };
+    match (expected, verdict) {
+        (Verdict::Accept, Verdict::Accept) | (Verdict::Reject, Verdict::Reject) => None,
+        (Verdict::Reject, Verdict::Accept) => Some(CaseFault::Missed),
+        (Verdict::Accept, Verdict::Reject) => Some(CaseFault::FalseAlarm),
+    }
+}
+
+/// Whether a rejection looks like a crash. It still counts as a rejection, with a warning.
+fn looks_crashed(plan: &Plan, ran: &Ran) -> bool {
+    ran.end == End::Status(plan.reject_status) && ran.looks_crashed()
+}
+
+fn covers(skip: &Skip, item: &Item) -> bool {
+    let code = item.code.as_deref().unwrap_or_default();
+    let what = skip.what();
+    what == item.id || what == code || (!code.is_empty() && what == family(code))
+}
+
+fn family(code: &str) -> &str {
+    code.get(..3).unwrap_or(code)
+}
+
+fn check_skips(skips: &[Skip], urdds: &[Chosen]) -> Result<(), SkipError> {
+    let unknown = |skip: &&Skip| !urdds.iter().any(|urdd| covers(skip, &urdd.item));
+    match skips.iter().find(unknown) {
+        Some(skip) => Err(SkipError::Unknown(skip.line, skip.what())),
+        None => Ok(()),
+    }
+}
+
+fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
+    let (mut totals, mut sound) = (Tally::default(), Tally::default());
+    let mut legacy = Tally::default();
+    let mut crashed = Vec::new();
+    let mut families: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut codes: BTreeMap<&str, Tally> = BTreeMap::new();
+    let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
+    let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
+    let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
+    let printed = printed.filter_map(|(item, ran)| Some((item, &ran.as_ref()?.codes)));
+    let printed_codes = printed_codes::score(printed);
+    for (item, ran) in items.iter().zip(ran) {
+        let Some(ran) = ran else {
+            not_run.push(item.id.clone());
+            continue;
+        };
+        let fault = fault(plan, item.verdict, &ran.end);
+        match is_legacy(item) {
+            true => legacy.add(fault),
+            false => totals.add(fault),
+        }
+        if item.kind != ItemKind::Invalid && !is_legacy(item) {
+            sound.add(fault);
+        }
+        if looks_crashed(plan, &ran) {
+            crashed.push(item.id.clone());
+        }
+        if let Some(code) = item.code.as_deref() {
+            families.entry(family(code)).or_default().add(fault);
+            codes.entry(code).or_default().add(fault);
+        }
+        let mut reason = None;
+        for skip in plan.skips.iter().filter(|skip| covers(skip, item)) {
+            relevant.insert(skip.line);
+            if fault.is_some() {
+                used.insert(skip.line);
+                reason.get_or_insert_with(|| skip.reason.clone());
+            }
+        }
+        if let Some(fault) = fault {
+            wrong.push(WrongCase {
+                id: item.id.clone(),
+                title: item.title.clone(),
+                fault,
+                end: ran.end.to_string(),
+                stderr: ran.stderr,
+                skipped_since: reason,
+            });
+        }
+    }
+    // Skips of cases that were not run are not stale.
+    let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
+    let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
+    let groups = |tallies: BTreeMap<&str, Tally>| {
+        let group = |(name, tally): (&str, Tally)| GroupScore {
+            name: name.to_owned(),
+            score: tally.score(),
+        };
+        tallies.into_iter().map(group).collect()
+    };
+    let excused = wrong.iter().all(|case| case.skipped_since.is_some());
+    ValidatorResult {
+        tool: Tool::urdd(),
+        spec_version: plan.spec_version.to_string(),
+        command: plan.command.words().to_vec(),
+        passed: excused && stale_skips.is_empty(),
+        totals: totals.score(),
+        sound: sound.score(),
+        legacy: legacy.score(),
+        families: groups(families),
+        codes: groups(codes),
+        printed_codes,
+        wrong,
+        crashed,
+        not_run,
+        stale_skips,
+    }
+}

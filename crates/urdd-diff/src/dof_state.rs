@@ -1,0 +1,160 @@
+//! The degrees of freedom of one robot: as its modules state them, and as they follow from its joints.
+
+use crate::fields::Fields;
+use urdd_document::dof_layout::{DofLayout, bounds_without_limits, describe};
+use urdd_document::robot::{Joint, Robot};
+use urdd_document::urdd::Urdd;
+use urdd_format::dof::Quantity;
+use urdd_format::urdf::JointType;
+
+/// A degree of freedom.
+#[derive(Debug, Clone)]
+pub(super) struct DofState {
+    pub name: String,
+    /// Its values in the modules.
+    pub stated: Fields,
+    /// Its values as they follow from the joint.
+    pub derived: Fields,
+}
+
+/// The DOFs of a robot, as they follow from its joints.
+pub(super) fn of_robot(robot: &Robot) -> Vec<DofState> {
+    let layout = DofLayout::new(robot, false);
+    let dofs = (0..layout.joint_of_dof.len()).filter_map(|dof| {
+        let (joint, place) = layout.place(dof)?;
+        let joint = robot.joints.get(joint)?;
+        let derived = derived(joint, place)?;
+        Some(DofState {
+            name: name(joint, place)?,
+            stated: derived.clone(),
+            derived,
+        })
+    });
+    dofs.collect()
+}
+
+/// The DOFs of a URDD, as `dof_module` and `bounds_module` state them.
+pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Vec<DofState> {
+    let Some(dofs) = urdd.dofs() else {
+        notes
+            .push("dof_module is missing or unusable; the DOFs are those of the joints".to_owned());
+        return of_robot(robot);
+    };
+    let bounds = urdd.bounds();
+    if bounds.is_none() {
+        notes.push(
+            "bounds_module is missing or unusable; bounds are those of the joints".to_owned(),
+        );
+    }
+    let mut places = vec![0; robot.joints.len()];
+    let mut found = Vec::with_capacity(dofs.joint_of_dof.len());
+    for (index, joint_idx) in dofs.joint_of_dof.iter().enumerate() {
+        let joint = robot.joints.get(joint_idx.get());
+        let place = places.get_mut(joint_idx.get()).map_or(0, |place| {
+            *place += 1;
+            *place - 1
+        });
+        let derived = joint.and_then(|joint| derived(joint, place));
+        let stated_dof = dofs.v1.and_then(|module| module.dofs.get(index));
+        let name = match stated_dof {
+            Some(dof) => Some(dof.name.clone()),
+            None => joint.and_then(|joint| name(joint, place)),
+        };
+        let derived = derived.unwrap_or_default();
+        let stated = match bounds {
+            None => derived.clone(),
+            Some(bounds) => {
+                let pair = bounds.bounds.get(index);
+                let one = |side: usize, list: &[f64]| {
+                    // Both lists state it; one that departs from the joint is shown.
+                    let stated = [pair.map(|pair| pair[side]), list.get(index).copied()];
+                    let expected = derived.shown(["lower", "upper"][side]);
+                    let expected = expected.and_then(|text| text.parse().ok());
+                    let mut stated = stated.into_iter().flatten();
+                    let first = stated.clone().next();
+                    stated.find(|value| Some(*value) != expected).or(first)
+                };
+                let (lower, upper) = (one(0, bounds.lower), one(1, bounds.upper));
+                let quantity = match stated_dof {
+                    Some(dof) => Some(dof.quantity),
+                    None => joint.and_then(|joint| Some(describe(joint.joint_type, place)?.1)),
+                };
+                let limited = bounds.v1.and_then(|v1| v1.dof_limited.get(index).copied());
+                let limited = limited.or(derived.shown("limited").map(|word| word == "true"));
+                let speed = |list: &[Option<f64>]| list.get(index).copied().flatten();
+                match bounds.v1 {
+                    Some(v1) => values(
+                        quantity,
+                        [lower, upper],
+                        limited,
+                        speed(&v1.dof_velocity_limits),
+                        speed(&v1.dof_effort_limits),
+                    ),
+                    None => {
+                        let of_joint = joint.and_then(|joint| joint.limit);
+                        let velocity = of_joint.and_then(|limit| limit.velocity);
+                        let effort = of_joint.and_then(|limit| limit.effort);
+                        values(quantity, [lower, upper], limited, velocity, effort)
+                    }
+                }
+            }
+        };
+        found.push(DofState {
+            name: name.unwrap_or_else(|| format!("DOF {index}")),
+            stated,
+            derived,
+        });
+    }
+    found
+}
+
+fn name(joint: &Joint, place: usize) -> Option<String> {
+    let (suffix, _) = describe(joint.joint_type, place)?;
+    Some(format!("{}{suffix}", joint.name))
+}
+
+/// The values that SPEC 6.5 derives from a joint.
+fn derived(joint: &Joint, place: usize) -> Option<Fields> {
+    let (_, quantity) = describe(joint.joint_type, place)?;
+    let limits = joint.position_limits();
+    let bounds = match limits {
+        Some((lower, upper)) => [lower, upper],
+        None => bounds_without_limits(joint.joint_type, place)?,
+    };
+    let of_one_dof = matches!(
+        joint.joint_type,
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic
+    );
+    let limit = joint.limit.filter(|_| of_one_dof);
+    Some(values(
+        Some(quantity),
+        bounds.map(Some),
+        Some(limits.is_some()),
+        limit.and_then(|limit| limit.velocity),
+        limit.and_then(|limit| limit.effort),
+    ))
+}
+
+fn values(
+    quantity: Option<Quantity>,
+    [lower, upper]: [Option<f64>; 2],
+    limited: Option<bool>,
+    velocity: Option<f64>,
+    effort: Option<f64>,
+) -> Fields {
+    let [position, speed, force] = match quantity {
+        Some(Quantity::Length) => ["m", "m/s", "N"],
+        _ => ["rad", "rad/s", "N m"],
+    };
+    let mut fields = Fields::default();
+    fields.text("quantity", quantity.map(Quantity::as_str));
+    fields.number("lower", position, lower);
+    fields.number("upper", position, upper);
+    fields.text(
+        "limited",
+        limited.map(|it| if it { "true" } else { "false" }),
+    );
+    fields.number("velocity limit", speed, velocity);
+    fields.number("effort limit", force, effort);
+    fields
+}

@@ -1,0 +1,213 @@
+//! Differences of a link's visual or collision geometry.
+
+use std::collections::{HashMap, HashSet, VecDeque};
+
+use crate::fields::{Fields, compare};
+use crate::shapes::mesh_at;
+use crate::side::Side;
+use crate::{materials, origin};
+use urdd_format::diff_report::{DiffBox, GeometryDifference, ValueChange};
+use urdd_format::meshes::GeometryKind;
+use urdd_format::urdf::{Geometry, Link, Material, Origin};
+use urdd_geometry::mesh::Bounds;
+
+/// Mesh file names that at least one of the robots has no content for: elements with these are compared by name.
+pub(super) fn compared_by_name<'a>(before: &'a Side, after: &'a Side) -> HashSet<&'a str> {
+    let unread = |side: &'a Side| {
+        let unread = side.shapes.meshes.iter().filter(|(_, mesh)| mesh.is_err());
+        unread.filter_map(|(place, _)| Some(mesh_at(&side.view, *place)?.1.filename.as_str()))
+    };
+    unread(before).chain(unread(after)).collect()
+}
+
+/// A visual or collision element as written.
+struct Written<'a> {
+    name: Option<&'a str>,
+    origin: Option<&'a Origin>,
+    geometry: Option<&'a Geometry>,
+    material: Option<&'a Material>,
+}
+
+fn elements(link: &Link, kind: GeometryKind) -> Box<dyn Iterator<Item = Written<'_>> + '_> {
+    match kind {
+        GeometryKind::Visual => Box::new(link.visual.iter().map(|visual| Written {
+            name: visual.name.as_deref(),
+            origin: visual.origin.as_ref(),
+            geometry: visual.geometry.as_ref(),
+            material: visual.material.as_ref(),
+        })),
+        GeometryKind::Collision => Box::new(link.collision.iter().map(|collision| Written {
+            name: collision.name.as_deref(),
+            origin: collision.origin.as_ref(),
+            geometry: collision.geometry.as_ref(),
+            material: None,
+        })),
+    }
+}
+
+/// The values of an element.
+struct Element {
+    name: Option<String>,
+    shape: Fields,
+    /// The material as written, and with what it takes from the top of the URDF.
+    material: [Fields; 2],
+}
+
+impl Element {
+    fn key(&self) -> String {
+        format!("{}|{}", self.shape.key(), self.material[0].key())
+    }
+
+    /// The values that differ. Where both name the same material, a difference is that of the material.
+    fn changes(&self, prefix: &str, other: &Element) -> Vec<ValueChange> {
+        let mut changes = compare(prefix, &self.shape, &other.shape);
+        if self.material[0].key() != other.material[0].key() {
+            changes.extend(compare(prefix, &self.material[1], &other.material[1]));
+        }
+        changes
+    }
+}
+
+/// How the geometry of one kind of a link differs; `None` if it does not.
+pub(super) fn difference(
+    before: (&Side, usize),
+    after: (&Side, usize),
+    kind: GeometryKind,
+    by_name: &HashSet<&str>,
+) -> Option<GeometryDifference> {
+    let [a, b] = [before, after].map(|(side, link)| of_link(side, link, kind, by_name));
+    let changes = changes(&a, &b, kind);
+    if changes.is_empty() {
+        return None;
+    }
+    let bounds = |(side, link): (&Side, usize)| {
+        let bounds = side.shapes.bounds(&side.view, link, kind);
+        bounds.map(|Bounds { min, max }| DiffBox { min, max })
+    };
+    Some(GeometryDifference {
+        geometry: kind,
+        changes,
+        bounds_before: bounds(before),
+        bounds_after: bounds(after),
+    })
+}
+
+/// Matches the elements of a link: those that are equal, in whatever order, then those with the same name, then the
+/// others in order.
+fn changes(before: &[Element], after: &[Element], kind: GeometryKind) -> Vec<ValueChange> {
+    let mut partner: Vec<Option<usize>> = vec![None; before.len()];
+    let mut taken = vec![false; after.len()];
+    let steps: [fn(&Element) -> Option<String>; 3] = [
+        |element| Some(element.key()),
+        |element| element.name.clone(),
+        |_| Some(String::new()),
+    ];
+    for key in steps {
+        let mut free: HashMap<String, VecDeque<usize>> = HashMap::new();
+        for (j, element) in after.iter().enumerate().filter(|(j, _)| !taken[*j]) {
+            if let Some(key) = key(element) {
+                free.entry(key).or_default().push_back(j);
+            }
+        }
+        for (i, element) in before.iter().enumerate() {
+            if partner[i].is_none()
+                && let Some(key) = key(element)
+                && let Some(j) = free.get_mut(&key).and_then(VecDeque::pop_front)
+            {
+                (partner[i], taken[j]) = (Some(j), true);
+            }
+        }
+    }
+    let word = match kind {
+        GeometryKind::Visual => "visual",
+        GeometryKind::Collision => "collision",
+    };
+    let whole = |index: usize, before: Option<&Element>, after: Option<&Element>| {
+        let summary = |element: &Element| {
+            let parts = [&element.shape, &element.material[1]].map(Fields::summary);
+            let parts = parts.into_iter().filter(|part| !part.is_empty());
+            parts.collect::<Vec<_>>().join(", ")
+        };
+        ValueChange {
+            field: format!("{word}[{index}]"),
+            before: before.map(summary),
+            after: after.map(summary),
+            unit: String::new(),
+        }
+    };
+    let mut changes = Vec::new();
+    for (i, element) in before.iter().enumerate() {
+        match partner[i] {
+            Some(j) => changes.extend(element.changes(&format!("{word}[{i}]."), &after[j])),
+            None => changes.push(whole(i, Some(element), None)),
+        }
+    }
+    let new = after.iter().enumerate().filter(|(j, _)| !taken[*j]);
+    changes.extend(new.map(|(j, element)| whole(j, None, Some(element))));
+    changes
+}
+
+fn of_link(side: &Side, link: usize, kind: GeometryKind, by_name: &HashSet<&str>) -> Vec<Element> {
+    let elements = elements(&side.robot.links[link], kind).enumerate();
+    let elements = elements.map(|(index, element)| {
+        let mut shape = Fields::default();
+        shape.text("name", element.name);
+        if let Some(geometry) = element.geometry {
+            add_shape(geometry, &mut shape, |filename| {
+                let mesh = side.shapes.meshes.get(&(link, kind, index));
+                match mesh {
+                    Some(Ok(mesh)) if !by_name.contains(filename) => {
+                        let short = mesh.fingerprint.get(..12).unwrap_or_default();
+                        let shown = format!("{} triangles ({short})", mesh.count);
+                        (mesh.fingerprint.clone(), shown)
+                    }
+                    _ => (format!("file {filename}"), format!("file `{filename}`")),
+                }
+            });
+        }
+        origin::add(
+            "origin.",
+            element.origin,
+            side.has_quaternions(),
+            &mut shape,
+        );
+        Element {
+            name: element.name.map(str::to_owned),
+            shape,
+            material: [
+                materials::written(element.material),
+                materials::resolved(element.material, &side.robot.materials),
+            ],
+        }
+    });
+    elements.collect()
+}
+
+/// Adds the values of a shape. `mesh` says by what a mesh with a file name is compared, and how it is shown.
+fn add_shape(geometry: &Geometry, fields: &mut Fields, mesh: impl Fn(&str) -> (String, String)) {
+    let kind = match geometry {
+        Geometry::Mesh(_) => "mesh",
+        Geometry::Box(_) => "box",
+        Geometry::Cylinder(_) => "cylinder",
+        Geometry::Capsule(_) => "capsule",
+        Geometry::Sphere(_) => "sphere",
+    };
+    fields.text("shape", Some(kind));
+    match geometry {
+        Geometry::Mesh(of) => {
+            let (key, shown) = mesh(&of.filename);
+            fields.keyed("mesh", "", key, shown);
+            fields.numbers("scale", "", Some(of.scale.unwrap_or([1.0; 3])));
+        }
+        Geometry::Box(of) => fields.numbers("size", "m", Some(of.size)),
+        Geometry::Cylinder(of) => {
+            fields.number("radius", "m", Some(of.radius));
+            fields.number("length", "m", Some(of.length));
+        }
+        Geometry::Capsule(of) => {
+            fields.number("radius", "m", Some(of.radius));
+            fields.number("length", "m", Some(of.length));
+        }
+        Geometry::Sphere(of) => fields.number("radius", "m", Some(of.radius)),
+    }
+}

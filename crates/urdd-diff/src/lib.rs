@@ -1,0 +1,105 @@
+//! Internal to urdd; no stability promise.
+//!
+//! `urdd diff`: two robots compared by meaning. [`Side::open`] opens a URDF or a URDD, [`compare`] compares two.
+//!
+//! One file has one kind of difference. Each part (a link, a joint, a material) is first turned into a flat list of
+//! values with URDF's defaults filled in (`fields`), so that formatting, the order of attributes, and how a number is
+//! written make no difference.
+
+mod count;
+mod dof_state;
+mod dofs;
+mod fields;
+mod findings;
+mod geometry;
+mod joints;
+mod links;
+mod materials;
+mod mesh;
+mod modules;
+mod open;
+mod order;
+mod origin;
+mod other_elements;
+mod pairs;
+mod parts;
+mod poses;
+mod render;
+mod shapes;
+mod side;
+mod side_urdd;
+mod side_urdf;
+
+pub use render::{markdown, text};
+pub use side::{DiffError, Options, Side};
+
+use self::fields::Fields;
+use self::modules::InDetail;
+use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
+use urdd_format::report::Tool;
+
+/// Compares two robots.
+pub fn compare(before: &Side, after: &Side) -> DiffReport {
+    let parts = |parts: &dyn Fn(&Side) -> Vec<(String, Fields)>| -> Vec<PartDifference> {
+        parts::differences(&parts(before), &parts(after))
+    };
+    let mut notes = notes(before, after);
+    let joints = parts(&|side| joints::parts(&side.robot.joints, side.has_quaternions()));
+    let dofs = dofs::differences(before, after);
+    let pairs = pairs::differences(before, after, &mut notes);
+    let in_detail = InDetail {
+        dofs: !dofs.is_empty() || !joints.is_empty(),
+        pairs: pairs.as_ref().is_some_and(|pairs| !pairs.is_empty()),
+    };
+    let modules = modules::differences(before, after, &in_detail);
+    let mut report = DiffReport {
+        tool: Tool::urdd(),
+        before: before.summary(),
+        after: after.summary(),
+        same: false,
+        robot: robot(before, after),
+        links: links::differences(before, after),
+        joints,
+        materials: parts(&|side| materials::parts(&side.robot.materials)),
+        other_elements: parts(&|side| other_elements::parts(&side.robot.unknown_elements)),
+        poses: poses::difference(before, after),
+        dofs,
+        pairs,
+        modules,
+        findings: findings::differences(before, after),
+        notes,
+    };
+    report.same = count::count(&report) == 0;
+    report
+}
+
+/// Differences of the robot itself.
+fn robot(before: &Side, after: &Side) -> Vec<ValueChange> {
+    let fields = |side: &Side| {
+        let mut fields = Fields::default();
+        fields.text("name", Some(&side.robot.name));
+        let version = side.robot.version.as_deref();
+        // Without a version, a URDF is of 1.0 (SPEC 6.1.9).
+        fields.text("version", Some(version.unwrap_or("1.0")));
+        fields
+    };
+    fields::compare("", &fields(before), &fields(after))
+}
+
+/// What is not compared, and what differs without a difference in meaning.
+fn notes(before: &Side, after: &Side) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (word, side) in [("A", before), ("B", after)] {
+        notes.extend(side.notes.iter().map(|note| format!("{word}: {note}")));
+        notes.extend(side.shapes.unread().map(|note| format!("{word}: {note}")));
+        let reason = side.validation.as_ref().and_then(|it| it.reason.as_ref());
+        notes.extend(reason.map(|why| format!("{word}: not validated: {why}")));
+        if side.shapes.is_cut {
+            notes.push(format!(
+                "{word}: bounding boxes of some links are left out: too many vertices"
+            ));
+        }
+    }
+    notes.extend(order::notes(before, after));
+    notes
+}

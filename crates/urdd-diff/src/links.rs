@@ -1,0 +1,76 @@
+//! Differences of links: mass properties, geometry, other elements.
+
+use crate::fields::{Fields, compare};
+use crate::parts::{Matched, matched};
+use crate::side::Side;
+use crate::{geometry, origin, other_elements};
+use urdd_format::diff_report::{LinkDifference, Presence};
+use urdd_format::meshes::GeometryKind;
+use urdd_format::urdf::Link;
+
+/// The links that differ.
+pub(super) fn differences(before: &Side, after: &Side) -> Vec<LinkDifference> {
+    let (a, b) = (before.link_names(), after.link_names());
+    let by_name = geometry::compared_by_name(before, after);
+    let mut found = Vec::new();
+    for part in matched(&a, &b) {
+        let mut difference = LinkDifference {
+            name: String::new(),
+            presence: Presence::Changed,
+            changes: Vec::new(),
+            geometry: Vec::new(),
+        };
+        match part {
+            Matched::Removed(i) => {
+                difference.name = a[i].to_owned();
+                difference.presence = Presence::Removed;
+            }
+            Matched::Added(j) => {
+                difference.name = b[j].to_owned();
+                difference.presence = Presence::Added;
+            }
+            Matched::Both(i, j) => {
+                difference.name = a[i].to_owned();
+                let [x, y] = [(before, i), (after, j)]
+                    .map(|(side, link)| fields(&side.robot.links[link], side.has_quaternions()));
+                difference.changes = compare("", &x, &y);
+                for kind in [GeometryKind::Visual, GeometryKind::Collision] {
+                    let of_link = geometry::difference((before, i), (after, j), kind, &by_name);
+                    difference.geometry.extend(of_link);
+                }
+                if difference.changes.is_empty() && difference.geometry.is_empty() {
+                    continue;
+                }
+            }
+        }
+        found.push(difference);
+    }
+    found
+}
+
+/// All values of a link but those of its geometry.
+fn fields(link: &Link, quaternions: bool) -> Fields {
+    let mut fields = Fields::default();
+    if let Some(inertial) = &link.inertial {
+        let mass = inertial.mass.as_ref().map(|mass| mass.value);
+        fields.number("inertial.mass", "kg", mass);
+        let origin = inertial.origin.as_ref();
+        if mass.is_some() || inertial.inertia.is_some() || origin.is_some() {
+            origin::add("inertial.origin.", origin, quaternions, &mut fields);
+        }
+        if let Some(of) = &inertial.inertia {
+            for (name, value) in [
+                ("ixx", of.ixx),
+                ("ixy", of.ixy),
+                ("ixz", of.ixz),
+                ("iyy", of.iyy),
+                ("iyz", of.iyz),
+                ("izz", of.izz),
+            ] {
+                fields.number(format!("inertial.{name}"), "kg m²", value);
+            }
+        }
+    }
+    other_elements::add(&link.unknown_elements, &mut fields);
+    fields
+}

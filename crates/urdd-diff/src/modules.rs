@@ -1,0 +1,113 @@
+//! Differences of modules as a whole. What other lists compare in detail is left out.
+
+use std::collections::BTreeMap;
+
+use crate::side::Side;
+use urdd_document::module::{JsonFile, Module};
+use urdd_document::urdd::Urdd;
+use urdd_format::diff_report::{ModuleDifference, Presence};
+use urdd_format::registry::ModuleKind;
+
+/// Modules whose content other lists of the report compare.
+pub(super) struct InDetail {
+    /// Whether there are differences of DOFs or joints.
+    pub dofs: bool,
+    /// Whether there are differences of pairs.
+    pub pairs: bool,
+}
+
+/// The modules that differ; `None` unless both are URDDs.
+pub(super) fn differences(
+    before: &Side,
+    after: &Side,
+    in_detail: &InDetail,
+) -> Option<Vec<ModuleDifference>> {
+    let ((a, _), (b, _)) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
+    let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
+        urdd.modules()
+            .iter()
+            .map(|module| module.folder.clone())
+            .collect()
+    };
+    let mut folders = by_folder(a);
+    let new = by_folder(b);
+    folders.extend(new.into_iter().filter(|folder| module(a, folder).is_none()));
+    let mut found = Vec::new();
+    for folder in &folders {
+        let (x, y) = (module(a, folder), module(b, folder));
+        let Some(either) = x.or(y) else {
+            continue;
+        };
+        let version = |module: Option<&Module>| module.and_then(|module| module.version.clone());
+        let mut difference = ModuleDifference {
+            name: either.name().to_owned(),
+            presence: Presence::Changed,
+            version_before: version(x),
+            version_after: version(y),
+            document: false,
+            files: false,
+        };
+        match (x, y) {
+            (Some(x), Some(y)) => {
+                let same_version = difference.version_before == difference.version_after;
+                let hidden = is_in_detail(either.kind, in_detail);
+                difference.document = !hidden && !same_document(x, y);
+                difference.files = !hidden && files(a, folder) != files(b, folder);
+                if same_version && !difference.document && !difference.files {
+                    continue;
+                }
+            }
+            (Some(_), None) => difference.presence = Presence::Removed,
+            _ => difference.presence = Presence::Added,
+        }
+        found.push(difference);
+    }
+    Some(found)
+}
+
+fn module<'a>(urdd: &'a Urdd, folder: &str) -> Option<&'a Module> {
+    urdd.modules().iter().find(|module| module.folder == folder)
+}
+
+/// Whether a difference of the module's content is in another list, or is none in meaning.
+fn is_in_detail(kind: Option<ModuleKind>, in_detail: &InDetail) -> bool {
+    match kind {
+        Some(ModuleKind::Urdf | ModuleKind::OriginalMeshes) => true,
+        Some(ModuleKind::Dof | ModuleKind::Bounds) => in_detail.dofs,
+        Some(ModuleKind::LinkShapesSkips) => in_detail.pairs,
+        _ => false,
+    }
+}
+
+/// Whether two documents say the same; formatting and the order of keys aside.
+fn same_document(a: &Module, b: &Module) -> bool {
+    match (&a.document, &b.document) {
+        (Some(a), Some(b)) => a == b,
+        (None, None) => match (a.json.document(), b.json.document()) {
+            (Some(a), Some(b)) => a.value == b.value,
+            // Unreadable ones are the business of findings, unless only one is.
+            (None, None) => {
+                matches!(a.json, JsonFile::Missing) == matches!(b.json, JsonFile::Missing)
+            }
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// The hashes of a module's files besides its documents, as `urdd.json` has them.
+fn files(urdd: &Urdd, folder: &str) -> BTreeMap<String, String> {
+    let modules = urdd
+        .metadata()
+        .into_iter()
+        .flat_map(|metadata| &metadata.modules);
+    let files = modules
+        .filter(|module| module.path == folder)
+        .flat_map(|module| &module.files);
+    let files = files.filter_map(|file| {
+        let name = file.path.rsplit('/').next()?;
+        let is_document = ["VERSION", "module.json", "module.yaml"].contains(&name);
+        (!is_document).then(|| (file.path.clone(), format!("{:?}", file.sha256)))
+    });
+    files.collect()
+}

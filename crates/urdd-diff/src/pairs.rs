@@ -1,0 +1,128 @@
+//! Pairs of links that checks for self-collision gain or lose.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use crate::side::Side;
+use urdd_format::diff_report::{PairChange, PairDifference};
+use urdd_robot::{Robot, ShapeKind};
+
+/// What is checked of a pair of links with one kind of shapes.
+#[derive(Debug, Default, PartialEq)]
+struct Checked {
+    /// The pairs of pieces that are checked.
+    pieces: BTreeSet<(usize, usize)>,
+    /// Number of pairs of pieces.
+    all: usize,
+}
+
+/// What is checked of each pair of links. Links are named by their indices in the first robot, the smaller one first.
+type Pairs = BTreeMap<(usize, usize), Checked>;
+
+/// The pairs that differ, among links that both robots have; `None` where one robot has no skips. What could not be
+/// compared is added to `notes`.
+pub(super) fn differences(
+    before: &Side,
+    after: &Side,
+    notes: &mut Vec<String>,
+) -> Option<Vec<PairDifference>> {
+    let (a, b) = match (open(before), open(after)) {
+        (Ok(a), Ok(b)) => (a, b),
+        // Two URDFs have none, which is no news.
+        _ if before.urdd.is_none() && after.urdd.is_none() => return None,
+        (a, b) => {
+            let missing = ["A", "B"].into_iter().zip([a.err(), b.err()]);
+            let missing = missing.filter_map(|(side, why)| Some(format!("{side} {}", why?)));
+            let missing: Vec<String> = missing.collect();
+            let missing = missing.join(", ");
+            notes.push(format!("skipped pairs are not compared: {missing}"));
+            return None;
+        }
+    };
+    let names = before.link_names();
+    let mut index: HashMap<&str, usize> = HashMap::new();
+    for (link, name) in names.iter().enumerate() {
+        index.entry(name).or_insert(link);
+    }
+    let of = |side: &Side| -> Vec<Option<usize>> {
+        let names = side.link_names().into_iter();
+        names.map(|name| index.get(name).copied()).collect()
+    };
+    let (of_before, of_after) = (of(before), of(after));
+    let mut both = vec![false; names.len()];
+    for link in of_after.iter().flatten() {
+        both[*link] = true;
+    }
+    let nothing = Checked::default();
+    let mut found: BTreeMap<((usize, usize), PairChange), Vec<String>> = BTreeMap::new();
+    for kind in ShapeKind::ALL {
+        let (Some(x), Some(y)) = (checked(&a, kind, &of_before), checked(&b, kind, &of_after))
+        else {
+            let name = kind.name();
+            notes.push(format!(
+                "skipped pairs of {name} are not compared: one URDD has none"
+            ));
+            continue;
+        };
+        let pairs: BTreeSet<(usize, usize)> = x.keys().chain(y.keys()).copied().collect();
+        for pair in pairs.into_iter().filter(|(i, j)| both[*i] && both[*j]) {
+            let was = x.get(&pair).unwrap_or(&nothing);
+            let now = y.get(&pair).unwrap_or(&nothing);
+            if let Some(change) = change(was, now) {
+                let kinds = found.entry((pair, change)).or_default();
+                kinds.push(kind.name().to_owned());
+            }
+        }
+    }
+    let found = found.into_iter();
+    let found = found.map(|(((i, j), change), shapes)| PairDifference {
+        links: [names[i].to_owned(), names[j].to_owned()],
+        change,
+        shapes,
+    });
+    Some(found.collect())
+}
+
+fn change(before: &Checked, after: &Checked) -> Option<PairChange> {
+    match (before.pieces.is_empty(), after.pieces.is_empty()) {
+        (true, false) => Some(PairChange::Gained),
+        (false, true) => Some(PairChange::Lost),
+        // With other pieces there is nothing to compare one by one.
+        _ if before.all == after.all && before.pieces != after.pieces => Some(PairChange::Pieces),
+        _ => None,
+    }
+}
+
+/// Opens the robot of a URDD.
+fn open(side: &Side) -> Result<Robot, &'static str> {
+    let Some((_, path)) = &side.urdd else {
+        return Err("is a URDF, which states none");
+    };
+    let robot = Robot::open(path).map_err(|_| "cannot be read")?;
+    match robot.skips(ShapeKind::Hulls) {
+        Ok(_) => Ok(robot),
+        Err(_) => Err("has no usable link_shapes_skips_module"),
+    }
+}
+
+/// What is checked with one kind of shapes. `index` says for each link its index in the first robot.
+fn checked(robot: &Robot, kind: ShapeKind, index: &[Option<usize>]) -> Option<Pairs> {
+    let skips = robot.skips(kind).ok()?;
+    let place = |(link, piece): (usize, usize)| Some((*index.get(link)?.as_ref()?, piece));
+    let places: Vec<_> = skips.places().iter().map(|it| place(*it)).collect();
+    let mut pairs = Pairs::new();
+    for (i, first) in places.iter().enumerate() {
+        for (j, second) in places.iter().enumerate().skip(i + 1) {
+            let (Some(first), Some(second)) = (first, second) else {
+                continue;
+            };
+            let (first, second) = (first.min(second), first.max(second));
+            let pair = pairs.entry((first.0, second.0)).or_default();
+            pair.all += 1;
+            // The matrix is symmetric, or the findings say so. A pair is skipped where both elements say so.
+            if !(skips.is_skipped(i, j) && skips.is_skipped(j, i)) {
+                pair.pieces.insert((first.1, second.1));
+            }
+        }
+    }
+    Some(pairs)
+}

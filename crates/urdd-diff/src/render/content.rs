@@ -1,0 +1,353 @@
+//! What the renderings say: sections of lines. How a name or value is set apart is theirs.
+
+use crate::count::count;
+use urdd_format::diff_report::{
+    DiffBox, DiffReport, DiffSide, DofDifference, FindingDifference, LinkDifference,
+    ModuleDifference, PairChange, PairDifference, PartDifference, PoseDifference, Presence,
+    ValueChange,
+};
+use urdd_format::readable::{metres, number};
+use urdd_format::report::{Kind, Verdict};
+
+/// A piece of a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Span {
+    /// Our own words.
+    Words(String),
+    /// A name or a path from the input.
+    Name(String),
+    /// A value or a message from the input.
+    Value(String),
+    /// From the value before to the value after.
+    Arrow,
+}
+
+/// A line, and how far it is indented.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    pub depth: usize,
+    pub spans: Vec<Span>,
+}
+
+/// Lines under a heading.
+#[derive(Debug)]
+pub(super) struct Section {
+    pub title: &'static str,
+    pub lines: Vec<Line>,
+}
+
+fn words(text: impl Into<String>) -> Span {
+    Span::Words(text.into())
+}
+
+fn name(text: &str) -> Span {
+    Span::Name(text.to_owned())
+}
+
+fn value(text: &str) -> Span {
+    Span::Value(text.to_owned())
+}
+
+/// The result in a sentence.
+pub(super) fn headline(report: &DiffReport) -> String {
+    match count(report) {
+        0 => "no difference in meaning".to_owned(),
+        1 => "1 difference".to_owned(),
+        count => format!("{count} differences"),
+    }
+}
+
+/// A robot in a line.
+pub(super) fn side(side: &DiffSide) -> Vec<Span> {
+    let kind = match side.kind {
+        Kind::Urdd => "URDD",
+        Kind::Urdf => "URDF",
+    };
+    let verdict = match side.verdict {
+        None => "",
+        Some(Verdict::Pass) => ", valid",
+        Some(Verdict::Fail) => ", not valid",
+        Some(Verdict::Unreadable | Verdict::Incomplete) => ", not validated",
+    };
+    let counted = |count: u32, one: &str| match count {
+        1 => format!("1 {one}"),
+        count => format!("{count} {one}s"),
+    };
+    vec![
+        name(&side.path),
+        words(format!(": {kind}, robot ")),
+        name(&side.name),
+        words(format!(
+            ", {}, {}, {}{verdict}",
+            counted(side.links.0, "link"),
+            counted(side.joints.0, "joint"),
+            counted(side.dofs.0, "DOF")
+        )),
+    ]
+}
+
+/// All sections with differences, then the notes.
+pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
+    let mut sections = Vec::new();
+    let mut add = |title: &'static str, lines: Vec<Line>| {
+        if !lines.is_empty() {
+            sections.push(Section { title, lines });
+        }
+    };
+    add(
+        "Robot",
+        report.robot.iter().map(|it| change(0, it)).collect(),
+    );
+    add("Links", links(&report.links));
+    add("Joints", parts(&report.joints));
+    add("Materials", parts(&report.materials));
+    add("Other elements", parts(&report.other_elements));
+    add(
+        "Poses with all joints at zero",
+        report.poses.iter().map(poses).collect(),
+    );
+    add("DOFs", dofs(&report.dofs));
+    add(
+        "Pairs of links in collision checks",
+        pairs(report.pairs.as_deref().unwrap_or_default()),
+    );
+    add(
+        "Modules",
+        modules(report.modules.as_deref().unwrap_or_default()),
+    );
+    add(
+        "Findings",
+        findings(report.findings.as_deref().unwrap_or_default()),
+    );
+    let note = |note: &String| Line {
+        depth: 0,
+        spans: vec![value(note)],
+    };
+    add("Notes", report.notes.iter().map(note).collect());
+    sections
+}
+
+/// A value that differs.
+fn change(depth: usize, change: &ValueChange) -> Line {
+    let one = |side: &Option<String>| match side {
+        Some(text) if text.is_empty() => words("empty"),
+        Some(text) => value(text),
+        None => words("absent"),
+    };
+    let unit = || match change.unit.as_str() {
+        "" => words(""),
+        unit => words(format!(" {unit}")),
+    };
+    let mut spans = vec![name(&change.field), words(": "), one(&change.before)];
+    if change.after.is_none() {
+        spans.push(unit());
+    }
+    spans.extend([Span::Arrow, one(&change.after)]);
+    if change.after.is_some() {
+        spans.push(unit());
+    }
+    Line { depth, spans }
+}
+
+/// The parts that only one of the robots has: a line of those removed, a line of those added.
+fn in_one<'a>(parts: impl Iterator<Item = (Presence, &'a str)> + Clone) -> Vec<Line> {
+    let list = |word: &str, presence: Presence| {
+        let mut spans = Vec::new();
+        for (_, text) in parts.clone().filter(|part| part.0 == presence) {
+            spans.push(words(if spans.is_empty() {
+                format!("{word}: ")
+            } else {
+                ", ".to_owned()
+            }));
+            spans.push(name(text));
+        }
+        (!spans.is_empty()).then_some(Line { depth: 0, spans })
+    };
+    let lines = [
+        list("removed", Presence::Removed),
+        list("added", Presence::Added),
+    ];
+    lines.into_iter().flatten().collect()
+}
+
+/// The name of a part that both robots have, and the values that differ.
+fn in_both<'a>(part: &str, changes: &'a [ValueChange]) -> impl Iterator<Item = Line> + use<'a> {
+    let spans = vec![name(part)];
+    let changes = changes.iter().map(|it| change(1, it));
+    std::iter::once(Line { depth: 0, spans }).chain(changes)
+}
+
+fn links(links: &[LinkDifference]) -> Vec<Line> {
+    let mut lines = in_one(links.iter().map(|it| (it.presence, it.name.as_str())));
+    for link in links
+        .iter()
+        .filter(|link| link.presence == Presence::Changed)
+    {
+        lines.extend(in_both(&link.name, &link.changes));
+        for geometry in &link.geometry {
+            lines.extend(geometry.changes.iter().map(|it| change(1, it)));
+            let kind = geometry.geometry.as_str().to_lowercase();
+            let mut changes = geometry.changes.iter();
+            let is_mesh_changed = changes.any(|change| change.field.ends_with(".mesh"));
+            let boxes = [&geometry.bounds_before, &geometry.bounds_after];
+            let title = format!("bounding box of the {kind} geometry: ");
+            let mut spans = vec![words(title)];
+            match boxes {
+                [a, b] if a == b && (a.is_none() || !is_mesh_changed) => continue,
+                [a, b] if a == b => spans.push(words("unchanged")),
+                [a, b] => {
+                    let [a, b] = [a, b].map(|of| words(bounds(of.as_ref())));
+                    spans.extend([a, Span::Arrow, b]);
+                }
+            }
+            lines.push(Line { depth: 1, spans });
+        }
+    }
+    lines
+}
+
+fn bounds(of: Option<&DiffBox>) -> String {
+    let Some(of) = of else {
+        return "not known".to_owned();
+    };
+    let axis = |axis: usize| format!("{}..{}", number(of.min[axis], 5), number(of.max[axis], 5));
+    format!("x {}, y {}, z {} m", axis(0), axis(1), axis(2))
+}
+
+fn parts(parts: &[PartDifference]) -> Vec<Line> {
+    let mut lines = in_one(parts.iter().map(|it| (it.presence, it.name.as_str())));
+    for part in parts
+        .iter()
+        .filter(|part| part.presence == Presence::Changed)
+    {
+        lines.extend(in_both(&part.name, &part.changes));
+    }
+    lines
+}
+
+fn poses(poses: &PoseDifference) -> Line {
+    let angle = match poses.angle {
+        angle if angle > 1e-9 => format!(", turned by at most {} rad", number(angle, 3)),
+        _ => String::new(),
+    };
+    let count = match poses.links.len() {
+        1 => "1 link is elsewhere: ".to_owned(),
+        count => format!("{count} links are elsewhere, the farthest of them "),
+    };
+    Line {
+        depth: 0,
+        spans: vec![
+            words(count),
+            name(&poses.farthest),
+            words(format!(", by {}{angle}", metres(poses.distance))),
+        ],
+    }
+}
+
+fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
+    let mut lines = in_one(dofs.iter().map(|it| (it.presence, it.name.as_str())));
+    let both = || dofs.iter().filter(|dof| dof.presence == Presence::Changed);
+    let mut moved = Vec::new();
+    for dof in both().filter(|dof| dof.index_before != dof.index_after) {
+        if let (Some(a), Some(b)) = (dof.index_before, dof.index_after) {
+            moved.push(words(if moved.is_empty() { "index: " } else { ", " }));
+            moved.push(name(&dof.name));
+            moved.push(words(format!(" {}", a.0)));
+            moved.push(Span::Arrow);
+            moved.push(words(b.0.to_string()));
+        }
+    }
+    if !moved.is_empty() {
+        lines.push(Line {
+            depth: 0,
+            spans: moved,
+        });
+    }
+    for dof in both().filter(|dof| !dof.changes.is_empty()) {
+        lines.extend(in_both(&dof.name, &dof.changes));
+    }
+    lines
+}
+
+fn pairs(pairs: &[PairDifference]) -> Vec<Line> {
+    let lines = pairs.iter().map(|pair| {
+        let word = match pair.change {
+            PairChange::Gained => "checked now: ",
+            PairChange::Lost => "skipped now: ",
+            PairChange::Pieces => "other pieces are checked: ",
+        };
+        let kinds = match pair.shapes.len() {
+            6 => "all kinds of shapes".to_owned(),
+            _ => pair.shapes.join(", "),
+        };
+        let [a, b] = &pair.links;
+        Line {
+            depth: 0,
+            spans: vec![
+                words(word),
+                name(a),
+                words(" - "),
+                name(b),
+                words(format!(" ({kinds})")),
+            ],
+        }
+    });
+    lines.collect()
+}
+
+fn modules(modules: &[ModuleDifference]) -> Vec<Line> {
+    let lines = modules.iter().map(|module| {
+        let mut spans = vec![name(&module.name)];
+        match module.presence {
+            Presence::Removed => spans.push(words(": removed")),
+            Presence::Added => spans.push(words(": added")),
+            Presence::Changed => {
+                let mut what = Vec::new();
+                if module.version_before != module.version_after {
+                    let version = |version: &Option<String>| match version {
+                        Some(version) => value(version),
+                        None => words("none"),
+                    };
+                    spans.push(words(": version "));
+                    spans.push(version(&module.version_before));
+                    spans.push(Span::Arrow);
+                    spans.push(version(&module.version_after));
+                }
+                if module.document {
+                    what.push("document");
+                }
+                if module.files {
+                    what.push("files");
+                }
+                if !what.is_empty() {
+                    spans.push(words(format!(": other {}", what.join(" and "))));
+                }
+            }
+        }
+        Line { depth: 0, spans }
+    });
+    lines.collect()
+}
+
+fn findings(findings: &[FindingDifference]) -> Vec<Line> {
+    let lines = findings.iter().map(|finding| {
+        let word = match finding.presence {
+            Presence::Removed => "gone",
+            _ => "new",
+        };
+        let count = match finding.count.0 {
+            1 => String::new(),
+            count => format!(" ({count} places)"),
+        };
+        let mut spans = vec![words(format!(
+            "{word}: {} {}{count}",
+            finding.severity, finding.code
+        ))];
+        if let Some(subject) = &finding.subject {
+            spans.extend([words(", "), name(subject)]);
+        }
+        spans.extend([words(": "), value(&finding.message)]);
+        Line { depth: 0, spans }
+    });
+    lines.collect()
+}

@@ -1,0 +1,138 @@
+//! Opens a URDD.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::dof_state;
+use crate::shapes::{Place, Shapes, mesh_at, shapes};
+use crate::side::{DiffError, Side};
+use urdd_directory::path::beside;
+use urdd_document::legacy_urdf::of_legacy;
+use urdd_document::mesh_files::MeshFiles;
+use urdd_document::robot::{Robot, of_urdf};
+use urdd_document::urdd::Urdd;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_format::report::Kind;
+use urdd_format::urdf::{Geometry, UrdfModule};
+use urdd_geometry::read::{Scene, read};
+
+/// Opens a URDD and reads its original meshes.
+///
+/// # Errors
+/// If it cannot be read, or does not say what its robot is.
+pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
+    let failed = |reason: String| DiffError::NoRobot {
+        path: shown.clone(),
+        reason,
+    };
+    let urdd = Urdd::read(path).map_err(|error| failed(error.to_string()))?;
+    let robot: UrdfModule = match urdd.document(ModuleKind::Urdf) {
+        Some(ModuleDocument::Urdf(module)) => (**module).clone(),
+        Some(ModuleDocument::LegacyUrdf(module)) => of_legacy(module),
+        _ => {
+            let module = urdd.module(ModuleKind::Urdf);
+            let reason = module.and_then(|module| {
+                let fault = module.first_fault();
+                fault.or_else(|| Some(module.unusable()?.to_string()))
+            });
+            let missing = || "urdf_module is missing, which says what the robot is".to_owned();
+            return Err(failed(reason.unwrap_or_else(missing)));
+        }
+    };
+    let view = of_urdf(&robot);
+    let mut notes = Vec::new();
+    let dofs = dof_state::of_urdd(&urdd, &view, &mut notes);
+    Ok(Side {
+        path: shown,
+        kind: Kind::Urdd,
+        dofs,
+        shapes: read_shapes(&urdd, &view),
+        view,
+        robot,
+        urdd: Some((urdd, path.to_owned())),
+        validation: None,
+        notes,
+    })
+}
+
+/// A mesh file of a URDD, by its path as the module has it.
+type File = (Profile, String);
+
+fn read_shapes(urdd: &Urdd, view: &Robot) -> Shapes {
+    let paths = paths(urdd, view);
+    let by_name: HashMap<&str, File> = paths
+        .iter()
+        .filter_map(|(place, file)| {
+            let (_, mesh) = mesh_at(view, *place)?;
+            Some((mesh.filename.as_str(), file.clone()))
+        })
+        .collect();
+    let mut files: Vec<(Place, Result<File, String>)> = Vec::new();
+    for (link, of) in view.links.iter().enumerate() {
+        for kind in [GeometryKind::Visual, GeometryKind::Collision] {
+            for (index, element) in of.elements(kind).iter().enumerate() {
+                if let Some(Geometry::Mesh(mesh)) = &element.geometry {
+                    let place = (link, kind, index);
+                    // Published URDDs list visual meshes alone.
+                    let path = paths
+                        .get(&place)
+                        .or_else(|| by_name.get(mesh.filename.as_str()));
+                    let missing = || "the URDD carries no such original mesh".to_owned();
+                    files.push((place, path.cloned().ok_or_else(missing)));
+                }
+            }
+        }
+    }
+    shapes(view, files, |(profile, path)| scene(urdd, *profile, path))
+}
+
+/// The path of each mesh element, as `original_meshes_module` has it.
+fn paths(urdd: &Urdd, view: &Robot) -> HashMap<Place, File> {
+    let mut paths = HashMap::new();
+    if let Some(ModuleDocument::OriginalMeshes(module)) = urdd.document(ModuleKind::OriginalMeshes)
+    {
+        for reference in &module.references {
+            let place = (
+                reference.link_idx.get(),
+                reference.geometry,
+                reference.element_idx.get(),
+            );
+            if let Some(path) = &reference.path {
+                paths.insert(place, (Profile::V1, path.clone()));
+            }
+        }
+        return paths;
+    }
+    let Some(meshes) = urdd.meshes(ModuleKind::OriginalMeshes) else {
+        return paths;
+    };
+    for list in &meshes.lists {
+        for (link, meshes) in list.links.iter().enumerate() {
+            let Some(of) = view.links.get(link) else {
+                continue;
+            };
+            let visual = of.visual.iter().enumerate();
+            let named = visual.filter(|(_, v)| matches!(v.geometry, Some(Geometry::Mesh(_))));
+            for ((index, _), mesh) in named.zip(meshes) {
+                if let Some(path) = mesh.paths.first() {
+                    let place = (link, GeometryKind::Visual, index);
+                    paths.insert(place, (Profile::Legacy, path.path.to_owned()));
+                }
+            }
+        }
+    }
+    paths
+}
+
+/// Reads a mesh file. Files that it names are read from the URDD alone.
+fn scene(urdd: &Urdd, profile: Profile, path: &str) -> Result<Arc<Scene>, String> {
+    let mut files = MeshFiles::new(urdd);
+    let bytes = files.read(profile, path);
+    let bytes = bytes.map_err(|absence| format!("{path}: {absence}"))?;
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let mut fetch = |named: &str| files.read(profile, &beside(path, named)?).ok();
+    let scene = read(&bytes, name, &mut fetch).map_err(|error| error.to_string())?;
+    Ok(Arc::new(scene))
+}

@@ -1,0 +1,35 @@
+//! Opens a URDF.
+
+use std::path::Path;
+
+use crate::dof_state;
+use crate::shapes::shapes;
+use crate::side::{DiffError, Options, Side};
+use urdd_document::robot::of_urdf;
+use urdd_format::report::Kind;
+use urdd_generate::open_source;
+
+/// Opens a URDF and reads its meshes.
+///
+/// # Errors
+/// If it cannot be read or is not a valid robot.
+pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side, DiffError> {
+    let source = open_source(path, &options.urdf).map_err(DiffError::Urdf)?;
+    let view = of_urdf(&source.robot);
+    let files = source.meshes.iter().map(|mesh| {
+        let place = (mesh.link, mesh.geometry, mesh.element);
+        (place, mesh.file.clone().map_err(|why| why.reason))
+    });
+    let shapes = shapes(&view, files.collect(), |file| source.read(file));
+    Ok(Side {
+        path: shown,
+        kind: Kind::Urdf,
+        dofs: dof_state::of_robot(&view),
+        view,
+        shapes,
+        robot: source.robot,
+        urdd: None,
+        validation: None,
+        notes: Vec::new(),
+    })
+}

@@ -1,0 +1,104 @@
+//! The page's own files, from `dist/`, which `page/build.mjs` builds.
+
+use std::io::{self, Read};
+
+use brotli_decompressor::Decompressor;
+
+/// A file of the page.
+#[derive(Debug, Clone, Copy)]
+pub struct Asset {
+    /// Its name in the site.
+    pub name: &'static str,
+    /// Its media type.
+    pub media_type: &'static str,
+    /// Its content, compressed with Brotli.
+    pub brotli: &'static [u8],
+}
+
+macro_rules! asset {
+    ($name:literal, $type:literal) => {
+        Asset {
+            name: $name,
+            media_type: $type,
+            brotli: include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/dist/", $name, ".br")),
+        }
+    };
+}
+
+/// All files of the page.
+pub const ASSETS: &[Asset] = &[
+    asset!("index.html", "text/html; charset=utf-8"),
+    asset!("app.js", "text/javascript; charset=utf-8"),
+    asset!("worker.js", "text/javascript; charset=utf-8"),
+    asset!("style.css", "text/css; charset=utf-8"),
+    asset!("urdd.wasm", "application/wasm"),
+];
+
+/// The module without the validator, for a page in one file, which includes the report.
+pub const ROBOT_MODULE: Asset = asset!("robot.wasm", "application/wasm");
+
+/// A hash of the page's sources (`page/build.mjs`).
+pub const STAMP: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/dist/stamp"));
+
+/// Finds a file by name.
+pub fn find(name: &str) -> Option<&'static Asset> {
+    ASSETS.iter().find(|asset| asset.name == name)
+}
+
+impl Asset {
+    /// Its decompressed content.
+    ///
+    /// # Errors
+    /// If the data is corrupt.
+    pub fn bytes(&self) -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        Decompressor::new(self.brotli, 1 << 16).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+/// The page for `urdd view`'s own server, instead of a static one.
+///
+/// # Errors
+/// As [`Asset::bytes`].
+pub fn live_page() -> io::Result<String> {
+    let index = find("index.html").map_or_else(|| Ok(Vec::new()), Asset::bytes)?;
+    let text = String::from_utf8(index).map_err(io::Error::other)?;
+    Ok(text.replace(
+        r#"<meta name="urdd-mode" content="static" />"#,
+        r#"<meta name="urdd-mode" content="live" />"#,
+    ))
+}
+
+/// The page with its files renamed: each name with its replacement path.
+pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
+    let mut text = page.to_owned();
+    let mut said = String::new();
+    for (name, path) in names {
+        text = text.replace(&format!("\"{name}\""), &format!("\"{path}\""));
+        said.push_str(&format!("{name} {path} "));
+    }
+    let mode = r#"<meta name="urdd-mode" content="static" />"#;
+    let files = format!(
+        r#"<meta name="urdd-files" content="{}" />"#,
+        said.trim_end()
+    );
+    text.replace(mode, &format!("{mode}\n    {files}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_is_whole() {
+        for asset in ASSETS {
+            let bytes = asset.bytes().expect(asset.name);
+            assert!(bytes.len() > asset.brotli.len() / 2, "{}", asset.name);
+        }
+        let page = live_page().expect("a page");
+        assert!(page.contains(r#"content="live""#), "{page}");
+        assert!(page.contains("wasm-unsafe-eval"), "{page}");
+        assert_eq!(STAMP.trim().len(), 64);
+    }
+}

@@ -1,0 +1,349 @@
+//! The displayed robots.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use crate::drop_folder::Drops;
+use crate::revision;
+use urdd_directory::carried::carried;
+use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
+use urdd_directory::replacement::Files;
+use urdd_directory::root::{ReadError, Root};
+use urdd_generate::Settings;
+
+/// A displayed robot.
+#[derive(Debug)]
+pub struct Shown {
+    /// Its unique identifier in URLs: ASCII letters, digits, `-`, `_` and `.`.
+    pub id: String,
+    /// Its displayed name: its path from the given folder.
+    pub name: String,
+    /// The URDF that it is generated from; `None` for a URDD.
+    pub source: Option<Source>,
+    standing: Mutex<Standing>,
+    /// The files, and their revision.
+    opened: Mutex<Option<(String, Opened)>>,
+    /// When a page last asked for it.
+    seen: Mutex<Option<Instant>>,
+    /// The report, and its revision.
+    pub(super) report: Mutex<Option<(String, String)>>,
+    /// The picture, and its revision.
+    pub(super) picture: Mutex<Option<(String, Option<Vec<u8>>)>>,
+    /// The saves that can be undone: the revision after each, and the files before it.
+    pub(super) undo: Mutex<Vec<(String, Files)>>,
+}
+
+/// What a robot is generated from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// The URDF or xacro file.
+    pub file: PathBuf,
+    /// Folders of packages besides those of the settings, each as `NAME=PATH`.
+    pub packages: Vec<String>,
+}
+
+impl Source {
+    /// The settings to read it with: with its own packages.
+    pub fn settings(&self, all: &Settings) -> Settings {
+        let mut settings = all.clone();
+        for package in &self.packages {
+            // A folder that is gone: its meshes are not found, and the page says so.
+            let _ = settings.packages.add(package);
+        }
+        settings
+    }
+}
+
+/// The mutable state of a displayed robot.
+#[derive(Debug)]
+struct Standing {
+    path: PathBuf,
+    /// Whether there is something to show at that path.
+    is_ready: bool,
+    notes: Vec<String>,
+    kind: Kind,
+    making: Making,
+}
+
+/// The operations allowed on a robot's files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// An archive or a URDD from before version 1: read-only.
+    ReadOnly,
+    /// A version 1 folder: skips can be saved.
+    Writable,
+    /// Generated for display: the whole URDD can be saved into a folder.
+    Temporary,
+}
+
+/// Progress of a robot's generation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Making {
+    /// Generation is complete, or was not needed.
+    Done,
+    /// Nobody has opened it yet.
+    Waiting,
+    /// A module is being generated.
+    Running {
+        /// The module.
+        what: String,
+        /// Number of finished modules.
+        done: usize,
+        /// Total number of modules.
+        of: usize,
+    },
+    /// Generation failed, with the reason.
+    Failed(String),
+}
+
+/// The files of a displayed robot. All requests share one archive in memory.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    /// All files: for the validator.
+    pub all: Root,
+    /// The URDD's own files (see [`carried`]): for everything else.
+    pub own: Root,
+}
+
+impl Shown {
+    /// The current files, and their revision.
+    ///
+    /// # Errors
+    /// If they no longer exist or cannot be read.
+    pub fn open(&self) -> Result<(String, Opened), ReadError> {
+        let path = self.path();
+        // Taken before the files are listed, so that later changes are detected.
+        let revision = revision::of(&path);
+        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((of, known)) = opened.as_ref()
+            && *of == revision
+        {
+            return Ok((revision, known.clone()));
+        }
+        // Drops the old archive first: only one is in memory.
+        *opened = None;
+        let all = Root::open(&path)?;
+        let own = carried(&all)?;
+        let found = Opened { all, own };
+        *opened = Some((revision.clone(), found.clone()));
+        Ok((revision, found))
+    }
+
+    /// The URDD's own files as last listed: all requests for files of an archive read the same archive.
+    ///
+    /// # Errors
+    /// As [`Shown::open`].
+    pub fn own_files(&self) -> Result<Root, ReadError> {
+        let known = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, opened)) = known.as_ref() {
+            return Ok(opened.own.clone());
+        }
+        drop(known);
+        Ok(self.open()?.1.own)
+    }
+
+    /// The path of its folder or archive.
+    pub fn path(&self) -> PathBuf {
+        self.standing().path.clone()
+    }
+
+    /// The assumptions made when it was generated for display.
+    pub fn notes(&self) -> Vec<String> {
+        self.standing().notes.clone()
+    }
+
+    /// Whether its skips can be saved.
+    pub fn is_writable(&self) -> bool {
+        self.standing().kind == Kind::Writable
+    }
+
+    /// Whether it is deleted when the program ends, unless it is saved.
+    pub fn is_temporary(&self) -> bool {
+        self.standing().kind == Kind::Temporary
+    }
+
+    /// Progress of its generation.
+    pub fn making(&self) -> Making {
+        self.standing().making.clone()
+    }
+
+    /// Sets the progress of its generation.
+    pub fn set_making(&self, making: Making) {
+        self.standing().making = making;
+    }
+
+    /// Whether there is something to show.
+    pub fn is_ready(&self) -> bool {
+        self.standing().is_ready
+    }
+
+    /// Records that a page shows it, or waits for it.
+    pub fn see(&self) {
+        *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+    }
+
+    /// How long ago a page last asked for it.
+    pub fn unseen_for(&self) -> Option<Duration> {
+        let seen = *self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.map(|seen| seen.elapsed())
+    }
+
+    /// Shows what was generated at a path, with these assumptions, while `making` goes on. Not if it was saved
+    /// meanwhile.
+    pub fn show(&self, path: PathBuf, notes: Vec<String>, making: Making) {
+        let mut standing = self.standing();
+        if standing.kind == Kind::Temporary {
+            standing.path = path;
+            standing.notes = notes;
+            standing.making = making;
+            standing.is_ready = true;
+        }
+    }
+
+    /// Records that it is now in a folder of the user.
+    pub(super) fn keep_at(&self, path: PathBuf) {
+        *self.opened.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        let mut standing = self.standing();
+        standing.path = path;
+        standing.kind = Kind::Writable;
+        standing.making = Making::Done;
+    }
+
+    fn standing(&self) -> MutexGuard<'_, Standing> {
+        self.standing.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The robots of a page, in order. Robots may be added while it is shown.
+#[derive(Debug, Default)]
+pub struct Collection {
+    listed: Mutex<Listed>,
+    /// Where dropped files go, if they are accepted.
+    pub(super) drops: Option<Drops>,
+    /// How URDFs are read.
+    pub(super) settings: Settings,
+}
+
+#[derive(Debug, Default)]
+struct Listed {
+    robots: Vec<Arc<Shown>>,
+    ids: BTreeSet<String>,
+}
+
+impl Collection {
+    /// Accepts URDFs that are dropped on the page, into this folder. `with_xacro` allows them to run xacro.
+    #[must_use]
+    pub fn with_drops(self, folder: PathBuf, with_xacro: bool) -> Self {
+        Collection {
+            drops: Some(Drops::new(folder, with_xacro)),
+            ..self
+        }
+    }
+
+    /// Reads URDFs by these settings.
+    #[must_use]
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Collection { settings, ..self }
+    }
+
+    /// Adds every URDD at or below a path.
+    ///
+    /// # Errors
+    /// If there is none, or the path cannot be searched.
+    pub fn add(&self, path: &Path) -> Result<(), DiscoverError> {
+        for found in discover(path)? {
+            // Archives are read-only, and URDDs from before version 1 have no edits.
+            let has_metadata = found.path.join(ROOT_METADATA).is_file();
+            let kind = match found.closed.is_none() && has_metadata {
+                true => Kind::Writable,
+                false => Kind::ReadOnly,
+            };
+            // Absolute: the working directory may change later, and `.` has no name for a sibling to be derived from.
+            let path = found.path.canonicalize().unwrap_or(found.path);
+            self.put(found.name, None, path, kind);
+        }
+        Ok(())
+    }
+
+    /// Adds a robot to be generated from a URDF when somebody opens it.
+    pub fn add_source(&self, name: String, source: Source) -> Arc<Shown> {
+        self.put(name, Some(source), PathBuf::new(), Kind::Temporary)
+    }
+
+    fn put(&self, name: String, source: Option<Source>, path: PathBuf, kind: Kind) -> Arc<Shown> {
+        let plain = |c: char| match c {
+            'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '_' => c,
+            _ => '_',
+        };
+        let word: String = name.chars().take(80).map(plain).collect();
+        let word = if word.is_empty() { "robot" } else { &word };
+        let mut id = word.to_owned();
+        let mut number = 2;
+        let mut listed = self.listed();
+        while !listed.ids.insert(id.clone()) {
+            id = format!("{word}.{number}");
+            number += 1;
+        }
+        let is_made = source.is_none();
+        let shown = Arc::new(Shown {
+            id,
+            name,
+            source,
+            standing: Mutex::new(Standing {
+                path,
+                is_ready: is_made,
+                notes: Vec::new(),
+                kind,
+                making: match is_made {
+                    true => Making::Done,
+                    false => Making::Waiting,
+                },
+            }),
+            opened: Mutex::default(),
+            seen: Mutex::default(),
+            report: Mutex::default(),
+            picture: Mutex::default(),
+            undo: Mutex::default(),
+        });
+        listed.robots.push(Arc::clone(&shown));
+        shown
+    }
+
+    /// The robots.
+    pub fn robots(&self) -> Vec<Arc<Shown>> {
+        self.listed().robots.clone()
+    }
+
+    /// Finds a robot by its id.
+    pub fn find(&self, id: &str) -> Option<Arc<Shown>> {
+        let listed = self.listed();
+        let found = listed.robots.iter().find(|robot| robot.id == id);
+        found.map(Arc::clone)
+    }
+
+    fn listed(&self) -> MutexGuard<'_, Listed> {
+        self.listed.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_are_plain_and_unique() {
+        let collection = Collection::default();
+        for name in ["arms/a b", "arms/a_b", "<b>", ""] {
+            let source = Source {
+                file: PathBuf::new(),
+                packages: Vec::new(),
+            };
+            collection.add_source(name.to_owned(), source);
+        }
+        let robots = collection.robots();
+        let ids: Vec<&str> = robots.iter().map(|robot| &*robot.id).collect();
+        assert_eq!(ids, ["arms_a_b", "arms_a_b.2", "_b_", "robot"]);
+    }
+}

@@ -1,0 +1,175 @@
+//! Takes URDFs and their meshes that were dropped on the page into the temporary folder.
+//!
+//! The body is a line of JSON, a list of `path` and `size`, and then the files' bytes one after another. Everything in it
+//! is hostile: no path leaves the folder, no file replaces another, and number, sizes and depth have limits.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::json;
+
+use crate::collection::{Collection, Source};
+use crate::drop_folder::Drops;
+use crate::reply::Reply;
+use crate::save::Failure;
+use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
+use urdd_directory::path;
+use urdd_generate::batch;
+
+/// Maximum size of one drop, bytes.
+pub const MAX_BODY: u64 = 256 << 20;
+/// Maximum number of files of one drop.
+const MAX_FILES: usize = 10_000;
+/// The prefix of mesh names in a package.
+const IN_PACKAGE: &str = "package://";
+
+/// A file of a drop.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Item {
+    path: String,
+    size: u64,
+}
+
+/// Takes a drop, and adds its robots to the collection.
+pub fn take(collection: &Collection, body: &[u8]) -> Reply {
+    let Some(drops) = &collection.drops else {
+        return Reply::failure(403, "no URDFs are taken here\n");
+    };
+    match taken(collection, drops, body) {
+        Ok(ids) => Reply::json(&json!({ "robots": ids })),
+        Err((status, message)) => Reply::failure(status, format!("{message}\n")),
+    }
+}
+
+fn taken(collection: &Collection, drops: &Drops, body: &[u8]) -> Result<Vec<String>, Failure> {
+    let (items, content) = items(body)?;
+    let folder = drops.begin(content.len() as u64)?;
+    let sources = write(&items, content, &folder).and_then(|()| sources(&folder, drops.with_xacro));
+    let sources = sources.inspect_err(|_| {
+        let _ = fs::remove_dir_all(&folder);
+    })?;
+    let robots = sources.into_iter();
+    let robots = robots.map(|(name, source)| collection.add_source(name, source).id.clone());
+    Ok(robots.collect())
+}
+
+/// The files of a drop, and their bytes.
+fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
+    let bad = |why: String| (400, why);
+    let end = body.iter().position(|byte| *byte == b'\n');
+    let end = end.ok_or_else(|| bad("there is no list of files".to_owned()))?;
+    let (list, content) = (&body[..end], &body[end + 1..]);
+    let items: Vec<Item> =
+        serde_json::from_slice(list).map_err(|error| bad(format!("no list of files: {error}")))?;
+    if items.len() > MAX_FILES {
+        return Err(bad(format!("more than {MAX_FILES} files")));
+    }
+    let size = items
+        .iter()
+        .try_fold(0u64, |sum, item| sum.checked_add(item.size));
+    if size != Some(content.len() as u64) {
+        return Err(bad("the sizes do not match".to_owned()));
+    }
+    for item in &items {
+        let name = &item.path;
+        let is_long = name.len() > MAX_NAME_BYTES
+            || name.split('/').any(|part| part.len() > MAX_PART_BYTES)
+            || name.split('/').count() > MAX_FOLDER_DEPTH;
+        if is_long {
+            return Err(bad("a path is too long".to_owned()));
+        }
+        path::check(name).map_err(|fault| bad(format!("{name:?}: {fault}")))?;
+    }
+    Ok((items, content))
+}
+
+fn write(items: &[Item], mut content: &[u8], folder: &Path) -> Result<(), Failure> {
+    let failed = |path: &str, error: &std::io::Error| (400, format!("{path:?}: {error}"));
+    for Item { path, size } in items {
+        let size = usize::try_from(*size).unwrap_or(usize::MAX);
+        let (bytes, rest) = content
+            .split_at_checked(size)
+            .ok_or((400, "the sizes do not match".to_owned()))?;
+        content = rest;
+        let target = folder.join(path);
+        if let Some(parent) = target.parent() {
+            fs::create_dir_all(parent).map_err(|error| failed(path, &error))?;
+        }
+        // Nothing is replaced: two files of one name are an error.
+        let mut file = File::create_new(&target).map_err(|error| failed(path, &error))?;
+        file.write_all(bytes)
+            .map_err(|error| failed(path, &error))?;
+    }
+    // Without it, a package around the temporary folder would count as the robot's own, with the files in it.
+    let package = folder.join("package.xml");
+    if !package.exists() {
+        let text = "<package><name>dropped</name></package>\n";
+        fs::write(&package, text).map_err(|error| failed("package.xml", &error))?;
+    }
+    Ok(())
+}
+
+/// The URDFs of a drop, by name.
+fn sources(folder: &Path, with_xacro: bool) -> Result<Vec<(String, Source)>, Failure> {
+    let mut jobs = batch::jobs(&[folder.to_owned()])
+        .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
+    if !with_xacro {
+        jobs.retain(|job| job.source.extension().is_none_or(|it| it != "xacro"));
+    }
+    if jobs.is_empty() {
+        let why = "xacro files are programs: start `urdd view --xacro` to run them";
+        return Err((403, why.to_owned()));
+    }
+    let folders = folders(folder);
+    let sources = jobs.into_iter().map(|job| {
+        let packages = packages(&job.source, folder, &folders);
+        let source = Source {
+            file: job.source,
+            packages,
+        };
+        (job.name, source)
+    });
+    Ok(sources.collect())
+}
+
+/// All folders below one, itself first.
+fn folders(folder: &Path) -> Vec<PathBuf> {
+    let mut found = vec![folder.to_owned()];
+    let mut at = 0;
+    while let Some(folder) = found.get(at).cloned() {
+        at += 1;
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let inside = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+        found.extend(inside.map(|entry| entry.path()));
+    }
+    found
+}
+
+/// The packages that a URDF names and that no dropped folder is called: the folder in which the first mesh of each is
+/// found, as when the content of a package was dropped without its folder.
+fn packages(urdf: &Path, dropped: &Path, folders: &[PathBuf]) -> Vec<String> {
+    let text = fs::read(urdf).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let mut found: Vec<(&str, String)> = Vec::new();
+    for rest in text.split(IN_PACKAGE).skip(1) {
+        let end = rest.find(['"', '\'', '<']).unwrap_or(rest.len());
+        let Some((package, file)) = rest[..end].split_once('/') else {
+            continue;
+        };
+        let is_known = found.iter().any(|(known, _)| *known == package)
+            || folders.iter().any(|folder| folder.ends_with(package));
+        if is_known || path::check(package).is_err() || path::check(file).is_err() {
+            continue;
+        }
+        let mut folders = folders.iter();
+        if let Some(folder) = folders.find(|folder| folder.join(file).is_file())
+            && folder.starts_with(dropped)
+        {
+            found.push((package, format!("{package}={}", folder.display())));
+        }
+    }
+    found.into_iter().map(|(_, package)| package).collect()
+}

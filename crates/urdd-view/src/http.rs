@@ -1,0 +1,285 @@
+//! One HTTP/1.1 request and response per connection, which is then closed. Local browsers reconnect immediately, and no
+//! idle connection holds resources.
+//!
+//! `tiny_http` 0.12 is unsuitable: if a browser keeps several connections open, its thread pool leaves some requests
+//! unanswered until they close.
+
+use std::io::{self, BufReader, Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::time::{Duration, Instant};
+
+use crate::reply::{Body, HEADERS, Reply};
+
+/// Maximum size of a request's first line and headers, in bytes, and maximum number of headers.
+const MAX_HEAD: usize = 16 << 10;
+const MAX_HEADERS: usize = 64;
+/// Maximum idle time of a connection.
+const SILENCE: Duration = Duration::from_secs(10);
+/// Maximum total time to receive the first line and headers, and a body.
+const MAX_HEAD_TIME: Duration = Duration::from_secs(10);
+const MAX_BODY_TIME: Duration = Duration::from_secs(60);
+/// Maximum time to send a response: this, plus one second per [`BYTES_A_SECOND`] bytes.
+const MAX_ANSWER_TIME: Duration = Duration::from_secs(60);
+const BYTES_A_SECOND: u64 = 1 << 20;
+/// Limits for reading and discarding unread input before closing. Closing earlier resets the connection, and the
+/// response may be lost.
+const LINGER: Duration = Duration::from_secs(1);
+const MAX_LINGER: u64 = 1 << 20;
+
+/// A request.
+#[derive(Debug, Default)]
+pub struct Asked {
+    /// Its method.
+    pub method: String,
+    /// Its URL, as sent.
+    pub url: String,
+    /// Its headers. Values that are not text are empty.
+    headers: Vec<(String, String)>,
+    /// Its body.
+    pub body: Vec<u8>,
+}
+
+impl Asked {
+    /// The value of a header; empty if the header is repeated.
+    pub fn header(&self, name: &str) -> Option<&str> {
+        let mut found = self
+            .headers
+            .iter()
+            .filter(|(known, _)| known.eq_ignore_ascii_case(name));
+        match (found.next(), found.next()) {
+            (Some((_, value)), None) => Some(value),
+            // Repeated, so ambiguous.
+            (Some(_), Some(_)) => Some(""),
+            _ => None,
+        }
+    }
+}
+
+/// A connection with a deadline, even if it is active.
+struct Timed {
+    stream: TcpStream,
+    until: Instant,
+}
+
+impl Timed {
+    fn for_another(&mut self, time: Duration) {
+        self.until = Instant::now() + time;
+    }
+
+    /// The time left for the next step.
+    fn left(&self) -> io::Result<Duration> {
+        let left = self.until.saturating_duration_since(Instant::now());
+        match left.is_zero() {
+            true => Err(io::ErrorKind::TimedOut.into()),
+            false => Ok(left.min(SILENCE)),
+        }
+    }
+}
+
+impl Read for Timed {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.stream.set_read_timeout(Some(self.left()?))?;
+        self.stream.read(buffer)
+    }
+}
+
+impl Write for Timed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.set_write_timeout(Some(self.left()?))?;
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
+}
+
+/// Serves one request of a connection. `admit` receives the request without its body, and returns the maximum size of
+/// the body, or refuses the request.
+pub fn converse(
+    stream: TcpStream,
+    admit: impl FnOnce(&Asked) -> Result<u64, Reply>,
+    answer: impl FnOnce(&Asked) -> Reply,
+) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    let until = Instant::now() + MAX_HEAD_TIME;
+    let mut reader = BufReader::new(Timed { stream, until });
+    let (reply, head_only) = match head(&mut reader)? {
+        Err(refused) => (refused, false),
+        Ok(mut asked) => {
+            let admitted = admit(&asked).and_then(|limit| length(&asked, limit));
+            let received = match admitted {
+                Err(refused) => Err(refused),
+                Ok(length) => {
+                    reader.get_mut().for_another(MAX_BODY_TIME);
+                    body(&mut reader, length, &mut asked.body)?
+                }
+            };
+            let head_only = asked.method == "HEAD";
+            match received {
+                Ok(()) => (answer(&asked), head_only),
+                Err(refused) => (refused, head_only),
+            }
+        }
+    };
+    let seconds = Duration::from_secs(reply.body.size() / BYTES_A_SECOND);
+    reader.get_mut().for_another(MAX_ANSWER_TIME + seconds);
+    write(reader.get_mut(), reply, head_only)?;
+    reader.get_ref().stream.shutdown(Shutdown::Write)?;
+    reader.get_mut().for_another(LINGER);
+    io::copy(&mut reader.take(MAX_LINGER), &mut io::sink())?;
+    Ok(())
+}
+
+/// Reads a request up to its body; an invalid request gives the response to send.
+fn head(reader: &mut impl Read) -> io::Result<Result<Asked, Reply>> {
+    let mut head = Vec::new();
+    while !head.ends_with(b"\r\n\r\n") {
+        if head.len() >= MAX_HEAD {
+            return Ok(Err(Reply::failure(431, "the headers are too long\n")));
+        }
+        let mut byte = [0];
+        reader.read_exact(&mut byte)?;
+        head.push(byte[0]);
+    }
+    let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
+    let mut parsed = httparse::Request::new(&mut headers);
+    if !matches!(parsed.parse(&head), Ok(httparse::Status::Complete(_))) {
+        return Ok(Err(Reply::failure(400, "this is no request\n")));
+    }
+    let text = |value: &[u8]| std::str::from_utf8(value).unwrap_or_default().to_owned();
+    Ok(Ok(Asked {
+        method: parsed.method.unwrap_or_default().to_owned(),
+        url: parsed.path.unwrap_or_default().to_owned(),
+        headers: parsed
+            .headers
+            .iter()
+            .map(|header| (header.name.to_owned(), text(header.value)))
+            .collect(),
+        body: Vec::new(),
+    }))
+}
+
+/// The length of a request's body, or the response that rejects it.
+fn length(asked: &Asked, limit: u64) -> Result<u64, Reply> {
+    if asked.header("Transfer-Encoding").is_some() {
+        return Err(Reply::failure(411, "the length of the body is missing\n"));
+    }
+    match asked.header("Content-Length").map(str::parse::<u64>) {
+        None => Ok(0),
+        Some(Ok(length)) if length <= limit => Ok(length),
+        Some(Ok(_)) => Err(Reply::failure(413, "the body is too long\n")),
+        Some(Err(_)) => Err(Reply::failure(400, "this is no request\n")),
+    }
+}
+
+fn body(reader: &mut impl Read, length: u64, body: &mut Vec<u8>) -> io::Result<Result<(), Reply>> {
+    reader.take(length).read_to_end(body)?;
+    Ok(match body.len() as u64 == length {
+        true => Ok(()),
+        false => Err(Reply::failure(400, "the body is incomplete\n")),
+    })
+}
+
+fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<()> {
+    let mut head = format!("HTTP/1.1 {} {}\r\n", reply.status, word(reply.status));
+    let mut add = |name: &str, value: &str| {
+        head.push_str(name);
+        head.push_str(": ");
+        head.push_str(value);
+        head.push_str("\r\n");
+    };
+    for (name, value) in HEADERS {
+        add(name, value);
+    }
+    add("Content-Type", reply.media_type);
+    if reply.brotli {
+        add("Content-Encoding", "br");
+    }
+    add("Content-Length", &reply.body.size().to_string());
+    add("Connection", "close");
+    head.push_str("\r\n");
+    stream.write_all(head.as_bytes())?;
+    if !head_only {
+        match reply.body {
+            Body::Bytes(bytes) => stream.write_all(&bytes)?,
+            // If the file is shorter than announced, the connection ends early, so the client detects the truncation.
+            Body::File(file, size) => {
+                io::copy(&mut file.take(size), stream)?;
+            }
+        }
+    }
+    stream.flush()
+}
+
+fn word(status: u16) -> &'static str {
+    match status {
+        200 => "OK",
+        204 => "No Content",
+        400 => "Bad Request",
+        403 => "Forbidden",
+        404 => "Not Found",
+        405 => "Method Not Allowed",
+        409 => "Conflict",
+        411 => "Length Required",
+        413 => "Content Too Large",
+        431 => "Request Header Fields Too Large",
+        _ => "Internal Server Error",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reads a request whose body may have up to 10 bytes.
+    fn read(mut text: &[u8]) -> io::Result<Result<Asked, Reply>> {
+        let mut asked = match head(&mut text)? {
+            Ok(asked) => asked,
+            Err(refused) => return Ok(Err(refused)),
+        };
+        let length = match length(&asked, 10) {
+            Ok(length) => length,
+            Err(refused) => return Ok(Err(refused)),
+        };
+        Ok(body(&mut text, length, &mut asked.body)?.map(|()| asked))
+    }
+
+    fn status(text: &[u8]) -> u16 {
+        match read(text).expect("an answer") {
+            Ok(_) => 200,
+            Err(reply) => reply.status,
+        }
+    }
+
+    #[test]
+    fn a_request_is_read() {
+        let text = b"POST /a?b HTTP/1.1\r\nHost: x\r\ncontent-length: 3\r\n\r\nabcdef";
+        let asked = read(text).expect("read").ok().expect("a request");
+        assert_eq!((&*asked.method, &*asked.url), ("POST", "/a?b"));
+        assert_eq!(asked.header("host"), Some("x"));
+        assert_eq!(asked.header("origin"), None);
+        assert_eq!(asked.body, b"abc");
+    }
+
+    #[test]
+    fn what_is_no_request_is_refused() {
+        assert_eq!(status(b"nonsense\r\n\r\n"), 400);
+        assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"), 400);
+        assert_eq!(
+            status(b"GET / HTTP/1.1\r\nContent-Length: 5\r\n\r\nabc"),
+            400
+        );
+        assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: 11\r\n\r\n"), 413);
+        assert_eq!(
+            status(b"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"),
+            411
+        );
+        let twice = b"GET / HTTP/1.1\r\nContent-Length: 0\r\nContent-Length: 3\r\n\r\nabc";
+        assert_eq!(status(twice), 400);
+        let mut long = b"GET / HTTP/1.1\r\nA: ".to_vec();
+        long.extend(vec![b'a'; MAX_HEAD]);
+        assert_eq!(status(&long), 431);
+        assert!(read(b"GET / HTT").is_err(), "cut off");
+    }
+}

@@ -1,0 +1,35 @@
+//! Internal to urdd; no stability promise.
+//!
+//! `urdd view`: the page `page/`, the robots that it shows, and a server for both. Only a browser on this machine with
+//! the printed address can use the server.
+
+pub mod assets;
+pub mod collection;
+mod connections;
+mod drop_folder;
+mod drops;
+pub mod export;
+mod export_error;
+mod guard;
+mod http;
+mod keep;
+pub mod live;
+mod meanings;
+mod one_file;
+mod picture;
+mod reply;
+mod report;
+mod revision;
+mod route;
+mod save;
+pub mod server;
+mod site_list;
+pub mod temporary;
+
+pub use collection::{Collection, Making, Shown, Source};
+pub use export::export;
+pub use export_error::ExportError;
+pub use live::Live;
+pub use one_file::{may_hold_page, page_with};
+pub use server::{Server, ServerError};
+pub use temporary::Temporary;

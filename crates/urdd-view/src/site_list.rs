@@ -1,0 +1,248 @@
+//! The list of a site's files, `urdd-site.json`, which tells a later export which files to replace. Anything else that
+//! the user put into the folder remains.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::export_error::ExportError;
+use urdd_directory::staging::StagingError;
+use urdd_directory::{digest, regular};
+use urdd_format::registry::PROGRAM_VERSION;
+
+/// The list itself. Its presence identifies a site.
+pub const LIST: &str = "urdd-site.json";
+/// The folder of all files except the page and the list.
+pub const FOLDER: &str = "urdd-site";
+/// The page. It references the other files, so replacing it replaces the site.
+pub const PAGE: &str = "index.html";
+
+const MADE_BY: &str = "urdd view --export";
+const MAX_LIST_BYTES: u64 = 64 << 20;
+
+/// The files that version 0.2.0 wrote, which had no list.
+const OF_0_2_0: [&str; 7] = [
+    "app.js",
+    PAGE,
+    "robots.json",
+    "robots",
+    "style.css",
+    "urdd.wasm",
+    "worker.js",
+];
+
+/// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.
+#[derive(Debug, Clone, Default)]
+pub struct SiteList(BTreeMap<String, BTreeSet<String>>);
+
+impl SiteList {
+    /// Reads the list of the site in a folder; an empty list if the folder is empty.
+    ///
+    /// # Errors
+    /// If the folder contains something else, or a site without a list.
+    pub fn read(folder: &Path) -> Result<Self, ExportError> {
+        let mut entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Self::default()),
+            Err(error) => return Err(unwritten(folder, error)),
+        };
+        let text = match regular::read(&folder.join(LIST), MAX_LIST_BYTES) {
+            Ok(text) => text,
+            Err(_) if entries.next().is_none() => return Ok(Self::default()),
+            Err(_) => return Err(ExportError::Occupied(folder.to_owned())),
+        };
+        let value: Value = serde_json::from_slice(&text).unwrap_or_default();
+        if value["made by"] != MADE_BY {
+            return Err(ExportError::Occupied(folder.to_owned()));
+        }
+        let Some(files) = value["files"].as_array() else {
+            let left = OF_0_2_0.iter().map(|name| folder.join(name));
+            let left: Vec<PathBuf> = left
+                .filter(|path| path.symlink_metadata().is_ok())
+                .collect();
+            return match left.is_empty() {
+                true => Ok(Self::default()),
+                false => Err(ExportError::Unlisted {
+                    folder: folder.to_owned(),
+                    left,
+                }),
+            };
+        };
+        let mut list = SiteList::default();
+        for file in files {
+            if let (Some(path), Some(hash)) = (file["path"].as_str(), file["sha256"].as_str()) {
+                // Do not trust the list: paths that no export writes are never replaced.
+                if is_of_site(path) {
+                    list.add(path, hash);
+                }
+            }
+        }
+        Ok(list)
+    }
+
+    /// Adds a file.
+    pub fn add(&mut self, path: &str, sha256: &str) {
+        let hashes = self.0.entry(path.to_owned()).or_default();
+        hashes.insert(sha256.to_owned());
+    }
+
+    fn knows(&self, path: &str, sha256: &str) -> bool {
+        self.0
+            .get(path)
+            .is_some_and(|hashes| hashes.contains(sha256))
+    }
+
+    /// Combines this list with another one.
+    fn with(&self, other: &Self) -> Self {
+        let mut both = self.clone();
+        for (path, hashes) in &other.0 {
+            hashes.iter().for_each(|hash| both.add(path, hash));
+        }
+        both
+    }
+
+    fn text(&self) -> String {
+        let files: Vec<Value> = self
+            .0
+            .iter()
+            .flat_map(|(path, hashes)| hashes.iter().map(move |hash| (path, hash)))
+            .map(|(path, hash)| json!({ "path": path, "sha256": hash }))
+            .collect();
+        let version = PROGRAM_VERSION;
+        json!({ "made by": MADE_BY, "version": version, "files": files }).to_string()
+    }
+
+    /// Refuses to overwrite the user's files: a file at one of these paths that is not from an export, or a file of
+    /// `before` that the user changed.
+    ///
+    /// # Errors
+    /// [`ExportError::InTheWay`], with all such files.
+    pub fn check_places(&self, folder: &Path, before: &Self) -> Result<(), ExportError> {
+        let below = folder.join(FOLDER);
+        let mut files = Vec::new();
+        if fs::symlink_metadata(&below).is_ok_and(|metadata| !metadata.is_dir()) {
+            files.push(below);
+        } else {
+            for path in self.0.keys() {
+                let place = folder.join(path);
+                let is_ours = match hash_of(&place) {
+                    Err(error) => error.kind() == ErrorKind::NotFound,
+                    Ok(hash) => self.knows(path, &hash) || before.knows(path, &hash),
+                };
+                if !is_ours {
+                    files.push(place);
+                }
+            }
+        }
+        match files.is_empty() {
+            true => Ok(()),
+            false => Err(ExportError::InTheWay { files }),
+        }
+    }
+
+    /// Moves the files of this list from `content` into the folder, and removes the files of `before` that are not in
+    /// this list. Returns those that the user changed, which it keeps.
+    ///
+    /// Every file except the page is named by its content. So the site is the old one until the page is replaced, which
+    /// is atomic, and the new one from then on, even if this is interrupted.
+    ///
+    /// # Errors
+    /// If a file cannot be written or removed.
+    pub fn put(
+        &self,
+        content: &Path,
+        folder: &Path,
+        before: &Self,
+    ) -> Result<Vec<PathBuf>, ExportError> {
+        fs::create_dir_all(folder.join(FOLDER)).map_err(|error| unwritten(folder, error))?;
+        let write_list = |list: &Self| {
+            let (made, place) = (content.join(LIST), folder.join(LIST));
+            fs::write(&made, list.text())
+                .and_then(|()| fs::rename(&made, &place))
+                .map_err(|error| unwritten(&place, error))
+        };
+        // Listed first: an interrupted run has already listed every file that it may have written.
+        write_list(&self.with(before))?;
+        let page_last = |path: &&String| *path == PAGE;
+        let (page, others): (Vec<_>, Vec<_>) = self.0.keys().partition(page_last);
+        for path in others.into_iter().chain(page) {
+            let place = folder.join(path);
+            if !hash_of(&place).is_ok_and(|hash| self.knows(path, &hash)) {
+                let put = fs::rename(content.join(path), &place);
+                put.map_err(|error| unwritten(&place, error))?;
+            }
+        }
+        let mut kept = Vec::new();
+        for path in before.0.keys().filter(|path| !self.0.contains_key(*path)) {
+            let place = folder.join(path);
+            match hash_of(&place) {
+                Ok(hash) if before.knows(path, &hash) => {
+                    fs::remove_file(&place).map_err(|error| unwritten(&place, error))?;
+                }
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                _ => kept.push(place),
+            }
+        }
+        write_list(self)?;
+        Ok(kept)
+    }
+}
+
+/// Whether an export writes this path.
+fn is_of_site(path: &str) -> bool {
+    let plain = |c: char| c.is_ascii_digit() || c.is_ascii_lowercase();
+    let is_name = |name: &str| {
+        let parts = name.split_once('.');
+        parts.is_some_and(|(stem, ending)| {
+            !stem.is_empty() && !ending.is_empty() && (stem.to_owned() + ending).chars().all(plain)
+        })
+    };
+    match path.split_once('/') {
+        Some((folder, name)) => folder == FOLDER && is_name(name),
+        None => path == PAGE,
+    }
+}
+
+/// The SHA-256 of a file; an error if it is not a regular file, such as a link.
+fn hash_of(path: &Path) -> io::Result<String> {
+    if !fs::symlink_metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    Ok(digest::of_reader(File::open(path)?)?.1)
+}
+
+fn unwritten(path: &Path, error: io::Error) -> ExportError {
+    let path = path.to_owned();
+    StagingError::Write { path, error }.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_names_no_files_but_those_of_sites() {
+        for path in ["index.html", "urdd-site/0af3.bin", "urdd-site/0.json"] {
+            assert!(is_of_site(path), "{path}");
+        }
+        for path in [
+            "",
+            ".git/config",
+            "CNAME",
+            "urdd-site.json",
+            "urdd-site/",
+            "urdd-site/.bin",
+            "urdd-site/..",
+            "urdd-site/../CNAME",
+            "urdd-site/a/b.bin",
+            "/etc/passwd",
+            "urdd-site/Notes.txt",
+            "urdd-site/a b.txt",
+        ] {
+            assert!(!is_of_site(path), "{path}");
+        }
+    }
+}
