@@ -1,5 +1,4 @@
-//! The bodies of the fuzz targets. They lie with the tests, which replay what fuzzing found on the
-//! stable toolchain.
+//! The bodies of the fuzz targets. They are with the tests, which replay what fuzzing found.
 
 #[path = "../../tests/program/readers/mod.rs"]
 pub mod readers;
