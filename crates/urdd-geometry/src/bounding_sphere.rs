@@ -8,6 +8,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::hull::ConvexHull;
+use super::mesh::Bounds;
+use super::vector::{dot, norm, sub};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +64,36 @@ impl BoundingSphere {
             radius,
         }
     }
+}
+
+/// Factor that enlarges the radii of spheres that cull by more than the rounding error.
+pub const LARGER: f64 = 1.0 + 1e-12;
+
+/// A sphere with this centre around points, to cull: no point is outside, by any rounding.
+pub fn about(centre: [f64; 3], points: &[[f64; 3]]) -> BoundingSphere {
+    let away = points.iter().map(|p| sub(*p, centre)).map(|d| dot(d, d));
+    BoundingSphere {
+        centre,
+        radius: away.fold(0.0, f64::max).sqrt() * LARGER + f64::MIN_POSITIVE,
+    }
+}
+
+/// A sphere around spheres, to cull; `None` without spheres.
+pub fn about_spheres<'a>(
+    spheres: impl Iterator<Item = &'a BoundingSphere> + Clone,
+) -> Option<BoundingSphere> {
+    spheres.clone().next()?;
+    let ends = spheres.clone().flat_map(|sphere| {
+        let end = |away: f64| sphere.centre.map(|x| x + away);
+        [end(-sphere.radius), end(sphere.radius)]
+    });
+    let Bounds { min, max } = Bounds::of(ends);
+    let centre = [0, 1, 2].map(|k| 0.5 * (min[k] + max[k]));
+    let reach = spheres.map(|sphere| norm(sub(sphere.centre, centre)) + sphere.radius);
+    Some(BoundingSphere {
+        centre,
+        radius: reach.fold(0.0, f64::max) * LARGER,
+    })
 }
 
 /// The centre of the smallest enclosing sphere.

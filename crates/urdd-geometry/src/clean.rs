@@ -2,7 +2,7 @@
 //!
 //! All operations are deterministic and keep the order of the remaining elements.
 
-use super::mesh::{Mesh, double_area_normal};
+use crate::mesh::{Mesh, double_area_normal};
 
 impl Mesh {
     /// Rounds every coordinate to the nearest binary32, and -0 to 0. Returns how many triangles were dropped because a
@@ -97,21 +97,21 @@ impl Mesh {
 
 /// Maps positions to their first index. Uses open addressing: the standard map with its secure hash takes three times
 /// as long.
-struct PlaceTable {
+pub(crate) struct PlaceTable {
     slots: Vec<u32>,
 }
 
 const FREE: u32 = u32::MAX;
 
 impl PlaceTable {
-    fn for_count(count: usize) -> Self {
+    pub(crate) fn for_count(count: usize) -> Self {
         Self {
             slots: vec![FREE; (count * 2).next_power_of_two().max(2)],
         }
     }
 
     /// The index of the position in `kept`; appends the position if it is new.
-    fn index(&mut self, place: [f64; 3], kept: &mut Vec<[f64; 3]>) -> u32 {
+    pub(crate) fn index(&mut self, place: [f64; 3], kept: &mut Vec<[f64; 3]>) -> u32 {
         let mask = self.slots.len() - 1;
         let mut slot = hash(place) & mask;
         loop {

@@ -36,6 +36,36 @@ pub fn placement(scale: [f64; 3], rotation: [[f64; 3]; 3], translation: [f64; 3]
     })
 }
 
+impl Bounds {
+    /// The bounds of points; without points, from infinity to minus infinity.
+    #[must_use]
+    pub fn of(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        let mut bounds = Bounds {
+            min: [f64::INFINITY; 3],
+            max: [f64::NEG_INFINITY; 3],
+        };
+        for point in points {
+            for (axis, coordinate) in point.into_iter().enumerate() {
+                bounds.min[axis] = bounds.min[axis].min(coordinate);
+                bounds.max[axis] = bounds.max[axis].max(coordinate);
+            }
+        }
+        bounds
+    }
+
+    /// The lengths along the axes.
+    #[must_use]
+    pub fn size(&self) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.max[axis] - self.min[axis])
+    }
+
+    /// The largest length along an axis; 0 without points.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        self.size().into_iter().fold(0.0, f64::max)
+    }
+}
+
 impl Mesh {
     /// The positions of a triangle's vertices.
     #[must_use]
@@ -46,22 +76,9 @@ impl Mesh {
     /// The axis-aligned bounding box of the triangles; `None` without triangles. Unused vertices do not count.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
-        let first = self.vertices[self.triangles.first()?[0] as usize];
-        let mut bounds = Bounds {
-            min: first,
-            max: first,
-        };
-        for corner in self
-            .triangles
-            .iter()
-            .flat_map(|triangle| self.corners(*triangle))
-        {
-            for (axis, coordinate) in corner.into_iter().enumerate() {
-                bounds.min[axis] = bounds.min[axis].min(coordinate);
-                bounds.max[axis] = bounds.max[axis].max(coordinate);
-            }
-        }
-        Some(bounds)
+        let corners = self.triangles.as_flattened().iter();
+        let corners = corners.map(|corner| self.vertices[*corner as usize]);
+        (!self.triangles.is_empty()).then(|| Bounds::of(corners))
     }
 
     /// Surface area, square metres.
@@ -140,6 +157,17 @@ impl Mesh {
                 .iter()
                 .map(|triangle| triangle.map(|index| index + offset)),
         );
+    }
+}
+
+/// The corners of a triangle in the same cyclic order, the lowest first.
+pub(crate) fn from_lowest([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a <= b && a <= c {
+        [a, b, c]
+    } else if b <= c {
+        [b, c, a]
+    } else {
+        [c, a, b]
     }
 }
 

@@ -128,16 +128,10 @@ pub fn capsule(radius: f64, length: f64) -> Mesh {
     let mut mesh = Mesh::default();
     let circle = circle();
     mesh.vertices.push([0.0, 0.0, -length / 2.0 - radius]);
-    for (cosine, sine) in circle[1..=RINGS]
-        .iter()
-        .map(|(cosine, sine)| (*cosine, *sine))
-    {
+    for &(cosine, sine) in &circle[1..=RINGS] {
         push_ring(&mut mesh, radius * sine, -length / 2.0 - radius * cosine);
     }
-    for (cosine, sine) in circle[..RINGS]
-        .iter()
-        .map(|(cosine, sine)| (*cosine, *sine))
-    {
+    for &(cosine, sine) in &circle[..RINGS] {
         push_ring(&mut mesh, radius * cosine, length / 2.0 + radius * sine);
     }
     let top = index(mesh.vertices.len());

@@ -22,6 +22,18 @@ pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// Evenly distributed unit vectors: a Fibonacci lattice on the sphere (Gonzalez, "Measurement of areas on a sphere using
+/// Fibonacci and latitude-longitude lattices", 2010).
+pub fn spread(count: usize) -> impl Iterator<Item = [f64; 3]> {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..count).map(move |i| {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        [radius * cos, radius * sin, z]
+    })
+}
+
 /// The length.
 #[inline]
 pub fn norm(a: [f64; 3]) -> f64 {

@@ -19,31 +19,24 @@ pub struct KinematicsError {
 }
 
 impl KinematicsError {
-    pub(super) fn chain(pointer: impl Into<String>, fault: Fault) -> Self {
-        let (module, pointer) = (ModuleKind::Chain, pointer.into());
+    fn of(module: ModuleKind, pointer: impl Into<String>, fault: Fault) -> Self {
         Self {
             module,
-            pointer,
+            pointer: pointer.into(),
             fault,
         }
+    }
+
+    pub(super) fn chain(pointer: impl Into<String>, fault: Fault) -> Self {
+        Self::of(ModuleKind::Chain, pointer, fault)
     }
 
     pub(super) fn dof(pointer: impl Into<String>, fault: Fault) -> Self {
-        let (module, pointer) = (ModuleKind::Dof, pointer.into());
-        Self {
-            module,
-            pointer,
-            fault,
-        }
+        Self::of(ModuleKind::Dof, pointer, fault)
     }
 
     pub(super) fn bounds(pointer: impl Into<String>, fault: Fault) -> Self {
-        let (module, pointer) = (ModuleKind::Bounds, pointer.into());
-        Self {
-            module,
-            pointer,
-            fault,
-        }
+        Self::of(ModuleKind::Bounds, pointer, fault)
     }
 }
 

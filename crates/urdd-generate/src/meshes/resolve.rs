@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use percent_encoding::percent_decode_str;
+
 use super::package::Packages;
 use super::roots::{Place, Roots};
 
@@ -330,26 +332,6 @@ fn alike(folder: &Path, part: Component) -> Option<Vec<String>> {
 
 /// Decodes percent-encoding such as `%20`; returns the name unchanged if the result is not UTF-8.
 fn percent_decoded(name: &str) -> String {
-    let bytes = name.as_bytes();
-    let mut decoded = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while at < bytes.len() {
-        let digits = bytes
-            .get(at + 1..at + 3)
-            .and_then(|two| std::str::from_utf8(two).ok());
-        let byte = digits
-            .filter(|two| bytes[at] == b'%' && two.bytes().all(|b| b.is_ascii_hexdigit()))
-            .and_then(|two| u8::from_str_radix(two, 16).ok());
-        match byte {
-            Some(byte) => {
-                decoded.push(byte);
-                at += 3;
-            }
-            None => {
-                decoded.push(bytes[at]);
-                at += 1;
-            }
-        }
-    }
-    String::from_utf8(decoded).unwrap_or_else(|_| name.to_owned())
+    let decoded = percent_decode_str(name).decode_utf8();
+    decoded.unwrap_or(name.into()).into_owned()
 }

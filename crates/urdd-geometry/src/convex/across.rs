@@ -7,9 +7,10 @@ use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
 use super::gjk;
+pub use super::lanes::columns;
 use super::lanes::{LANES, Num, Pose, Vec3};
 use super::shape::ConvexShape;
-use super::support::{Support, cells_of};
+use super::support::{Support, cells, farthest};
 use super::witness::{self, Witness};
 
 /// Two convex shapes with their relative pose.
@@ -34,14 +35,6 @@ impl<'a> PlacedPair<'a> {
     }
 }
 
-/// The columns of a pose's rotation, then its translation, metres.
-pub fn columns(pose: &Isometry3<f64>) -> [[f64; 3]; 4] {
-    let rotation = pose.rotation.to_rotation_matrix();
-    let column = |k: usize| rotation.matrix().column(k).into_owned().into();
-    let shift = pose.translation.vector.into();
-    [column(0), column(1), column(2), shift]
-}
-
 /// The distance of each pair, metres; 0 if they touch or overlap. `distances` is as long as `pairs`.
 pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
     for (pairs, out) in pairs.chunks(LANES).zip(distances.chunks_mut(LANES)) {
@@ -52,9 +45,8 @@ pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
 
 /// Whether any pair touches or overlaps, which is where [`distances`] gives 0.
 pub fn any_touches(level: Level, pairs: &[PlacedPair]) -> bool {
-    pairs
-        .chunks(LANES)
-        .any(|pairs| dispatch!(level, simd => eight_touch(simd, pairs)) != 0)
+    let mut eights = pairs.chunks(LANES);
+    eights.any(|pairs| touching(level, pairs) != 0)
 }
 
 /// Like [`any_touches`], for the first [`AT_ONCE`] pairs at most: bit `k` is set if pair `k` touches or overlaps.
@@ -78,35 +70,32 @@ pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
 #[inline(always)]
 fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::distances(simd, &a, &b, &pose, lanes(pairs.len()), gjk::EXACT)
+    gjk::distances(
+        simd,
+        &a,
+        &b,
+        &pose,
+        gjk::first_lanes(pairs.len()),
+        gjk::EXACT,
+    )
 }
 
 #[inline(always)]
 fn eight_touch<S: Simd>(simd: S, pairs: &[PlacedPair]) -> u64 {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::touching(simd, &a, &b, &pose, lanes(pairs.len()))
+    gjk::touching(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()))
 }
 
 #[inline(always)]
 fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    let mut found = witness::witnesses(simd, &a, &b, &pose, lanes(pairs.len()));
+    let mut found = witness::witnesses(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()));
     for (found, pair) in found.iter_mut().zip(pairs) {
         found.points = found
             .points
             .map(|p| [0, 1, 2].map(|k| p[k] + pair.a.centre[k]));
     }
     found
-}
-
-/// Bit set of the first `count` lanes.
-#[inline(always)]
-fn lanes(count: usize) -> u64 {
-    if count < LANES {
-        (1 << count) - 1
-    } else {
-        gjk::ALL
-    }
 }
 
 /// One shape per lane.
@@ -154,20 +143,9 @@ impl Support for Eight<'_> {
     }
 
     #[inline(always)]
-    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
+    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, lanes: u64) -> Vec3<S> {
         let sides = std::array::from_fn(|lane| self.0[lane].table.side() as f64);
-        let cells = cells_of(simd, Num::load_array(simd, sides), d);
-        let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize & (LANES - 1);
-            lanes &= lanes - 1;
-            let direction = [d.x[lane], d.y[lane], d.z[lane]];
-            [x[lane], y[lane], z[lane]] = self.0[lane].table.farthest(simd, cells[lane], direction);
-        }
-        Vec3 {
-            x: Num::load_array(simd, x),
-            y: Num::load_array(simd, y),
-            z: Num::load_array(simd, z),
-        }
+        let cells = cells(simd, Num::load_array(simd, sides), d);
+        farthest(simd, |lane| &self.0[lane].table, cells, d, lanes)
     }
 }

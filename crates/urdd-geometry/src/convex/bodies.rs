@@ -3,16 +3,17 @@
 //! Bounding spheres cull shapes that are far apart.
 
 use fearless_simd::Level;
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 
 use super::across::{self, AT_ONCE, PlacedPair};
 use super::shape::{ConvexShape, ShapeError};
+use crate::bounding_sphere::{BoundingSphere, LARGER, about, about_spheres};
 
-/// A convex shape and the radius of its bounding sphere.
+/// A convex shape and its bounding sphere.
 #[derive(Debug)]
 struct Part {
     shape: ConvexShape,
-    radius: f64,
+    sphere: BoundingSphere,
 }
 
 /// The shapes of bodies, and the pairs of interest.
@@ -25,13 +26,10 @@ pub struct BodyPairs {
     pairs: Vec<[usize; 2]>,
     /// For each body pair, the bodies and the end of its range in `pairs`.
     bodies: Vec<([usize; 2], usize)>,
-    /// For each body, the bounding sphere of all its shapes: centre and radius; `None` without shapes.
-    spheres: Vec<Option<([f64; 3], f64)>>,
+    /// For each body, the bounding sphere of all its shapes; `None` without shapes.
+    spheres: Vec<Option<BoundingSphere>>,
     level: Level,
 }
-
-/// Factor that enlarges bounding spheres by more than the rounding error.
-const LARGER: f64 = 1.0 + 1e-12;
 
 impl BodyPairs {
     /// Takes the shapes: for each the index of its body, and its vertices in the body frame, metres.
@@ -45,17 +43,13 @@ impl BodyPairs {
         let mut of_body: Vec<Vec<usize>> = Vec::new();
         for (number, (body, vertices)) in shapes.into_iter().enumerate() {
             let shape = ConvexShape::of_points(vertices).map_err(|error| (number, error))?;
-            let centre = shape.centre();
-            let away = |p: &[f64; 3]| (0..3).map(|k| (p[k] - centre[k]).powi(2)).sum::<f64>();
-            let radius = vertices.iter().map(away).fold(0.0, f64::max).sqrt();
-            parts.push(Part {
-                shape,
-                radius: radius * LARGER + f64::MIN_POSITIVE,
-            });
+            let sphere = about(shape.centre(), vertices);
+            parts.push(Part { shape, sphere });
             of_body.resize(of_body.len().max(body + 1), Vec::new());
             of_body[body].push(number);
         }
-        let sphere = |of: &Vec<usize>| about(of.iter().map(|number| &parts[*number]));
+        let sphere =
+            |of: &Vec<usize>| about_spheres(of.iter().map(|number| &parts[*number].sphere));
         Ok(Self {
             spheres: of_body.iter().map(sphere).collect(),
             of_body,
@@ -156,25 +150,21 @@ impl BodyPairs {
             let b_in_a = poses[bodies[0]].inv_mul(&poses[bodies[1]]);
             let columns = across::columns(&b_in_a);
             let spheres = bodies.map(|body| self.spheres.get(body).copied().flatten());
-            let may_be_near = match spheres {
-                [Some((p, of_a)), Some((q, of_b))] => {
-                    let q = b_in_a * nalgebra::Point3::from(q);
-                    let apart = (q - nalgebra::Point3::from(p)).norm();
-                    apart <= (limit + of_a + of_b) * LARGER
-                }
-                _ => false,
+            let near = move |a: &BoundingSphere, b: &BoundingSphere| {
+                let centre = b_in_a * Point3::from(b.centre);
+                let apart = (centre - Point3::from(a.centre)).norm();
+                apart <= (limit + a.radius + b.radius) * LARGER
             };
+            let may_be_near = matches!(spheres, [Some(a), Some(b)] if near(&a, &b));
             let pairs = if may_be_near { pairs } else { &[] };
             pairs.iter().filter_map(move |[a, b]| {
                 let (a, b) = (&self.parts[*a], &self.parts[*b]);
-                let centre = b_in_a * nalgebra::Point3::from(b.shape.centre());
-                let apart = (centre - nalgebra::Point3::from(a.shape.centre())).norm();
                 let pair = PlacedPair {
                     a: &a.shape,
                     b: &b.shape,
                     b_in_a: columns,
                 };
-                (apart <= (limit + a.radius + b.radius) * LARGER).then_some((number, pair))
+                near(&a.sphere, &b.sphere).then_some((number, pair))
             })
         })
     }
@@ -218,29 +208,9 @@ impl<'a> Near<'a> {
 
     /// Whether any of the waiting pairs is in contact.
     fn touch(&mut self, level: Level) -> bool {
-        let touch = !self.pairs.is_empty() && across::any_touches(level, &self.pairs);
+        let touch = across::any_touches(level, &self.pairs);
         self.numbers.clear();
         self.pairs.clear();
         touch
     }
-}
-
-/// A bounding sphere of the shapes' bounding spheres; `None` without shapes.
-fn about<'a>(parts: impl Iterator<Item = &'a Part> + Clone) -> Option<([f64; 3], f64)> {
-    let mut low = [f64::INFINITY; 3];
-    let mut high = [f64::NEG_INFINITY; 3];
-    for part in parts.clone() {
-        for (k, x) in part.shape.centre().into_iter().enumerate() {
-            low[k] = low[k].min(x - part.radius);
-            high[k] = high[k].max(x + part.radius);
-        }
-    }
-    parts.clone().next()?;
-    let centre = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
-    let reach = |part: &Part| {
-        let apart = part.shape.centre().into_iter().zip(centre);
-        apart.map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt() + part.radius
-    };
-    let radius = parts.map(reach).fold(0.0, f64::max);
-    Some((centre, radius * LARGER))
 }

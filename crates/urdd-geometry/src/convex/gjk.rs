@@ -26,6 +26,12 @@ pub(crate) const EXACT: [f64; 2] = [0.0, -1.0];
 /// Bit set of all lanes.
 pub(crate) const ALL: u64 = (1 << LANES) - 1;
 
+/// Bit set of the first `count` lanes, or of all.
+#[inline(always)]
+pub(crate) fn first_lanes(count: usize) -> u64 {
+    if count < LANES { (1 << count) - 1 } else { ALL }
+}
+
 /// What a descent found.
 pub(crate) struct Bounds<S: Simd> {
     /// Upper bounds of the distances.
@@ -116,16 +122,7 @@ fn from_other_sides<S: Simd, T: Support>(
     simd.vectorize(
         #[inline(always)]
         || {
-            let pose = Pose::same(simd, pose);
-            let bounds = descend::<S, T, Alone, false>(
-                simd,
-                a,
-                b,
-                &pose,
-                octants(simd),
-                ALL,
-                &mut Alone(EXACT),
-            );
+            let bounds = from_octants(simd, a, b, pose, &mut Alone(EXACT));
             let unsure = bounds.unsure.to_bitmask() & ALL;
             if unsure != ALL {
                 return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -139,16 +136,24 @@ fn from_other_sides<S: Simd, T: Support>(
     )
 }
 
-/// One direction into each octant.
+/// Descends in one pose from a direction into each octant.
 #[inline(always)]
-pub(crate) fn octants<S: Simd>(simd: S) -> Vec3<S> {
+pub(crate) fn from_octants<S: Simd, T: Support, R: Record<S>>(
+    simd: S,
+    a: &T,
+    b: &T,
+    pose: &[[f64; 3]; 4],
+    record: &mut R,
+) -> Bounds<S> {
     let mut octants = [[0.0; LANES]; 3];
     for lane in 0..LANES {
         for (axis, octant) in octants.iter_mut().enumerate() {
             octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
         }
     }
-    Vec3::load(simd, [&octants[0], &octants[1], &octants[2]])
+    let octants = Vec3::load(simd, [&octants[0], &octants[1], &octants[2]]);
+    let pose = Pose::same(simd, pose);
+    descend::<S, T, R, false>(simd, a, b, &pose, octants, ALL, record)
 }
 
 /// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for

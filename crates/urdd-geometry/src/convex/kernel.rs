@@ -4,10 +4,9 @@ use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
 use super::gjk;
-use super::lanes::{LANES, Pose, Vec3, select, splat};
+use super::lanes::{LANES, Pose, Vec3, columns, select, splat};
 use super::motion::PoseLanes;
 use super::shape::{ConvexShape, OrientedBox, Sphere};
-use super::support::Support;
 
 /// A shape with distance queries: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
 pub trait Shape: sealed::Distances + Sync {}
@@ -21,118 +20,101 @@ impl Shape for Sphere {}
 pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
     let poses = PoseLanes::new(std::iter::once(b_in_a));
     let mut lanes = [0.0; LANES];
-    T::distances(Level::new(), a, b, &poses, gjk::EXACT, &mut lanes);
+    T::distances(Level::new(), [a, b], &poses, gjk::EXACT, &mut lanes);
     lanes[0]
 }
 
 mod sealed {
-    use super::{Level, PoseLanes};
+    use super::{Level, PoseLanes, Simd, dispatch};
 
     pub trait Distances: Sized {
         /// The distance in each sample, in order. In place of one in the range `within`, any number in it. The length
         /// of `distances` is a multiple of the lane count.
-        fn distances(
-            level: Level,
-            a: &Self,
-            b: &Self,
+        fn distances_in<S: Simd>(
+            simd: S,
+            pair: [&Self; 2],
             poses: &PoseLanes,
             within: [f64; 2],
             distances: &mut [f64],
         );
+
+        fn distances(
+            level: Level,
+            pair: [&Self; 2],
+            poses: &PoseLanes,
+            within: [f64; 2],
+            distances: &mut [f64],
+        ) {
+            dispatch!(level, simd => Self::distances_in(simd, pair, poses, within, distances));
+        }
     }
 }
 
 impl sealed::Distances for ConvexShape {
-    fn distances(
-        level: Level,
-        a: &Self,
-        b: &Self,
+    #[inline(always)]
+    fn distances_in<S: Simd>(
+        simd: S,
+        [a, b]: [&Self; 2],
         poses: &PoseLanes,
         within: [f64; 2],
         distances: &mut [f64],
     ) {
-        dispatch!(level, simd => hulls(simd, a, b, poses, within, distances));
+        let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+        for (at, out) in groups(distances) {
+            let mut pose = poses.load(simd, at);
+            pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
+            let lanes = gjk::first_lanes(poses.num_samples() - at);
+            out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
+        }
     }
 }
 
 impl sealed::Distances for OrientedBox {
-    fn distances(
-        level: Level,
-        a: &Self,
-        b: &Self,
+    #[inline(always)]
+    fn distances_in<S: Simd>(
+        simd: S,
+        [a, b]: [&Self; 2],
         poses: &PoseLanes,
         within: [f64; 2],
         distances: &mut [f64],
     ) {
-        dispatch!(level, simd => boxes(simd, a, b, poses, within, distances));
+        let frame = |shape: &Self| Pose::same(simd, &columns(&shape.pose));
+        let (frame_a, frame_b) = (frame(a), frame(b));
+        for (at, out) in groups(distances) {
+            let pose = poses.load(simd, at);
+            let shift = pose.shift + pose.rotate(frame_b.shift) - frame_a.shift;
+            let pose = Pose {
+                columns: [
+                    frame_a.rotate_back(pose.rotate(frame_b.columns[0])),
+                    frame_a.rotate_back(pose.rotate(frame_b.columns[1])),
+                    frame_a.rotate_back(pose.rotate(frame_b.columns[2])),
+                ],
+                shift: frame_a.rotate_back(shift),
+            };
+            let lanes = gjk::first_lanes(poses.num_samples() - at);
+            out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
+        }
     }
 }
 
 impl sealed::Distances for Sphere {
-    fn distances(
-        level: Level,
-        a: &Self,
-        b: &Self,
+    #[inline(always)]
+    fn distances_in<S: Simd>(
+        simd: S,
+        [a, b]: [&Self; 2],
         poses: &PoseLanes,
         _within: [f64; 2],
         distances: &mut [f64],
     ) {
-        dispatch!(level, simd => spheres(simd, a, b, poses, distances));
-    }
-}
-
-#[inline(always)]
-fn hulls<S: Simd>(
-    simd: S,
-    a: &ConvexShape,
-    b: &ConvexShape,
-    poses: &PoseLanes,
-    within: [f64; 2],
-    distances: &mut [f64],
-) {
-    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
-    for (at, out) in groups(distances) {
-        let mut pose = poses.load(simd, at);
-        pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
-        store(simd, a, b, &pose, poses.num_samples() - at, within, out);
-    }
-}
-
-#[inline(always)]
-fn boxes<S: Simd>(
-    simd: S,
-    a: &OrientedBox,
-    b: &OrientedBox,
-    poses: &PoseLanes,
-    within: [f64; 2],
-    distances: &mut [f64],
-) {
-    let (frame_a, frame_b) = (Pose::splat(simd, &a.pose), Pose::splat(simd, &b.pose));
-    for (at, out) in groups(distances) {
-        let pose = poses.load(simd, at);
-        let shift = pose.shift + pose.rotate(frame_b.shift) - frame_a.shift;
-        let pose = Pose {
-            columns: [
-                frame_a.rotate_back(pose.rotate(frame_b.columns[0])),
-                frame_a.rotate_back(pose.rotate(frame_b.columns[1])),
-                frame_a.rotate_back(pose.rotate(frame_b.columns[2])),
-            ],
-            shift: frame_a.rotate_back(shift),
-        };
-        store(simd, a, b, &pose, poses.num_samples() - at, within, out);
-    }
-}
-
-#[inline(always)]
-fn spheres<S: Simd>(simd: S, a: &Sphere, b: &Sphere, poses: &PoseLanes, distances: &mut [f64]) {
-    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
-    let radii = splat(simd, a.radius + b.radius);
-    let zero = splat(simd, 0.0);
-    for (at, out) in groups(distances) {
-        let pose = poses.load(simd, at);
-        let between = pose.shift + pose.rotate(centre_b) - centre_a;
-        let gap = between.dot(between).sqrt() - radii;
-        out.copy_from_slice(&select(gap.simd_gt(zero), gap, zero).to_array());
+        let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+        let radii = splat(simd, a.radius + b.radius);
+        let zero = splat(simd, 0.0);
+        for (at, out) in groups(distances) {
+            let pose = poses.load(simd, at);
+            let between = pose.shift + pose.rotate(centre_b) - centre_a;
+            let gap = between.dot(between).sqrt() - radii;
+            out.copy_from_slice(&select(gap.simd_gt(zero), gap, zero).to_array());
+        }
     }
 }
 
@@ -141,25 +123,6 @@ fn spheres<S: Simd>(simd: S, a: &Sphere, b: &Sphere, poses: &PoseLanes, distance
 fn groups(distances: &mut [f64]) -> impl Iterator<Item = (usize, &mut [f64])> {
     let groups = distances.chunks_exact_mut(LANES).enumerate();
     groups.map(|(i, out)| (i * LANES, out))
-}
-
-/// Computes and stores the distances of one group, whose first `samples` lanes are in use.
-#[inline(always)]
-fn store<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    samples: usize,
-    within: [f64; 2],
-    out: &mut [f64],
-) {
-    let lanes = if samples < LANES {
-        (1 << samples) - 1
-    } else {
-        gjk::ALL
-    };
-    out.copy_from_slice(&gjk::distances(simd, a, b, pose, lanes, within));
 }
 
 #[cfg(test)]
@@ -190,15 +153,9 @@ mod tests {
         let all = levels().into_iter().map(|level| {
             let mut found = vec![0.0; 3000];
             let (hulls, of_boxes) = found.split_at_mut(1000);
-            ConvexShape::distances(level, &a, &b, &lanes, gjk::EXACT, hulls);
-            OrientedBox::distances(
-                level,
-                &boxes[0],
-                &boxes[1],
-                &lanes,
-                gjk::EXACT,
-                &mut of_boxes[..1000],
-            );
+            ConvexShape::distances(level, [&a, &b], &lanes, gjk::EXACT, hulls);
+            let of_boxes = &mut of_boxes[..1000];
+            OrientedBox::distances(level, boxes.each_ref(), &lanes, gjk::EXACT, of_boxes);
             found
                 .iter()
                 .map(|x: &f64| x.to_bits())

@@ -125,6 +125,14 @@ impl<S: Simd> core::ops::Neg for Vec3<S> {
     }
 }
 
+/// The columns of a pose's rotation, then its translation, metres.
+pub fn columns(pose: &Isometry3<f64>) -> [[f64; 3]; 4] {
+    let rotation = pose.rotation.to_rotation_matrix();
+    let column = |k: usize| rotation.matrix().column(k).into_owned().into();
+    let shift = pose.translation.vector.into();
+    [column(0), column(1), column(2), shift]
+}
+
 /// A rotation and a translation for each lane; `columns` are the images of the axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Pose<S: Simd> {
@@ -133,22 +141,7 @@ pub(crate) struct Pose<S: Simd> {
 }
 
 impl<S: Simd> Pose<S> {
-    /// The same pose in each lane.
-    #[inline(always)]
-    pub fn splat(simd: S, pose: &Isometry3<f64>) -> Self {
-        let rotation = pose.rotation.to_rotation_matrix();
-        let column = rotation.matrix().column_iter();
-        let mut columns = [Vec3::splat(simd, [0.0; 3]); 3];
-        for (to, from) in columns.iter_mut().zip(column) {
-            *to = Vec3::splat(simd, [from[0], from[1], from[2]]);
-        }
-        Self {
-            columns,
-            shift: Vec3::splat(simd, pose.translation.vector.into()),
-        }
-    }
-
-    /// The columns and translation of one lane, copied to each lane.
+    /// The same columns and translation in each lane.
     #[inline(always)]
     pub fn same(simd: S, pose: &[[f64; 3]; 4]) -> Self {
         Self {

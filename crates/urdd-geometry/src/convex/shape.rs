@@ -3,7 +3,8 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::support_table::SupportTable;
-use crate::mesh::Mesh;
+use crate::mesh::{Bounds, Mesh};
+use crate::vector::sub;
 
 /// The convex hull of points, prepared for distance queries.
 #[derive(Clone, Debug)]
@@ -69,21 +70,12 @@ impl ConvexShape {
         if let Some(vertex) = points.iter().position(|p| !in_range(p)) {
             return Err(ShapeError::OutOfRange { vertex });
         }
-        let Some(&first) = points.first() else {
+        if points.is_empty() {
             return Err(ShapeError::Empty);
-        };
-        let (mut low, mut high) = (first, first);
-        for p in points {
-            for k in 0..3 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
         }
-        let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
-        let points: Vec<[f64; 3]> = points
-            .iter()
-            .map(|p| std::array::from_fn(|k| p[k] - centre[k]))
-            .collect();
+        let Bounds { min, max } = Bounds::of(points.iter().copied());
+        let centre: [f64; 3] = std::array::from_fn(|k| 0.5 * min[k] + 0.5 * max[k]);
+        let points: Vec<[f64; 3]> = points.iter().map(|p| sub(*p, centre)).collect();
         let table = SupportTable::new(&points);
         Ok(Self { centre, table })
     }

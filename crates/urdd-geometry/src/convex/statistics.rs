@@ -55,8 +55,16 @@ pub trait ShapeList: Sync {
     /// Body index of a shape.
     fn body(&self, shape: usize) -> usize;
 
-    /// The distance of two shapes in each sample, in order. The length of `distances` is a multiple of the lane count.
-    fn distances(&self, level: Level, pair: [usize; 2], poses: &PoseLanes, distances: &mut [f64]);
+    /// The distance of two shapes in each sample, in order. In place of one in the range `within`, any number in it. The
+    /// length of `distances` is a multiple of the lane count.
+    fn distances(
+        &self,
+        level: Level,
+        pair: [usize; 2],
+        poses: &PoseLanes,
+        within: [f64; 2],
+        distances: &mut [f64],
+    );
 }
 
 impl<T: Shape> ShapeList for &[PlacedShape<T>] {
@@ -71,43 +79,19 @@ impl<T: Shape> ShapeList for &[PlacedShape<T>] {
     fn distances(
         &self,
         level: Level,
-        [i, j]: [usize; 2],
+        pair: [usize; 2],
         poses: &PoseLanes,
+        within: [f64; 2],
         distances: &mut [f64],
     ) {
-        let (a, b) = (&self[i].shape, &self[j].shape);
-        T::distances(level, a, b, poses, EXACT, distances);
+        let pair = pair.map(|shape| &self[shape].shape);
+        T::distances(level, pair, poses, within, distances);
     }
 }
 
-/// Shapes with a range of distances for each pair, metres. In place of a distance in the range, the result may be any
-/// number in it, which takes less time. `None` asks for exact distances.
-struct Within<'a, T, F> {
-    shapes: &'a [PlacedShape<T>],
-    range: F,
-}
-
-impl<T: Shape, F: Fn(usize, usize) -> Option<[f64; 2]> + Sync> ShapeList for Within<'_, T, F> {
-    fn count(&self) -> usize {
-        self.shapes.len()
-    }
-
-    fn body(&self, shape: usize) -> usize {
-        self.shapes[shape].body
-    }
-
-    fn distances(
-        &self,
-        level: Level,
-        [i, j]: [usize; 2],
-        poses: &PoseLanes,
-        distances: &mut [f64],
-    ) {
-        let (a, b) = (&self.shapes[i].shape, &self.shapes[j].shape);
-        let range = (self.range)(i.min(j), i.max(j)).unwrap_or(EXACT);
-        T::distances(level, a, b, poses, range, distances);
-    }
-}
+/// The range of distances of a pair, given as `i < j`, in place of which any number in it will do; `None` asks for exact
+/// distances.
+type Range<'a> = &'a (dyn Fn(usize, usize) -> Option<[f64; 2]> + Sync);
 
 /// Number of body pairs whose results are buffered before they go into the matrices.
 const PAIRS_AT_ONCE: usize = 1 << 13;
@@ -131,7 +115,7 @@ pub fn pair_ranges<T: Shape>(
     motion: &Motion,
     range: impl Fn(usize, usize) -> Option<[f64; 2]> + Sync,
 ) -> Option<PairStatistics> {
-    statistics_of_kinds(&[&Within { shapes, range }], motion, &|| false)?.pop()
+    statistics_within(&[&shapes], motion, &range, &|| false)?.pop()
 }
 
 /// The statistics of several kinds of shapes, each as from [`pair_statistics`]. The relative poses of two bodies are
@@ -139,6 +123,15 @@ pub fn pair_ranges<T: Shape>(
 pub fn statistics_of_kinds(
     kinds: &[&dyn ShapeList],
     motion: &Motion,
+    should_stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<PairStatistics>> {
+    statistics_within(kinds, motion, &|_, _| None, should_stop)
+}
+
+fn statistics_within(
+    kinds: &[&dyn ShapeList],
+    motion: &Motion,
+    range: Range<'_>,
     should_stop: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<PairStatistics>> {
     // For each body, its shapes: the kind, and the index within it.
@@ -184,7 +177,7 @@ pub fn statistics_of_kinds(
                 let others = of_b.iter().copied();
                 let others = others.filter(|&(of, j)| of == kind && (a != b || j > i));
                 let others = others.map(|(_, j)| j).take_while(|_| goes_on());
-                let pairs = row(level, kinds[kind], i, others, &poses);
+                let pairs = row(level, kinds[kind], i, others, &poses, range);
                 Row { kind, i, pairs }
             })
         });
@@ -231,7 +224,7 @@ pub fn pair_distances<T: Shape>(
     let poses = motion.relative(a.body, b.body);
     let mut distances = vec![0.0; poses.num_samples().next_multiple_of(LANES)];
     let level = Level::new();
-    T::distances(level, &a.shape, &b.shape, &poses, EXACT, &mut distances);
+    T::distances(level, [&a.shape, &b.shape], &poses, EXACT, &mut distances);
     distances.truncate(poses.num_samples());
     // Bodies in fixed relative position have one sample that stands for all.
     let first = distances.first().copied()?;
@@ -246,12 +239,14 @@ fn row(
     i: usize,
     others: impl Iterator<Item = usize>,
     poses: &PoseLanes,
+    range: Range<'_>,
 ) -> Vec<(usize, Summary)> {
     let num_samples = poses.num_samples();
     let mut distances = vec![0.0; num_samples.next_multiple_of(LANES)];
     others
         .map(|j| {
-            shapes.distances(level, [i, j], poses, &mut distances);
+            let within = range(i.min(j), i.max(j)).unwrap_or(EXACT);
+            shapes.distances(level, [i, j], poses, within, &mut distances);
             (j, summary(&distances[..num_samples]))
         })
         .collect()

@@ -47,41 +47,44 @@ impl Support for ConvexShape {
     }
 
     #[inline(always)]
-    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, mut lanes: u64) -> Vec3<S> {
-        let cells = cells(simd, &self.table, d);
-        let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        if lanes.count_ones() > 5 {
-            for lane in 0..LANES {
-                [x[lane], y[lane], z[lane]] =
-                    self.table
-                        .farthest(simd, cells[lane], [d.x[lane], d.y[lane], d.z[lane]]);
-            }
-        } else {
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize & (LANES - 1);
-                lanes &= lanes - 1;
-                [x[lane], y[lane], z[lane]] =
-                    self.table
-                        .farthest(simd, cells[lane], [d.x[lane], d.y[lane], d.z[lane]]);
-            }
-        }
-        Vec3 {
-            x: Num::load_array(simd, x),
-            y: Num::load_array(simd, y),
-            z: Num::load_array(simd, z),
-        }
+    fn support<S: Simd>(&self, simd: S, d: Vec3<S>, lanes: u64) -> Vec3<S> {
+        let cells = cells(simd, splat(simd, self.table.side() as f64), d);
+        farthest(simd, |_| &self.table, cells, d, lanes)
     }
 }
 
-/// The cell of each lane's direction.
+/// The farthest vertices in the directions of `cells`, from the table of each lane. In lanes that are not in the bit set
+/// `lanes`, any points.
 #[inline(always)]
-fn cells<S: Simd>(simd: S, table: &SupportTable, d: Vec3<S>) -> [usize; LANES] {
-    cells_of(simd, splat(simd, table.side() as f64), d)
+pub(crate) fn farthest<'a, S: Simd>(
+    simd: S,
+    table: impl Fn(usize) -> &'a SupportTable,
+    cells: [usize; LANES],
+    d: Vec3<S>,
+    mut lanes: u64,
+) -> Vec3<S> {
+    let (mut x, mut y, mut z) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    if lanes.count_ones() > 5 {
+        for lane in 0..LANES {
+            [x[lane], y[lane], z[lane]] = table(lane).farthest(simd, cells[lane], d.lane(lane));
+        }
+    } else {
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & (LANES - 1);
+            lanes &= lanes - 1;
+            [x[lane], y[lane], z[lane]] = table(lane).farthest(simd, cells[lane], d.lane(lane));
+        }
+    }
+    Vec3 {
+        x: Num::load_array(simd, x),
+        y: Num::load_array(simd, y),
+        z: Num::load_array(simd, z),
+    }
 }
 
 /// The cell of each lane's direction, in a table with `side` cells along one side.
 #[inline(always)]
-pub(crate) fn cells_of<S: Simd>(simd: S, side: Num<S>, d: Vec3<S>) -> [usize; LANES] {
+pub(crate) fn cells<S: Simd>(simd: S, side: Num<S>, d: Vec3<S>) -> [usize; LANES] {
     /// 1.5 * 2^52: adding it rounds to an integer, which the lowest bits of the sum then contain.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));

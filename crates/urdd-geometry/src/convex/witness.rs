@@ -5,7 +5,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::gjk::{self, ALL, Record, TOLERANCE, octants};
+use super::gjk::{self, Record, TOLERANCE};
 use super::lanes::{LANES, Mask, Pose, Vec3};
 use super::support::Support;
 
@@ -159,10 +159,8 @@ fn from_other_sides<S: Simd, T: Support>(
     simd.vectorize(
         #[inline(always)]
         || {
-            let pose = Pose::same(simd, pose);
-            let start = octants(simd);
             let mut way = Way::new(simd);
-            gjk::descend::<S, T, Way<S>, false>(simd, a, b, &pose, start, ALL, &mut way);
+            gjk::from_octants(simd, a, b, pose, &mut way);
             let mut best = way.witness(0, distance);
             for lane in 1..LANES {
                 let other = way.witness(lane, distance);

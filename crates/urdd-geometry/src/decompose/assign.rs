@@ -7,7 +7,7 @@
 use super::clean::Surface;
 use super::part::Plane;
 use super::tree::Node;
-use super::vector::{cross, dot, lerp, norm, sub};
+use super::vector::{dot, lerp};
 use crate::hull::ConvexHull;
 
 /// A polygon corner during the descent.
@@ -60,8 +60,8 @@ pub(super) struct Inside<'a> {
     points: &'a [[f64; 3]],
     /// Maximum distance from a cut at which a point is also projected into it.
     reach: f64,
-    /// Planes of the body's hull: outward unit normals and their offsets.
-    planes: Vec<([f64; 3], f64)>,
+    /// Planes of the body's hull.
+    planes: Vec<Plane>,
 }
 
 impl<'a> Inside<'a> {
@@ -72,14 +72,10 @@ impl<'a> Inside<'a> {
             _ => ConvexHull::new(body).ok(),
         };
         let planes = hull.map_or(Vec::new(), |hull| {
-            let mesh = hull.into_mesh();
-            let planes = mesh.triangles.iter().map(|t| {
-                let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
-                let normal = cross(sub(b, a), sub(c, a));
-                let normal = normal.map(|x| x / norm(normal));
-                (normal, dot(normal, a))
-            });
-            planes.collect()
+            let triangles = hull.mesh().triangles.iter();
+            triangles
+                .map(|t| Plane::of(hull.mesh().corners(*t)))
+                .collect()
         });
         Inside {
             points,
@@ -89,9 +85,7 @@ impl<'a> Inside<'a> {
     }
 
     fn hull_holds(&self, p: [f64; 3]) -> bool {
-        self.planes
-            .iter()
-            .all(|(normal, offset)| dot(*normal, p) <= *offset)
+        self.planes.iter().all(|plane| plane.height(p) <= 0.0)
     }
 }
 

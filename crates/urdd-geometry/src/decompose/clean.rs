@@ -1,7 +1,9 @@
 //! The surface as the decomposition uses it: valid triangles over welded vertices, in unit coordinates.
 
-use super::vector::{cross, dot, sub};
+use super::vector::{Bounds, cross, dot, sub};
 use crate::Mesh;
+use crate::clean::PlaceTable;
+use crate::mesh::from_lowest;
 
 /// A welded surface. `unit` are the vertices moved and scaled so that the largest extent runs from -1 to 1; planes use
 /// these coordinates.
@@ -30,15 +32,11 @@ impl Surface {
         }
         let ignored = mesh.triangles.len() - triangles.len();
         let triangles = each_once(triangles);
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for &i in triangles.as_flattened() {
-            let p = vertices[i as usize];
-            for a in 0..3 {
-                low[a] = low[a].min(p[a]);
-                high[a] = high[a].max(p[a]);
-            }
-        }
+        let corners = triangles.as_flattened().iter();
+        let Bounds {
+            min: low,
+            max: high,
+        } = Bounds::of(corners.map(|i| vertices[*i as usize]));
         if triangles.is_empty() {
             return None;
         }
@@ -98,60 +96,29 @@ impl Surface {
 /// Removes duplicate triangles. Of those with the same corners and orientation, keeps the first. A small file can
 /// repeat one triangle many thousand times.
 fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
-    let from_lowest = |[a, b, c]: [u32; 3]| {
-        if a <= b && a <= c {
-            [a, b, c]
-        } else if b <= c {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        }
-    };
-    let mut numbered: Vec<([u32; 3], u32)> = (0..)
-        .zip(&triangles)
-        .map(|(at, t)| (from_lowest(*t), at))
-        .collect();
+    let mut numbered: Vec<([u32; 3], usize)> =
+        triangles.iter().map(|t| from_lowest(*t)).zip(0..).collect();
     numbered.sort_unstable();
     numbered.dedup_by_key(|(t, _)| *t);
-    let mut first: Vec<u32> = numbered.into_iter().map(|(_, at)| at).collect();
+    let mut first: Vec<usize> = numbered.into_iter().map(|(_, at)| at).collect();
     first.sort_unstable();
-    first.into_iter().map(|at| triangles[at as usize]).collect()
+    first.into_iter().map(|at| triangles[at]).collect()
 }
 
 /// The distinct vertices in order of first use, and the index of each given vertex among them (`u32::MAX` if it is out
-/// of range). Uses an open-addressing table keyed by the bits of the coordinates.
+/// of range).
 fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
-    let size = (given.len() * 2).next_power_of_two().max(16);
-    let shift = 64 - size.trailing_zeros();
-    let mut table = vec![u32::MAX; size];
+    let mut table = PlaceTable::for_count(given.len());
     let mut out: Vec<[f64; 3]> = Vec::with_capacity(given.len() / 2);
-    let index = given
-        .iter()
-        .map(|p| {
-            // The range of the hull's exact arithmetic: no robot is that large.
-            if !p.iter().all(|x| x.abs() < 1e60) {
-                return u32::MAX;
-            }
-            // Values below that range become 0, and -0 becomes 0.
-            let p = p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x });
-            let mut hash = 0_u64;
-            for x in p {
-                hash = (hash.rotate_left(23) ^ x.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-            }
-            let mut slot = (hash >> shift) as usize;
-            loop {
-                match table[slot] {
-                    u32::MAX => {
-                        table[slot] = out.len() as u32;
-                        out.push(p);
-                        return table[slot];
-                    }
-                    i if out[i as usize] == p => return i,
-                    _ => slot = (slot + 1) & (size - 1),
-                }
-            }
-        })
-        .collect();
+    let index = given.iter().map(|p| {
+        // The range of the hull's exact arithmetic: no robot is that large.
+        if !p.iter().all(|x| x.abs() < 1e60) {
+            return u32::MAX;
+        }
+        // Values below that range become 0, and -0 becomes 0.
+        table.index(p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x }), &mut out)
+    });
+    let index = index.collect();
     (out, index)
 }
 

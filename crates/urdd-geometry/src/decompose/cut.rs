@@ -40,11 +40,7 @@ pub(super) fn first_cuts(part: &Part, places: &Places) -> (Grower, Option<Vec<Cu
     {
         Some((whole, _)) if is_convex(part, &whole) => (whole, None),
         Some((whole, cuts)) => (whole, Some(cuts)),
-        None => {
-            let mut hull = Grower::new(Bounds::new(&part.points).extent());
-            part.points.iter().for_each(|&p| hull.add(p));
-            (hull, Some(Vec::new()))
-        }
+        None => (Grower::of(&part.points), Some(Vec::new())),
     }
 }
 
@@ -131,8 +127,8 @@ fn cuts_across(
     places: &Places,
 ) -> Option<(Grower, Vec<Cut>)> {
     let (eps, normal) = (places.eps, frame[2]);
-    let bounds = Bounds::new(turned);
-    let (low, high) = (bounds.low[2], bounds.high[2]);
+    let bounds = Bounds::of(turned.iter().copied());
+    let (low, high) = (bounds.min[2], bounds.max[2]);
     if high - low <= (8.0 * eps).max(10.0 * SEED) {
         return None;
     }

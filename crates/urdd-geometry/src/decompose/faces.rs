@@ -4,13 +4,12 @@
 //! is cut off. But each wall's inner face is deep in the hull, and a cut along it puts it onto the hull of its own
 //! part. So a part is divided repeatedly along the flat face with the largest integral of depths.
 
-use rayon::join;
 use rayon::prelude::*;
 
 use super::grower::{Grower, Places};
 use super::part::{Part, Plane};
 use super::tree::{Node, divide};
-use super::vector::{Bounds, cross, dot, norm, sub};
+use super::vector::{cross, dot, norm, sub};
 
 /// Depths below this many steps of the hull are within the hull's error.
 const LEAST: f64 = 1.2;
@@ -45,8 +44,7 @@ struct Deep {
 
 impl Deep {
     fn new(part: Part, places: &Places) -> Deep {
-        let mut hull = Grower::new(Bounds::new(&part.points).extent());
-        part.points.iter().for_each(|&p| hull.add(p));
+        let hull = Grower::of(&part.points);
         let mut triangles: Vec<(f64, [[f64; 3]; 3])> = part
             .triangles
             .iter()
@@ -71,7 +69,7 @@ impl Deep {
             let lies = |plane: &Plane| corners.iter().all(|&p| plane.height(p).abs() <= places.eps);
             match faces.iter().position(|(plane, _)| lies(plane)) {
                 Some(k) => faces[k].1 += weight,
-                None if faces.len() < most => faces.push((plane_of(*corners), *weight)),
+                None if faces.len() < most => faces.push((Plane::of(*corners), *weight)),
                 None => {}
             }
         }
@@ -84,26 +82,6 @@ impl Deep {
             node: 0,
         }
     }
-
-    fn split(&self, plane: &Plane, places: &Places) -> Option<[Deep; 2]> {
-        let [below, above] = self.part.split(plane, places.eps, places.reach);
-        if below.triangles.is_empty() || above.triangles.is_empty() {
-            return None;
-        }
-        let (below, above) = join(|| Deep::new(below, places), || Deep::new(above, places));
-        Some([below, above])
-    }
-}
-
-/// The plane of a triangle with an area.
-fn plane_of([a, b, c]: [[f64; 3]; 3]) -> Plane {
-    let n = cross(sub(b, a), sub(c, a));
-    let length = norm(n);
-    let normal = n.map(|x| x / length);
-    Plane {
-        normal,
-        offset: dot(normal, a),
-    }
 }
 
 /// A tree of cuts with the parts at its leaves.
@@ -115,7 +93,10 @@ struct Tree {
 impl Tree {
     /// Cuts part `k`; false, without a cut, if a side would be empty.
     fn cut(&mut self, k: usize, plane: Plane, places: &Places) -> bool {
-        let Some([mut below, mut above]) = self.parts[k].split(&plane, places) else {
+        let part = &self.parts[k].part;
+        let Some([mut below, mut above]) =
+            places.split(part, &plane, |part| Deep::new(part, places))
+        else {
             return false;
         };
         let leaves = [k, self.parts.len()];

@@ -5,7 +5,7 @@
 //! node find each node's nearest triangle (Danielsson, "Euclidean distance mapping", 1980).
 
 use super::growing_hull::GrowingHull;
-use super::inside::{State, flood, parts};
+use super::inside::{State, each_sample, flood, parts};
 use super::part::{Part, Plane};
 use super::vector::{Bounds, cross, dot, nearest_on_triangle, norm, sub};
 
@@ -37,8 +37,8 @@ impl Field {
     /// Inside is what a flood fill from the border does not reach, as in `inside`. Next to the surface, the triangles'
     /// orientation decides.
     pub fn new(part: &Part) -> Field {
-        let bounds = Bounds::new(&part.points);
-        let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+        let bounds = Bounds::of(part.points.iter().copied());
+        let size = bounds.size();
         let extent = bounds.extent();
         let thick = size.map(|s| s.max(extent / ALONG));
         let cell = (extent / ALONG)
@@ -46,7 +46,7 @@ impl Field {
             .max(f64::MIN_POSITIVE);
         let count = size.map(|s| (s / cell).ceil() as usize + 3);
         let mut out = Field {
-            low: [0, 1, 2].map(|a| bounds.low[a] - cell),
+            low: [0, 1, 2].map(|a| bounds.min[a] - cell),
             cell,
             count,
             value: Vec::new(),
@@ -117,25 +117,21 @@ impl Field {
         let samples = part.triangles.iter().map(|t| sides(t) * sides(t));
         let coarser = 1 + samples.sum::<usize>() / MOST_SAMPLES;
         for (t, triangle) in part.triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|i| part.points[i as usize]);
+            let corners = triangle.map(|i| part.points[i as usize]);
             let n = (sides(triangle) / coarser).max(1);
             let mut last = usize::MAX;
-            for i in 0..=n {
-                for j in 0..=n - i {
-                    let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-                    let p = [0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]));
-                    let at = [0, 1, 2].map(|k| ((p[k] - self.low[k]) / self.cell) as usize);
-                    let k = (at[2] * ny + at[1]) * nx + at[0];
-                    if k == last {
-                        continue;
-                    }
-                    last = k;
-                    for corner in 0..8 {
-                        let step = (corner & 1) + (corner >> 1 & 1) * nx + (corner >> 2) * nx * ny;
-                        try_at(&mut best, k + step, t as u32);
-                    }
+            each_sample(corners, n, |p| {
+                let at = self.place(p).map(|x| x as usize);
+                let k = (at[2] * ny + at[1]) * nx + at[0];
+                if k == last {
+                    return;
                 }
-            }
+                last = k;
+                for corner in 0..8 {
+                    let step = (corner & 1) + (corner >> 1 & 1) * nx + (corner >> 2) * nx * ny;
+                    try_at(&mut best, k + step, t as u32);
+                }
+            });
         }
         let strides = [1, nx, nx * ny];
         for backwards in [false, true] {

@@ -1,8 +1,11 @@
 //! Shared data of the cut search: the planes to try, and growing hulls.
 
+use rayon::join;
+
 use super::field::{Field, Known};
 use super::growing_hull::GrowingHull;
-use super::part::Plane;
+use super::part::{Part, Plane};
+use super::vector::Bounds;
 
 /// Weight of a hull's bulk relative to its standoff. Deep narrow hollows have little standoff, but must still be cut.
 const BULK: f64 = 0.1;
@@ -42,6 +45,21 @@ impl Places {
             .standoff(&hull.hull, frame, planes, &mut hull.known)
     }
 
+    /// What `new` makes of the parts below and above a plane; `None` if one of them has no surface.
+    pub fn split<T: Send>(
+        &self,
+        part: &Part,
+        plane: &Plane,
+        new: impl Fn(Part) -> T + Sync,
+    ) -> Option<[T; 2]> {
+        let [below, above] = part.split(plane, self.eps, self.reach);
+        if below.triangles.is_empty() || above.triangles.is_empty() {
+            return None;
+        }
+        let (below, above) = join(|| new(below), || new(above));
+        Some([below, above])
+    }
+
     /// Standoff and bulk.
     pub fn cost(&self, hull: &mut Grower, frame: &[[f64; 3]; 3], planes: &[Plane]) -> f64 {
         self.standoff(hull, frame, planes) + bulk(&hull.hull)
@@ -69,6 +87,13 @@ impl Grower {
             step: (STEP * extent).max(4.0 * SEED),
             known: Known::default(),
         }
+    }
+
+    /// The hull of all points.
+    pub fn of(points: &[[f64; 3]]) -> Self {
+        let mut hull = Grower::new(Bounds::of(points.iter().copied()).extent());
+        points.iter().for_each(|&p| hull.add(p));
+        hull
     }
 
     pub fn add(&mut self, p: [f64; 3]) {

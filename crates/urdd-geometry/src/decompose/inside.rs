@@ -34,11 +34,22 @@ pub(super) fn parts([a, b, c]: [[f64; 3]; 3], cell: f64, fine: f64) -> usize {
     (longest / cell * fine).ceil().max(1.0) as usize
 }
 
+/// Passes evenly spaced points of a triangle, whose sides are divided into `n` parts, to `take`.
+#[inline]
+pub(super) fn each_sample([a, b, c]: [[f64; 3]; 3], n: usize, mut take: impl FnMut([f64; 3])) {
+    for i in 0..=n {
+        for j in 0..=n - i {
+            let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+            take([0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k])));
+        }
+    }
+}
+
 impl Flood {
     /// `None` if the part has no extent, or needs too many samples.
     pub fn new(part: &Part) -> Option<Flood> {
-        let bounds = Bounds::new(&part.points);
-        let size = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+        let bounds = Bounds::of(part.points.iter().copied());
+        let size = bounds.size();
         let cell = (size.iter().product::<f64>() / CELLS)
             .cbrt()
             .max(bounds.extent() / MOST_ALONG);
@@ -55,7 +66,7 @@ impl Flood {
         // Add a border of empty cells on all sides.
         let count = size.map(|s| (s / cell).ceil() as usize + 2);
         let mut out = Flood {
-            low: bounds.low,
+            low: bounds.min,
             cell,
             count,
             state: vec![State::Inside; count.iter().product()],
@@ -63,15 +74,10 @@ impl Flood {
         for t in &part.triangles {
             let corners = t.map(|i| part.points[i as usize]);
             let n = parts(corners, cell, 3.0);
-            let [a, b, c] = corners;
-            for i in 0..=n {
-                for j in 0..=n - i {
-                    let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
-                    let at =
-                        out.at([0, 1, 2].map(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k])));
-                    out.state[at] = State::Surface;
-                }
-            }
+            each_sample(corners, n, |p| {
+                let at = out.at(p);
+                out.state[at] = State::Surface;
+            });
         }
         flood(&mut out.state, count);
         Some(out)

@@ -1,6 +1,6 @@
 //! A part of the proxy surface, and its division by a plane.
 
-use super::vector::{cross, dot, lerp, sub};
+use super::vector::{cross, dot, lerp, norm, sub};
 
 /// A plane, in unit coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,9 +15,18 @@ impl Plane {
     pub fn height(&self, p: [f64; 3]) -> f64 {
         dot(self.normal, p) - self.offset
     }
-}
 
-impl Plane {
+    /// The plane of a triangle with an area.
+    pub fn of([a, b, c]: [[f64; 3]; 3]) -> Self {
+        let n = cross(sub(b, a), sub(c, a));
+        let length = norm(n);
+        let normal = n.map(|x| x / length);
+        Plane {
+            normal,
+            offset: dot(normal, a),
+        }
+    }
+
     /// The nearest point of the plane.
     pub fn project(&self, p: [f64; 3]) -> [f64; 3] {
         let h = self.height(p);

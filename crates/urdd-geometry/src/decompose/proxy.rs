@@ -7,6 +7,7 @@
 use super::clean::Surface;
 use super::part::Part;
 use super::vector::{dot, sub};
+use crate::mesh::from_lowest;
 
 /// Target number of clusters.
 const TARGET: f64 = 1500.0;
@@ -22,11 +23,8 @@ const MOST_CELLS: f64 = 96.0;
 pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
     if surface.vertices.len() as f64 <= TARGET {
         let cluster: Vec<u32> = (0..surface.vertices.len() as u32).collect();
-        let triangles = surface.triangles.clone();
-        return (
-            stand_in(surface, surface.unit.clone(), &cluster, triangles),
-            0.0,
-        );
+        let (points, triangles) = (surface.unit.clone(), surface.triangles.clone());
+        return (stand_in(surface, points, &cluster, triangles), 0.0);
     }
     // A surface intersects about 1.5 cells per cell's area.
     let cell = (1.5 * surface.area() / TARGET).sqrt().max(2.0 / MOST_CELLS);
@@ -68,15 +66,7 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
         .iter()
         .map(|t| t.map(|i| cluster[i as usize]))
         .filter(|[a, b, c]| a != b && b != c && c != a)
-        .map(|[a, b, c]| {
-            if a < b && a < c {
-                [a, b, c]
-            } else if b < c {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            }
-        })
+        .map(from_lowest)
         .collect();
     triangles.sort_unstable();
     triangles.dedup();

@@ -87,12 +87,7 @@ impl Leaf {
 
     /// The two leaves of a cut; `None` if one of them has no surface.
     fn split(&self, cut: &Cut, places: &Places) -> Option<[Leaf; 2]> {
-        let [below, above] = self.part.split(&cut.plane, places.eps, places.reach);
-        if below.triangles.is_empty() || above.triangles.is_empty() {
-            return None;
-        }
-        let (below, above) = join(|| Leaf::new(below, places), || Leaf::new(above, places));
-        Some([below, above])
+        places.split(&self.part, &cut.plane, |part| Leaf::new(part, places))
     }
 }
 

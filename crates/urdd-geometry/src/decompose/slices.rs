@@ -21,7 +21,7 @@ impl Slices {
         places: &Places,
     ) -> Self {
         let eps = places.eps;
-        let bounds = Bounds::new(turned);
+        let bounds = Bounds::of(turned.iter().copied());
         // Odd code 2k+1: inside slice k. Even code 2k: in plane k-1, between slices k-1 and k.
         let code: Vec<u8> = turned
             .iter()
@@ -35,10 +35,10 @@ impl Slices {
         let mut sections = vec![Vec::new(); planes.len()];
         let mut cut_points: Vec<[f64; 3]> = Vec::new();
         let flat = Scaling::new(&bounds, 0.0, f64::INFINITY);
-        let edge = |k: usize| planes.get(k).copied().unwrap_or(bounds.high[2]);
+        let edge = |k: usize| planes.get(k).copied().unwrap_or(bounds.max[2]);
         let cubes: Vec<Scaling> = (0..=planes.len())
             .map(|k| {
-                let from = if k == 0 { bounds.low[2] } else { edge(k - 1) };
+                let from = if k == 0 { bounds.min[2] } else { edge(k - 1) };
                 Scaling::new(&bounds, from, edge(k))
             })
             .collect();
@@ -162,7 +162,7 @@ struct Scaling {
 
 impl Scaling {
     fn new(bounds: &Bounds, from: f64, to: f64) -> Self {
-        let (mut low, mut high) = (bounds.low, bounds.high);
+        let (mut low, mut high) = (bounds.min, bounds.max);
         (low[2], high[2]) = (from, to);
         let factor = [0, 1, 2].map(|a| {
             if high[a] > low[a] {

@@ -8,6 +8,8 @@ use std::sync::LazyLock;
 
 use fearless_simd::{Level, Simd, dispatch, f32x16, prelude::*, u32x16};
 
+use crate::vector::{norm, spread};
+
 /// Directions per row.
 const WIDTH: usize = 16;
 
@@ -20,14 +22,10 @@ const COUNT: usize = ROWS * WIDTH;
 /// One value for each direction.
 type Row<T> = [[T; WIDTH]; ROWS];
 
-struct Directions {
-    x: Row<f32>,
-    y: Row<f32>,
-    z: Row<f32>,
-}
+/// The x, y and z coordinates.
+type Directions = [Row<f32>; 3];
 
-/// The 26 directions of a cube's faces, corners and edges, and a Fibonacci lattice on the sphere for the rest
-/// (Gonzalez, "Measurement of areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).
+/// The 26 directions of a cube's faces, corners and edges, and evenly spread ones for the rest.
 static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| {
     let mut list: Vec<[f64; 3]> = Vec::with_capacity(COUNT);
     for kind in [1, 3, 2] {
@@ -38,24 +36,12 @@ static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| {
             }
         }
     }
-    let rest = COUNT - list.len();
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    for i in 0..rest {
-        let z = 1.0 - (2 * i + 1) as f64 / rest as f64;
-        let r = (1.0 - z * z).sqrt();
-        let a = golden * i as f64;
-        list.push([r * a.cos(), r * a.sin(), z]);
-    }
-    let mut out = Directions {
-        x: [[0.0; WIDTH]; ROWS],
-        y: [[0.0; WIDTH]; ROWS],
-        z: [[0.0; WIDTH]; ROWS],
-    };
+    list.extend(spread(COUNT - list.len()));
+    let mut out = [[[0.0; WIDTH]; ROWS]; 3];
     for (i, d) in list.iter().enumerate() {
-        let n = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        out.x[i / WIDTH][i % WIDTH] = (d[0] / n) as f32;
-        out.y[i / WIDTH][i % WIDTH] = (d[1] / n) as f32;
-        out.z[i / WIDTH][i % WIDTH] = (d[2] / n) as f32;
+        for (row, x) in out.iter_mut().zip(d) {
+            row[i / WIDTH][i % WIDTH] = (x / norm(*d)) as f32;
+        }
     }
     out
 });
@@ -96,14 +82,10 @@ fn farthest_at(level: Level, candidates: &[Candidate]) -> Row<u32> {
 }
 
 #[inline(always)]
-fn farthest<S: Simd>(simd: S, d: &Directions, candidates: &[Candidate]) -> Row<u32> {
+fn farthest<S: Simd>(simd: S, [x, y, z]: &Directions, candidates: &[Candidate]) -> Row<u32> {
     let mut rows = [[f32x16::splat(simd, 0.0); 3]; ROWS];
     for (k, row) in rows.iter_mut().enumerate() {
-        *row = [
-            f32x16::load_array_ref(simd, &d.x[k]),
-            f32x16::load_array_ref(simd, &d.y[k]),
-            f32x16::load_array_ref(simd, &d.z[k]),
-        ];
+        *row = [&x[k], &y[k], &z[k]].map(|row| f32x16::load_array_ref(simd, row));
     }
     let first = candidates.first().map_or(0, |c| c.index);
     let mut value = [f32x16::splat(simd, f32::NEG_INFINITY); ROWS];
@@ -147,7 +129,7 @@ mod tests {
             let d = &*DIRECTIONS;
             let mut plain = [[0; WIDTH]; ROWS];
             for (k, found) in plain.as_flattened_mut().iter_mut().enumerate() {
-                let d = [&d.x, &d.y, &d.z].map(|row| row.as_flattened()[k]);
+                let d = d.each_ref().map(|row| row.as_flattened()[k]);
                 let along = |c: &Candidate| c.at[0] * d[0] + c.at[1] * d[1] + c.at[2] * d[2];
                 let most = candidates
                     .iter()

@@ -1,5 +1,6 @@
-//! Vectors and boxes of the search.
+//! Vectors of the search.
 
+pub(super) use crate::mesh::Bounds;
 pub(super) use crate::vector::{cross, dot, norm, sub};
 
 /// The point at parameter `t` from `a` to `b`.
@@ -59,31 +60,5 @@ pub(super) fn nearest_on_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64
             }
         };
         near(near(a, b), c)
-    }
-}
-
-/// The axis-aligned bounding box of points.
-pub(super) struct Bounds {
-    pub low: [f64; 3],
-    pub high: [f64; 3],
-}
-
-impl Bounds {
-    pub fn new(points: &[[f64; 3]]) -> Self {
-        let mut out = Bounds {
-            low: [f64::INFINITY; 3],
-            high: [f64::NEG_INFINITY; 3],
-        };
-        for p in points {
-            out.low = [0, 1, 2].map(|a| out.low[a].min(p[a]));
-            out.high = [0, 1, 2].map(|a| out.high[a].max(p[a]));
-        }
-        out
-    }
-
-    pub fn extent(&self) -> f64 {
-        (0..3)
-            .map(|a| self.high[a] - self.low[a])
-            .fold(0.0, f64::max)
     }
 }

@@ -1,6 +1,6 @@
 //! Converts quickhull's triangles to the hull's corners and faces, in canonical order.
 
-use super::super::mesh::Mesh;
+use super::super::mesh::{Mesh, from_lowest};
 use super::predicates::{Point, lexicographic, side_of_plane};
 use super::quickhull::Triangle;
 
@@ -129,12 +129,7 @@ pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
     }
     let mut triangles: Vec<[u32; 3]> = triangles
         .into_iter()
-        .map(|triangle| {
-            let mut corners = triangle.map(|p| rank[p as usize]);
-            let lowest = (0..3).min_by_key(|k| corners[*k]).unwrap_or(0);
-            corners.rotate_left(lowest);
-            corners
-        })
+        .map(|triangle| from_lowest(triangle.map(|p| rank[p as usize])))
         .collect();
     triangles.sort_unstable();
     let vertices = order.iter().map(|p| points[*p as usize]).collect();

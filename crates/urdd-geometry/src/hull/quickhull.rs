@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use super::HullError;
 use super::predicates::{Point, collinear, lexicographic, side_of_plane};
+use crate::mesh::Bounds;
 
 /// The initial simplex, as point indices.
 pub enum Start {
@@ -125,15 +126,9 @@ struct Growing<'a> {
 
 impl<'a> Growing<'a> {
     fn new(points: &'a [Point]) -> Self {
-        let mut low = Vector3::repeat(f64::INFINITY);
-        let mut high = -low;
-        for p in points {
-            low = low.inf(&Vector3::from(*p));
-            high = high.sup(&Vector3::from(*p));
-        }
         Self {
             points,
-            extent: high - low,
+            extent: Bounds::of(points.iter().copied()).size().into(),
             faces: Vec::new(),
             free: Vec::new(),
             face_from: vec![u32::MAX; points.len()],

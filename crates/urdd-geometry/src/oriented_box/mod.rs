@@ -115,13 +115,18 @@ impl OrientedBox {
 
     /// The eight corners, metres.
     pub fn corners(&self) -> [[f64; 3]; 8] {
-        let half = Vector3::from(self.half_extents);
-        std::array::from_fn(|i| {
-            let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            let offset = half.component_mul(&Vector3::new(sign(0), sign(1), sign(2)));
-            (Vector3::from(self.centre) + self.rotation * offset).into()
-        })
+        let placed = |p: [f64; 3]| Vector3::from(self.centre) + self.rotation * Vector3::from(p);
+        corners(self.half_extents).map(|corner| placed(corner).into())
     }
+}
+
+/// The eight corners of a box in its own frame, metres.
+pub fn corners(half_extents: [f64; 3]) -> [[f64; 3]; 8] {
+    let coordinate = |corner: usize, axis: usize| match corner >> axis & 1 {
+        0 => -half_extents[axis],
+        _ => half_extents[axis],
+    };
+    std::array::from_fn(|corner| [0, 1, 2].map(|axis| coordinate(corner, axis)))
 }
 
 /// The rotation by the smallest angle among the 24 right-handed labellings of three axes. It has the largest trace.

@@ -17,6 +17,7 @@ use super::arc::{Arc, Known, Stretch};
 use super::queue::{Looked, Queue};
 use super::shadow::{Candidate, Caster, Edge};
 use super::vectors::AXES;
+use crate::vector::{dot, spread};
 
 /// A pass over the arcs.
 struct Pass {
@@ -97,8 +98,8 @@ fn coarse(hull: &ConvexHull) -> Option<Caster> {
     if vertices.len() <= COARSE_ABOVE {
         return None;
     }
-    let farthest = |direction: Vector3<f64>| {
-        let along = |p: &[f64; 3]| direction.dot(&Vector3::from(*p));
+    let farthest = |direction: [f64; 3]| {
+        let along = |p: &[f64; 3]| dot(direction, *p);
         let better = |a: &&[f64; 3], b: &&[f64; 3]| along(a).total_cmp(&along(b));
         vertices.iter().max_by(better).copied()
     };
@@ -106,17 +107,6 @@ fn coarse(hull: &ConvexHull) -> Option<Caster> {
     ConvexHull::new(&corners)
         .ok()
         .map(|hull| Caster::new(&hull))
-}
-
-/// Evenly distributed directions: points of a Fibonacci spiral.
-fn spread(count: usize) -> impl Iterator<Item = Vector3<f64>> {
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    (0..count).map(move |i| {
-        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
-        let (sin, cos) = (golden * i as f64).sin_cos();
-        let radius = (1.0 - z * z).sqrt();
-        Vector3::new(radius * cos, radius * sin, z)
-    })
 }
 
 impl Search {

@@ -1,6 +1,7 @@
 //! Collects the output of a reader into a [`Scene`].
 
 use std::collections::HashMap;
+use std::fmt;
 
 use nalgebra::Matrix4;
 
@@ -15,9 +16,7 @@ pub(super) struct Assembly {
     parts: Vec<Part>,
     part_of: HashMap<Look, usize>,
     triangles: usize,
-    limit: usize,
-    /// As in [`Options`].
-    pub(super) uncut: bool,
+    pub(super) options: Options,
     side_files: Vec<String>,
     pub(super) notes: Notes,
 }
@@ -41,8 +40,7 @@ impl Assembly {
             parts: Vec::new(),
             part_of: HashMap::new(),
             triangles: 0,
-            limit: options.max_triangles,
-            uncut: options.uncut,
+            options: *options,
             side_files: Vec::new(),
             notes: Notes::default(),
         }
@@ -112,12 +110,13 @@ impl Assembly {
 
     /// Checks a number of triangles against the limit.
     pub(super) fn check_triangles(&self, count: usize) -> Result<(), Failure> {
-        within("triangles", count, self.limit)
+        within("triangles", count, self.options.max_triangles)
     }
 
     /// Checks a number of vertices against the limit: three for each triangle.
     pub(super) fn check_vertices(&self, count: usize) -> Result<(), Failure> {
-        within("vertices", count, self.limit.saturating_mul(3))
+        let limit = self.options.max_triangles.saturating_mul(3);
+        within("vertices", count, limit)
     }
 
     pub(super) fn add_side_file(&mut self, name: &str) {
@@ -153,11 +152,57 @@ fn look_of(material: &Material) -> Look {
     )
 }
 
-fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
+/// Checks a number of items against a limit.
+pub(super) fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
     if count > limit {
         return Err(Fault::TooLarge { what, limit }.into());
     }
     Ok(())
+}
+
+/// The nodes from the root of a scene to the current one. Instances can multiply the nodes of a file.
+pub(super) struct Nesting<Id> {
+    path: Vec<Id>,
+    /// Visits of nodes, and meshes that they place.
+    pub(super) visited: usize,
+}
+
+impl<Id: PartialEq> Nesting<Id> {
+    /// Maximum nesting depth of nodes.
+    const DEEPEST: usize = 200;
+    /// Maximum number of node visits.
+    const MOST_NODES: usize = 100_000;
+
+    pub(super) fn new() -> Self {
+        Self {
+            path: Vec::new(),
+            visited: 0,
+        }
+    }
+
+    /// Enters a node, unless it contains itself or a limit is exceeded.
+    pub(super) fn enter(&mut self, node: Id, name: impl fmt::Display) -> Result<(), Failure> {
+        self.visited += 1;
+        within("nodes", self.visited, Self::MOST_NODES)?;
+        if self.path.contains(&node) {
+            return Err(Fault::malformed("the node contains itself").within("node", name));
+        }
+        self.path.push(node);
+        within("levels of nested nodes", self.path.len(), Self::DEEPEST)
+    }
+
+    pub(super) fn leave(&mut self) {
+        self.path.pop();
+    }
+}
+
+/// Marks the vertices that triangles use; ignores indices out of range.
+pub(super) fn mark(used: &mut [bool], triangles: &[[u32; 3]]) {
+    for corner in triangles.as_flattened() {
+        if let Some(used) = used.get_mut(*corner as usize) {
+            *used = true;
+        }
+    }
 }
 
 /// Extracts the vertices that some triangles use from a shared array.

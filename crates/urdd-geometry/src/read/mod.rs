@@ -38,7 +38,7 @@
 //! 0.11 rejects 85 of 331 real files. `tobj` 4.0 panics on `Kd 1 1`, and rejects `vt` with one number, continued lines
 //! and a missing .mtl. `gltf` 1.4 rejects accessors without bounds, panics on accessors without elements, with a huge
 //! count or with another component type, and reads nothing from accessors without a view. The readers here build on
-//! `roxmltree`, `serde_json`, `base64` and `earcut`.
+//! `roxmltree`, `serde_json`, `base64`, `percent-encoding` and `earcut`.
 //!
 //! # Resource limits
 //!
@@ -91,16 +91,8 @@ pub fn read_with(
     fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
     options: &Options,
 ) -> Result<Scene, MeshError> {
-    read_format(bytes, name, fetch, options).map_err(|failure| failure.in_file(name))
-}
-
-fn read_format(
-    bytes: &[u8],
-    name: &str,
-    fetch: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
-    options: &Options,
-) -> Result<Scene, Failure> {
-    let format = sniff::format(bytes, name)?;
+    let in_file = |failure: Failure| failure.in_file(name);
+    let format = sniff::format(bytes, name).map_err(|fault| in_file(fault.into()))?;
     let mut assembly = Assembly::new(options);
     let named = sniff::extension_format(name);
     if let Some(named) = named.filter(|named| named.extension() != format.extension()) {
@@ -112,12 +104,13 @@ fn read_format(
         assembly.notes.add(NoteCode::WrongExtension, text);
     }
     match format {
-        Format::StlBinary => stl::read_binary(bytes, &mut assembly)?,
-        Format::StlAscii => stl::read_ascii(bytes, &mut assembly)?,
-        Format::Collada => collada::read(bytes, &mut assembly)?,
-        Format::Obj => obj::read(bytes, fetch, &mut assembly)?,
-        Format::Gltf => gltf::read_json(bytes, fetch, options.gltf_up, &mut assembly)?,
-        Format::Glb => gltf::read_binary(bytes, fetch, options.gltf_up, &mut assembly)?,
+        Format::StlBinary => stl::read_binary(bytes, &mut assembly),
+        Format::StlAscii => stl::read_ascii(bytes, &mut assembly),
+        Format::Collada => collada::read(bytes, &mut assembly),
+        Format::Obj => obj::read(bytes, fetch, &mut assembly),
+        Format::Gltf => gltf::read_json(bytes, fetch, &mut assembly),
+        Format::Glb => gltf::read_binary(bytes, fetch, &mut assembly),
     }
+    .map_err(in_file)?;
     Ok(assembly.into_scene(format))
 }

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix4;
 
-use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS};
-use super::error::{Failure, Fault, NoteCode, Place};
+use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS, mark, within};
+use super::error::{Failure, NoteCode, Place};
 use super::mtl;
 use super::number::Words;
 use crate::polygon::Splitter;
@@ -24,9 +24,7 @@ pub(super) fn read(
         wanted: None,
         too_many: false,
         group_of: HashMap::new(),
-    };
-    let mut faces = Faces {
-        splitter: Splitter::new(assembly.uncut),
+        splitter: Splitter::new(assembly.options.uncut),
         corners: Vec::new(),
         bad: 0,
     };
@@ -40,10 +38,10 @@ pub(super) fn read(
             continue;
         }
         if joined.is_empty() {
-            file.line(trimmed, &mut faces)
+            file.line(trimmed)
         } else {
             joined.extend_from_slice(trimmed);
-            let result = file.line(&joined, &mut faces);
+            let result = file.line(&joined);
             joined.clear();
             result
         }
@@ -52,20 +50,14 @@ pub(super) fn read(
     let text = "a face was dropped: a vertex index is out of range, or is not an index";
     assembly
         .notes
-        .add_many(NoteCode::IndexOutOfRange, text, faces.bad);
+        .add_many(NoteCode::IndexOutOfRange, text, file.bad);
     if file.too_many {
         assembly.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
     }
     let materials = read_libraries(&file.libraries, fetch, assembly);
     let mut used = vec![false; file.vertices.len()];
-    for corner in file
-        .groups
-        .iter()
-        .flat_map(|group| group.triangles.as_flattened())
-    {
-        if let Some(used) = used.get_mut(*corner as usize) {
-            *used = true;
-        }
+    for group in &file.groups {
+        mark(&mut used, &group.triangles);
     }
     assembly.note_unused(&file.vertices, &used);
     drop(used);
@@ -111,38 +103,27 @@ struct File {
     /// Whether there are more than [`MOST_PARTS`] materials.
     too_many: bool,
     group_of: HashMap<String, usize>,
-}
-
-struct Faces {
     splitter: Splitter,
+    /// The corners of the current face.
     corners: Vec<u32>,
+    /// Number of dropped faces.
     bad: usize,
 }
 
 impl File {
-    fn line(&mut self, line: &[u8], faces: &mut Faces) -> Result<(), Failure> {
+    fn line(&mut self, line: &[u8]) -> Result<(), Failure> {
         let mut words = Words::new(line);
         match words.next() {
             Some(b"v") => {
                 let mut coordinate = || words.float().unwrap_or(f64::NAN);
                 let vertex = [coordinate(), coordinate(), coordinate()];
-                if self.vertices.len() >= u32::MAX as usize {
-                    return Err(Fault::TooLarge {
-                        what: "vertices",
-                        limit: u32::MAX as usize,
-                    }
-                    .into());
-                }
                 self.vertices.push(vertex);
+                within("vertices", self.vertices.len(), u32::MAX as usize)?;
             }
             // `fo` is an old spelling of `f`.
             Some(b"f" | b"fo") => {
                 self.begin_group();
-                faces.face(
-                    words,
-                    &self.vertices,
-                    &mut self.groups[self.current].triangles,
-                );
+                self.face(words);
             }
             Some(b"usemtl") => self.wanted = Some(rest_of(line, b"usemtl")),
             Some(b"mtllib") => {
@@ -178,16 +159,14 @@ impl File {
             }
         };
     }
-}
 
-impl Faces {
-    fn face(&mut self, words: Words<'_>, vertices: &[[f64; 3]], out: &mut Vec<[u32; 3]>) {
+    fn face(&mut self, words: Words<'_>) {
         self.corners.clear();
         for word in words {
             if word.starts_with(b"#") {
                 break;
             }
-            match corner(word, vertices.len()) {
+            match corner(word, self.vertices.len()) {
                 Some(index) => self.corners.push(index),
                 None => {
                     self.bad += 1;
@@ -195,7 +174,9 @@ impl Faces {
                 }
             }
         }
-        self.splitter.split(vertices, &self.corners, out);
+        let triangles = &mut self.groups[self.current].triangles;
+        self.splitter
+            .split(&self.vertices, &self.corners, triangles);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix4;
 
-use super::assembly::{Assembly, Material};
+use super::assembly::{Assembly, Material, within};
 use super::error::{Failure, Fault, NoteCode, Place};
 use super::number::Words;
 use super::sniff::skip_byte_order_mark;
@@ -102,18 +102,11 @@ pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Fa
 }
 
 fn push_triangle(mesh: &mut Mesh, corners: [[f64; 3]; 3]) -> Result<(), Failure> {
-    let first = u32::try_from(mesh.vertices.len())
-        .ok()
-        .filter(|first| first.checked_add(3).is_some());
-    let Some(first) = first else {
-        return Err(Fault::TooLarge {
-            what: "vertices",
-            limit: u32::MAX as usize,
-        }
-        .into());
-    };
+    let corner = mesh.vertices.len();
     mesh.vertices.extend(corners);
-    mesh.triangles.push([first, first + 1, first + 2]);
+    within("vertices", mesh.vertices.len(), u32::MAX as usize)?;
+    let triangle = [corner, corner + 1, corner + 2];
+    mesh.triangles.push(triangle.map(|corner| corner as u32));
     Ok(())
 }
 

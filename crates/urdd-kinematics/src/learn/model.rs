@@ -50,16 +50,7 @@ impl CollisionModel {
         let inputs = inputs::read(&module.inputs, num_dofs)?;
         let width = inputs.iter().map(Input::width).sum();
         let network = Network::read(&module.layers, width, module.pairs.len())?;
-        Ok(Self::of(module, num_dofs, inputs, network))
-    }
-
-    fn of(
-        module: &SelfCollisionModelModule,
-        num_dofs: usize,
-        inputs: Vec<Input>,
-        network: Network,
-    ) -> Self {
-        Self {
+        Ok(Self {
             num_dofs,
             inputs,
             network,
@@ -68,7 +59,7 @@ impl CollisionModel {
             clip_distance: module.clip_distance,
             evaluation: module.evaluation.clone(),
             level: Level::new(),
-        }
+        })
     }
 
     /// Number of DOFs, which is the length of a configuration.
@@ -108,10 +99,8 @@ impl CollisionModel {
     /// # Errors
     /// If the configuration has the wrong length or a value that is not finite.
     pub fn clearances(&self, configuration: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
-        self.check(configuration)?;
-        let values = self.network.values_of_one(self.told(configuration));
-        let last = values.last().map_or(&[][..], Vec::as_slice);
-        Ok(self.less_margins(last).collect())
+        let values = self.values(configuration)?;
+        Ok(self.less_margins(&values).collect())
     }
 
     /// Whether any pair may be in contact: whether a clearance is 0 or less, or NaN.
@@ -130,10 +119,8 @@ impl CollisionModel {
         &self,
         configuration: &[f64],
     ) -> Result<Option<Clearance>, ConfigurationError> {
-        self.check(configuration)?;
-        let values = self.network.values_of_one(self.told(configuration));
-        let last = values.last().map_or(&[][..], Vec::as_slice);
-        let clearances = self.less_margins(last).enumerate();
+        let values = self.values(configuration)?;
+        let clearances = self.less_margins(&values).enumerate();
         let least = clearances.min_by(|a, b| a.1.total_cmp(&b.1));
         Ok(least.map(|(pair, value)| {
             let by_inputs = self.network.derivative(&values, pair);
@@ -154,11 +141,11 @@ impl CollisionModel {
         configuration: &[f64],
         pair: usize,
     ) -> Result<Option<Vec<f64>>, ConfigurationError> {
-        self.check(configuration)?;
         if pair >= self.pairs.len() {
+            self.check(configuration)?;
             return Ok(None);
         }
-        let values = self.network.values_of_one(self.told(configuration));
+        let values = self.values(configuration)?;
         let by_inputs = self.network.derivative(&values, pair);
         Ok(Some(self.by_dofs(configuration, &by_inputs)))
     }
@@ -250,12 +237,12 @@ impl CollisionModel {
         ConfigurationError::check(configuration, self.num_dofs)
     }
 
-    /// The network's inputs for a configuration.
-    fn told(&self, configuration: &[f64]) -> Vec<f64> {
-        let width = self.inputs.iter().map(Input::width).sum();
-        let mut told = vec![0.0; width];
+    /// The network's inputs for a configuration, and the values after each layer.
+    fn values(&self, configuration: &[f64]) -> Result<Vec<Vec<f64>>, ConfigurationError> {
+        self.check(configuration)?;
+        let mut told = vec![0.0; self.inputs.iter().map(Input::width).sum()];
         inputs::tell(&self.inputs, configuration, &mut told);
-        told
+        Ok(self.network.values_of_one(told))
     }
 
     fn by_dofs(&self, configuration: &[f64], mut by_inputs: &[f64]) -> Vec<f64> {
@@ -268,8 +255,8 @@ impl CollisionModel {
         by_dofs
     }
 
-    fn less_margins(&self, outputs: &[f64]) -> impl Iterator<Item = f64> {
-        let both = outputs.iter().zip(&self.pairs);
+    fn less_margins(&self, values: &[Vec<f64>]) -> impl Iterator<Item = f64> {
+        let both = values.last().into_iter().flatten().zip(&self.pairs);
         both.map(|(output, pair)| output - pair.margin)
     }
 }

@@ -1,8 +1,9 @@
 //! Lower bounds of distances from bounding spheres.
 
 use super::body::Shape;
-use super::vector::{dot, to_root};
+use super::vector::to_root;
 use super::{Placed, Proximity};
+use urdd_geometry::vector::{dot, norm, sub};
 
 impl Proximity {
     /// Transforms the centre of each shape's bounding sphere to the root link's frame.
@@ -15,9 +16,8 @@ impl Proximity {
     /// A lower bound of the distance of a pair of shapes, in metres; not positive if they may touch.
     pub(super) fn bound(&self, placed: &Placed, pair: usize) -> f64 {
         let [a, b] = self.pairs[pair].shapes;
-        let (p, q) = (placed.centres[a], placed.centres[b]);
-        let between = [0, 1, 2].map(|k| q[k] - p[k]);
-        dot(between, between).sqrt() - self.shapes[a].sphere.radius - self.shapes[b].sphere.radius
+        let apart = norm(sub(placed.centres[b], placed.centres[a]));
+        apart - self.shapes[a].sphere.radius - self.shapes[b].sphere.radius
     }
 
     /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
@@ -27,7 +27,7 @@ impl Proximity {
         };
         let p = to_root(&placed.links[links[0]], a.centre);
         let q = to_root(&placed.links[links[1]], b.centre);
-        let between = [0, 1, 2].map(|k| q[k] - p[k]);
+        let between = sub(q, p);
         let reach = a.radius + b.radius;
         dot(between, between) > reach * reach * (1.0 + 1e-12)
     }

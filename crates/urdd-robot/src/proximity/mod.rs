@@ -21,18 +21,22 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use self::body::{Shape, Sphere, body};
+use self::body::{Shape, body};
 use super::Robot;
 use super::error::RobotError;
 use super::motion::Motion;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
 use super::statistics::AllStatistics;
+use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
+use urdd_geometry::convex::across::columns;
+use urdd_geometry::vector::{dot, sub};
 
 pub use batch::Cancellable;
 pub(super) use body::Body;
-pub(super) use vector::{dot, to_root};
+pub(super) use query::least_of;
+pub(super) use vector::to_root;
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +65,7 @@ pub struct Proximity {
     pub(super) names: Vec<Arc<str>>,
     pub(super) shapes: Vec<Shape>,
     /// For each link, the bounding sphere of all its shapes.
-    spheres: Vec<Option<Sphere>>,
+    spheres: Vec<Option<BoundingSphere>>,
     pairs: Vec<Pair>,
     groups: Vec<Group>,
     pub(super) level: Level,
@@ -178,7 +182,9 @@ impl Robot {
                 .iter()
                 .map(|name| Arc::from(name.as_str()))
                 .collect(),
-            spheres: (0..count).map(|link| body::about(&shapes, link)).collect(),
+            spheres: (0..count)
+                .map(|link| body::about_link(&shapes, link))
+                .collect(),
             kind,
             shapes,
             pairs,
@@ -242,12 +248,7 @@ impl Proximity {
         let kinematics = &self.motion.kinematics;
         kinematics.link_poses_into(configuration, &mut placed.poses)?;
         placed.links.clear();
-        placed.links.extend(placed.poses.iter().map(|pose| {
-            let rotation = pose.rotation.to_rotation_matrix();
-            let column = |k: usize| rotation.matrix().column(k).into_owned().into();
-            let shift = pose.translation.vector.into();
-            [column(0), column(1), column(2), shift]
-        }));
+        placed.links.extend(placed.poses.iter().map(columns));
         Ok(())
     }
 
@@ -255,7 +256,6 @@ impl Proximity {
     fn relative(placed: &Placed, a: usize, b: usize) -> [[f64; 3]; 4] {
         let (a, b) = (&placed.links[a], &placed.links[b]);
         let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(a[k], v));
-        let between = [0, 1, 2].map(|k| b[3][k] - a[3][k]);
-        [back(b[0]), back(b[1]), back(b[2]), back(between)]
+        [back(b[0]), back(b[1]), back(b[2]), back(sub(b[3], a[3]))]
     }
 }

@@ -4,10 +4,39 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::body::Body;
-use super::vector::{dot, to_root};
+use super::vector::to_root;
 use super::{Group, PairDistance, Placed, Proximity};
 use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+use urdd_geometry::vector::{norm, sub};
+
+/// The `k` nearest pairs, nearest first, from lower bounds of their distances. Ties are in the order of the pairs.
+/// `values` computes the distances of some pairs, at most [`AT_ONCE`].
+pub(crate) fn least_of<P: Ord + Copy>(
+    bounds: impl Iterator<Item = (f64, P)>,
+    k: usize,
+    values: impl Fn(&[P], &mut [f64]),
+) -> Vec<(f64, P)> {
+    // A heap, as a few of the pairs are enough. The bits of numbers that are not negative have their order.
+    let bounds = bounds.map(|(bound, pair)| Reverse(((bound.max(0.0) + 0.0).to_bits(), pair)));
+    let mut bounds: BinaryHeap<_> = bounds.collect();
+    let mut best: Vec<(f64, P)> = Vec::new();
+    while let Some(Reverse((least, _))) = bounds.peek() {
+        // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
+        let least = f64::from_bits(*least);
+        if best.len() >= k && best.last().is_none_or(|worst| least > worst.0) {
+            break;
+        }
+        let next = std::iter::from_fn(|| bounds.pop()).take(AT_ONCE);
+        let pairs: Vec<P> = next.map(|Reverse((_, pair))| pair).collect();
+        let mut found = [0.0; AT_ONCE];
+        values(&pairs, &mut found[..pairs.len()]);
+        best.extend(found.into_iter().zip(pairs));
+        best.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        best.truncate(k);
+    }
+    best
+}
 
 impl Proximity {
     /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
@@ -123,7 +152,7 @@ impl Proximity {
                 }
             }
         }
-        !near.is_empty() && across::any_touches(self.level, &near)
+        across::any_touches(self.level, &near)
     }
 
     /// The distances and indices of the `k` nearest pairs, nearest first.
@@ -135,33 +164,11 @@ impl Proximity {
     ) -> Result<Vec<(f64, usize)>, RobotError> {
         self.place(configuration, placed)?;
         self.place_centres(placed);
-        let by = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        // A heap, as a few of the pairs are enough. The bits of numbers that are not negative have their order.
-        let bound = |pair: usize| {
-            let bound = self.bound(placed, pair).max(0.0) + 0.0;
-            Reverse((bound.to_bits(), pair))
-        };
-        let mut bounds: BinaryHeap<_> = (0..self.pairs.len()).map(bound).collect();
-        let mut best: Vec<(f64, usize)> = Vec::new();
-        while let Some(Reverse((least, _))) = bounds.peek() {
-            // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
-            let enough = best.len() >= k;
-            if enough
-                && best
-                    .last()
-                    .is_none_or(|worst| f64::from_bits(*least) > worst.0)
-            {
-                break;
-            }
-            let next = std::iter::from_fn(|| bounds.pop()).take(AT_ONCE);
-            let pairs: Vec<usize> = next.map(|Reverse((_, pair))| pair).collect();
-            let mut values = [0.0; AT_ONCE];
-            self.values(placed, &pairs, &mut values[..pairs.len()]);
-            best.extend(values.into_iter().zip(pairs));
-            best.sort_unstable_by(by);
-            best.truncate(k);
-        }
-        Ok(best)
+        let placed = &*placed;
+        let bounds = (0..self.pairs.len()).map(|pair| (self.bound(placed, pair), pair));
+        Ok(least_of(bounds, k, |pairs, values| {
+            self.values(placed, pairs, values);
+        }))
     }
 
     pub(super) fn values_into(
@@ -257,8 +264,8 @@ impl Proximity {
         let [a, b] = self.pairs[pair].shapes;
         let (p, q) = (placed.centres[a], placed.centres[b]);
         let radii = [a, b].map(|shape| self.shapes[shape].sphere.radius);
-        let between = [0, 1, 2].map(|k| q[k] - p[k]);
-        let length = dot(between, between).sqrt();
+        let between = sub(q, p);
+        let length = norm(between);
         let distance = (length - radii[0] - radii[1]).max(0.0);
         let toward = match length > 0.0 {
             true => between.map(|x| x / length),

@@ -1,8 +1,4 @@
-//! Vectors and poses, as arrays.
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
+//! Poses as arrays.
 
 /// Transforms a point from a link's frame to the root link's frame.
 pub(crate) fn to_root(link: &[[f64; 3]; 4], p: [f64; 3]) -> [f64; 3] {

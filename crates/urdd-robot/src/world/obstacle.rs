@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Point3};
 
 use crate::error::RobotError;
 use urdd_geometry::Mesh;
+use urdd_geometry::bounding_sphere::about;
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::decompose::{self, decompose};
+use urdd_geometry::oriented_box::corners;
 
 /// Sides of the prism that approximates a cylinder.
 const SIDES: u32 = 64;
@@ -64,12 +66,7 @@ impl Obstacle {
         for size in half_extents {
             check_size(name, size)?;
         }
-        let corner = |i: usize| {
-            let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            [0, 1, 2].map(|k| sign(k) * half_extents[k])
-        };
-        let corners: [[f64; 3]; 8] = std::array::from_fn(corner);
-        Self::swept(name, &pose, &corners, 0.0)
+        Self::swept(name, &pose, &corners(half_extents), 0.0)
     }
 
     /// A sphere: its centre and radius, in metres.
@@ -184,10 +181,8 @@ fn part(pose: &Isometry3<f64>, points: &[[f64; 3]], radius: f64) -> Result<Part,
         .map(|p| (pose * Point3::from(*p)).coords.into());
     let placed: Vec<[f64; 3]> = placed.collect();
     let shape = ConvexShape::of_points(&placed)?;
-    let centre = Vector3::from(shape.centre());
-    let away = placed.iter().map(|p| (Vector3::from(*p) - centre).norm());
     Ok(Part {
-        reach: away.fold(0.0, f64::max) * (1.0 + 1e-12),
+        reach: about(shape.centre(), &placed).radius,
         shape,
         radius,
     })

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use super::obstacle::{Obstacle, Part, World};
 use crate::error::RobotError;
 use crate::names::index;
-use crate::proximity::{Body, Placed, Proximity, dot, to_root};
+use crate::proximity::{Body, Placed, Proximity, least_of, to_root};
 use urdd_geometry::convex::Witness;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+use urdd_geometry::vector::{dot, norm, sub};
 
 /// The distance between a shape of the robot and an obstacle, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,8 +31,8 @@ pub struct ObstacleDistance {
     pub points: [[f64; 3]; 2],
 }
 
-/// A distance or its lower bound, and the pair of a shape and a part.
-type Bounded = (f64, (usize, usize));
+/// The indices of a shape and of a part of an obstacle.
+type Pair = (usize, usize);
 
 /// A robot's shapes and a world, prepared for distance queries.
 #[derive(Debug)]
@@ -93,7 +94,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// As [`Proximity::closest_points`].
     pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         let placed = self.place(configuration)?;
-        let tested: Vec<(usize, usize)> = self.tested().collect();
+        let tested: Vec<Pair> = self.tested().collect();
         let values = self.values(&placed, &tested).into_iter().zip(&tested);
         let mut found: Vec<f64> = Vec::new();
         let mut last = None;
@@ -115,7 +116,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// As [`Proximity::closest_points`].
     pub fn min_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
         let placed = self.place(configuration)?;
-        let nearest = self.least_pairs(&placed, self.tested().collect(), 1);
+        let nearest = self.least_pairs(&placed, self.tested(), 1);
         Ok(nearest.first().map(|(distance, _)| *distance))
     }
 
@@ -132,9 +133,9 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         let mut all = Vec::new();
         for shape in 0..self.proximity.shapes.len() {
             for obstacle in 0..self.names.len() {
-                let own = |(_, part): &(usize, usize)| self.parts[*part].0 == obstacle;
+                let own = |(_, part): &Pair| self.parts[*part].0 == obstacle;
                 let pairs = self.pairs_of(shape).filter(own);
-                all.extend(self.least(&placed, pairs.collect(), 1));
+                all.extend(self.least(&placed, pairs, 1));
             }
         }
         Ok(all)
@@ -150,7 +151,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         k: usize,
     ) -> Result<Vec<ObstacleDistance>, RobotError> {
         let placed = self.place(configuration)?;
-        Ok(self.least(&placed, self.tested().collect(), k))
+        Ok(self.least(&placed, self.tested(), k))
     }
 
     /// Whether any shape of the robot touches or overlaps an obstacle.
@@ -162,17 +163,17 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         let near = self
             .tested()
             .filter(|pair| self.bound(&placed, *pair) <= 0.0);
-        let near: Vec<(usize, usize)> = near.collect();
-        let touches = |pairs: &[(usize, usize)]| self.values(&placed, pairs).contains(&0.0);
+        let near: Vec<Pair> = near.collect();
+        let touches = |pairs: &[Pair]| self.values(&placed, pairs).contains(&0.0);
         Ok(near.chunks(AT_ONCE).any(touches))
     }
 
-    fn tested(&self) -> impl Iterator<Item = (usize, usize)> {
+    fn tested(&self) -> impl Iterator<Item = Pair> {
         let shapes = 0..self.proximity.shapes.len();
         shapes.flat_map(|shape| self.pairs_of(shape))
     }
 
-    fn pairs_of(&self, shape: usize) -> impl Iterator<Item = (usize, usize)> {
+    fn pairs_of(&self, shape: usize) -> impl Iterator<Item = Pair> {
         let link = self.proximity.shapes[shape].link;
         let parts = self.parts.iter().enumerate();
         let tested =
@@ -188,48 +189,40 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     }
 
     /// A lower bound of the distance of a pair, in metres; not positive if it may touch.
-    fn bound(&self, placed: &Placed, (shape, part): (usize, usize)) -> f64 {
+    fn bound(&self, placed: &Placed, (shape, part): Pair) -> f64 {
         let part = &self.parts[part].1;
         let (p, q) = (placed.centres[shape], part.shape.centre());
-        let between = [0, 1, 2].map(|k| q[k] - p[k]);
         let reach = self.proximity.shapes[shape].sphere.radius + part.reach + part.radius;
         // Reduced by more than any rounding error.
-        dot(between, between).sqrt() * (1.0 - 1e-12) - reach
+        norm(sub(q, p)) * (1.0 - 1e-12) - reach
     }
 
     fn least(
         &self,
         placed: &Placed,
-        pairs: Vec<(usize, usize)>,
+        pairs: impl Iterator<Item = Pair>,
         k: usize,
     ) -> Vec<ObstacleDistance> {
         let best = self.least_pairs(placed, pairs, k).into_iter();
-        let pairs: Vec<(usize, usize)> = best.map(|(_, pair)| pair).collect();
+        let pairs: Vec<Pair> = best.map(|(_, pair)| pair).collect();
         self.witnesses(placed, &pairs)
     }
 
     /// The `k` nearest of these pairs, with their distances.
-    fn least_pairs(&self, placed: &Placed, pairs: Vec<(usize, usize)>, k: usize) -> Vec<Bounded> {
-        let by = |a: &Bounded, b: &Bounded| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        let bound = |pair| (self.bound(placed, pair).max(0.0), pair);
-        let mut bounds: Vec<Bounded> = pairs.into_iter().map(bound).collect();
-        bounds.sort_unstable_by(by);
-        let mut best: Vec<Bounded> = Vec::new();
-        for bounds in bounds.chunks(AT_ONCE) {
-            let enough = best.len() >= k;
-            if enough && best.last().is_none_or(|worst| bounds[0].0 > worst.0) {
-                break;
-            }
-            let pairs: Vec<(usize, usize)> = bounds.iter().map(|(_, pair)| *pair).collect();
-            best.extend(self.values(placed, &pairs).into_iter().zip(pairs));
-            best.sort_unstable_by(by);
-            best.truncate(k);
-        }
-        best
+    fn least_pairs(
+        &self,
+        placed: &Placed,
+        pairs: impl Iterator<Item = Pair>,
+        k: usize,
+    ) -> Vec<(f64, Pair)> {
+        let bounds = pairs.map(|pair| (self.bound(placed, pair), pair));
+        least_of(bounds, k, |pairs, values| {
+            values.copy_from_slice(&self.values(placed, pairs));
+        })
     }
 
     /// A shape of the robot and a part of an obstacle, with the part placed in the frame of the shape's link.
-    fn placed_pair(&self, placed: &Placed, (shape, part): (usize, usize)) -> PlacedPair<'_> {
+    fn placed_pair(&self, placed: &Placed, (shape, part): Pair) -> PlacedPair<'_> {
         let own = &self.proximity.shapes[shape];
         let link = &placed.links[own.link];
         let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(link[k], v));
@@ -245,7 +238,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     }
 
     /// The radii by which a pair's shapes extend beyond their `ConvexShape`.
-    fn radii(&self, (shape, part): (usize, usize)) -> [f64; 2] {
+    fn radii(&self, (shape, part): Pair) -> [f64; 2] {
         let own = &self.proximity.shapes[shape];
         let own = match own.body {
             Body::Convex(_) => 0.0,
@@ -255,7 +248,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     }
 
     /// The distances of these pairs.
-    fn values(&self, placed: &Placed, pairs: &[(usize, usize)]) -> Vec<f64> {
+    fn values(&self, placed: &Placed, pairs: &[Pair]) -> Vec<f64> {
         let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
         let both: Vec<PlacedPair> = both.collect();
         let mut values = vec![0.0; both.len()];
@@ -267,7 +260,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         values
     }
 
-    fn witnesses(&self, placed: &Placed, pairs: &[(usize, usize)]) -> Vec<ObstacleDistance> {
+    fn witnesses(&self, placed: &Placed, pairs: &[Pair]) -> Vec<ObstacleDistance> {
         let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
         let both: Vec<PlacedPair> = both.collect();
         let found = across::witnesses(self.proximity.level, &both);
@@ -292,8 +285,8 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
 /// The distance and closest points of two shapes enlarged by radii.
 fn rounded(witness: &Witness, [a, b]: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
     let [p, q] = witness.points;
-    let between = [0, 1, 2].map(|k| q[k] - p[k]);
-    let length = dot(between, between).sqrt();
+    let between = sub(q, p);
+    let length = norm(between);
     let distance = (witness.distance - a - b).max(0.0);
     if length == 0.0 {
         return (distance, [p, q]);

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+use percent_encoding::percent_decode_str;
 use roxmltree::Node;
 
 /// A document with its elements indexed by tag and id.
@@ -75,20 +76,6 @@ pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
 
 /// Converts a relative URL to a file name: decodes `%20` and the like, and replaces backslashes by slashes.
 pub(crate) fn path_of_url(url: &str) -> String {
-    let bytes = url.as_bytes();
-    let mut path = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while at < bytes.len() {
-        let escaped = (bytes[at] == b'%')
-            .then(|| bytes.get(at + 1..at + 3))
-            .flatten()
-            .and_then(|digits| std::str::from_utf8(digits).ok())
-            .filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()))
-            .and_then(|digits| u8::from_str_radix(digits, 16).ok());
-        path.push(escaped.unwrap_or(bytes[at]));
-        at += if escaped.is_some() { 3 } else { 1 };
-    }
-    String::from_utf8(path)
-        .unwrap_or_else(|_| url.to_owned())
-        .replace('\\', "/")
+    let path = percent_decode_str(url).decode_utf8();
+    path.unwrap_or(url.into()).replace('\\', "/")
 }

@@ -168,18 +168,14 @@ impl Faces<'_> {
         splitter: &mut Splitter,
         notes: &mut Notes,
     ) {
-        let counts = element
-            .children()
-            .find(|node| node.tag_name().name() == "vcount")
-            .map(|node| text(node));
+        let counts = child(element, "vcount").map(text);
         let mut counts = counts.as_ref().map(|counts| Words::new(counts.as_bytes()));
         for list in element.children() {
             let list = match list.tag_name().name() {
                 "p" => list,
                 "ph" => {
                     notes.add(NoteCode::LeftOut, "holes of a polygon were filled");
-                    let Some(outline) = list.children().find(|node| node.tag_name().name() == "p")
-                    else {
+                    let Some(outline) = child(list, "p") else {
                         continue;
                     };
                     outline

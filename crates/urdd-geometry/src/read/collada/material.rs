@@ -6,7 +6,7 @@ use roxmltree::{Node, NodeId};
 
 use super::super::assembly::Material;
 use super::super::number::Words;
-use super::document::{Document, text};
+use super::document::{Document, child, children, text};
 
 /// The colour of each effect that was read.
 pub(super) type Colors = HashMap<NodeId, Option<[f64; 4]>>;
@@ -46,7 +46,7 @@ pub(super) fn of_symbol(
             .or_else(|| material.attribute("id"))
     });
     let color = material
-        .and_then(|material| child_of(material, "instance_effect"))
+        .and_then(|material| child(material, "instance_effect"))
         .and_then(|effect| document.find("effect", effect.attribute("url")?))
         .and_then(|effect| *colors.entry(effect.id()).or_insert_with(|| diffuse(effect)));
     Material {
@@ -58,8 +58,8 @@ pub(super) fn of_symbol(
 /// The diffuse colour of an effect, or the emission of a `constant` one, which has no diffuse colour; `None` for a
 /// texture.
 fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
-    let profile = child_of(effect, "profile_COMMON")?;
-    let technique = child_of(profile, "technique")?;
+    let profile = child(effect, "profile_COMMON")?;
+    let technique = child(profile, "technique")?;
     let shader = technique.children().find(|node| {
         matches!(
             node.tag_name().name(),
@@ -71,19 +71,15 @@ fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
     } else {
         "diffuse"
     };
-    let value = child_of(shader, wanted)?;
-    if let Some(color) = child_of(value, "color") {
+    let value = child(shader, wanted)?;
+    if let Some(color) = child(value, "color") {
         return rgba(color);
     }
     // A named parameter of the technique, profile or effect.
-    let name = child_of(value, "param")?.attribute("ref")?;
+    let name = child(value, "param")?.attribute("ref")?;
     [technique, profile, effect]
         .into_iter()
-        .flat_map(|scope| {
-            scope
-                .children()
-                .filter(|node| node.tag_name().name() == "newparam")
-        })
+        .flat_map(|scope| children(scope, "newparam"))
         .find(|parameter| parameter.attribute("sid") == Some(name))
         .and_then(|parameter| {
             parameter
@@ -91,10 +87,6 @@ fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
                 .find(|node| matches!(node.tag_name().name(), "float4" | "float3" | "color"))
         })
         .and_then(rgba)
-}
-
-fn child_of<'a, 'b>(node: Node<'a, 'b>, tag: &str) -> Option<Node<'a, 'b>> {
-    node.children().find(|child| child.tag_name().name() == tag)
 }
 
 /// Three or four numbers, clamped to 0 to 1.

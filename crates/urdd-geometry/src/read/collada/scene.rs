@@ -5,17 +5,13 @@ use std::collections::HashMap;
 use nalgebra::{Matrix4, Vector3};
 use roxmltree::Node;
 
-use super::super::assembly::Assembly;
-use super::super::error::{Failure, Fault, NoteCode};
+use super::super::assembly::{Assembly, Nesting, within};
+use super::super::error::{Failure, NoteCode};
 use super::document::{Document, child, children};
 use super::geometry::{self, Primitive, Tools};
 use super::material::{self, Colors};
 use super::transform;
 
-/// Maximum nesting depth of nodes.
-const DEEPEST: usize = 200;
-/// Maximum number of node visits: `instance_node` can multiply the nodes of a file.
-const MOST_NODES: usize = 100_000;
 /// Maximum number of node bytes processed, counted for each placement.
 const MOST_TEXT: usize = 1 << 28;
 
@@ -30,12 +26,11 @@ pub(super) fn walk(
     let root = Matrix4::new_nonuniform_scaling(&Vector3::repeat(unit));
     let mut walker = Walker {
         document,
-        tools: Tools::new(assembly.uncut),
+        tools: Tools::new(assembly.options.uncut),
         assembly,
         geometries: HashMap::new(),
         colors: Colors::new(),
-        path: Vec::new(),
-        visited: 0,
+        nesting: Nesting::new(),
         text: 0,
     };
     let named = child(document.root, "scene")
@@ -74,9 +69,7 @@ struct Walker<'a, 'd> {
     /// Geometries by element, so that each is read once.
     geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
     colors: Colors,
-    /// The ancestors of the current node.
-    path: Vec<roxmltree::NodeId>,
-    visited: usize,
+    nesting: Nesting<roxmltree::NodeId>,
     text: usize,
 }
 
@@ -89,45 +82,21 @@ impl<'a> Walker<'a, '_> {
     }
 
     fn node(&mut self, node: Node<'a, 'a>, parent: &Matrix4<f64>) -> Result<(), Failure> {
-        let name = || {
-            node.attribute("id")
-                .or_else(|| node.attribute("name"))
-                .unwrap_or("")
-                .to_owned()
-        };
-        self.visited += 1;
-        if self.visited > MOST_NODES {
-            return Err(Fault::TooLarge {
-                what: "nodes",
-                limit: MOST_NODES,
-            }
-            .into());
-        }
-        if self.path.contains(&node.id()) {
-            return Err(Fault::malformed("the node contains itself").within("node", name()));
-        }
-        if self.path.len() >= DEEPEST {
-            return Err(Fault::TooLarge {
-                what: "levels of nested nodes",
-                limit: DEEPEST,
-            }
-            .into());
-        }
+        let name = node.attribute("id").or_else(|| node.attribute("name"));
+        let name = name.unwrap_or("");
+        self.nesting.enter(node.id(), name)?;
         let parts = node.children().filter(Node::is_element);
         self.text += parts
             .filter(|part| part.tag_name().name() != "node")
             .map(|part| part.range().len())
             .sum::<usize>();
-        if self.text > MOST_TEXT {
-            return Err(Fault::TooLarge {
-                what: "bytes of nodes, counted once per instance",
-                limit: MOST_TEXT,
-            }
-            .into());
-        }
+        within(
+            "bytes of nodes, counted once per instance",
+            self.text,
+            MOST_TEXT,
+        )?;
         let matrix =
-            parent * transform::of_node(node).map_err(|failure| failure.within("node", name()))?;
-        self.path.push(node.id());
+            parent * transform::of_node(node).map_err(|failure| failure.within("node", name))?;
         for element in node.children().filter(Node::is_element) {
             let url = element.attribute("url").unwrap_or("");
             match element.tag_name().name() {
@@ -144,7 +113,7 @@ impl<'a> Walker<'a, '_> {
                 _ => {}
             }
         }
-        self.path.pop();
+        self.nesting.leave();
         Ok(())
     }
 
@@ -175,10 +144,7 @@ impl<'a> Walker<'a, '_> {
             else {
                 break;
             };
-            if let Some(shape) = deformer
-                .children()
-                .find(|node| node.tag_name().name() == "bind_shape_matrix")
-            {
+            if let Some(shape) = child(deformer, "bind_shape_matrix") {
                 matrix *= transform::rows(transform::numbers::<16>(shape)?);
             }
             // Both `skin` and `morph` reference what they deform by `source`.
@@ -209,7 +175,7 @@ impl<'a> Walker<'a, '_> {
         }
         let bindings = material::bindings(instance);
         let primitives = &self.geometries[&geometry.id()];
-        self.visited += primitives.len();
+        self.nesting.visited += primitives.len();
         for primitive in primitives {
             let material =
                 material::of_symbol(self.document, &bindings, primitive.symbol, &mut self.colors);

@@ -141,11 +141,8 @@ fn axes(accessor: Option<Node<'_, '_>>) -> Option<[usize; 3]> {
     let Some(accessor) = accessor else {
         return Some([0, 1, 2]);
     };
-    let names: Vec<Option<&str>> = accessor
-        .children()
-        .filter(|node| node.tag_name().name() == "param")
-        .map(|param| param.attribute("name"))
-        .collect();
+    let params = children(accessor, "param");
+    let names: Vec<Option<&str>> = params.map(|param| param.attribute("name")).collect();
     let of = |name: &str| names.iter().position(|found| *found == Some(name));
     match (of("X"), of("Y"), of("Z")) {
         (Some(x), Some(y), Some(z)) => Some([x, y, z]),

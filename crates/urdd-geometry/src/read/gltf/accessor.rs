@@ -1,9 +1,10 @@
 //! Accessors of a glTF file: positions, normals and indices.
 
-use super::super::assembly::Assembly;
+use super::super::assembly::{Assembly, within};
 use super::super::error::{Failure, Fault, NoteCode};
 use super::buffer::Buffers;
 use super::json::{Accessor, Root};
+use crate::vector::norm;
 
 const BYTE: u32 = 5120;
 const UNSIGNED_BYTE: u32 = 5121;
@@ -39,25 +40,15 @@ pub(super) fn positions(
     let element = |bytes: &[u8]| [0, 1, 2].map(|axis| read(&bytes[axis * size..]));
     let mut positions = match accessor.buffer_view {
         Some(view) => {
-            let (bytes, stride) = buffers.view(view, assembly)?;
-            elements(
-                bytes,
-                accessor.byte_offset,
-                stride,
-                size * 3,
-                accessor.count,
-            )?
-            .map(element)
-            .collect()
+            let view = buffers.view(view, assembly)?;
+            let all = elements(view, accessor.byte_offset, size * 3, accessor.count)?;
+            all.map(element).collect()
         }
-        None if accessor.count > MOST_ZEROS => {
-            return Err(Fault::TooLarge {
-                what: "elements in an accessor without data",
-                limit: MOST_ZEROS,
-            }
-            .into());
+        None => {
+            let what = "elements in an accessor without data";
+            within(what, accessor.count, MOST_ZEROS)?;
+            vec![[0.0; 3]; accessor.count]
         }
-        None => vec![[0.0; 3]; accessor.count],
     };
     if let Some(sparse) = &accessor.sparse {
         let places = indices_of(
@@ -68,14 +59,8 @@ pub(super) fn positions(
             buffers,
             assembly,
         )?;
-        let (bytes, stride) = buffers.view(sparse.values.buffer_view, assembly)?;
-        let values = elements(
-            bytes,
-            sparse.values.byte_offset,
-            stride,
-            size * 3,
-            sparse.count,
-        )?;
+        let view = buffers.view(sparse.values.buffer_view, assembly)?;
+        let values = elements(view, sparse.values.byte_offset, size * 3, sparse.count)?;
         for (place, value) in places.iter().zip(values) {
             let position = positions.get_mut(*place as usize);
             *position.ok_or_else(|| Fault::malformed("a sparse index is out of range"))? =
@@ -113,27 +98,15 @@ pub(super) fn check_normals(
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
     let accessor = get(root, index)?;
-    let float = accessor.component_type == FLOAT && accessor.shape == "VEC3";
-    let (Some(view), true, None) = (accessor.buffer_view, float, &accessor.sparse) else {
+    let plain = accessor.component_type == FLOAT && accessor.shape == "VEC3";
+    let (Some(view), true, None) = (accessor.buffer_view, plain, &accessor.sparse) else {
         // Quantized or sparse normals are not checked: meshes of robots do not have them.
         return Ok(());
     };
-    let (bytes, stride) = buffers.view(view, assembly)?;
-    let component = |bytes: &[u8], at: usize| {
-        f64::from(f32::from_le_bytes([
-            bytes[at],
-            bytes[at + 1],
-            bytes[at + 2],
-            bytes[at + 3],
-        ]))
-    };
-    let wrong = elements(bytes, accessor.byte_offset, stride, 12, accessor.count)?
-        .map(|bytes| [0, 4, 8].map(|at| component(bytes, at)))
-        .filter(|n| {
-            !((n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt() - 1.0)
-                .abs()
-                .le(&UNIT_NORMAL)
-        })
+    let view = buffers.view(view, assembly)?;
+    let wrong = elements(view, accessor.byte_offset, 12, accessor.count)?
+        .map(|bytes| [0, 4, 8].map(|at| float(&bytes[at..])))
+        .filter(|normal| !(norm(*normal) - 1.0).abs().le(&UNIT_NORMAL))
         .count();
     let text = "a normal is not of unit length";
     assembly.notes.add_many(NoteCode::WrongNormals, text, wrong);
@@ -189,8 +162,8 @@ fn indices_of(
             )));
         }
     };
-    let (bytes, stride) = buffers.view(view, assembly)?;
-    Ok(elements(bytes, offset, stride, size(kind), count)?
+    let view = buffers.view(view, assembly)?;
+    Ok(elements(view, offset, size(kind), count)?
         .map(read)
         .collect())
 }
@@ -201,11 +174,10 @@ fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
         .ok_or_else(|| Fault::malformed("it does not exist"))
 }
 
-/// `count` elements of `size` bytes, `stride` bytes apart. Fails unless all are inside `bytes`.
+/// `count` elements of `size` bytes of a buffer view, which has bytes and a stride. Fails unless all are inside it.
 fn elements(
-    bytes: &[u8],
+    (bytes, stride): (&[u8], Option<usize>),
     offset: usize,
-    stride: Option<usize>,
     size: usize,
     count: usize,
 ) -> Result<impl Iterator<Item = &[u8]>, Failure> {
@@ -238,13 +210,15 @@ fn size(component: u32) -> usize {
     }
 }
 
+fn float(bytes: &[u8]) -> f64 {
+    f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+}
+
 /// The function that reads a component. `KHR_mesh_quantization` allows integer positions. Normalized integers are
 /// fractions of their maximum, as the glTF specification defines.
 fn reader(component: u32, normalized: bool) -> Option<fn(&[u8]) -> f64> {
     Some(match (component, normalized) {
-        (FLOAT, _) => {
-            |bytes| f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
-        }
+        (FLOAT, _) => float,
         (BYTE, false) => |bytes| f64::from(i8::from_le_bytes([bytes[0]])),
         (BYTE, true) => |bytes| (f64::from(i8::from_le_bytes([bytes[0]])) / 127.0).max(-1.0),
         (UNSIGNED_BYTE, false) => |bytes| f64::from(bytes[0]),

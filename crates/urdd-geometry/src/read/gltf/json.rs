@@ -15,8 +15,8 @@ pub(super) struct Root {
     pub(super) materials: Vec<Material>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffer_views: Vec<BufferView>,
-    pub(super) buffers: Vec<Buffer>,
-    pub(super) images: Vec<Image>,
+    pub(super) buffers: Vec<File>,
+    pub(super) images: Vec<File>,
     pub(super) animations: Vec<serde::de::IgnoredAny>,
 }
 
@@ -121,14 +121,9 @@ pub(super) struct BufferView {
     pub(super) byte_stride: Option<usize>,
 }
 
+/// A buffer or an image.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub(super) struct Buffer {
-    pub(super) uri: Option<String>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Image {
+pub(super) struct File {
     pub(super) uri: Option<String>,
 }

@@ -7,7 +7,6 @@ mod scene;
 
 use super::assembly::Assembly;
 use super::error::{Failure, Fault, NoteCode, Place};
-use super::options::GltfUp;
 use super::sniff::skip_byte_order_mark;
 use buffer::Fetch;
 
@@ -15,10 +14,9 @@ use buffer::Fetch;
 pub(super) fn read_json(
     bytes: &[u8],
     fetch: Fetch<'_>,
-    up: GltfUp,
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
-    read_document(skip_byte_order_mark(bytes), None, fetch, up, assembly)
+    read_document(skip_byte_order_mark(bytes), None, fetch, assembly)
 }
 
 /// Reads a .glb: a 12-byte header, a JSON chunk, and optionally a binary chunk. Clamps lengths beyond the end of the
@@ -26,7 +24,6 @@ pub(super) fn read_json(
 pub(super) fn read_binary(
     bytes: &[u8],
     fetch: Fetch<'_>,
-    up: GltfUp,
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
     let word = |at: usize| {
@@ -73,8 +70,8 @@ pub(super) fn read_binary(
     const JSON: u32 = u32::from_le_bytes(*b"JSON");
     const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
     match chunks[..] {
-        [(JSON, json), (BIN, data), ..] => read_document(json, Some(data), fetch, up, assembly),
-        [(JSON, json), ..] => read_document(json, None, fetch, up, assembly),
+        [(JSON, json), (BIN, data), ..] => read_document(json, Some(data), fetch, assembly),
+        [(JSON, json), ..] => read_document(json, None, fetch, assembly),
         [] => Err(cut()),
         _ => Err(Fault::malformed("the first chunk is not JSON").at(|| Place::Byte(12))),
     }
@@ -84,7 +81,6 @@ fn read_document(
     json: &[u8],
     data: Option<&[u8]>,
     fetch: Fetch<'_>,
-    up: GltfUp,
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
     let root: json::Root = serde_json::from_slice(json.trim_ascii_end()).map_err(|error| {
@@ -125,12 +121,8 @@ fn read_document(
             .notes
             .add(NoteCode::ShownOtherwise, "its animations were left out");
     }
-    let images = root.images.iter().filter_map(|image| image.uri.as_deref());
-    let buffers = root
-        .buffers
-        .iter()
-        .filter_map(|buffer| buffer.uri.as_deref());
-    for uri in images.chain(buffers) {
+    let files = root.images.iter().chain(&root.buffers);
+    for uri in files.filter_map(|file| file.uri.as_deref()) {
         if !buffer::is_data(uri) {
             assembly.add_side_file(&super::collada::path_of_url(uri));
         }
@@ -138,7 +130,6 @@ fn read_document(
     scene::walk(
         &root,
         &mut buffer::Buffers::new(&root, data, fetch),
-        up,
         assembly,
     )
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
-use super::super::assembly::{Assembly, Material, Picker};
+use super::super::assembly::{Assembly, Material, Nesting, Picker, mark};
 use super::super::collada::strip;
 use super::super::error::{Failure, Fault, NoteCode};
 use super::super::options::GltfUp;
@@ -13,9 +13,6 @@ use super::accessor;
 use super::buffer::Buffers;
 use super::json::{Node, Primitive, Root};
 use crate::mesh::Mesh;
-
-const DEEPEST: usize = 200;
-const MOST_NODES: usize = 100_000;
 
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
@@ -25,10 +22,9 @@ const FAN: u32 = 6;
 pub(super) fn walk<'r>(
     root: &'r Root,
     buffers: &mut Buffers<'r, '_>,
-    up: GltfUp,
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
-    let start = match up {
+    let start = match assembly.options.gltf_up {
         GltfUp::Keep => Matrix4::identity(),
         GltfUp::Turn => {
             assembly.notes.add(
@@ -79,8 +75,7 @@ pub(super) fn walk<'r>(
         used: BTreeMap::new(),
         num_positions: 0,
         num_triangles: 0,
-        path: Vec::new(),
-        visited: 0,
+        nesting: Nesting::new(),
     };
     for node in nodes {
         walker.node(node, &start)?;
@@ -111,8 +106,7 @@ struct Walker<'r, 'b, 'f, 'a> {
     /// Numbers of vertices and triangles read, placed or not: many accessors may reference the same bytes.
     num_positions: usize,
     num_triangles: usize,
-    path: Vec<usize>,
-    visited: usize,
+    nesting: Nesting<usize>,
 }
 
 impl Walker<'_, '_, '_, '_> {
@@ -122,24 +116,7 @@ impl Walker<'_, '_, '_, '_> {
             .nodes
             .get(index)
             .ok_or_else(|| Fault::malformed(format!("node {index} does not exist")))?;
-        self.visited += 1;
-        if self.visited > MOST_NODES {
-            return Err(Fault::TooLarge {
-                what: "nodes",
-                limit: MOST_NODES,
-            }
-            .into());
-        }
-        if self.path.contains(&index) {
-            return Err(Fault::malformed("the node contains itself").within("node", index));
-        }
-        if self.path.len() >= DEEPEST {
-            return Err(Fault::TooLarge {
-                what: "levels of nested nodes",
-                limit: DEEPEST,
-            }
-            .into());
-        }
+        self.nesting.enter(index, index)?;
         let own = local(node).map_err(|failure| failure.within("node", index))?;
         if own != Matrix4::identity() {
             let text = "a node has a transform of its own";
@@ -160,11 +137,10 @@ impl Walker<'_, '_, '_, '_> {
             self.mesh(mesh, &matrix)
                 .map_err(|failure| failure.within("mesh", mesh))?;
         }
-        self.path.push(index);
         for child in &node.children {
             self.node(*child, &matrix)?;
         }
-        self.path.pop();
+        self.nesting.leave();
         Ok(())
     }
 
@@ -184,7 +160,7 @@ impl Walker<'_, '_, '_, '_> {
             self.meshes.insert(index, parts);
         }
         let parts = &self.meshes[&index];
-        self.visited += parts.len();
+        self.nesting.visited += parts.len();
         for (mesh, material) in parts {
             self.assembly.add(mesh, matrix, material)?;
         }
@@ -259,11 +235,7 @@ impl Walker<'_, '_, '_, '_> {
         self.assembly.check_triangles(self.num_triangles)?;
         let used = self.used.entry(position).or_default();
         used.resize(vertices.len(), false);
-        for corner in triangles.as_flattened() {
-            if let Some(used) = used.get_mut(*corner as usize) {
-                *used = true;
-            }
-        }
+        mark(used, &triangles);
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
         self.assembly
