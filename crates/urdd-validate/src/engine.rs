@@ -271,17 +271,12 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             .iter()
             .find_map(|need| unmet(context, *need, outcomes)),
         Need::Each(parts) if !applies(context, parts) => None,
-        Need::Each(parts) => parts.codes.iter().find_map(|code| {
-            let elsewhere = |ran: &&Ran| ran.faulted.elsewhere();
-            obstacle(outcomes.get(code).filter(elsewhere), *code)
-                .or_else(|| crashed(outcomes.get(code), *code))
-        }),
-        Need::NotFailedInV1(_) | Need::NoPartInV1(..) if context.profile() != Profile::V1 => None,
-        Need::NoPartInV1(code, kind) => {
-            let any = |ran: &&Ran| ran.faulted.any(kind);
-            obstacle(outcomes.get(&code).filter(any), code)
-                .or_else(|| crashed(outcomes.get(&code), code))
+        Need::Each(parts) => {
+            let mut codes = parts.codes.iter();
+            codes.find_map(|code| obstacle(outcomes, *code, Faulted::elsewhere))
         }
+        Need::NotFailedInV1(_) | Need::NoPartInV1(..) if context.profile() != Profile::V1 => None,
+        Need::NoPartInV1(code, kind) => obstacle(outcomes, code, |faulted| faulted.any(kind)),
         Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
             Some(Outcome::Passed) => None,
             Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
@@ -289,22 +284,22 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             Some(Outcome::Crashed(_)) => Some(SkipReason::Crashed(code)),
             None => Some(SkipReason::DidNotRun(code)),
         },
-        Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes.get(&code), code),
+        Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes, code, |_| true),
         Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
         Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
     }
 }
 
-/// Why another rule prevents this one, if it failed or crashed.
-fn obstacle(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
-    match ran?.outcome {
-        Outcome::Failed => Some(SkipReason::Failed(code)),
+/// Why another rule prevents this one: it crashed, or failed with faults that `matter`.
+fn obstacle(
+    outcomes: &Outcomes,
+    code: Code,
+    matter: impl Fn(&Faulted) -> bool,
+) -> Option<SkipReason> {
+    let ran = outcomes.get(&code)?;
+    match ran.outcome {
+        Outcome::Failed if matter(&ran.faulted) => Some(SkipReason::Failed(code)),
         Outcome::Crashed(_) => Some(SkipReason::Crashed(code)),
-        Outcome::Passed | Outcome::Skipped(_) => None,
+        _ => None,
     }
-}
-
-/// Why another rule prevents this one, if it crashed.
-fn crashed(ran: Option<&Ran>, code: Code) -> Option<SkipReason> {
-    matches!(ran?.outcome, Outcome::Crashed(_)).then_some(SkipReason::Crashed(code))
 }

@@ -5,6 +5,22 @@ use super::part::{PartKind, Parts};
 use super::rule::Need;
 use urdd_format::registry::ModuleKind as Kind;
 
+/// Each part passed these rules.
+const fn each(codes: &'static [Code]) -> Need {
+    Need::Each(Parts {
+        codes,
+        in_version_1_only: false,
+    })
+}
+
+/// The same, in a URDD of version 1.
+const fn each_in_version_1(codes: &'static [Code]) -> Need {
+    Need::Each(Parts {
+        codes,
+        in_version_1_only: true,
+    })
+}
+
 /// At least one module of meshes per link.
 pub const DERIVED_MESHES: Need = Need::AnyModule(&[
     Kind::PlainMeshes,
@@ -46,54 +62,33 @@ pub const SHAPE_MATRICES_OR_MODELS: Need = Need::AnyModule(&[
 ]);
 
 /// No file of the part belongs to another part too.
-pub const OWN_FILES: Need = Need::Each(Parts {
-    codes: &[Code::MSH005],
-    in_version_1_only: false,
-});
+pub const OWN_FILES: Need = each(&[Code::MSH005]);
 
 /// The same, in a URDD of version 1.
-pub const OWN_FILES_IN_VERSION_1: Need = Need::Each(Parts {
-    codes: &[Code::MSH005],
-    in_version_1_only: true,
-});
+pub const OWN_FILES_IN_VERSION_1: Need = each_in_version_1(&[Code::MSH005]);
 
 /// The hull is convex.
-pub const CONVEX_HULL: Need = Need::Each(Parts {
-    codes: &[Code::MSH017],
-    in_version_1_only: false,
-});
+pub const CONVEX_HULL: Need = each(&[Code::MSH017]);
 
 /// The hull is convex and contains the mesh.
-pub const HULL_ABOUT_MESH: Need = Need::Each(Parts {
-    codes: &[Code::MSH017, Code::MSH018],
-    in_version_1_only: false,
-});
+pub const HULL_ABOUT_MESH: Need = each(&[Code::MSH017, Code::MSH018]);
 
 /// The hull is that of the mesh.
-pub const SOUND_HULL: Need = Need::Each(Parts {
-    codes: &[Code::MSH017, Code::MSH018, Code::MSH019],
-    in_version_1_only: false,
-});
+pub const SOUND_HULL: Need = each(&[Code::MSH017, Code::MSH018, Code::MSH019]);
 
 /// The piece is convex.
-pub const CONVEX_PIECE: Need = Need::Each(Parts {
-    codes: &[Code::MSH020],
-    in_version_1_only: false,
-});
+pub const CONVEX_PIECE: Need = each(&[Code::MSH020]);
 
 /// The hull is that of the mesh; the pieces are convex, inside the hull, and cover the surface. Boxes, spheres and
 /// distances are compared with them.
-pub const SOUND_SHAPES: Need = Need::Each(Parts {
-    codes: &[
-        Code::MSH017,
-        Code::MSH018,
-        Code::MSH019,
-        Code::MSH020,
-        Code::MSH021,
-        Code::MSH022,
-    ],
-    in_version_1_only: true,
-});
+pub const SOUND_SHAPES: Need = each_in_version_1(&[
+    Code::MSH017,
+    Code::MSH018,
+    Code::MSH019,
+    Code::MSH020,
+    Code::MSH021,
+    Code::MSH022,
+]);
 
 /// The robot is a tree of links.
 pub const ROBOT_SOUND: Need = Need::All(&[Need::Passed(Code::URD004), Need::Passed(Code::URD006)]);

@@ -77,6 +77,11 @@ pub enum NoStatistics {
 }
 
 impl SkipReason {
+    /// That poses or configurations cannot be computed.
+    pub fn kinematics(error: impl fmt::Display) -> SkipReason {
+        SkipReason::Kinematics(error.to_string())
+    }
+
     /// Whether the URDD does not have what the rule is about, so that nothing is missed.
     pub fn is_absence(&self) -> bool {
         matches!(self, SkipReason::Absent(_) | SkipReason::NoneUsable(_))

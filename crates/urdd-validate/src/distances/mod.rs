@@ -34,8 +34,6 @@ pub struct Distances {
 /// The distances of one kind of shapes.
 pub struct KindDistances {
     shapes: ShapeSet,
-    /// Number of configurations used, from the first on.
-    pub configurations: u32,
     /// Whether these are all configurations of the statistics.
     pub complete: bool,
     /// Where not complete, exact only outside the stated ranges, and without means.
@@ -99,7 +97,6 @@ impl Distances {
             })?;
             *kind = Some(KindDistances {
                 shapes,
-                configurations: n,
                 complete,
                 found,
             });

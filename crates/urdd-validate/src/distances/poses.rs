@@ -38,9 +38,9 @@ impl Poses {
             return Err(SkipReason::LegacyCoordinates);
         }
         let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)
-            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
-        let kinematics = ForwardKinematics::new(&modules.chain, &modules.dof)
-            .map_err(|error| SkipReason::Kinematics(error.to_string()))?;
+            .map_err(SkipReason::kinematics)?;
+        let kinematics =
+            ForwardKinematics::new(&modules.chain, &modules.dof).map_err(SkipReason::kinematics)?;
         if groups.of_link.len() != kinematics.num_links() {
             return Err(SkipReason::Failed(Code::CHN001));
         }
@@ -70,8 +70,7 @@ impl Poses {
         let poses = self.kinematics.link_poses(&configuration);
         let poses = poses
             .map_err(|error| SkipReason::Kinematics(format!("default configuration: {error}")))?;
-        Motion::new(&[poses], &self.groups)
-            .map_err(|error| SkipReason::Kinematics(error.to_string()))
+        Motion::new(&[poses], &self.groups).map_err(SkipReason::kinematics)
     }
 
     /// A sampled configuration and its poses.
@@ -93,7 +92,7 @@ impl Poses {
     /// If numbers exceed 64 bits.
     pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
         let poses = self.kinematics.link_poses(configuration);
-        poses.map_err(|error| SkipReason::Kinematics(error.to_string()))
+        poses.map_err(SkipReason::kinematics)
     }
 
     /// The poses in a range of sampled configurations.
@@ -105,6 +104,6 @@ impl Poses {
             .into_par_iter()
             .map(|sample| Ok(self.sampled(sample)?.1))
             .collect::<Result<_, _>>()?;
-        Motion::new(&poses, &self.groups).map_err(|error| SkipReason::Kinematics(error.to_string()))
+        Motion::new(&poses, &self.groups).map_err(SkipReason::kinematics)
     }
 }

@@ -7,12 +7,12 @@ use super::poses::Poses;
 use crate::solids::Solids;
 use crate::views::enclosure::Fit;
 use urdd_document::shape_matrices::{Statistics, at};
-use urdd_document::shapes::{Shapes, Volume, approximations};
+use urdd_document::shapes::{ShapeList, Shapes, Volume, approximations};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{
-    ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Shape, Sphere, pair_distances,
+    ConvexShape, Motion, OrientedBox, PairStatistics, PlacedShape, Sphere, pair_distances,
     pair_ranges, pair_statistics,
 };
 use urdd_kinematics::rotation::from_rpy;
@@ -31,11 +31,15 @@ enum List {
     Spheres(Vec<PlacedShape<Sphere>>),
 }
 
-/// A shape.
-enum Made {
-    Hull(ConvexShape),
-    Box(OrientedBox),
-    Sphere(Sphere),
+/// The same of a list, whatever its shapes.
+macro_rules! of_list {
+    ($list:expr, $of:ident => $same:expr) => {
+        match $list {
+            List::Hulls($of) => $same,
+            List::Boxes($of) => $same,
+            List::Spheres($of) => $same,
+        }
+    };
 }
 
 impl ShapeSet {
@@ -48,63 +52,32 @@ impl ShapeSet {
         kind: ShapeKind,
         fitting: bool,
     ) -> Self {
-        let volumes = urdd
-            .document(ModuleKind::LinkShapesApproximations)
-            .and_then(approximations)
-            .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
-        let make = |link: usize, piece: usize| -> Option<Made> {
-            let mesh = solids.sound(kind.meshes(), link, piece);
-            if kind.is_convex_mesh() {
-                return ConvexShape::new(mesh?).ok().map(Made::Hull);
-            }
+        let volumes = volumes(urdd, kind);
+        let mesh = |link, piece| solids.sound(kind.meshes(), link, piece);
+        let volume = |link: usize, piece: usize| {
             let volume = volumes.as_ref()?.links.get(link)?.get(piece)?;
-            let sound = || mesh.is_none_or(|mesh| Fit::new(volume, mesh).is_tight(mesh));
-            if fitting && !sound() {
-                return None;
+            let mesh = mesh(link, piece).filter(|_| fitting);
+            let sound = mesh.is_none_or(|mesh| Fit::new(volume, mesh).is_tight(mesh));
+            sound.then_some(*volume)
+        };
+        let (places, list) = match kind {
+            ShapeKind::Hulls | ShapeKind::Pieces => {
+                let hull = |link, piece| ConvexShape::new(mesh(link, piece)?).ok();
+                let (places, list) = placed(shapes, kind, hull);
+                (places, List::Hulls(list))
             }
-            of_volume(volume)
+            ShapeKind::Spheres | ShapeKind::PieceSpheres => {
+                let sphere = |link, piece| sphere(volume(link, piece)?);
+                let (places, list) = placed(shapes, kind, sphere);
+                (places, List::Spheres(list))
+            }
+            ShapeKind::Boxes | ShapeKind::PieceBoxes => {
+                let cuboid = |link, piece| cuboid(volume(link, piece)?);
+                let (places, list) = placed(shapes, kind, cuboid);
+                (places, List::Boxes(list))
+            }
         };
-        let mut set = ShapeSet {
-            kind,
-            places: Vec::with_capacity(shapes.count(kind)),
-            list: List::Hulls(Vec::new()),
-        };
-        for shape in 0..shapes.count(kind) {
-            let made = shapes
-                .place(kind, shape)
-                .and_then(|(link, piece)| Some((link, make(link, piece)?)));
-            let place = made.map(|(link, made)| set.add(link, made));
-            set.places.push(place);
-        }
-        set
-    }
-
-    /// Adds a shape of a link and returns its index.
-    fn add(&mut self, body: usize, made: Made) -> usize {
-        macro_rules! push {
-            ($list:ident, $shape:expr) => {{
-                let placed = PlacedShape {
-                    body,
-                    shape: $shape,
-                };
-                match &mut self.list {
-                    List::$list(list) => {
-                        list.push(placed);
-                        list.len() - 1
-                    }
-                    // The first element determines the kind of the list.
-                    list => {
-                        *list = List::$list(vec![placed]);
-                        0
-                    }
-                }
-            }};
-        }
-        match made {
-            Made::Hull(shape) => push!(Hulls, shape),
-            Made::Box(shape) => push!(Boxes, shape),
-            Made::Sphere(shape) => push!(Spheres, shape),
-        }
+        ShapeSet { kind, places, list }
     }
 
     /// The kind.
@@ -119,10 +92,12 @@ impl ShapeSet {
 
     /// The work of all distances.
     pub fn work(&self, poses: &Poses) -> Work {
-        let (bodies, one) = match &self.list {
-            List::Hulls(list) => (bodies(list), plan::HULL),
-            List::Boxes(list) => (bodies(list), plan::BOX),
-            List::Spheres(list) => (bodies(list), 1),
+        let bodies: Vec<usize> =
+            of_list!(&self.list, list => list.iter().map(|placed| placed.body).collect());
+        let one = match &self.list {
+            List::Hulls(_) => plan::HULL,
+            List::Boxes(_) => plan::BOX,
+            List::Spheres(_) => 1,
         };
         let mut work = Work {
             once: 0,
@@ -142,12 +117,7 @@ impl ShapeSet {
     /// The statistics of all pairs.
     pub fn statistics(&self, motion: &Motion) -> PairStatistics {
         // Every shape is on a link, and the motion contains all links.
-        let statistics = match &self.list {
-            List::Hulls(list) => pair_statistics(list, motion),
-            List::Boxes(list) => pair_statistics(list, motion),
-            List::Spheres(list) => pair_statistics(list, motion),
-        };
-        statistics.unwrap_or_default()
+        of_list!(&self.list, list => pair_statistics(list, motion)).unwrap_or_default()
     }
 
     /// The smallest and largest distances of all pairs: exact where they are outside the stated ones.
@@ -159,50 +129,54 @@ impl ShapeSet {
             let (i, j) = (*shapes.get(i)?, *shapes.get(j)?);
             Some([at(stated.min, i, j)?, at(stated.max, i, j)?])
         };
-        let ranges = match &self.list {
-            List::Hulls(list) => pair_ranges(list, motion, range),
-            List::Boxes(list) => pair_ranges(list, motion, range),
-            List::Spheres(list) => pair_ranges(list, motion, range),
-        };
-        ranges.unwrap_or_default()
+        of_list!(&self.list, list => pair_ranges(list, motion, range)).unwrap_or_default()
     }
 
     /// The distance of a pair in each configuration.
     pub fn pair(&self, i: usize, j: usize, motion: &Motion) -> Option<Vec<f64>> {
-        fn of<T: Shape>(
-            list: &[PlacedShape<T>],
-            i: usize,
-            j: usize,
-            motion: &Motion,
-        ) -> Option<Vec<f64>> {
-            pair_distances(list.get(i)?, list.get(j)?, motion)
-        }
         let (i, j) = (self.place(i)?, self.place(j)?);
-        match &self.list {
-            List::Hulls(list) => of(list, i, j, motion),
-            List::Boxes(list) => of(list, i, j, motion),
-            List::Spheres(list) => of(list, i, j, motion),
-        }
+        of_list!(&self.list, list => pair_distances(list.get(i)?, list.get(j)?, motion))
     }
 }
 
-fn bodies<T>(list: &[PlacedShape<T>]) -> Vec<usize> {
-    list.iter().map(|placed| placed.body).collect()
+/// The boxes or spheres of a kind.
+pub(super) fn volumes(urdd: &Urdd, kind: ShapeKind) -> Option<ShapeList<Volume>> {
+    let lists = approximations(urdd.document(ModuleKind::LinkShapesApproximations)?)?;
+    lists.into_iter().find(|list| list.kind == kind)
 }
 
-fn of_volume(volume: &Volume) -> Option<Made> {
-    match *volume {
-        Volume::Sphere { radius, offset } => {
-            let sphere = Sphere::new(Vector3::from(offset), radius);
-            sphere.ok().map(Made::Sphere)
-        }
-        Volume::Box {
-            half_extents,
-            offset,
-            rpy,
-        } => {
-            let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
-            OrientedBox::new(pose, half_extents).ok().map(Made::Box)
-        }
-    }
+/// The shapes of a kind that can be made of link and piece, and the index among them of each shape.
+fn placed<T>(
+    shapes: &Shapes,
+    kind: ShapeKind,
+    make: impl Fn(usize, usize) -> Option<T>,
+) -> (Vec<Option<usize>>, Vec<PlacedShape<T>>) {
+    let mut list = Vec::new();
+    let places = (0..shapes.count(kind)).map(|shape| {
+        let (body, piece) = shapes.place(kind, shape)?;
+        let shape = make(body, piece)?;
+        list.push(PlacedShape { body, shape });
+        Some(list.len() - 1)
+    });
+    (places.collect(), list)
+}
+
+fn sphere(volume: Volume) -> Option<Sphere> {
+    let Volume::Sphere { radius, offset } = volume else {
+        return None;
+    };
+    Sphere::new(Vector3::from(offset), radius).ok()
+}
+
+fn cuboid(volume: Volume) -> Option<OrientedBox> {
+    let Volume::Box {
+        half_extents,
+        offset,
+        rpy,
+    } = volume
+    else {
+        return None;
+    };
+    let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));
+    OrientedBox::new(pose, half_extents).ok()
 }

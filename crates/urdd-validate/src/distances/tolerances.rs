@@ -1,10 +1,10 @@
 //! Tolerances of distances (SPEC 8.5).
 
+use super::shape_set::volumes;
 use crate::solids::Solids;
 use crate::tolerance::{distance_tolerance, reach};
-use urdd_document::shapes::{Shapes, approximations};
+use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;
-use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::farthest;
 
@@ -19,10 +19,7 @@ pub struct Tolerances {
 impl Tolerances {
     /// For the shapes of a kind. A missing shape, which other rules report, adds nothing.
     pub fn new(urdd: &Urdd, solids: &Solids, shapes: &Shapes, kind: ShapeKind) -> Self {
-        let volumes = urdd
-            .document(ModuleKind::LinkShapesApproximations)
-            .and_then(approximations)
-            .and_then(|lists| lists.into_iter().find(|list| list.kind == kind));
+        let volumes = volumes(urdd, kind);
         let of_shape = |shape: usize| -> Option<f64> {
             let (link, piece) = shapes.place(kind, shape)?;
             match kind.is_convex_mesh() {

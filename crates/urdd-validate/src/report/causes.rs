@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::place::file_in;
-use urdd_format::report::{Consequence, Finding, Place, Report, Severity};
+use urdd_format::report::{Finding, Place, Report, Severity};
 
 /// A cause of findings.
 pub(super) struct Cause<'a> {
@@ -21,13 +21,6 @@ pub(super) struct Cause<'a> {
     pub urdds: Vec<&'a str>,
     /// Number of these URDDs whose occurrences are all in files of other URDDs.
     pub borrowed: usize,
-}
-
-impl Cause<'_> {
-    /// Consequence of the fault.
-    pub fn consequence(&self) -> Consequence {
-        self.first.consequence
-    }
 }
 
 #[derive(Default)]
@@ -90,7 +83,7 @@ pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
     causes.sort_by_key(|cause| {
         (
             Reverse(cause.severity),
-            Reverse(cause.consequence()),
+            Reverse(cause.first.consequence),
             Reverse(cause.urdds.len()),
             Reverse(cause.times),
         )

@@ -109,20 +109,23 @@ fn status(check: &Check) -> CheckStatus {
 
 /// The rules that could not verify something, by reason.
 fn not_checked(checks: &[CheckStatus]) -> Vec<NotChecked> {
-    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    let open = |check: &&CheckStatus| check.skipped == Some(Skipped::NotVerified);
-    for check in checks.iter().filter(open) {
-        let reason = check.reason.as_deref().unwrap_or_default();
-        by_reason
-            .entry(reason)
-            .or_default()
-            .push(check.code.clone());
-    }
     let of_reason = |(reason, codes): (&str, Vec<String>)| NotChecked {
         codes,
         reason: reason.to_owned(),
     };
-    by_reason.into_iter().map(of_reason).collect()
+    let open = by_reason(checks, Skipped::NotVerified);
+    open.into_iter().map(of_reason).collect()
+}
+
+/// The rules that were skipped in this way, by reason.
+pub(super) fn by_reason(checks: &[CheckStatus], how: Skipped) -> BTreeMap<&str, Vec<String>> {
+    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for check in checks.iter().filter(|check| check.skipped == Some(how)) {
+        let reason = check.reason.as_deref().unwrap_or_default();
+        let codes = by_reason.entry(reason).or_default();
+        codes.push(check.code.clone());
+    }
+    by_reason
 }
 
 /// The findings of all checks: by module, then by severity, code and place.

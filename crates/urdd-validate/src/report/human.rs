@@ -4,13 +4,13 @@
 //! Text from files is escaped here, field by field: see [`urdd_format::escape`].
 
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 use urdd_format::escape::{self, line as safe};
 use urdd_format::readable::number;
 use urdd_format::registry::ModuleKind;
 
+use super::fill::by_reason;
 use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
 use super::words::{list, plural, unit};
 use super::{summary, unverified};
@@ -281,16 +281,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
     for text in unverified::describe(urdd) {
         writeln!(out, "  {label} {text}")?;
     }
-    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    let ignored = |check: &&CheckStatus| check.skipped == Some(Skipped::Ignored);
-    for check in urdd.checks.iter().filter(ignored) {
-        let reason = check.reason.as_deref().unwrap_or_default();
-        by_reason
-            .entry(reason)
-            .or_default()
-            .push(check.code.clone());
-    }
-    for (reason, codes) in by_reason {
+    for (reason, codes) in by_reason(&urdd.checks, Skipped::Ignored) {
         writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
     }
     let optional = ModuleKind::ALL.iter().filter(|kind| kind.is_optional());

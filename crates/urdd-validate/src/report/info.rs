@@ -175,20 +175,13 @@ impl Info {
                 .modules()
                 .iter()
                 .map(|module| {
-                    let sizes: Vec<u64> = urdd
-                        .listing()
-                        .below(&module.folder)
-                        .map(|entry| entry.size)
-                        .collect();
+                    let entries = || urdd.listing().below(&module.folder);
+                    let is_file = |path: &str| urdd.listing().has_file(path);
                     ModuleInfo {
                         path: module.folder.clone(),
                         version: module.version.clone(),
-                        files: urdd
-                            .listing()
-                            .below(&module.folder)
-                            .filter(|entry| urdd.listing().has_file(&entry.path))
-                            .count(),
-                        bytes: sizes.iter().sum(),
+                        files: entries().filter(|entry| is_file(&entry.path)).count(),
+                        bytes: entries().map(|entry| entry.size).sum(),
                         unusable: module.unusable().map(|why| why.to_string()),
                     }
                 })
@@ -232,57 +225,35 @@ fn safe(text: &str) -> String {
     escape::line(text).into_owned()
 }
 
+/// The width of the longest of these names, in characters.
+fn widest<'a>(names: impl Iterator<Item = &'a String>) -> usize {
+    let widths = names.map(|name| safe(name).chars().count());
+    widths.max().unwrap_or(0)
+}
+
 /// Writes the contents of a URDD for people.
 ///
 /// # Errors
 /// If writing fails.
 pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
-    let unknown = || "not known".to_owned();
-    writeln!(out, "{}", escape::line(&info.path))?;
-    writeln!(
-        out,
-        "  robot     {}",
-        info.robot_name.as_deref().map_or_else(unknown, safe)
-    )?;
+    let or = |text: &Option<String>, without: &str| safe(text.as_deref().unwrap_or(without));
+    writeln!(out, "{}", safe(&info.path))?;
+    writeln!(out, "  robot     {}", or(&info.robot_name, "not known"))?;
     match (&info.urdd_version, &info.conformance_class) {
         (Some(version), Some(class)) => {
             writeln!(out, "  format    URDD {}, class {class}", safe(version))?
         }
         _ => writeln!(out, "  format    no root metadata")?,
     }
-    writeln!(
-        out,
-        "  source    {}",
-        info.urdf
-            .as_deref()
-            .map_or_else(|| "no URDF is carried".to_owned(), safe)
-    )?;
-    writeln!(
-        out,
-        "  links     {}",
-        info.links.map_or_else(unknown, |links| links.to_string())
-    )?;
-    let joints: Vec<String> = info
-        .joints
-        .iter()
-        .map(|(kind, count)| format!("{count} {}", safe(kind)))
-        .collect();
-    writeln!(
-        out,
-        "  joints    {}",
-        if joints.is_empty() {
-            "none".to_owned()
-        } else {
-            joints.join(", ")
-        }
-    )?;
+    writeln!(out, "  source    {}", or(&info.urdf, "no URDF is carried"))?;
+    let links = info.links.map(|links| links.to_string());
+    writeln!(out, "  links     {}", or(&links, "not known"))?;
+    let joints = info.joints.iter().map(|(kind, n)| format!("{n} {kind}"));
+    let joints: Vec<String> = joints.collect();
+    let joints = (!joints.is_empty()).then(|| joints.join(", "));
+    writeln!(out, "  joints    {}", or(&joints, "none"))?;
     writeln!(out, "  DOFs      {}", info.dofs.len())?;
-    let width = info
-        .dofs
-        .iter()
-        .map(|dof| safe(&dof.name).chars().count())
-        .max()
-        .unwrap_or(0);
+    let width = widest(info.dofs.iter().map(|dof| &dof.name));
     for (index, dof) in info.dofs.iter().enumerate() {
         let unit = dof.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
         let bounds = dof
@@ -307,12 +278,7 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
         info_parts::write(&info.parts, "    ", out)?;
     }
     writeln!(out, "  modules   {}", info.modules.len())?;
-    let width = info
-        .modules
-        .iter()
-        .map(|module| safe(&module.path).chars().count())
-        .max()
-        .unwrap_or(0);
+    let width = widest(info.modules.iter().map(|module| &module.path));
     for module in &info.modules {
         let version = safe(module.version.as_deref().unwrap_or("-"));
         let unusable = module

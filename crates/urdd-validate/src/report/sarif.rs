@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::place::file_in;
@@ -16,7 +16,6 @@ use crate::code::Code;
 use crate::rule::Description;
 use urdd_format::escape;
 use urdd_format::hexadecimal::hexadecimal;
-use urdd_format::index::Count;
 use urdd_format::readable::number;
 use urdd_format::report::{CheckStatus, Finding, Fix, Place, Severity, Status, Urdd, Verdict};
 
@@ -295,12 +294,10 @@ fn mend(urdd: &str, fix: &Fix) -> Value {
 fn location(urdd: &str, place: &Place) -> Value {
     let mut physical = json!({"artifactLocation": artifact(urdd, place.file.as_deref())});
     if let Some(line) = place.line {
-        let mut region = Map::new();
-        region.insert("startLine".to_owned(), json!(line.get()));
-        if let Some(column) = place.column.map(Count::get) {
-            region.insert("startColumn".to_owned(), json!(column));
+        physical["region"] = json!({"startLine": line.get()});
+        if let Some(column) = place.column {
+            physical["region"]["startColumn"] = json!(column.get());
         }
-        physical["region"] = Value::Object(region);
     }
     let mut location = json!({"physicalLocation": physical});
     if let Some(pointer) = place.pointer.as_deref().filter(|text| !text.is_empty()) {

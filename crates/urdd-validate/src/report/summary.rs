@@ -54,9 +54,9 @@ pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt:
         let most = if style.full { errors.len() } else { CAUSES };
         let mut above = None;
         for cause in errors.iter().take(most) {
-            if above != Some(cause.consequence()) {
-                above = Some(cause.consequence());
-                writeln!(out, "  {}", words(cause.consequence()))?;
+            let consequence = cause.first.consequence;
+            if above.replace(consequence) != Some(consequence) {
+                writeln!(out, "  {}", words(consequence))?;
             }
             write_cause(cause, unit(report), style, out)?;
         }

@@ -49,17 +49,14 @@ pub struct Placed {
 /// Compares the mesh of every link.
 pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
     let usable = UsableGeometry::new(urdd);
-    let look = |mesh: &Derived| -> Look {
-        let Some(found) = mesh.sound() else {
-            return Look::Unknown(Why::Unreadable);
-        };
+    let look = |mesh: &Derived| -> Result<Option<Misplaced>, Why> {
+        let found = mesh.sound().ok_or(Why::Unreadable)?;
         let Some(kind) = kind_of(urdd, mesh.link) else {
-            return Look::Right;
+            return Ok(None);
         };
         let original = |path: &str| solids.original(path)?.mesh.as_ref().ok().cloned();
-        let Some(expected) = expected::of_link(urdd, &original, &usable, mesh.link, kind) else {
-            return Look::Unknown(Why::SourceMissing);
-        };
+        let expected = expected::of_link(urdd, &original, &usable, mesh.link, kind);
+        let expected = expected.ok_or(Why::SourceMissing)?;
         // MSH011 reports a mesh of a link without geometry.
         let fault = fault(&expected, found).filter(|_| !expected.is_empty());
         // A face that is not convex may be cut otherwise.
@@ -69,39 +66,29 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
             let cut = expected.and_then(|expected| cut::as_found(expected, found));
             cut.is_none_or(|expected| self::fault(&expected, found).is_some())
         });
-        let (Some((what, tolerance)), Some(file)) = (fault, mesh.files.get(mesh.mesh_of)) else {
-            return Look::Right;
-        };
-        Look::Wrong(Misplaced {
+        let file = mesh.files.get(mesh.mesh_of);
+        Ok(fault.zip(file).map(|((what, tolerance), file)| Misplaced {
             link: mesh.link,
             pointer: mesh.pointer().to_owned(),
             expected: in_words(&expected),
             actual: format!("`{}`: {what}", file.path),
             what,
             tolerance,
-        })
+        }))
     };
     let meshes = solids.derived(ModuleKind::PlainMeshes);
-    let looks: Vec<(usize, Look)> = meshes
+    let looks: Vec<_> = meshes
         .par_iter()
         .map(|mesh| (mesh.link, look(mesh)))
         .collect();
     let mut placed = Placed::default();
     for (link, look) in looks {
         match look {
-            Look::Right => {}
-            Look::Wrong(misplaced) => placed.wrong.push(misplaced),
-            Look::Unknown(why) => placed.unknown.push((link, why)),
+            Ok(misplaced) => placed.wrong.extend(misplaced),
+            Err(why) => placed.unknown.push((link, why)),
         }
     }
     placed
-}
-
-/// The result for one mesh.
-enum Look {
-    Right,
-    Wrong(Misplaced),
-    Unknown(Why),
 }
 
 /// The geometry that a link's mesh was made from. Legacy modules used the visual geometry.

@@ -19,52 +19,45 @@ const JOINT_ELEMENTS: &[&str] = &[
 
 impl Reader {
     pub(super) fn joint(&mut self, joint: Element<'_>, at: &str) -> Option<v1::Joint> {
-        let name = self.needed_text(joint, "joint", "name", at);
+        let name = self.needed_text(joint, "name", at);
         let joint_type = self.joint_type(joint, at);
-        let origin = self.origin(joint, "joint", at);
+        let origin = self.origin(joint, at);
         let parent = self.joint_link(joint, "parent", at);
         let child = self.joint_link(joint, "child", at);
-        let axis = self
-            .only(joint, "joint", "axis", at)
-            .map(|(axis, at)| v1::Axis {
-                xyz: self.vector(axis, "axis", "xyz", &at),
-            });
-        let limit = self
-            .only(joint, "joint", "limit", at)
-            .map(|(limit, at)| v1::Limit {
-                lower: self.number(limit, "limit", "lower", &at),
-                upper: self.number(limit, "limit", "upper", &at),
-                effort: self.number(limit, "limit", "effort", &at),
-                velocity: self.number(limit, "limit", "velocity", &at),
-                acceleration: self.number(limit, "limit", "acceleration", &at),
-                deceleration: self.number(limit, "limit", "deceleration", &at),
-                jerk: self.number(limit, "limit", "jerk", &at),
-            });
+        let axis = self.only(joint, "axis", at).map(|(axis, at)| v1::Axis {
+            xyz: self.vector(axis, "xyz", &at),
+        });
+        let limit = self.only(joint, "limit", at).map(|(limit, at)| v1::Limit {
+            lower: self.number(limit, "lower", &at),
+            upper: self.number(limit, "upper", &at),
+            effort: self.number(limit, "effort", &at),
+            velocity: self.number(limit, "velocity", &at),
+            acceleration: self.number(limit, "acceleration", &at),
+            deceleration: self.number(limit, "deceleration", &at),
+            jerk: self.number(limit, "jerk", &at),
+        });
         let dynamics = self
-            .only(joint, "joint", "dynamics", at)
+            .only(joint, "dynamics", at)
             .map(|(dynamics, at)| v1::Dynamics {
-                damping: self.number(dynamics, "dynamics", "damping", &at),
-                friction: self.number(dynamics, "dynamics", "friction", &at),
+                damping: self.number(dynamics, "damping", &at),
+                friction: self.number(dynamics, "friction", &at),
             });
         let mimic = self
-            .only(joint, "joint", "mimic", at)
+            .only(joint, "mimic", at)
             .and_then(|(mimic, at)| self.mimic(mimic, &at));
         let safety_controller =
-            self.only(joint, "joint", "safety_controller", at)
-                .map(|(soft, at)| {
-                    const NAME: &str = "safety_controller";
-                    v1::SafetyController {
-                        soft_lower_limit: self.number(soft, NAME, "soft_lower_limit", &at),
-                        soft_upper_limit: self.number(soft, NAME, "soft_upper_limit", &at),
-                        k_position: self.number(soft, NAME, "k_position", &at),
-                        k_velocity: self.number(soft, NAME, "k_velocity", &at),
-                    }
+            self.only(joint, "safety_controller", at)
+                .map(|(soft, at)| v1::SafetyController {
+                    soft_lower_limit: self.number(soft, "soft_lower_limit", &at),
+                    soft_upper_limit: self.number(soft, "soft_upper_limit", &at),
+                    k_position: self.number(soft, "k_position", &at),
+                    k_velocity: self.number(soft, "k_velocity", &at),
                 });
         let calibration = self
-            .only(joint, "joint", "calibration", at)
+            .only(joint, "calibration", at)
             .map(|(calibration, at)| v1::Calibration {
-                rising: self.number(calibration, "calibration", "rising", &at),
-                falling: self.number(calibration, "calibration", "falling", &at),
+                rising: self.number(calibration, "rising", &at),
+                falling: self.number(calibration, "falling", &at),
             });
         let unknown_elements = self.unknown(joint, JOINT_ELEMENTS, at);
         Some(v1::Joint {
@@ -84,7 +77,7 @@ impl Reader {
     }
 
     fn joint_type(&mut self, joint: Element<'_>, at: &str) -> Option<v1::JointType> {
-        let word = self.needed_text(joint, "joint", "type", at)?;
+        let word = self.needed_text(joint, "type", at)?;
         let found = v1::JointType::ALL
             .iter()
             .copied()
@@ -103,9 +96,9 @@ impl Reader {
         name: &'static str,
         at: &str,
     ) -> Option<v1::LinkName> {
-        match self.only(joint, "joint", name, at) {
+        match self.only(joint, name, at) {
             Some((element, at)) => {
-                let link = self.needed_text(element, name, "link", &at)?;
+                let link = self.needed_text(element, "link", &at)?;
                 Some(v1::LinkName { link })
             }
             None => {
@@ -124,9 +117,9 @@ impl Reader {
     }
 
     fn mimic(&mut self, mimic: Element<'_>, at: &str) -> Option<v1::Mimic> {
-        let joint = self.needed_text(mimic, "mimic", "joint", at);
-        let multiplier = self.number(mimic, "mimic", "multiplier", at);
-        let offset = self.number(mimic, "mimic", "offset", at);
+        let joint = self.needed_text(mimic, "joint", at);
+        let multiplier = self.number(mimic, "multiplier", at);
+        let offset = self.number(mimic, "offset", at);
         Some(v1::Mimic {
             joint: joint?,
             multiplier,

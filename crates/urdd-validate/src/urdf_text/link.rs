@@ -10,9 +10,9 @@ const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
 
 impl Reader {
     pub(super) fn link(&mut self, link: Element<'_>, at: &str) -> Option<v1::Link> {
-        let name = self.needed_text(link, "link", "name", at);
+        let name = self.needed_text(link, "name", at);
         let inertial = self
-            .only(link, "link", "inertial", at)
+            .only(link, "inertial", at)
             .map(|(inertial, at)| self.inertial(inertial, &at));
         let mut visual = Vec::new();
         let mut collision = Vec::new();
@@ -24,10 +24,10 @@ impl Reader {
                     self.place(&at, offset);
                     visual.push(v1::Visual {
                         name: self.text(element, "name", &at),
-                        origin: self.origin(element, "visual", &at),
-                        geometry: self.geometry(element, "visual", &at),
+                        origin: self.origin(element, &at),
+                        geometry: self.geometry(element, &at),
                         material: self
-                            .only(element, "visual", "material", &at)
+                            .only(element, "material", &at)
                             .map(|(material, at)| self.material(material, &at)),
                     });
                 }
@@ -36,8 +36,8 @@ impl Reader {
                     self.place(&at, offset);
                     collision.push(v1::Collision {
                         name: self.text(element, "name", &at),
-                        origin: self.origin(element, "collision", &at),
-                        geometry: self.geometry(element, "collision", &at),
+                        origin: self.origin(element, &at),
+                        geometry: self.geometry(element, &at),
                     });
                 }
                 _ => {}
@@ -54,21 +54,21 @@ impl Reader {
     }
 
     fn inertial(&mut self, inertial: Element<'_>, at: &str) -> v1::Inertial {
-        let origin = self.origin(inertial, "inertial", at);
+        let origin = self.origin(inertial, at);
         // A mass without a value means the same as no mass.
         let mass = self
-            .only(inertial, "inertial", "mass", at)
-            .and_then(|(mass, at)| self.number(mass, "mass", "value", &at))
+            .only(inertial, "mass", at)
+            .and_then(|(mass, at)| self.number(mass, "value", &at))
             .map(|value| v1::Mass { value });
         let inertia = self
-            .only(inertial, "inertial", "inertia", at)
+            .only(inertial, "inertia", at)
             .map(|(inertia, at)| v1::Inertia {
-                ixx: self.number(inertia, "inertia", "ixx", &at),
-                ixy: self.number(inertia, "inertia", "ixy", &at),
-                ixz: self.number(inertia, "inertia", "ixz", &at),
-                iyy: self.number(inertia, "inertia", "iyy", &at),
-                iyz: self.number(inertia, "inertia", "iyz", &at),
-                izz: self.number(inertia, "inertia", "izz", &at),
+                ixx: self.number(inertia, "ixx", &at),
+                ixy: self.number(inertia, "ixy", &at),
+                ixz: self.number(inertia, "ixz", &at),
+                iyy: self.number(inertia, "iyy", &at),
+                iyz: self.number(inertia, "iyz", &at),
+                izz: self.number(inertia, "izz", &at),
             });
         v1::Inertial {
             origin,
@@ -77,13 +77,8 @@ impl Reader {
         }
     }
 
-    fn geometry(
-        &mut self,
-        parent: Element<'_>,
-        parent_name: &'static str,
-        at: &str,
-    ) -> Option<v1::Geometry> {
-        let (geometry, at) = self.only(parent, parent_name, "geometry", at)?;
+    fn geometry(&mut self, parent: Element<'_>, at: &str) -> Option<v1::Geometry> {
+        let (geometry, at) = self.only(parent, "geometry", at)?;
         let mut shapes =
             xml::elements(geometry).filter(|child| SHAPES.contains(&xml::name(*child)));
         let shape = shapes.next()?;
@@ -92,33 +87,33 @@ impl Reader {
                 range: again.range(),
                 first: shape.range().start,
                 element: xml::name(again).to_owned(),
-                parent: "geometry",
+                parent: "geometry".to_owned(),
             });
         }
         match xml::name(shape) {
             "mesh" => {
                 let at = format!("{at}/Mesh");
-                let filename = self.needed_text(shape, "mesh", "filename", &at);
-                let scale = self.vector(shape, "mesh", "scale", &at);
+                let filename = self.needed_text(shape, "filename", &at);
+                let scale = self.vector(shape, "scale", &at);
                 Some(v1::Geometry::Mesh(v1::Mesh {
                     filename: filename?,
                     scale,
                 }))
             }
             "box" => {
-                let size = self.size(shape, "box", "size", &format!("{at}/Box"))?;
+                let size = self.size(shape, "size", &format!("{at}/Box"))?;
                 Some(v1::Geometry::Box(v1::Cuboid { size }))
             }
             "cylinder" => {
-                let (radius, length) = self.round(shape, "cylinder", &format!("{at}/Cylinder"))?;
+                let (radius, length) = self.round(shape, &format!("{at}/Cylinder"))?;
                 Some(v1::Geometry::Cylinder(v1::Cylinder { radius, length }))
             }
             "capsule" => {
-                let (radius, length) = self.round(shape, "capsule", &format!("{at}/Capsule"))?;
+                let (radius, length) = self.round(shape, &format!("{at}/Capsule"))?;
                 Some(v1::Geometry::Capsule(v1::Capsule { radius, length }))
             }
             "sphere" => {
-                let [radius] = self.size(shape, "sphere", "radius", &format!("{at}/Sphere"))?;
+                let [radius] = self.size(shape, "radius", &format!("{at}/Sphere"))?;
                 Some(v1::Geometry::Sphere(v1::Sphere { radius }))
             }
             _ => None,
@@ -126,9 +121,9 @@ impl Reader {
     }
 
     /// Radius and length.
-    fn round(&mut self, shape: Element<'_>, name: &'static str, at: &str) -> Option<(f64, f64)> {
-        let radius = self.size(shape, name, "radius", at);
-        let length = self.size(shape, name, "length", at);
+    fn round(&mut self, shape: Element<'_>, at: &str) -> Option<(f64, f64)> {
+        let radius = self.size(shape, "radius", at);
+        let length = self.size(shape, "length", at);
         let ([radius], [length]) = (radius?, length?);
         Some((radius, length))
     }
@@ -138,11 +133,11 @@ impl Reader {
         v1::Material {
             name: self.text(material, "name", at),
             color: self
-                .only(material, "material", "color", at)
-                .and_then(|(color, at)| self.vector(color, "color", "rgba", &at))
+                .only(material, "color", at)
+                .and_then(|(color, at)| self.vector(color, "rgba", &at))
                 .map(|rgba| v1::Color { rgba }),
             texture: self
-                .only(material, "material", "texture", at)
+                .only(material, "texture", at)
                 .and_then(|(texture, at)| self.text(texture, "filename", &at))
                 .map(|filename| v1::Texture { filename }),
         }

@@ -34,7 +34,7 @@ pub enum Fault {
     #[error("`<{element}>` does not have the attribute `{attribute}`; add it")]
     MissingAttribute {
         /// The element.
-        element: &'static str,
+        element: String,
         /// The attribute.
         attribute: &'static str,
     },
@@ -53,7 +53,7 @@ pub enum Fault {
     )]
     NotNumbers {
         /// The element.
-        element: &'static str,
+        element: String,
         /// The attribute.
         attribute: &'static str,
         /// The required number of numbers.
@@ -63,7 +63,7 @@ pub enum Fault {
     #[error("`{attribute}` of `<{element}>` is not finite; write a number of at most 1.7e308")]
     NotFinite {
         /// The element.
-        element: &'static str,
+        element: String,
         /// The attribute.
         attribute: &'static str,
     },
@@ -96,7 +96,7 @@ pub struct Repeated {
     /// Its name.
     pub element: String,
     /// The element that contains it.
-    pub parent: &'static str,
+    pub parent: String,
 }
 
 pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {

@@ -46,7 +46,6 @@ impl Reader {
     pub(super) fn only<'a>(
         &mut self,
         parent: Element<'a>,
-        parent_name: &'static str,
         name: &'static str,
         at: &str,
     ) -> Option<(Element<'a>, String)> {
@@ -57,7 +56,7 @@ impl Reader {
                 range: again.range(),
                 first: first.range().start,
                 element: name.to_owned(),
-                parent: parent_name,
+                parent: xml::name(parent).to_owned(),
             });
         }
         let pointer = format!("{at}/{name}");
@@ -81,14 +80,13 @@ impl Reader {
     pub(super) fn needed_text(
         &mut self,
         element: Element<'_>,
-        name: &'static str,
         attribute: &'static str,
         at: &str,
     ) -> Option<String> {
         let text = self.text(element, attribute, at);
         if text.is_none() {
             let fault = Fault::MissingAttribute {
-                element: name,
+                element: xml::name(element).to_owned(),
                 attribute,
             };
             self.problem(element.range().start, fault, None);
@@ -100,7 +98,6 @@ impl Reader {
     pub(super) fn vector<const N: usize>(
         &mut self,
         element: Element<'_>,
-        name: &'static str,
         attribute: &'static str,
         at: &str,
     ) -> Option<[f64; N]> {
@@ -111,7 +108,7 @@ impl Reader {
                 let offset = xml::attribute(element, attribute)
                     .map_or(element.range().start, |found| found.range().start);
                 let fault = Fault::NotNumbers {
-                    element: name,
+                    element: xml::name(element).to_owned(),
                     attribute,
                     count: N,
                 };
@@ -124,11 +121,10 @@ impl Reader {
     pub(super) fn number(
         &mut self,
         element: Element<'_>,
-        name: &'static str,
         attribute: &'static str,
         at: &str,
     ) -> Option<f64> {
-        self.vector::<1>(element, name, attribute, at)
+        self.vector::<1>(element, attribute, at)
             .map(|[number]| number)
     }
 
@@ -136,29 +132,23 @@ impl Reader {
     pub(super) fn size<const N: usize>(
         &mut self,
         element: Element<'_>,
-        name: &'static str,
         attribute: &'static str,
         at: &str,
     ) -> Option<[f64; N]> {
         let problems = self.reading.problems.len();
-        let vector = self.vector(element, name, attribute, at);
+        let vector = self.vector(element, attribute, at);
         if vector.is_none() && self.reading.problems.len() == problems {
-            let (fault, text) = match xml::attribute(element, attribute).map(|found| found.value())
-            {
-                Some(text) => (
-                    Fault::NotFinite {
-                        element: name,
-                        attribute,
-                    },
-                    Some(text),
-                ),
-                None => (
-                    Fault::MissingAttribute {
-                        element: name,
-                        attribute,
-                    },
-                    None,
-                ),
+            let text = xml::attribute(element, attribute).map(|found| found.value());
+            let element_name = xml::name(element).to_owned();
+            let fault = match text {
+                Some(_) => Fault::NotFinite {
+                    element: element_name,
+                    attribute,
+                },
+                None => Fault::MissingAttribute {
+                    element: element_name,
+                    attribute,
+                },
             };
             self.problem(element.range().start, fault, text);
         }
@@ -189,9 +179,7 @@ impl Reader {
             return;
         }
         let mut module = v1::UrdfModule {
-            name: self
-                .needed_text(robot, "robot", "name", "")
-                .unwrap_or_default(),
+            name: self.needed_text(robot, "name", "").unwrap_or_default(),
             version: self.text(robot, "version", ""),
             links: Vec::new(),
             joints: Vec::new(),
@@ -226,13 +214,8 @@ impl Reader {
         self.reading.robot = Some(module);
     }
 
-    pub(super) fn origin(
-        &mut self,
-        parent: Element<'_>,
-        parent_name: &'static str,
-        at: &str,
-    ) -> Option<v1::Origin> {
-        let (origin, at) = self.only(parent, parent_name, "origin", at)?;
+    pub(super) fn origin(&mut self, parent: Element<'_>, at: &str) -> Option<v1::Origin> {
+        let (origin, at) = self.only(parent, "origin", at)?;
         let quaternion = xml::attribute(origin, "quat_xyzw");
         if let (Some(quaternion), Some(_), true) =
             (quaternion, xml::attribute(origin, "rpy"), self.quaternions)
@@ -241,9 +224,9 @@ impl Reader {
             self.problem(place, Fault::TwoRotations, Some(quaternion.value()));
         }
         Some(v1::Origin {
-            xyz: self.vector(origin, "origin", "xyz", &at),
-            rpy: self.vector(origin, "origin", "rpy", &at),
-            quat_xyzw: self.vector(origin, "origin", "quat_xyzw", &at),
+            xyz: self.vector(origin, "xyz", &at),
+            rpy: self.vector(origin, "rpy", &at),
+            quat_xyzw: self.vector(origin, "quat_xyzw", &at),
         })
     }
 }

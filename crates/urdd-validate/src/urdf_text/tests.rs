@@ -69,7 +69,7 @@ fn the_first_of_a_repeated_element_counts() {
     let repeated: Vec<(&str, &str)> = reading
         .repeated
         .iter()
-        .map(|again| (again.element.as_str(), again.parent))
+        .map(|again| (again.element.as_str(), again.parent.as_str()))
         .collect();
     assert_eq!(repeated, [("origin", "visual"), ("sphere", "geometry")]);
     let visual = &reading.robot.as_ref().unwrap().links[0].visual[0];
@@ -189,4 +189,19 @@ fn deep_nesting_is_refused() {
     for levels in [256, 200_000] {
         assert!(faults(&nested(levels))[0].contains("more than 256 levels"));
     }
+}
+
+#[test]
+fn every_key_of_legacy_modules_is_written_and_no_other() {
+    let bare = "<link name='a'/><joint name='j' type='revolute'><parent link='a'/><child link='b'/></joint>";
+    let full = "<link name='b'><inertial/><visual><geometry><sphere radius='1'/></geometry><material name='m'/>\
+                </visual><collision><geometry><box size='1 2 3'/></geometry></collision></link>\
+                <joint name='k' type='planar'><parent link='b'/><child link='c'/><origin/><axis/><limit/>\
+                <dynamics/><mimic joint='j'/><safety_controller k_velocity='1'/></joint><link name='c'/>\
+                <material name='m'><color rgba='1 0 0 1'/></material>";
+    let reading = robot(&format!("{bare}{full}"));
+    let document = as_legacy(&reading.robot.expect("a robot")).expect("a document");
+    let module: urdd_format::legacy::urdf::UrdfModule =
+        serde_json::from_value(document.clone()).expect("of the schema");
+    assert_eq!(serde_json::to_value(module).expect("JSON"), document);
 }

@@ -31,31 +31,22 @@ const WORK_FOR_ALL_VIOLATIONS: u64 = 100_000;
 #[cfg(not(target_family = "wasm"))]
 const STACK_BYTES: usize = 256 << 20;
 
-/// A `schema.json`, as far as it is usable.
-pub enum SchemaFile {
-    /// It is missing.
-    Missing,
-    /// It cannot be read, for a reason that DIR016 or DIR023 would report for other files.
-    Unreadable(ReadError),
-    /// It is not JSON.
-    NotJson(String),
-    /// It is JSON.
-    Read(Value),
-}
-
 /// Reads the schema of an extension.
-pub fn read(urdd: &Urdd, module: &Module) -> SchemaFile {
-    match urdd
-        .root()
-        .read(&module.file("schema.json"), MAX_SCHEMA_BYTES)
-    {
-        Err(ReadError::Missing) => SchemaFile::Missing,
-        Err(error) => SchemaFile::Unreadable(error),
-        Ok(bytes) => match json::read(&bytes) {
-            Err(error) => SchemaFile::NotJson(error.to_string()),
-            Ok(document) => SchemaFile::Read(document.value),
-        },
-    }
+///
+/// # Errors
+/// In words, why it is not JSON that can be read.
+pub fn read(urdd: &Urdd, module: &Module) -> Result<Value, String> {
+    let file = module.file("schema.json");
+    let bytes = urdd.root().read(&file, MAX_SCHEMA_BYTES);
+    let bytes = bytes.map_err(|error| match error {
+        ReadError::Missing => {
+            "the extension has no schema.json: put its JSON Schema there".to_owned()
+        }
+        // DIR016 or DIR023 would report it for other files.
+        error => error.to_string(),
+    })?;
+    let document = json::read(&bytes).map_err(|error| format!("not JSON: {error}"))?;
+    Ok(document.value)
 }
 
 /// Why a value cannot be used as a schema for a document.

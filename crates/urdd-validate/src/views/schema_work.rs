@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use percent_encoding::percent_decode_str;
 use serde_json::Value;
 
 /// Maximum work of a schema, in comparisons: for any document, and per value of a large document.
@@ -251,27 +252,13 @@ impl<'a> Estimate<'a> {
             return self
                 .root
                 .pointer(fragment)
-                .or_else(|| self.root.pointer(&percent_decoded(fragment)))
+                .or_else(|| {
+                    let decoded = percent_decode_str(fragment).decode_utf8_lossy();
+                    self.root.pointer(&decoded)
+                })
                 .into_iter()
                 .collect();
         }
         self.anchors.get(fragment).cloned().unwrap_or_default()
     }
-}
-
-fn percent_decoded(text: &str) -> String {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.bytes();
-    while let Some(byte) = rest.next() {
-        let mut escape = rest.clone();
-        let digit = |byte: Option<u8>| char::from(byte?).to_digit(16);
-        match (byte, digit(escape.next()), digit(escape.next())) {
-            (b'%', Some(high), Some(low)) => {
-                bytes.push((high * 16 + low) as u8);
-                rest = escape;
-            }
-            _ => bytes.push(byte),
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
 }

@@ -36,29 +36,26 @@ pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
         // Index in `shared`, by links and by whether they share alike.
         let mut by_links: BTreeMap<(usize, usize, bool), usize> = BTreeMap::new();
         for (link, piece, path) in places(&meshes) {
-            let other = Use { link, piece, path };
-            let Some(first) = first_use.get(path.path) else {
-                first_use.insert(path.path, other);
+            let Some(&(first, first_piece, first_path)) = first_use.get(path.path) else {
+                first_use.insert(path.path, (link, piece, path));
                 continue;
             };
             let alike = meshes.profile == Profile::Legacy
-                && first.link != link
-                && first.piece == piece
-                && placed_alike(urdd, first.link, link);
-            let at = *by_links
-                .entry((first.link, link, alike))
-                .or_insert_with(|| {
-                    shared.push(SharedMesh {
-                        kind: *kind,
-                        first: (first.link, first.path.pointer.clone()),
-                        other: (link, path.pointer.clone()),
-                        path: path.path.to_owned(),
-                        parts: Vec::new(),
-                        alike,
-                    });
-                    shared.len() - 1
+                && first != link
+                && first_piece == piece
+                && placed_alike(urdd, first, link);
+            let at = *by_links.entry((first, link, alike)).or_insert_with(|| {
+                shared.push(SharedMesh {
+                    kind: *kind,
+                    first: (first, first_path.pointer.clone()),
+                    other: (link, path.pointer.clone()),
+                    path: path.path.to_owned(),
+                    parts: Vec::new(),
+                    alike,
                 });
-            let both = [(first.link, first.piece), (link, piece)];
+                shared.len() - 1
+            });
+            let both = [(first, first_piece), (link, piece)];
             let parts = both.map(|(link, piece)| Part::of(*kind, link, piece));
             shared[at].parts.extend(parts.into_iter().flatten());
         }
@@ -66,16 +63,11 @@ pub fn all(urdd: &Urdd) -> Vec<SharedMesh> {
     shared
 }
 
-/// A mesh that names a file.
-#[derive(Clone, Copy)]
-struct Use<'a> {
-    link: usize,
-    piece: usize,
-    path: &'a MeshPath<'a>,
-}
+/// A path of a module, with its link and piece.
+type Use<'a> = (usize, usize, &'a MeshPath<'a>);
 
 /// Every path of a module, with its link and piece.
-fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = (usize, usize, &'a MeshPath<'a>)> {
+fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = Use<'a>> {
     let links = meshes
         .lists
         .iter()

@@ -10,7 +10,11 @@ use urdd_format::index::Count;
 
 /// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding per file and kind, with their
 /// number.
-pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
+pub fn report_json(
+    context: &Context,
+    kinds: &[TextFaultKind],
+    findings: &mut Findings,
+) -> Option<()> {
     if let Some(faults) = context.metadata_file().json.faults() {
         report(ROOT_METADATA, faults, kinds, findings);
     }
@@ -19,11 +23,16 @@ pub fn report_json(context: &Context, kinds: &[TextFaultKind], findings: &mut Fi
             report(&module.file("module.json"), faults, kinds, findings);
         }
     }
+    Some(())
 }
 
 /// Like [`report_json`], for every `module.yaml`.
-pub fn report_yaml(context: &Context, kinds: &[TextFaultKind], findings: &mut Findings) {
-    report_yaml_unless(context, kinds, &[], findings);
+pub fn report_yaml(
+    context: &Context,
+    kinds: &[TextFaultKind],
+    findings: &mut Findings,
+) -> Option<()> {
+    report_yaml_unless(context, kinds, &[], findings)
 }
 
 /// Like [`report_yaml`], except for files that have a fault of one of the other kinds.
@@ -32,7 +41,7 @@ pub fn report_yaml_unless(
     kinds: &[TextFaultKind],
     unless: &[TextFaultKind],
     findings: &mut Findings,
-) {
+) -> Option<()> {
     for module in entries::known_modules(context) {
         if let Mirror::Compared(faults) = &module.mirror
             && unless.iter().all(|kind| faults.total(*kind) == 0)
@@ -40,6 +49,7 @@ pub fn report_yaml_unless(
             report(&module.file("module.yaml"), faults, kinds, findings);
         }
     }
+    Some(())
 }
 
 fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &mut Findings) {

@@ -31,27 +31,23 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let (of_pairs, of_list) = (format!("/bounds/{dof}/{column}"), format!("/{name}/{dof}"));
             let decided = decided(context, dof, column);
             let is = |written: f64| {
-                let decided = decided.as_ref();
-                decided.is_some_and(|decided| numbers_agree(decided.bound, written))
+                let bound = decided.as_ref().map(|(bound, _)| *bound);
+                bound.is_some_and(|bound| numbers_agree(bound, written))
             };
             let (wrong, written, right, other) = match is(*value) {
                 true => (of_pairs, paired, *value, of_list),
                 false => (of_list, *value, paired, of_pairs),
             };
             let (message, expected) = match &decided {
-                Some(decided) if is(*value) || is(paired) => (
-                    format!(
-                        "DOF {dof}: this is not the value of `{other}`, and {}",
-                        decided.why
-                    ),
+                Some((_, why)) if is(*value) || is(paired) => (
+                    format!("DOF {dof}: this is not the value of `{other}`, and {why}"),
                     format!("{right:?}, as `{other}` has it"),
                 ),
-                Some(decided) => (
+                Some((bound, why)) => (
                     format!(
-                        "DOF {dof}: this is not the value of `{other}`, and neither is right: {}",
-                        decided.why
+                        "DOF {dof}: this is not the value of `{other}`, and neither is right: {why}"
                     ),
-                    format!("{:?} in both places", decided.bound),
+                    format!("{bound:?} in both places"),
                 ),
                 None => (
                     format!("DOF {dof}: this is not the value of `{other}`; one of them is wrong"),
@@ -69,16 +65,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// A bound that follows from the robot.
-struct Decided {
-    bound: f64,
-    /// The reason, for messages.
-    why: String,
-}
-
-/// The right bound, if the robot and `dof_module` agree on the joint of the DOF. `None` in legacy modules, which may
+/// The right bound and why it is, if the robot and `dof_module` agree on the joint of the DOF. `None` in legacy modules, which may
 /// have other bounds.
-fn decided(context: &Context, dof: usize, end: usize) -> Option<Decided> {
+fn decided(context: &Context, dof: usize, end: usize) -> Option<(f64, String)> {
     context.bounds()?.v1?;
     let (joint, place) = context.dof_layout()?.place(dof)?;
     let stated = context.dofs()?.joint_of_dof.get(dof)?.get();
@@ -91,7 +80,7 @@ fn decided(context: &Context, dof: usize, end: usize) -> Option<Decided> {
         Some((lower, upper)) => {
             let bound = [lower, upper][end];
             let why = format!("the {side} limit of joint `{}` is {bound:?}", joint.name);
-            Decided { bound, why }
+            (bound, why)
         }
         None => {
             let bound = bounds_without_limits(joint.joint_type, place)?[end];
@@ -99,7 +88,7 @@ fn decided(context: &Context, dof: usize, end: usize) -> Option<Decided> {
                 "the {side} bound of joint `{}`, which has no limits, is {bound:?}",
                 joint.name
             );
-            Decided { bound, why }
+            (bound, why)
         }
     })
 }

@@ -1,4 +1,4 @@
-use super::walk::Ancestors;
+use super::walk::report_pairs;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -15,24 +15,19 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let tree = context.tree()?;
-    let connections = context.connections()?.v1?;
-    let module = context.module(ModuleKind::Connections)?;
-    let mut fold = Fold::new(findings);
-    let mut ancestors = Ancestors::new(tree);
-    for (i, row) in connections.lowest_common_ancestors.iter().enumerate() {
-        for (j, (written, right)) in row.iter().zip(ancestors.row(i)).enumerate() {
-            if written.get() != *right {
-                fold.add(|| {
-                    let pointer = format!("/lowest_common_ancestors/{i}/{j}");
-                    let message = format!(
-                        "this is not the lowest common ancestor of links {i} and {j}, the last link that their root paths share"
-                    );
-                    let finding = Finding::of(module, pointer, message);
-                    finding.expected(right).actual(written)
-                });
-            }
-        }
-    }
-    Some(())
+    let table = &context.connections()?.v1?.lowest_common_ancestors;
+    report_pairs(
+        context,
+        findings,
+        ("lowest_common_ancestors", table.as_slice()),
+        |_, [_, top, _], written| {
+            let fault = || (String::new(), top.to_string(), written.to_string());
+            (written.get() != top).then(fault)
+        },
+        |[i, _, j]| {
+            format!(
+                "this is not the lowest common ancestor of links {i} and {j}, the last link that their root paths share"
+            )
+        },
+    )
 }

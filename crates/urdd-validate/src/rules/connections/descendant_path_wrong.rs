@@ -1,4 +1,4 @@
-use super::walk::{Ancestors, show_path};
+use super::walk::{Fault, report_pairs, show_path};
 use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
 use urdd_format::index::LinkIdx;
@@ -17,45 +17,27 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let tree = context.tree()?;
-    let connections = context.connections()?;
-    let module = context.module(ModuleKind::Connections)?;
-    let mut fold = Fold::new(findings);
-    let mut ancestors = Ancestors::new(tree);
-    let table = connections.descendant_paths.into_iter().flatten();
-    for (i, row) in table.enumerate() {
-        for (j, (path, top)) in row.iter().zip(ancestors.row(i)).enumerate() {
-            let below = *top == i;
-            let Some((place, right, written)) = fault(tree, i, j, below, path.as_deref()) else {
-                continue;
-            };
-            fold.add(|| {
-                let message = match below {
-                    true if i == j => "the path of a link to itself is that link alone".to_owned(),
-                    true => format!("this is not the path from link {i} down to link {j}"),
-                    false => format!("link {j} is not below link {i}; write null"),
-                };
-                let pointer = format!("/link_connection_paths/{i}/{j}{place}");
-                let finding = Finding::of(module, pointer, message);
-                finding.expected(right).actual(written)
-            });
-        }
-    }
-    Some(())
+    let table = context.connections()?.descendant_paths;
+    report_pairs(
+        context,
+        findings,
+        ("link_connection_paths", table.unwrap_or_default()),
+        fault,
+        |[i, top, j]| match top == i {
+            true if i == j => "the path of a link to itself is that link alone".to_owned(),
+            true => format!("this is not the path from link {i} down to link {j}"),
+            false => format!("link {j} is not below link {i}; write null"),
+        },
+    )
 }
 
 /// The first difference of an entry from the path down from link `i` to link `j`: pointer below the entry, expected and
 /// actual value.
-fn fault(
-    tree: &Tree,
-    i: usize,
-    j: usize,
-    below: bool,
-    path: Option<&[LinkIdx]>,
-) -> Option<(String, String, String)> {
+fn fault(tree: &Tree, [i, top, j]: [usize; 3], path: &Option<Vec<LinkIdx>>) -> Option<Fault> {
     let show =
         |path: &[LinkIdx]| show_path(&path.iter().map(|link| link.get()).collect::<Vec<_>>());
-    let right = match (below, path) {
+    let path = path.as_deref();
+    let right = match (top == i, path) {
         (false, None) => return None,
         (false, Some(path)) => return Some((String::new(), "null".to_owned(), show(path))),
         (true, _) => way_down(tree, i, j),

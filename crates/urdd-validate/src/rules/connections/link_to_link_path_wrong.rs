@@ -1,4 +1,4 @@
-use super::walk::{Ancestors, path_fault};
+use super::walk::{path_fault, report_pairs};
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -15,23 +15,12 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let tree = context.tree()?;
-    let connections = context.connections()?.v1?;
-    let module = context.module(ModuleKind::Connections)?;
-    let mut fold = Fold::new(findings);
-    let mut ancestors = Ancestors::new(tree);
-    let table = connections.link_to_link_paths.iter().flatten();
-    for (i, row) in table.enumerate() {
-        for (j, (path, top)) in row.iter().zip(ancestors.row(i)).enumerate() {
-            if let Some((place, right, written)) = path_fault(tree, (i, *top, j), path) {
-                fold.add(|| {
-                    let pointer = format!("/link_to_link_paths/{i}/{j}{place}");
-                    let message = format!("this is not the path from link {i} to link {j}");
-                    let finding = Finding::of(module, pointer, message);
-                    finding.expected(right).actual(written)
-                });
-            }
-        }
-    }
-    Some(())
+    let table = context.connections()?.v1?.link_to_link_paths.as_deref();
+    report_pairs(
+        context,
+        findings,
+        ("link_to_link_paths", table.unwrap_or_default()),
+        path_fault,
+        |[i, _, j]| format!("this is not the path from link {i} to link {j}"),
+    )
 }

@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut fold = Fold::new(findings);
     let paths = connections.root_paths.iter().zip(&robot.links);
     for (to, (path, link)) in paths.enumerate() {
-        if let Some((place, right, written)) = path_fault(tree, (tree.root, tree.root, to), path) {
+        if let Some((place, right, written)) = path_fault(tree, [tree.root, tree.root, to], path) {
             fold.add(|| {
                 let pointer = format!("/root_paths/{to}{place}");
                 let message = format!(

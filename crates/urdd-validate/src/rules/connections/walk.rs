@@ -1,7 +1,39 @@
 //! Walks the kinematic tree: computes common ancestors row by row, and checks paths without building them.
 
+use crate::rules::prelude::*;
 use urdd_document::tree::Tree;
 use urdd_format::connections::LinkPath;
+
+/// Where a value of a table is wrong, as a pointer below it; what is expected there, and what is found.
+pub(super) type Fault = (String, String, String);
+
+/// Reports every faulty entry of the table `name`, which has a row for each link. `fault` and `message` are given the
+/// entry's link of the row, the lowest common ancestor of its two links, and the link of the column.
+pub(super) fn report_pairs<T>(
+    context: &Context,
+    findings: &mut Findings,
+    (name, table): (&str, &[Vec<T>]),
+    fault: impl Fn(&Tree, [usize; 3], &T) -> Option<Fault>,
+    message: impl Fn([usize; 3]) -> String,
+) -> Option<()> {
+    let tree = context.tree()?;
+    let module = context.module(ModuleKind::Connections)?;
+    let mut fold = Fold::new(findings);
+    let mut ancestors = Ancestors::new(tree);
+    for (i, row) in table.iter().enumerate() {
+        for (j, (entry, top)) in row.iter().zip(ancestors.row(i)).enumerate() {
+            let links = [i, *top, j];
+            if let Some((place, right, written)) = fault(tree, links, entry) {
+                fold.add(|| {
+                    let pointer = format!("/{name}/{i}/{j}{place}");
+                    let finding = Finding::of(module, pointer, message(links));
+                    finding.expected(right).actual(written)
+                });
+            }
+        }
+    }
+    Some(())
+}
 
 /// Rows of the table of lowest common ancestors, each computed in time proportional to its length.
 pub(super) struct Ancestors<'a> {
@@ -43,9 +75,9 @@ impl<'a> Ancestors<'a> {
 /// below the path, expected and actual value.
 pub(super) fn path_fault(
     tree: &Tree,
-    (from, top, to): (usize, usize, usize),
+    [from, top, to]: [usize; 3],
     path: &LinkPath,
-) -> Option<(String, String, String)> {
+) -> Option<Fault> {
     let up = tree.depth[from] - tree.depth[top];
     let down = tree.depth[to] - tree.depth[top];
     let length = up + down;
@@ -161,11 +193,11 @@ mod tests {
         let at = |ends, links: &[u32], joints: &[u32]| {
             path_fault(&tree, ends, &path(links, joints)).map(|(place, ..)| place)
         };
-        let far = (0, 3, 4);
+        let far = [0, 3, 4];
         assert_eq!(at(far, &[0, 2, 3, 4], &[0, 1, 3]), None);
-        assert_eq!(at((4, 3, 0), &[4, 3, 2, 0], &[3, 1, 0]), None);
-        assert_eq!(at((1, 1, 1), &[1], &[]), None);
-        assert_eq!(at((1, 1, 1), &[0], &[]).as_deref(), Some("/links/0"));
+        assert_eq!(at([4, 3, 0], &[4, 3, 2, 0], &[3, 1, 0]), None);
+        assert_eq!(at([1, 1, 1], &[1], &[]), None);
+        assert_eq!(at([1, 1, 1], &[0], &[]).as_deref(), Some("/links/0"));
         assert_eq!(at(far, &[0, 2, 3], &[0, 1, 3]).as_deref(), Some("/links"));
         assert_eq!(at(far, &[0, 2, 3, 4], &[0, 1]).as_deref(), Some("/joints"));
         for place in 0..4 {

@@ -11,7 +11,7 @@ use serde_json::Value;
 use urdd_document::schema_check;
 
 /// Reports what breaks one of the annotations. EXT002 reports documents that break the rest of the schema.
-pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings) {
+pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings) -> Option<()> {
     let mut counts = None;
     let mentions = move |schema: &Value| extension_schema::mentions(schema, judged.keyword());
     for (module, schema, document) in described(context, mentions) {
@@ -35,4 +35,5 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
             findings.report(finding);
         }
     }
+    Some(())
 }

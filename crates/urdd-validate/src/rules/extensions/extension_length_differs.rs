@@ -15,6 +15,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report(context, Judged::Length, findings);
-    Some(())
+    report(context, Judged::Length, findings)
 }

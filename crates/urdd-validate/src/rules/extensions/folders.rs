@@ -1,7 +1,7 @@
 //! The folders of extensions, and how much is said of each.
 
 use crate::context::Context;
-use crate::views::extension_schema::{self, SchemaFile};
+use crate::views::extension_schema;
 use serde_json::Value;
 use urdd_document::module::{Module, is_extension};
 
@@ -22,12 +22,9 @@ pub(super) fn described<'a>(
 ) -> impl Iterator<Item = (&'a Module, Value, &'a Value)> {
     extensions(context).filter_map(move |module| {
         let document = &module.json.document()?.value;
-        match extension_schema::read(context, module) {
-            SchemaFile::Read(schema) if wanted(&schema) => {
-                let faults = extension_schema::faults(&schema, Some(document));
-                faults.is_empty().then_some((module, schema, document))
-            }
-            _ => None,
-        }
+        let schema = extension_schema::read(context, module).ok();
+        let schema = schema.filter(|schema| wanted(schema))?;
+        let faults = extension_schema::faults(&schema, Some(document));
+        faults.is_empty().then_some((module, schema, document))
     })
 }

@@ -1,6 +1,6 @@
 use super::extensions;
 use crate::rules::prelude::*;
-use crate::views::extension_schema::{self, SchemaFile};
+use crate::views::extension_schema;
 
 declare_rule! {
     /// An extension has no `schema.json` that can be used.
@@ -21,21 +21,15 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in extensions(context) {
         let file = module.file("schema.json");
-        let message = match extension_schema::read(context, module) {
-            SchemaFile::Missing => {
-                "the extension has no schema.json: put its JSON Schema there".to_owned()
-            }
-            SchemaFile::Unreadable(error) => error.to_string(),
-            SchemaFile::NotJson(message) => format!("not JSON: {message}"),
-            SchemaFile::Read(schema) => {
+        match extension_schema::read(context, module) {
+            Err(message) => Finding::in_file(file, message).report(findings),
+            Ok(schema) => {
                 let document = module.json.document().map(|document| &document.value);
                 for fault in extension_schema::faults(&schema, document) {
                     Finding::at(&file, fault.pointer, fault.message).report(findings);
                 }
-                continue;
             }
-        };
-        Finding::in_file(file, message).report(findings);
+        }
     }
     Some(())
 }

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults;
+use crate::views::text_faults::report_json;
 use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
@@ -12,9 +12,6 @@ declare_rule! {
     phase Syntax, needs [],
 }
 
-const KINDS: &[TextFaultKind] = &[TextFaultKind::ByteOrderMark];
-
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    text_faults::report_json(context, KINDS, findings);
-    Some(())
+    report_json(context, &[TextFaultKind::ByteOrderMark], findings)
 }

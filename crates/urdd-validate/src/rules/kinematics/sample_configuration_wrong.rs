@@ -27,8 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dof = document!(context, Dof)?;
     let bounds = document!(context, Bounds)?;
     let space = ConfigurationSpace::new(dof, chain, bounds);
-    let space = space.map_err(|error| SkipReason::Kinematics(error.to_string()));
-    let space = findings.or_skip(space)?;
+    let space = findings.or_skip(space.map_err(SkipReason::kinematics))?;
     for (place, sample) in samples.samples.iter().enumerate() {
         let expected = match (sample.kind, sample.sample_idx) {
             (ConfigurationKind::Zero, _) => space.zero(),

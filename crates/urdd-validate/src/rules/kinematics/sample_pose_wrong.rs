@@ -31,8 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = document!(context, Chain)?;
     let dof = document!(context, Dof)?;
     let kinematics = ForwardKinematics::new(chain, dof);
-    let kinematics = kinematics.map_err(|error| SkipReason::Kinematics(error.to_string()));
-    let kinematics = findings.or_skip(kinematics)?;
+    let kinematics = findings.or_skip(kinematics.map_err(SkipReason::kinematics))?;
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (place, sample) in samples.samples.iter().enumerate() {
         let Ok(poses) = kinematics.link_poses(&sample.configuration) else {

@@ -24,17 +24,6 @@ pub enum How {
     Barely,
 }
 
-/// The vertex of a piece that is farthest outside its link's hull.
-struct Outside {
-    place: [f64; 3],
-    distance: f64,
-    /// Distance up to which nothing is reported, m.
-    least: f64,
-    /// Largest distance allowed, m.
-    most: f64,
-    diagonal: f64,
-}
-
 /// Reports the pieces that reach out of the hulls of their links.
 pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
@@ -58,18 +47,20 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
         .map(|piece| farthest_outside(context, piece, hulls.get(&piece.link)?))
         .collect();
     for (piece, outside) in pieces.iter().zip(outside) {
-        let Some(out) = outside else {
+        let (Some(out), Some(hull)) = (outside, hulls.get(&piece.link)) else {
             continue;
         };
+        let [least, most] = [PIECE_BARELY_OUT_OF_HULL, PIECE_OUT_OF_HULL]
+            .map(|fraction| out.tolerance.max(fraction * hull.diagonal));
         let tolerance = match how {
-            How::Far if out.distance > out.most => out.most,
-            How::Barely if out.distance > out.least && out.distance <= out.most => out.least,
+            How::Far if out.distance > most => most,
+            How::Barely if out.distance > least && out.distance <= most => least,
             _ => continue,
         };
         let distance = format!(
             "{} outside, {:.2} % of the hull's diagonal",
             metres(out.distance),
-            100.0 * out.distance / out.diagonal
+            100.0 * out.distance / hull.diagonal
         );
         let message = format!(
             "piece {} of {} extends beyond its hull: the vertex at {} is {distance}",
@@ -108,19 +99,17 @@ impl<'a> Hull<'a> {
     }
 }
 
-fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<Outside> {
-    let (solids, diagonal) = (context.solids(), hull.diagonal);
+/// The vertex of a piece that is farthest outside its link's hull, with the resolution of the hull.
+fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<Farthest> {
+    let solids = context.solids();
+    let (link, kind) = (piece.link, ModuleKind::ConvexDecompositionMeshes);
     // MSH021 and MSH023 measure the same.
     let contents = [
-        solids.content(ModuleKind::ConvexHullMeshes, piece.link, 0)?,
-        solids.content(
-            ModuleKind::ConvexDecompositionMeshes,
-            piece.link,
-            piece.piece,
-        )?,
+        solids.content(ModuleKind::ConvexHullMeshes, link, 0)?,
+        solids.content(kind, link, piece.piece)?,
     ];
     let key = (Code::MSH021, contents.to_vec());
-    let found = context.memos().farthest.get(key, || {
+    context.memos().farthest.get(key, || {
         let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh));
         let polytope = polytope.as_ref()?;
         let vertices = distinct(piece.sound()?);
@@ -133,12 +122,5 @@ fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<O
             distance,
             tolerance: polytope.resolution,
         })
-    })?;
-    Some(Outside {
-        place: found.place,
-        distance: found.distance,
-        least: found.tolerance.max(PIECE_BARELY_OUT_OF_HULL * diagonal),
-        most: found.tolerance.max(PIECE_OUT_OF_HULL * diagonal),
-        diagonal,
     })
 }

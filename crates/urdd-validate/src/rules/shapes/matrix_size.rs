@@ -22,36 +22,24 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let shapes = context.shapes()?;
     for (_, module, document) in context.documents(MATRIX_MODULES) {
         let matrices = matrices(document);
-        let mut wrong = matrices
-            .iter()
-            .filter_map(|matrix| wrong_size(matrix, &shapes));
+        let wrong = |matrix: &Matrix| wrong_size(module, matrix, &shapes);
+        let mut wrong = matrices.iter().filter_map(wrong);
         // A stale module is one mistake, though it shows in every matrix.
-        let Some(first) = wrong.next() else {
+        let Some(mut first) = wrong.next() else {
             continue;
         };
         let others = wrong.count();
-        let also = match others {
-            0 => String::new(),
-            n => format!("; {n} more matrices of this module are of wrong sizes too"),
-        };
-        let message = format!("{}{also}: write the module again", first.message);
-        Finding::of(module, first.pointer, message)
-            .expected(first.expected)
-            .actual(first.actual)
-            .count(1 + others)
-            .report(findings);
+        if others > 0 {
+            let also = format!("; {others} more matrices of this module are of wrong sizes too");
+            first.message += &also;
+        }
+        first.message += ": write the module again";
+        findings.report(first.count(1 + others));
     }
     Some(())
 }
 
-struct Wrong {
-    pointer: String,
-    message: String,
-    expected: String,
-    actual: String,
-}
-
-fn wrong_size(matrix: &Matrix, shapes: &Shapes) -> Option<Wrong> {
+fn wrong_size(module: &Module, matrix: &Matrix, shapes: &Shapes) -> Option<Finding> {
     let rows = matrix.elements?.row_lengths();
     let size = shapes.count(matrix.kind);
     let what = match matrix.kind.is_of_links() {
@@ -59,19 +47,15 @@ fn wrong_size(matrix: &Matrix, shapes: &Shapes) -> Option<Wrong> {
         false => "convex pieces",
     };
     if rows.len() != size {
-        return Some(Wrong {
-            pointer: matrix.pointer.clone(),
-            message: format!("there are {size} {what}, and {} rows here", rows.len()),
-            expected: format!("{size} rows of {size}"),
-            actual: format!("{} rows", rows.len()),
-        });
+        let message = format!("there are {size} {what}, and {} rows here", rows.len());
+        let finding = Finding::of(module, &matrix.pointer, message);
+        let finding = finding.expected(format!("{size} rows of {size}"));
+        return Some(finding.actual(format!("{} rows", rows.len())));
     }
     let row = rows.iter().position(|length| *length != size)?;
     let length = rows.get(row)?;
-    Some(Wrong {
-        pointer: format!("{}/{row}", matrix.pointer),
-        message: format!("there are {size} {what}, and {length} elements in this row"),
-        expected: format!("{size} elements"),
-        actual: format!("{length} elements"),
-    })
+    let message = format!("there are {size} {what}, and {length} elements in this row");
+    let finding = Finding::of(module, format!("{}/{row}", matrix.pointer), message);
+    let finding = finding.expected(format!("{size} elements"));
+    Some(finding.actual(format!("{length} elements")))
 }

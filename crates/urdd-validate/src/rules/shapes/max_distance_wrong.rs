@@ -38,29 +38,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] = &distances;
     let volumes = approximations(context.document(ModuleKind::LinkShapesApproximations)?)?;
     let [full_boxes, full_spheres, boxes, spheres] = &volumes;
-    let mut checker = Checker {
-        context,
-        module: context.module(kind)?,
-        findings,
-    };
-    checker.volumes(full_box_values, full_boxes);
-    checker.volumes(full_sphere_values, full_spheres);
-    checker.volumes(box_values, boxes);
-    checker.volumes(sphere_values, spheres);
-    checker.hulls(full_hulls, full_boxes, full_spheres);
-    checker.hulls(pieces, boxes, spheres);
-    Some(())
-}
-
-struct Checker<'a> {
-    context: &'a Context,
-    module: &'a Module,
-    findings: &'a mut Findings,
-}
-
-impl Checker<'_> {
-    /// Compares values with those of their boxes or spheres.
-    fn volumes(&mut self, values: &ShapeList<f64>, volumes: &ShapeList<Volume>) {
+    let module = context.module(kind)?;
+    for (values, volumes) in [
+        (full_box_values, full_boxes),
+        (full_sphere_values, full_spheres),
+        (box_values, boxes),
+        (sphere_values, spheres),
+    ] {
         for (link, piece, value) in values.entries() {
             let Some(volume) = entry(volumes, link, piece) else {
                 continue;
@@ -68,7 +52,7 @@ impl Checker<'_> {
             let expected = volume.reach();
             let tolerance = number_tolerance(expected, value);
             let shortfall = match volume {
-                Volume::Sphere { radius, .. } if is_legacy(self.module) => {
+                Volume::Sphere { radius, .. } if is_legacy(module) => {
                     radius * LEGACY_SPHERE_SHORTFALL
                 }
                 _ => tolerance,
@@ -81,30 +65,27 @@ impl Checker<'_> {
                 let message = format!(
                     "this is not the {what} ({}) for {}",
                     volumes.pointer(link, piece),
-                    self.context.link_label(link)
+                    context.link_label(link)
                 );
-                Finding::of(self.module, values.pointer(link, piece), message)
+                Finding::of(module, values.pointer(link, piece), message)
                     .expected(expected)
                     .actual(value)
                     .tolerance(shortfall.max(tolerance))
-                    .report(self.findings);
+                    .report(findings);
             }
         }
     }
-
-    /// Compares values of hulls or pieces with the boxes and spheres that contain them.
-    fn hulls(
-        &mut self,
-        values: &ShapeList<f64>,
-        boxes: &ShapeList<Volume>,
-        spheres: &ShapeList<Volume>,
-    ) {
+    // Hulls and pieces are inside their boxes and spheres.
+    for (values, around) in [
+        (full_hulls, [full_boxes, full_spheres]),
+        (pieces, [boxes, spheres]),
+    ] {
         for (link, piece, value) in values.entries() {
-            let volumes = [boxes, spheres].map(|list| entry(list, link, piece));
+            let volumes = around.map(|list| entry(list, link, piece));
             let reaches = volumes.iter().flatten().map(Volume::reach);
             let most = reaches.fold(f64::INFINITY, f64::min);
             let tolerance = most * HULL_IN_VOLUME;
-            let label = self.context.link_label(link);
+            let label = context.link_label(link);
             let message = if value < 0.0 {
                 format!("a distance cannot be negative ({label})")
             } else if value > most + tolerance {
@@ -112,13 +93,14 @@ impl Checker<'_> {
             } else {
                 continue;
             };
-            Finding::of(self.module, values.pointer(link, piece), message)
+            Finding::of(module, values.pointer(link, piece), message)
                 .expected(format!("from 0 to {most}"))
                 .actual(value)
                 .tolerance(tolerance)
-                .report(self.findings);
+                .report(findings);
         }
     }
+    Some(())
 }
 
 fn entry(list: &ShapeList<Volume>, link: usize, piece: usize) -> Option<Volume> {

@@ -32,49 +32,36 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let Some((stated_full, stated_pieces)) = shape_lists(document) else {
             continue;
         };
-        let mut compare = |pointer: &str, fault: Option<Fault>| {
-            if let Some(fault) = fault {
-                Finding::of(module, pointer.to_owned() + &fault.place, fault.message)
-                    .expected(fault.expected)
-                    .actual(fault.actual)
-                    .report(findings);
-            }
-        };
         let link = |link: &LinkIdx| format!("link {link}");
-        compare("/full_shapes", first_fault(&full, stated_full, link));
         let piece = |of: &PieceShape| format!("piece {} of link {}", of.piece_idx, of.link_idx);
-        compare(
-            "/decomposition_shapes",
-            first_fault(&pieces, stated_pieces, piece),
-        );
+        let full = first_fault(module, "/full_shapes", &full, stated_full, link);
+        let at = "/decomposition_shapes";
+        let pieces = first_fault(module, at, &pieces, stated_pieces, piece);
+        for fault in full.into_iter().chain(pieces) {
+            findings.report(fault);
+        }
     }
     Some(())
 }
 
-struct Fault {
-    place: String,
-    message: String,
-    expected: String,
-    actual: String,
-}
-
 /// The first difference: those after it usually follow from it.
 fn first_fault<T: PartialEq>(
+    module: &Module,
+    pointer: &str,
     right: &[T],
     stated: &[T],
     text: impl Fn(&T) -> String,
-) -> Option<Fault> {
+) -> Option<Finding> {
     let longest = right.len().max(stated.len());
     let at = (0..longest).find(|at| right.get(*at) != stated.get(*at))?;
     let shown = |element: Option<&T>| element.map_or("the end of the list".to_owned(), &text);
-    Some(Fault {
-        place: stated.get(at).map_or(String::new(), |_| format!("/{at}")),
-        message: format!(
-            "from shape {at} on this is not the list of shapes: {} are stated, and the mesh modules have {}",
-            stated.len(),
-            right.len()
-        ),
-        expected: shown(right.get(at)),
-        actual: shown(stated.get(at)),
-    })
+    let place = stated.get(at).map_or(String::new(), |_| format!("/{at}"));
+    let message = format!(
+        "from shape {at} on this is not the list of shapes: {} are stated, and the mesh modules have {}",
+        stated.len(),
+        right.len()
+    );
+    let finding = Finding::of(module, format!("{pointer}{place}"), message);
+    let finding = finding.expected(shown(right.get(at)));
+    Some(finding.actual(shown(stated.get(at))))
 }

@@ -16,12 +16,6 @@ declare_rule! {
     phase References, judges Source, needs [SourceRobot, ROBOT_SOUND],
 }
 
-#[derive(Debug, PartialEq)]
-enum Fault {
-    Negative,
-    InertiaAlone,
-}
-
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let bodies = context.rigid_groups()?;
@@ -30,18 +24,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut links = links_of(robot, body);
         let mut told = false;
         for (index, link) in links.clone() {
-            let Some(fault) = fault(link) else { continue };
-            told = true;
-            let (message, expected) = match fault {
-                Fault::Negative => (
-                    format!("link `{}`: mass is negative", link.name),
-                    "a positive mass",
-                ),
-                Fault::InertiaAlone => (
-                    format!("link `{}` has inertia, but {}", link.name, no_mass(link)),
-                    "a positive mass, or no `<inertial>`",
-                ),
+            let Some((message, expected)) = fault(link) else {
+                continue;
             };
+            told = true;
             let pointer = format!("/links/{index}/inertial/mass");
             Finding::at(&file, pointer, message)
                 .expected(expected)
@@ -97,13 +83,16 @@ fn mass(link: &Link) -> f64 {
         .unwrap_or(0.0)
 }
 
-fn fault(link: &Link) -> Option<Fault> {
+/// What is wrong with the mass of a link alone, and what is expected.
+fn fault(link: &Link) -> Option<(String, &'static str)> {
     let inertia = link.inertial?.inertia.unwrap_or_default();
-    let mass = mass(link);
+    let (name, mass) = (&link.name, mass(link));
     if mass < 0.0 {
-        Some(Fault::Negative)
+        let message = format!("link `{name}`: mass is negative");
+        Some((message, "a positive mass"))
     } else if mass == 0.0 && inertia != [0.0; 6] {
-        Some(Fault::InertiaAlone)
+        let message = format!("link `{name}` has inertia, but {}", no_mass(link));
+        Some((message, "a positive mass, or no `<inertial>`"))
     } else {
         None
     }

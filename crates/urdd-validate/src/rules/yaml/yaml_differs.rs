@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults;
+use crate::views::text_faults::report_yaml_unless;
 use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
@@ -22,6 +22,5 @@ const UNREAD: &[TextFaultKind] = &[
 ];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    text_faults::report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings);
-    Some(())
+    report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings)
 }

@@ -1,5 +1,5 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults;
+use crate::views::text_faults::report_yaml;
 use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
@@ -13,9 +13,6 @@ declare_rule! {
     phase Syntax, needs [],
 }
 
-const KINDS: &[TextFaultKind] = &[TextFaultKind::YamlTag];
-
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    text_faults::report_yaml(context, KINDS, findings);
-    Some(())
+    report_yaml(context, &[TextFaultKind::YamlTag], findings)
 }
