@@ -39,6 +39,6 @@ pub fn combine<'py>(
     })?;
     let made = made.map_err(|error| of_combine(py, &error))?;
     let notes = made.notes.iter();
-    let notes = notes.map(|note| (note.kind(), note.to_string())).collect();
+    let notes = notes.map(|note| (note.kind, note.to_string())).collect();
     Ok((summary(py, &made.generated)?, notes))
 }

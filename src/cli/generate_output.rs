@@ -335,7 +335,7 @@ fn combined_as_json(job: &Job, made: &Combined) -> Value {
         .collect();
     let notes = made.notes.iter();
     object["combine_notes"] = notes
-        .map(|note| json!({ "kind": note.kind(), "message": note.to_string() }))
+        .map(|note| json!({ "kind": note.kind, "message": note.to_string() }))
         .collect();
     object
 }

@@ -4,15 +4,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 use thiserror::Error;
 
 use super::cancellation::Cancellation;
 use super::canonical;
-use super::digest;
 use super::discover::ROOT_METADATA;
 use super::json;
 use super::limits::MAX_DOCUMENT_BYTES;
+use super::module_entry;
 use super::rehash::replace;
 use super::root::{ReadError, Root};
 use super::target_lock::TargetLock;
@@ -103,20 +103,14 @@ pub fn add_module(
     let mut metadata = json::read(&bytes)?.value;
     let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
     let modules = modules.ok_or(AddModuleError::NoModules)?;
-    let named = |module: &Value| module["name"].as_str().unwrap_or_default().to_owned();
-    if modules
-        .iter()
-        .any(|module| named(module) == name || module["path"] == name)
-    {
+    let is_there = |module: &Value| module["name"] == name || module["path"] == name;
+    if modules.iter().any(is_there) {
         return Err(AddModuleError::Listed(name.to_owned()));
     }
-    let is_after = |module: &Value| {
-        let other = named(module);
-        let is_known = ModuleKind::ALL.iter().any(|kind| kind.name() == other);
-        !is_known && other.as_str() > name
-    };
-    let place = modules.iter().position(is_after).unwrap_or(modules.len());
-    modules.insert(place, entry(name, version, depends_on, files));
+    let own = files
+        .iter()
+        .map(|(file, text)| (format!("{name}/{file}"), text.as_bytes()));
+    module_entry::insert(modules, name, version, name, depends_on, own);
 
     let folder = write_folder(parent, name, files)?;
     if let Err(error) = replace(parent, canonical::json_string(&metadata).as_bytes()) {
@@ -127,21 +121,4 @@ pub fn add_module(
         });
     }
     Ok(folder)
-}
-
-/// The entry of a module in `urdd.json`.
-fn entry(name: &str, version: &str, depends_on: &[ModuleKind], files: &[(&str, String)]) -> Value {
-    let mut listed: Vec<(String, &String)> = (files.iter())
-        .map(|(file, text)| (format!("{name}/{file}"), text))
-        .collect();
-    listed.sort();
-    let listed = listed.iter().map(|(path, text)| {
-        let (size, sha256) = digest::of_bytes(text.as_bytes());
-        json!({ "path": path, "size": size, "sha256": sha256 })
-    });
-    let depends_on: Vec<&str> = depends_on.iter().map(|kind| kind.name()).collect();
-    json!({
-        "name": name, "version": version, "path": name, "depends_on": depends_on,
-        "files": listed.collect::<Vec<_>>(),
-    })
 }

@@ -19,6 +19,7 @@ pub mod json_scan;
 pub mod layout;
 pub mod limits;
 pub mod listing;
+pub mod module_entry;
 pub mod number_text;
 pub mod path;
 pub mod position;

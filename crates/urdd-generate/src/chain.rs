@@ -1,10 +1,11 @@
 //! `chain_module` from the robot: SPEC 6.3.
 
 use super::pose;
-use super::urdf::{Tree, has_axis, written_axis};
+use super::urdf::{Tree, written_axis};
 use urdd_format::chain::{ChainModule, JointInChain, LinkInChain};
 use urdd_format::index::{JointIdx, LinkIdx};
 use urdd_format::urdf::UrdfModule;
+use urdd_kinematics::has_axis;
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation::unit_axis;
 

@@ -131,6 +131,14 @@ impl From<Cancelled> for GenerateError {
 }
 
 impl GenerateError {
+    /// A bug in this program, found at a file.
+    pub(crate) fn internal(file: &str, reason: impl fmt::Display) -> Self {
+        GenerateError::Internal {
+            file: file.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+
     /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {

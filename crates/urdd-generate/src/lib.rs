@@ -26,6 +26,7 @@ pub mod combine;
 mod composed;
 mod connections;
 mod context;
+mod cycles;
 mod distinct;
 mod dof;
 mod donor;

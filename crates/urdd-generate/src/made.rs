@@ -36,10 +36,7 @@ pub(super) fn streamed<T>(
     document: Result<Document, serde_json::Error>,
     product: T,
 ) -> Result<Made<T>, GenerateError> {
-    let document = document.map_err(|error| GenerateError::Internal {
-        file: String::new(),
-        reason: error.to_string(),
-    })?;
+    let document = document.map_err(|error| GenerateError::internal("", error))?;
     Ok(Made {
         document: Some(document),
         files: Vec::new(),

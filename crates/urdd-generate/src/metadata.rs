@@ -110,10 +110,7 @@ pub(super) fn document(
         modules: made.iter().map(|entry| entry.module.clone()).collect(),
     };
     let to_value = |value| {
-        serde_json::to_value(value).map_err(|error: serde_json::Error| GenerateError::Internal {
-            file: robot_name.to_owned(),
-            reason: error.to_string(),
-        })
+        serde_json::to_value(value).map_err(|error| GenerateError::internal(robot_name, error))
     };
     let mut document = to_value(metadata)?;
     if let Some(found) = found {

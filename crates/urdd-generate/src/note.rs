@@ -50,30 +50,6 @@ pub enum NoteKind {
 }
 
 impl NoteKind {
-    /// Every kind.
-    pub const ALL: &[NoteKind] = &[
-        NoteKind::Encoding,
-        NoteKind::Xml,
-        NoteKind::Case,
-        NoteKind::XacroLeftOver,
-        NoteKind::RobotName,
-        NoteKind::Numbers,
-        NoteKind::NotFinite,
-        NoteKind::Shape,
-        NoteKind::JointType,
-        NoteKind::Mimic,
-        NoteKind::NoLimits,
-        NoteKind::Repeated,
-        NoteKind::Material,
-        NoteKind::MeshNotFound,
-        NoteKind::MeshNotUsable,
-        NoteKind::Mesh,
-        NoteKind::Outside,
-        NoteKind::LeftOut,
-        NoteKind::TooLarge,
-        NoteKind::OfNoUse,
-    ];
-
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
         use NoteKind::{Encoding, OfNoUse, Outside, TooLarge, Xml};

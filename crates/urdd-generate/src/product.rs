@@ -55,10 +55,7 @@ pub(super) fn document<T: DeserializeOwned>(
     kind: ModuleKind,
 ) -> Result<Arc<T>, GenerateError> {
     let read = donor::document(root, kind).map(Arc::new);
-    read.map_err(|reason| GenerateError::Internal {
-        file: kind.folder().to_owned(),
-        reason,
-    })
+    read.map_err(|reason| GenerateError::internal(kind.folder(), reason))
 }
 
 /// Reads the plain mesh of each link.

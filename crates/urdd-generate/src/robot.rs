@@ -138,9 +138,9 @@ fn make(
     let composition = composed.map(|composed| &composed.composition);
     let context = Context::new(source, settings, composition, decisions, progress)?;
     let writer = Writer::new(staging.content());
-    let root = Root::open_folder(staging.content()).map_err(|error| GenerateError::Internal {
-        file: staging.content().display().to_string(),
-        reason: error.to_string(),
+    let root = Root::open_folder(staging.content()).map_err(|error| {
+        let content = staging.content().display().to_string();
+        GenerateError::internal(&content, error)
     })?;
     let mut modules = Modules::new(&context, replaced, &writer, root);
     let meshes = stages::run(&context, &mut modules)?;

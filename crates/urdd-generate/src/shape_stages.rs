@@ -25,10 +25,7 @@ pub(super) fn boxes_and_spheres(
     solids: ConvexMeshes,
     known: Vec<Option<Shape>>,
 ) -> Result<Made<Arc<Approximations>>, GenerateError> {
-    let internal = |error: HullError| GenerateError::Internal {
-        file: context.source.shown.clone(),
-        reason: error.to_string(),
-    };
+    let internal = |error: HullError| GenerateError::internal(&context.source.shown, error);
     let finished = |link| context.finished(ModuleKind::LinkShapesApproximations, link);
     let module = approximations(&solids, known, &context.settings.cancellation, &finished)?;
     let module = Arc::new(module.map_err(internal)?);

@@ -24,6 +24,15 @@ pub(super) struct Position {
 }
 
 impl Position {
+    /// The position of a joint that moves by its own DOF.
+    fn own(dofs: &[usize]) -> Self {
+        Position {
+            dof: dofs.first().copied(),
+            multiplier: 1.0,
+            offset: 0.0,
+        }
+    }
+
     fn at(&self, q: &[f64]) -> f64 {
         match self.dof {
             Some(dof) => self.multiplier * q[dof] + self.offset,
@@ -59,6 +68,31 @@ pub(super) enum Motion {
 }
 
 impl Motion {
+    /// The motion of a joint type that is not fixed; `None` without the axis or the DOFs that it needs.
+    fn of(
+        joint_type: JointType,
+        axis: Option<Axis>,
+        position: Position,
+        dofs: &[usize],
+    ) -> Option<Self> {
+        Some(match (joint_type, axis, dofs) {
+            (JointType::Revolute | JointType::Continuous, Some(axis), _) => {
+                Motion::Turn { axis, position }
+            }
+            (JointType::Prismatic, Some(axis), _) => Motion::Slide { axis, position },
+            (JointType::Planar, Some(axis), &[x, y, angle]) => Motion::Plane {
+                basis: planar_basis(&axis),
+                axis,
+                dofs: [x, y, angle],
+            },
+            (JointType::Spherical, _, &[a, b, c]) => Motion::Ball { dofs: [a, b, c] },
+            (JointType::Floating, _, &[x, y, z, a, b, c]) => Motion::Float {
+                dofs: [x, y, z, a, b, c],
+            },
+            _ => return None,
+        })
+    }
+
     /// Pose of the child link's frame in the joint frame.
     pub(super) fn at(&self, q: &[f64]) -> Isometry3<f64> {
         match self {
@@ -94,13 +128,19 @@ impl Motion {
 }
 
 /// Number of DOFs of a joint that is not a mimic joint.
-fn dof_count(joint_type: JointType) -> usize {
+pub fn num_dofs(joint_type: JointType) -> usize {
     match joint_type {
         JointType::Fixed => 0,
         JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
         JointType::Planar | JointType::Spherical => 3,
         JointType::Floating => 6,
     }
+}
+
+/// Whether joints of a type move along or about an axis.
+pub fn has_axis(joint_type: JointType) -> bool {
+    use JointType::{Continuous, Planar, Prismatic, Revolute};
+    matches!(joint_type, Revolute | Continuous | Prismatic | Planar)
 }
 
 /// Checks that the per-joint lists have one entry for each joint of the chain.
@@ -129,7 +169,7 @@ pub(super) fn joint_dofs(
     idx: usize,
     dof: &DofModule,
 ) -> Result<Vec<usize>, KinematicsError> {
-    let expected = dof_count(joint_type);
+    let expected = num_dofs(joint_type);
     let listed = &dof.joint_idx_to_dof_idxs_mapping[idx];
     let found = listed.len();
     let fault = match &dof.joint_idx_to_mimic_mapping[idx] {
@@ -171,43 +211,31 @@ pub(super) fn motion(
 ) -> Result<Motion, KinematicsError> {
     let joint_type = joint.joint_type;
     let dofs = joint_dofs(joint_type, idx, dof)?;
-    Ok(match (joint_type, dofs.as_slice()) {
-        (JointType::Fixed, _) => Motion::Fixed,
-        (JointType::Revolute | JointType::Continuous, _) => Motion::Turn {
-            axis: axis(joint, idx)?,
-            position: position(idx, &dofs, dof)?,
-        },
-        (JointType::Prismatic, _) => Motion::Slide {
-            axis: axis(joint, idx)?,
-            position: position(idx, &dofs, dof)?,
-        },
-        (JointType::Planar, &[x, y, angle]) => {
-            let axis = axis(joint, idx)?;
-            Motion::Plane {
-                basis: planar_basis(&axis),
-                axis,
-                dofs: [x, y, angle],
-            }
-        }
-        (JointType::Spherical, &[a, b, c]) => Motion::Ball { dofs: [a, b, c] },
-        (JointType::Floating, &[x, y, z, a, b, c]) => Motion::Float {
-            dofs: [x, y, z, a, b, c],
-        },
-        // The count is right, so this is a mimic joint, which has no DOFs.
-        (JointType::Planar | JointType::Spherical | JointType::Floating, _) => {
-            let fault = Fault::MimicType(joint_type);
-            return Err(KinematicsError::dof(format!("/{MIMICS}/{idx}"), fault));
-        }
+    if joint_type == JointType::Fixed {
+        return Ok(Motion::Fixed);
+    }
+    let axis = has_axis(joint_type).then(|| axis(joint, idx)).transpose()?;
+    let position = position(idx, &dofs, dof)?;
+    // The axis and the number of DOFs are right, so this is a mimic joint, which has no DOFs.
+    Motion::of(joint_type, axis, position, &dofs).ok_or_else(|| {
+        let fault = Fault::MimicType(joint_type);
+        KinematicsError::dof(format!("/{MIMICS}/{idx}"), fault)
     })
+}
+
+/// The pose of a joint's child link in the joint frame, for a value of each of its DOFs, rad or m. `axis` is `None` where
+/// the type has none; without an axis or a value that the type needs, the pose is the identity.
+pub fn joint_motion(joint_type: JointType, axis: Option<Axis>, values: &[f64]) -> Isometry3<f64> {
+    let dofs: Vec<usize> = (0..values.len()).collect();
+    let own = Position::own(&dofs);
+    let motion = Motion::of(joint_type, axis, own, &dofs);
+    let motion = motion.filter(|_| values.len() == num_dofs(joint_type));
+    motion.unwrap_or(Motion::Fixed).at(values)
 }
 
 fn position(idx: usize, dofs: &[usize], dof: &DofModule) -> Result<Position, KinematicsError> {
     let Some(mimic) = &dof.joint_idx_to_mimic_mapping[idx] else {
-        return Ok(Position {
-            dof: dofs.first().copied(),
-            multiplier: 1.0,
-            offset: 0.0,
-        });
+        return Ok(Position::own(dofs));
     };
     let fail = |key, fault| KinematicsError::dof(format!("/{MIMICS}/{idx}/{key}"), fault);
     for (key, value) in [("multiplier", mimic.multiplier), ("offset", mimic.offset)] {

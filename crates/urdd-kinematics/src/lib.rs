@@ -20,3 +20,4 @@ pub use branch::{Branch, Place};
 pub use configurations::{ConfigurationSpace, unit};
 pub use error::{ConfigurationError, Fault, KinematicsError};
 pub use forward::ForwardKinematics;
+pub use joint::{has_axis, joint_motion, num_dofs};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::Robot;
 use super::error::RobotError;
@@ -11,6 +11,7 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_entry;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::module_entry;
 use urdd_format::registry::ModuleKind;
 
 /// Files by path relative to the root.
@@ -49,33 +50,14 @@ impl Robot {
             modules.ok_or_else(|| RobotError::Metadata("`modules` is missing".to_owned()))?;
         if !modules.iter().any(|module| module["name"] == kind.name()) {
             files.insert(path("VERSION"), format!("{VERSION}\n").into_bytes());
-            modules.insert(place(kind, modules), entry(kind, &files));
+            let own = files.iter();
+            let own = own.map(|(path, bytes)| (path.clone(), bytes.as_slice()));
+            let (name, folder) = (kind.name(), kind.folder());
+            module_entry::insert(modules, name, VERSION, folder, kind.depends_on(), own);
         }
         file_entry::reseal(&mut metadata, |path| files.get(path).map(Vec::as_slice));
         let metadata = canonical::json_string(&metadata).into_bytes();
         files.insert(ROOT_METADATA.to_owned(), metadata);
         Ok(files)
     }
-}
-
-/// The place of a new module: before the first that follows it in the specification's table, or is not in it.
-fn place(kind: ModuleKind, modules: &[Value]) -> usize {
-    let precedes = |module: &Value| {
-        let mut known = ModuleKind::ALL.iter();
-        known.any(|known| module["name"] == known.name() && *known < kind)
-    };
-    modules.iter().take_while(|module| precedes(module)).count()
-}
-
-/// The entry of a new module; sizes and hashes are to be sealed.
-fn entry(kind: ModuleKind, files: &Files) -> Value {
-    let files = files.keys();
-    let files: Vec<Value> = files
-        .map(|path| json!({ "path": path, "size": 0, "sha256": "" }))
-        .collect();
-    let depends_on: Vec<&str> = kind.depends_on().iter().map(|kind| kind.name()).collect();
-    json!({
-        "name": kind.name(), "version": VERSION, "path": kind.folder(),
-        "depends_on": depends_on, "files": files,
-    })
 }

@@ -1,6 +1,6 @@
 //! Recipes that cannot be applied: one typed error each, with its location and what to do.
 
-use urdd_generate::combine::{CombineError, Note, PartFault, RecipeFault};
+use urdd_generate::combine::{CombineError, PartFault, RecipeFault};
 use urdd_generate::{Selection, Settings, generate};
 
 use crate::combine::support::{core, findings, ours, put_together, with_ours};
@@ -347,11 +347,11 @@ fn parts_of_unequal_modules_are_said() {
         ..with_ours()
     };
     let (made, target) = put_together(&text, folder, &settings).expect("a robot");
-    let unequal = Note::UnequalModules {
-        part: "gripper".to_owned(),
-        lacks: vec!["original_meshes_module".to_owned()],
-    };
-    assert_eq!(made.notes, [unequal]);
+    let notes: Vec<(&str, String)> = (made.notes.iter())
+        .map(|note| (note.kind, note.to_string()))
+        .collect();
+    let unequal = "part `gripper`: it has no original_meshes_module, which other parts have; it is computed";
+    assert_eq!(notes, [("unequal-modules", unequal.to_owned())]);
     // The whole has what one of them lacks.
     let meshes = "mesh_modules/original_meshes_module/module.json";
     assert!(target.join(meshes).is_file());

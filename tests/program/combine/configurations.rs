@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
-use urdd_generate::combine::Note;
 use urdd_generate::generate;
 use urdd_robot::Robot;
 
@@ -57,17 +56,12 @@ fn configurations_of_parts_come_along_by_name_and_a_persons_stay() {
     generate(&ours("gripper"), &gripper, &core(), &()).expect("a URDD");
     write(&gripper, &[edit("open", &[("motor", 0.25)])]);
     let (made, target) = put_together(CELL, folder, &core()).expect("a robot");
-    let lost: Vec<&Note> = made
-        .notes
-        .iter()
-        .filter(|note| note.kind() == "position-lost")
+    let lost: Vec<String> = (made.notes.iter())
+        .filter(|note| note.kind == "position-lost")
+        .map(ToString::to_string)
         .collect();
-    let expected = Note::PositionLost {
-        part: "right".to_owned(),
-        name: "open".to_owned(),
-        dof: "motor".to_owned(),
-    };
-    assert_eq!(lost, [&expected]);
+    let expected = "part `right`: the configuration `open` is kept without a position of `motor`, whose joint is dropped or frozen";
+    assert_eq!(lost, [expected]);
     let of_parts = [
         edit("left_open", &[("left_motor", 0.25)]),
         edit("right_open", &[]),
@@ -112,10 +106,11 @@ prefix = ""
 attach = { to = "gripper/gripper_base", xyz = [0, 1, 0] }
 "#;
     let (made, target) = put_together(recipe, folder, &core()).expect("a robot");
-    let expected = Note::ConfigurationLost {
-        part: "hand".to_owned(),
-        name: "open".to_owned(),
-    };
-    assert!(made.notes.contains(&expected), "{:?}", made.notes);
+    let lost: Vec<String> = (made.notes.iter())
+        .filter(|note| note.kind == "configuration-lost")
+        .map(ToString::to_string)
+        .collect();
+    let expected = "part `hand`: the configuration `open` is left out, since an earlier part has one of this name; give the part a prefix";
+    assert_eq!(lost, [expected]);
     assert_eq!(edits_of(&target), [edit("open", &[("motor", 0.25)])]);
 }

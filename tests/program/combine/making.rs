@@ -6,7 +6,6 @@ use std::path::Path;
 use nalgebra::Isometry3;
 use serde_json::Value;
 use urdd_format::link_shapes_skips::SkipEdit;
-use urdd_generate::combine::Note;
 use urdd_generate::{Settings, generate, generate_text};
 use urdd_robot::{Robot, ShapeKind};
 
@@ -168,7 +167,7 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
     let lost = made
         .notes
         .iter()
-        .filter(|note| matches!(note, Note::EditLost { .. }));
+        .filter(|note| note.kind == "edit-lost");
     assert_eq!(lost.count(), 1, "{:?}", made.notes);
     let of_parts = vec![
         edit("arm_base", "arm_flange", true, "seen"),

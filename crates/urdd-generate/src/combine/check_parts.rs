@@ -37,11 +37,7 @@ pub fn check_parts(
             continue;
         }
         if !settings.force {
-            return Err(CombineError::Part {
-                id: part.id.text.clone(),
-                source_path: part.source.display().to_string(),
-                fault: PartFault::Fails { codes },
-            });
+            return Err(part.refused(PartFault::Fails { codes }));
         }
         distrusted.insert(part.id.text.clone());
     }

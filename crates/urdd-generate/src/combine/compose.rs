@@ -1,6 +1,6 @@
 //! Composes one URDF from all parts.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::error::CombineError;
@@ -46,6 +46,37 @@ pub(super) fn version(parts: &[Taken]) -> Option<String> {
     versions.max_by_key(|version| (has_quaternions(Some(version)), number(version)))
 }
 
+/// What holds a part.
+pub(super) struct Held<'a> {
+    /// The holding part; `None` for the base.
+    pub part: Option<usize>,
+    /// Its link, by the name in the combined robot.
+    pub link: String,
+    pub joint: &'a JointDescription,
+}
+
+/// What holds a part; `None` for a root part without a base.
+///
+/// # Errors
+/// If its attachment does not name a part; an earlier check rules this out.
+pub(super) fn held<'a>(
+    recipe: &'a Recipe,
+    parts: &[Taken<'a>],
+    taken: &Taken<'a>,
+) -> Result<Option<Held<'a>>, CombineError> {
+    let Some(attach) = &taken.part.attach else {
+        return Ok(recipe.base.as_ref().map(|base| Held {
+            part: None,
+            link: base.link.text.clone(),
+            joint: &base.joint,
+        }));
+    };
+    let (part, link) = recipe.target(&attach.to)?;
+    let link = part.map_or_else(|| link.to_owned(), |part| parts[part].renamed(link));
+    let joint = &attach.joint;
+    Ok(Some(Held { part, link, joint }))
+}
+
 /// Checks that names are unique. Returns, for each part, the indices of top-level materials that an earlier part also
 /// has.
 ///
@@ -54,54 +85,36 @@ pub(super) fn version(parts: &[Taken]) -> Option<String> {
 pub(super) fn check_names(
     recipe: &Recipe,
     parts: &[Taken],
-) -> Result<Vec<std::collections::BTreeSet<usize>>, CombineError> {
-    let mut names = NameBook {
-        recipe,
-        links: BTreeMap::new(),
-        joints: BTreeMap::new(),
+) -> Result<Vec<BTreeSet<usize>>, CombineError> {
+    let mut known: BTreeMap<(&'static str, String), String> = BTreeMap::new();
+    let mut add = |what, name: String, from: &str, at: &Word| {
+        let before = known.insert((what, name.clone()), from.to_owned());
+        clash(recipe, what, &name, before, from.to_owned(), at)
     };
     if let Some(base) = &recipe.base {
-        names.link(&base.link.text, "`[base]`".to_owned(), &base.link)?;
+        add("link", base.link.text.clone(), "`[base]`", &base.link)?;
     }
     for taken in parts {
         let (part, robot) = (taken.part, &taken.loaded.robot);
         let from = format!("part `{}`", part.id.text);
         for (idx, link) in robot.links.iter().enumerate() {
             if taken.trim.keeps_link(idx) {
-                names.link(&taken.renamed(&link.name), from.clone(), &part.id)?;
+                add("link", taken.renamed(&link.name), &from, &part.id)?;
             }
         }
         for (idx, joint) in robot.joints.iter().enumerate() {
             if taken.trim.keeps_joint(idx) {
-                names.joint(&taken.renamed(&joint.name), from.clone(), &part.id)?;
+                add("joint", taken.renamed(&joint.name), &from, &part.id)?;
             }
         }
         let attach = part.attach.as_ref().map(|attach| &attach.joint.name);
         let base = recipe.base.as_ref().map(|base| &base.joint.name);
         if let Some(name) = attach.or(base) {
             let of = format!("the joint that attaches part `{}`", part.id.text);
-            names.joint(&name.text, of, name)?;
+            add("joint", name.text.clone(), &of, name)?;
         }
     }
     materials(recipe, parts)
-}
-
-struct NameBook<'a> {
-    recipe: &'a Recipe,
-    links: BTreeMap<String, String>,
-    joints: BTreeMap<String, String>,
-}
-
-impl NameBook<'_> {
-    fn link(&mut self, name: &str, from: String, at: &Word) -> Result<(), CombineError> {
-        let before = self.links.insert(name.to_owned(), from.clone());
-        clash(self.recipe, "link", name, before, from, at)
-    }
-
-    fn joint(&mut self, name: &str, from: String, at: &Word) -> Result<(), CombineError> {
-        let before = self.joints.insert(name.to_owned(), from.clone());
-        clash(self.recipe, "joint", name, before, from, at)
-    }
 }
 
 fn clash(
@@ -126,10 +139,7 @@ fn clash(
 }
 
 /// Materials with the same name must look the same in all parts. Within a part, the first counts.
-fn materials(
-    recipe: &Recipe,
-    parts: &[Taken],
-) -> Result<Vec<std::collections::BTreeSet<usize>>, CombineError> {
+fn materials(recipe: &Recipe, parts: &[Taken]) -> Result<Vec<BTreeSet<usize>>, CombineError> {
     let mut known: BTreeMap<String, (usize, &Material)> = BTreeMap::new();
     let mut repeated = Vec::new();
     for (idx, taken) in parts.iter().enumerate() {
@@ -140,7 +150,7 @@ fn materials(
         let all = top
             .map(|(place, of)| (Some(place), of))
             .chain(inline.map(|of| (None, of)));
-        let mut again = std::collections::BTreeSet::new();
+        let mut again = BTreeSet::new();
         for (place, material) in all {
             let Some(name) = &material.name else {
                 continue;
@@ -157,15 +167,9 @@ fn materials(
             if (&first.color, &first.texture) != (&material.color, &material.texture) {
                 let first = format!("part `{}`", parts[*of].part.id.text);
                 let second = format!("part `{}`, where it looks different", taken.part.id.text);
-                return clash(
-                    recipe,
-                    "material",
-                    &name,
-                    Some(first),
-                    second,
-                    &taken.part.id,
-                )
-                .map(|()| Vec::new());
+                let at = &taken.part.id;
+                clash(recipe, "material", &name, Some(first), second, at)?;
+                continue;
             }
             again.extend(place);
         }
@@ -223,17 +227,8 @@ pub(super) fn urdf(
         text += &format!("  <link name=\"{}\"/>\n", escaped(&base.link.text));
     }
     for (taken, rewritten) in parts.iter().zip(rewritten) {
-        let attached = match (&taken.part.attach, &recipe.base) {
-            (Some(attach), _) => {
-                let (holder, link) = recipe.target(&attach.to)?;
-                let link = holder.map_or_else(|| link.to_owned(), |part| parts[part].renamed(link));
-                Some((link, &attach.joint))
-            }
-            (None, Some(base)) => Some((base.link.text.clone(), &base.joint)),
-            (None, None) => None,
-        };
-        if let Some((parent, described)) = attached {
-            text += &joint(described, &parent, &taken.root());
+        if let Some(held) = held(recipe, parts, taken)? {
+            text += &joint(held.joint, &held.link, &taken.root());
         }
         text += &rewritten.inner;
         text.push('\n');

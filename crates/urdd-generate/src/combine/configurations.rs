@@ -20,7 +20,7 @@ pub(super) fn of_parts(
     let (mut edits, mut length) = (Vec::new(), 0);
     let mut names = HashSet::new();
     for taken in parts {
-        let part = &taken.part.id.text;
+        let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
         for edit in &taken.loaded.configurations {
             let words = edit
                 .positions
@@ -30,10 +30,13 @@ pub(super) fn of_parts(
             recipe.check_length(taken.part, "the named configurations", length)?;
             let renamed = ConfigurationName::new(taken.renamed(edit.name.as_str()));
             let Some(name) = renamed.filter(|name| names.insert(name.clone())) else {
-                notes.push(Note::ConfigurationLost {
-                    part: part.clone(),
-                    name: edit.name.to_string(),
-                });
+                note(
+                    "configuration-lost",
+                    format!(
+                        "the configuration `{}` is left out, since an earlier part has one of this name; give the part a prefix",
+                        edit.name
+                    ),
+                );
                 continue;
             };
             let mut positions = Vec::new();
@@ -43,11 +46,13 @@ pub(super) fn of_parts(
                         dof_name: taken.renamed(&position.dof_name),
                         ..position.clone()
                     }),
-                    false => notes.push(Note::PositionLost {
-                        part: part.clone(),
-                        name: edit.name.to_string(),
-                        dof: position.dof_name.clone(),
-                    }),
+                    false => note(
+                        "position-lost",
+                        format!(
+                            "the configuration `{}` is kept without a position of `{}`, whose joint is dropped or frozen",
+                            edit.name, position.dof_name
+                        ),
+                    ),
                 }
             }
             edits.push(ConfigurationEdit { name, positions });

@@ -1,7 +1,7 @@
 //! Why robots cannot be combined.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -82,6 +82,13 @@ impl fmt::Display for About<'_> {
 }
 
 impl CombineError {
+    pub(super) fn unwritable(path: &Path, error: std::io::Error) -> Self {
+        CombineError::Unwritable {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        }
+    }
+
     /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
@@ -161,4 +168,13 @@ pub enum PartFault {
         /// The codes of the rules that found errors, with the number of findings.
         codes: Vec<String>,
     },
+}
+
+impl PartFault {
+    pub(super) fn unreadable(file: &str, reason: impl ToString) -> Self {
+        PartFault::Unreadable {
+            file: file.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
 }

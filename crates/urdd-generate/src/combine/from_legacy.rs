@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 
 use super::error::{CombineError, PartFault};
 use super::note::Note;
+use super::part::parsed;
 use super::recipe::{Attachment, BASE, Base, JointDescription, Part, Recipe, Sources, Word};
-use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
@@ -34,14 +34,9 @@ impl Recipe {
             source_path: shown.clone(),
             fault,
         };
-        let unreadable = |reason: String| {
-            let file = String::new();
-            refused(PartFault::Unreadable { file, reason })
-        };
-        let root = Root::open(folder).map_err(|error| unreadable(error.to_string()))?;
-        let whole = folder
-            .canonicalize()
-            .map_err(|error| unreadable(error.to_string()))?;
+        let root = Root::open(folder).map_err(|e| refused(PartFault::unreadable("", e)))?;
+        let whole = folder.canonicalize();
+        let whole = whole.map_err(|e| refused(PartFault::unreadable("", e)))?;
         let beside = whole.parent().unwrap_or(Path::new("/")).to_owned();
         let mut reader = Reader {
             notes: Vec::new(),
@@ -70,11 +65,7 @@ impl Recipe {
         }
         for part in &reader.recipe.parts {
             if !is_folder_name(&part.source, &beside) {
-                return Err(CombineError::Part {
-                    id: part.id.text.clone(),
-                    source_path: part.source.display().to_string(),
-                    fault: PartFault::NotBeside,
-                });
+                return Err(part.refused(PartFault::NotBeside));
             }
         }
         reader.recipe.check()?;
@@ -100,20 +91,13 @@ fn of_legacy(joint_type: urdf::JointType) -> JointType {
     same.unwrap_or(JointType::Fixed)
 }
 
+/// The document of a module, if it is there.
 fn read<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>, PartFault> {
     let path = format!("{}/module.json", kind.folder());
-    let Ok(bytes) = root.read(&path, MAX_DOCUMENT_BYTES) else {
-        return Ok(None);
-    };
-    let unreadable = |reason: String| PartFault::Unreadable {
-        file: path.clone(),
-        reason,
-    };
-    let value = json::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
-    let document = serde_json::from_value(value.value);
-    document
-        .map(Some)
-        .map_err(|error| unreadable(error.to_string()))
+    match root.read(&path, MAX_DOCUMENT_BYTES) {
+        Ok(bytes) => parsed(&bytes, &path).map(Some),
+        Err(_) => Ok(None),
+    }
 }
 
 struct Reader<'a> {
@@ -126,7 +110,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn unsaid(&mut self, what: String) {
-        self.notes.push(Note::NotSaid(what));
+        self.notes.push(Note::not_said(what));
     }
 
     fn part(&mut self, robot: &str, prefix: String, attach: Option<Attachment>) -> &mut Part {
@@ -137,16 +121,8 @@ impl Reader<'_> {
         while !self.ids.insert(id.to_ascii_lowercase()) {
             id += &format!("_{}", self.recipe.parts.len());
         }
-        self.recipe.parts.push(Part {
-            id: Word::new(id),
-            source: self.beside.join(robot),
-            prefix: Word::new(prefix),
-            drop: Vec::new(),
-            freeze: Vec::new(),
-            attach,
-            skip: Vec::new(),
-            names: Vec::new(),
-        });
+        let part = Part::new(id, self.beside.join(robot), prefix);
+        self.recipe.parts.push(Part { attach, ..part });
         let last = self.recipe.parts.len() - 1;
         &mut self.recipe.parts[last]
     }
@@ -261,14 +237,9 @@ impl Reader<'_> {
         let rotation = rotation
             .map(|rotation| canonical(&rotation))
             .unwrap_or_default();
-        let joint = JointDescription {
-            name: Word::new(format!("connection_joint_{idx}")),
-            joint_type: JointType::Fixed,
-            xyz: chain.base_offset.translation,
-            rpy: super::frozen::roll_pitch_yaw(&rotation),
-            axis: None,
-            limit: None,
-        };
+        let rpy = super::frozen::roll_pitch_yaw(&rotation);
+        let xyz = chain.base_offset.translation;
+        let joint = JointDescription::fixed(format!("connection_joint_{idx}"), xyz, rpy);
         let link = Word::new("world");
         let attach = match self.recipe.base {
             Some(_) => Some(Attachment {

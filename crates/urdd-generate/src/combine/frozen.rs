@@ -1,14 +1,18 @@
 //! Frozen joints: computes the fixed origin.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::{Rotation3, UnitQuaternion};
 
 use crate::origin_pose;
-use urdd_format::urdf::{Joint, JointType};
-use urdd_kinematics::rotation::{from_rotation_vector, planar_basis, unit_axis};
+use crate::urdf::written_axis;
+use urdd_format::urdf::Joint;
+use urdd_kinematics::joint_motion;
+use urdd_kinematics::rotation::unit_axis;
 
 /// The `<origin>` of a joint that is frozen at a position, given as one value per DOF (SPEC 5.8).
 pub(super) fn origin(joint: &Joint, position: &[f64], quaternions: bool) -> String {
-    let pose = origin_pose(joint.origin.as_ref(), quaternions) * motion(joint, position);
+    let axis = unit_axis(written_axis(joint));
+    let motion = joint_motion(joint.joint_type, axis, position);
+    let pose = origin_pose(joint.origin.as_ref(), quaternions) * motion;
     let rpy = roll_pitch_yaw(&pose.rotation);
     let xyz = pose.translation.vector;
     origin_text([xyz.x, xyz.y, xyz.z], rpy)
@@ -31,35 +35,6 @@ pub(super) fn numbers(values: &[f64]) -> String {
         text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
     };
     values.iter().map(number).collect::<Vec<_>>().join(" ")
-}
-
-/// The pose of the child's frame in the joint's frame (SPEC 5.8).
-fn motion(joint: &Joint, position: &[f64]) -> Isometry3<f64> {
-    let written = joint.axis.as_ref().and_then(|axis| axis.xyz);
-    let axis = unit_axis(written.unwrap_or([1.0, 0.0, 0.0]));
-    let still = Isometry3::identity();
-    match (joint.joint_type, axis, position) {
-        (JointType::Revolute | JointType::Continuous, Some(axis), &[angle]) => {
-            let rotation = UnitQuaternion::from_axis_angle(&axis, angle);
-            Isometry3::from_parts(Translation3::identity(), rotation)
-        }
-        (JointType::Prismatic, Some(axis), &[length]) => {
-            Isometry3::from_parts((axis.into_inner() * length).into(), still.rotation)
-        }
-        (JointType::Planar, Some(axis), &[x, y, angle]) => {
-            let [along_x, along_y] = planar_basis(&axis);
-            let rotation = UnitQuaternion::from_axis_angle(&axis, angle);
-            Isometry3::from_parts((along_x * x + along_y * y).into(), rotation)
-        }
-        (JointType::Spherical, _, &[a, b, c]) => {
-            Isometry3::from_parts(Translation3::identity(), from_rotation_vector([a, b, c]))
-        }
-        (JointType::Floating, _, &[x, y, z, a, b, c]) => {
-            let rotation = from_rotation_vector([a, b, c]);
-            Isometry3::from_parts(Translation3::new(x, y, z), rotation)
-        }
-        _ => still,
-    }
 }
 
 /// Fixed-axis roll, pitch and yaw. Near a pitch of ±90°, roll and yaw are each ill-conditioned. Roll is computed from

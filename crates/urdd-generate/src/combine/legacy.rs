@@ -6,11 +6,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use roxmltree::Document;
+
 use super::error::PartFault;
 use super::names::mesh_edits;
+use super::part::document;
 use crate::{MAX_SOURCE_BYTES, read_urdf};
-use urdd_directory::json;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::legacy::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
@@ -33,15 +34,11 @@ pub(super) struct Carried {
 /// Reads the URDF of the legacy URDD in `folder`. Opens nothing outside that folder.
 pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
     let file = urdf_in(folder).ok_or(PartFault::NoUrdf)?;
-    let unreadable = |reason: String| PartFault::Unreadable {
-        file: file.clone(),
-        reason,
-    };
-    let root = Root::open_folder(folder).map_err(|error| unreadable(error.to_string()))?;
+    let root = Root::open_folder(folder).map_err(|e| PartFault::unreadable(&file, e))?;
     let found = root.read(&file, MAX_SOURCE_BYTES);
-    let found = found.map_err(|error| unreadable(error.to_string()))?;
-    let robot = read_urdf(&found, "robot").map_err(|error| unreadable(error.to_string()))?;
-    let text = String::from_utf8(robot.carried).map_err(|error| unreadable(error.to_string()))?;
+    let found = found.map_err(|e| PartFault::unreadable(&file, e))?;
+    let robot = read_urdf(&found, "robot").map_err(|e| PartFault::unreadable(&file, e))?;
+    let text = String::from_utf8(robot.carried).map_err(|e| PartFault::unreadable(&file, e))?;
     let links = &robot.robot.links;
     let is_there = |place: &str| root.open_file(place).is_ok();
     let mut places = BTreeMap::new();
@@ -55,13 +52,15 @@ pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
             places.insert(mesh.filename.clone(), place);
         }
     }
-    let mut edits = mesh_edits(&text, &places).map_err(unreadable)?;
+    let document = parse(&text, Kind::Robot);
+    let document = document.map_err(|error| PartFault::unreadable(&file, error.words(&text)))?;
+    let mut edits = mesh_edits(&document, &places);
     let mut plain = plain_meshes(&root);
     plain.retain(|idx, place| {
         let mesh = links.get(*idx).and_then(only_mesh);
         mesh.is_some_and(|mesh| !places.contains_key(&mesh.filename)) && is_there(place)
     });
-    edits.extend(plain_edits(&text, &plain).map_err(unreadable)?);
+    edits.extend(plain_edits(&document, &plain));
     Ok(Carried {
         text: apply(&text, edits).into_bytes(),
         plain_meshes: plain.keys().map(|idx| links[*idx].name.clone()).collect(),
@@ -100,11 +99,9 @@ fn only_mesh(link: &Link) -> Option<&Mesh> {
 /// converter overwrote one with the other.
 fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
     let folder = ModuleKind::PlainMeshes.folder();
-    let bytes = root.read(&format!("{folder}/module.json"), MAX_DOCUMENT_BYTES);
-    let value = bytes.ok().and_then(|bytes| json::read(&bytes).ok());
-    let module =
-        value.and_then(|read| serde_json::from_value::<PlainMeshesModule>(read.value).ok());
-    let paths = module.map_or_else(Vec::new, |module| module.stl_link_mesh_relative_paths);
+    let module = document(root, &format!("{folder}/module.json"));
+    let module = module.map(|(module, _): (PlainMeshesModule, _)| module);
+    let paths = module.map_or_else(|_| Vec::new(), |of| of.stl_link_mesh_relative_paths);
     let paths = paths.iter().enumerate();
     let named = paths.filter_map(|(idx, path)| Some((idx, last_component(path.as_ref()?))));
     let mut links_of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
@@ -117,8 +114,7 @@ fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
 }
 
 /// The edits that make links use their plain meshes, in which the origins are already applied.
-fn plain_edits(text: &str, plain: &BTreeMap<usize, String>) -> Result<Vec<Edit>, String> {
-    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
+fn plain_edits(document: &Document, plain: &BTreeMap<usize, String>) -> Vec<Edit> {
     let links = children(document.root_element()).filter(|(tag, _)| *tag == "link");
     let mut edits = Vec::new();
     for (idx, (_, link)) in links.enumerate() {
@@ -138,5 +134,5 @@ fn plain_edits(text: &str, plain: &BTreeMap<usize, String>) -> Result<Vec<Edit>,
             }
         }
     }
-    Ok(edits)
+    edits
 }

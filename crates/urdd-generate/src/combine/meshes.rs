@@ -58,14 +58,7 @@ impl<'a> Meshes<'a> {
             self.cancellation.check()?;
             let read = |path: &String| {
                 let bytes = loaded.root.read(path, MAX_DOCUMENT_BYTES);
-                bytes.map_err(|error| CombineError::Part {
-                    id: part.id.text.clone(),
-                    source_path: part.source.display().to_string(),
-                    fault: PartFault::Unreadable {
-                        file: path.clone(),
-                        reason: error.to_string(),
-                    },
-                })
+                bytes.map_err(|error| part.refused(PartFault::unreadable(path, error)))
             };
             placed.insert(name.clone(), self.place(&part.id.text, mesh, &read)?);
         }
@@ -104,10 +97,7 @@ impl<'a> Meshes<'a> {
 
     fn store(&mut self, place: String, bytes: &[u8]) -> Result<(), CombineError> {
         let path = self.store.join(self.files.len().to_string());
-        fs::write(&path, bytes).map_err(|error| CombineError::Unwritable {
-            path: path.clone(),
-            reason: error.to_string(),
-        })?;
+        fs::write(&path, bytes).map_err(|error| CombineError::unwritable(&path, error))?;
         self.files.insert(place, path);
         Ok(())
     }
@@ -138,10 +128,7 @@ impl<'a> Meshes<'a> {
             let path = folder.join(carried(place, &shared));
             let made = path.parent().map_or(Ok(()), fs::create_dir_all);
             let put = made.and_then(|()| fs::rename(stored, &path));
-            put.map_err(|error| CombineError::Unwritable {
-                reason: error.to_string(),
-                path,
-            })?;
+            put.map_err(|error| CombineError::unwritable(&path, error))?;
         }
         Ok(shared)
     }

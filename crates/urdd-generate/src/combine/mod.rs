@@ -34,6 +34,7 @@ use std::rc::Rc;
 
 use self::compose::Taken;
 use self::meshes::Meshes;
+use self::names::LeftAlone;
 use self::rewrite::{Rewrite, Rewritten};
 use crate::note::{self as generated, NoteKind};
 use crate::{
@@ -46,7 +47,6 @@ use urdd_format::urdf::Geometry;
 
 pub use check_parts::check_parts;
 pub use error::{CombineError, PartFault};
-pub use names::LeftAlone;
 pub use note::Note;
 pub use recipe::{
     Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word,
@@ -82,15 +82,9 @@ pub fn combine(
 ) -> Result<Combined, CombineError> {
     let internal = |reason: String| CombineError::Generate {
         id: None,
-        error: GenerateError::Internal {
-            file: recipe.shown.clone(),
-            reason,
-        },
+        error: GenerateError::internal(&recipe.shown, reason),
     };
-    let unwritable = |path: &Path, error: std::io::Error| CombineError::Unwritable {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    };
+    let unwritable = CombineError::unwritable;
     let workplace = tempfile::tempdir();
     let workplace = workplace.map_err(|error| unwritable(&std::env::temp_dir(), error))?;
     let mut notes = Vec::new();
@@ -265,78 +259,81 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
     let urdds = parts.iter().filter(is_urdd);
     let all: BTreeSet<&String> = urdds.flat_map(|taken| &taken.loaded.modules).collect();
     for taken in parts {
-        let part = &taken.part.id.text;
-        for note in &taken.loaded.notes {
-            notes.push(Note::Part {
-                part: part.clone(),
-                note: note.clone(),
-            });
+        let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
+        for of_part in &taken.loaded.notes {
+            note(of_part.kind.as_str(), of_part.to_string());
         }
         for link in &taken.loaded.plain_meshes {
-            if taken
-                .loaded
-                .links
-                .get(link)
-                .is_some_and(|idx| taken.trim.keeps_link(*idx))
-            {
-                notes.push(Note::PlainMesh {
-                    part: part.clone(),
-                    link: link.clone(),
-                });
+            let idx = taken.loaded.links.get(link);
+            if idx.is_some_and(|idx| taken.trim.keeps_link(*idx)) {
+                note(
+                    "plain-mesh",
+                    format!(
+                        "its URDD lacks the original mesh of link `{link}`; the plain mesh is used, without colours"
+                    ),
+                );
             }
         }
         for joint in &taken.trim.following {
-            notes.push(Note::Following {
-                part: part.clone(),
-                joint: joint.clone(),
-            });
+            note(
+                "following",
+                format!(
+                    "joint `{joint}` mimics a frozen joint, and is frozen at the position that follows"
+                ),
+            );
         }
+        // URDDs store the textures of meshes, not those of materials.
         for name in textures(taken) {
-            notes.push(Note::Texture {
-                part: part.clone(),
-                name,
-            });
+            note(
+                "texture",
+                format!(
+                    "texture `{name}` of a material is not carried; its name is unchanged, and the file stays where it is"
+                ),
+            );
         }
         if !is_urdd(&taken) {
             continue;
         }
         for name in used_meshes(taken) {
             if !taken.loaded.meshes.contains_key(&name) {
-                let part = part.clone();
-                notes.push(Note::NoMesh { part, name });
+                note(
+                    "mesh-not-found",
+                    format!(
+                        "its URDD has no file for mesh `{name}`: not carried; the element has no surface"
+                    ),
+                );
             }
         }
         let known = ModuleKind::ALL.iter().map(|kind| kind.name());
         let lacks = known.filter(|name| {
-            let is_there = |list: &Vec<String>| list.iter().any(|module| module == name);
-            let others_have = all.iter().any(|module| module == name);
-            others_have && !is_there(&taken.loaded.modules) && !OF_PEOPLE.contains(name)
+            let is_name = |module: &&String| module.as_str() == *name;
+            let is_there = taken.loaded.modules.iter().any(|module| is_name(&module));
+            !is_there && all.iter().any(is_name) && !OF_PEOPLE.contains(name)
         });
-        let lacks: Vec<String> = lacks.map(str::to_owned).collect();
+        let lacks: Vec<&str> = lacks.collect();
         if !lacks.is_empty() {
-            notes.push(Note::UnequalModules {
-                part: part.clone(),
-                lacks,
-            });
+            let lacks = lacks.join(", ");
+            note(
+                "unequal-modules",
+                format!("it has no {lacks}, which other parts have; it is computed"),
+            );
         }
     }
 }
 
 /// Notes about the text of a part.
 fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
-    let part = &taken.part.id.text;
+    let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
     let is_renamed = !taken.part.prefix.text.is_empty();
-    for left in text.left_alone.iter().filter(|_| is_renamed) {
-        notes.push(Note::LeftAlone {
-            part: part.clone(),
-            place: left.place.clone(),
-            name: left.name.clone(),
-        });
+    for LeftAlone { place, name } in text.left_alone.iter().filter(|_| is_renamed) {
+        note(
+            "left-alone",
+            format!(
+                "`{place}` contains `{name}`, the name of a link or joint, and was left unchanged; if it refers to that, write names = [\"{place}\"]"
+            ),
+        );
     }
     for what in &text.gone {
-        notes.push(Note::Gone {
-            part: part.clone(),
-            what: what.clone(),
-        });
+        note("gone", format!("left out {what}"));
     }
 }

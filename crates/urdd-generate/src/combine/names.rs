@@ -7,7 +7,6 @@ use roxmltree::{Document, Node};
 
 use urdd_format::urdf::UrdfModule;
 use urdd_xml::element::{Edit, attribute, children, name};
-use urdd_xml::{Kind, parse};
 
 /// Attributes of elements unknown to URDF whose value, if it equals a link or joint name, refers to it.
 const ATTRIBUTES: &[&str] = &[
@@ -93,10 +92,9 @@ pub(super) struct NamePlace {
 
 /// A value that equals the name of a link or joint but may mean something else.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct LeftAlone {
+pub(super) struct LeftAlone {
     /// `element`, or `element@attribute`.
     pub place: String,
-    /// The name.
     pub name: String,
 }
 
@@ -264,14 +262,7 @@ impl Finder<'_> {
 }
 
 /// The edits that rename meshes.
-///
-/// # Errors
-/// If the text is not well-formed XML.
-pub(super) fn mesh_edits(
-    text: &str,
-    names: &BTreeMap<String, String>,
-) -> Result<Vec<Edit>, String> {
-    let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
+pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (_, link) in children(document.root_element()).filter(|(tag, _)| *tag == "link") {
         let shapes = children(link).filter(|(tag, _)| matches!(*tag, "visual" | "collision"));
@@ -290,7 +281,7 @@ pub(super) fn mesh_edits(
             }
         }
     }
-    Ok(edits)
+    edits
 }
 
 /// Escapes text for an attribute or an element.

@@ -16,7 +16,7 @@ use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
-use urdd_directory::root::Root;
+use urdd_directory::root::{ReadError, Root};
 use urdd_directory::writer::sha256;
 use urdd_format::composition::{CompositionModule, PartSource};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
@@ -90,12 +90,9 @@ pub(super) fn load(
         source_path: shown.clone(),
         fault,
     };
-    let unreadable = |file: &str, reason: String| {
-        let file = file.to_owned();
-        refused(PartFault::Unreadable { file, reason })
-    };
+    let unreadable = |error: ReadError| refused(PartFault::unreadable("", error));
     if source.kind == SourceKind::Urdd {
-        let root = Root::open(&source.path).map_err(|error| unreadable("", error.to_string()))?;
+        let root = Root::open(&source.path).map_err(unreadable)?;
         return read(root, None, id).map_err(refused);
     }
     let mut settings = settings.clone();
@@ -119,7 +116,7 @@ pub(super) fn load(
         }
         _ => {
             let bytes = regular::read(&source.path, MAX_SOURCE_BYTES);
-            let bytes = bytes.map_err(|error| unreadable("", error.to_string()))?;
+            let bytes = bytes.map_err(unreadable)?;
             let digest = sha256(&Sha256::digest(&bytes));
             let made = generate(&source.path, workplace, &settings, &());
             (made, digest, Vec::new())
@@ -129,7 +126,7 @@ pub(super) fn load(
         id: Some(id.to_owned()),
         error,
     })?;
-    let root = Root::open_folder(workplace).map_err(|error| unreadable("", error.to_string()))?;
+    let root = Root::open_folder(workplace).map_err(unreadable)?;
     let loaded = read(root, Some(PartSource::Urdf(digest)), id).map_err(refused)?;
     Ok(Loaded {
         notes: made.notes,
@@ -140,54 +137,40 @@ pub(super) fn load(
 
 /// Loads a URDD of version 1.
 fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, PartFault> {
-    let unreadable = |file: &str, reason: String| PartFault::Unreadable {
-        file: file.to_owned(),
-        reason,
-    };
-    let bytes = |path: &str| {
-        root.read(path, MAX_DOCUMENT_BYTES)
-            .map_err(|error| unreadable(path, error.to_string()))
-    };
-    let text = bytes(ROOT_METADATA)?;
-    let value = json::read(&text).map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
-    let metadata: RootMetadata = serde_json::from_value(value.value)
-        .map_err(|error| unreadable(ROOT_METADATA, error.to_string()))?;
+    let text = bytes(&root, ROOT_METADATA)?;
+    let metadata: RootMetadata = parsed(&text, ROOT_METADATA)?;
     let Some(root_metadata::Source::Urdf(urdf)) = &metadata.source else {
         return Err(PartFault::NoUrdf);
     };
-    let robot = read_urdf(&bytes(&urdf.path)?, id)
-        .map_err(|error| unreadable(&urdf.path, error.to_string()))?;
+    let robot = read_urdf(&bytes(&root, &urdf.path)?, id)
+        .map_err(|error| PartFault::unreadable(&urdf.path, error))?;
     let text_of_urdf = String::from_utf8(robot.carried)
-        .map_err(|_| unreadable(&urdf.path, "it is not UTF-8".to_owned()))?;
-    let modules = Modules {
-        root: &root,
-        metadata: &metadata,
-    };
-    let original: Option<OriginalMeshesModule> = modules.read(ModuleKind::OriginalMeshes)?;
-    let skips: Option<Value> = modules.read(ModuleKind::LinkShapesSkips)?;
-    let skips = skips.map(|document| {
+        .map_err(|_| PartFault::unreadable(&urdf.path, "it is not UTF-8"))?;
+    let listed = (&root, &metadata);
+    let original: Option<(OriginalMeshesModule, _)> = module(listed, ModuleKind::OriginalMeshes)?;
+    let original = original.map(|(module, _)| meshes(module));
+    let skips: Option<(Value, _)> = module(listed, ModuleKind::LinkShapesSkips)?;
+    let skips = skips.map(|(document, _)| {
         let of = |key: &str| document.get(key).cloned().unwrap_or_default();
         let wrong = |error: serde_json::Error| {
             let path = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());
-            unreadable(&path, error.to_string())
+            PartFault::unreadable(&path, error)
         };
         Ok(Skips {
             reasons: serde_json::from_value(of("skipped_reasons")).map_err(wrong)?,
             edits: serde_json::from_value(of("edits")).map_err(wrong)?,
         })
     });
-    let named: Option<NamedConfigurationsModule> = modules.read(ModuleKind::NamedConfigurations)?;
-    let named = named.map_or_else(Vec::new, |module| module.configurations);
-    let (composition, composition_length) = match modules.document(ModuleKind::Composition)? {
-        Some((composition, length)) => (Some(composition), length),
-        None => (None, 0),
-    };
+    let named: Option<(NamedConfigurationsModule, _)> =
+        module(listed, ModuleKind::NamedConfigurations)?;
+    let named = named.map_or_else(Vec::new, |(module, _)| module.configurations);
+    let (composition, composition_length) = module(listed, ModuleKind::Composition)?.unzip();
     Ok(Loaded {
-        meshes: original.map(meshes).unwrap_or_default(),
+        meshes: original.unwrap_or_default(),
         skips: skips.transpose()?,
         configurations: named.iter().map(ConfigurationEdit::from).collect(),
         composition,
-        composition_length,
+        composition_length: composition_length.unwrap_or_default(),
         source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),
         modules: metadata
             .modules
@@ -228,38 +211,33 @@ fn meshes(original: OriginalMeshesModule) -> BTreeMap<String, MeshFile> {
     meshes
 }
 
-struct Modules<'a> {
-    root: &'a Root,
-    metadata: &'a RootMetadata,
+/// The document of a module with its length in bytes, if the URDD lists it.
+fn module<T: DeserializeOwned>(
+    (root, metadata): (&Root, &RootMetadata),
+    kind: ModuleKind,
+) -> Result<Option<(T, usize)>, PartFault> {
+    let mut listed = metadata.modules.iter();
+    let module = listed.find(|module| module.name == kind.name());
+    let module = module.map(|module| document(root, &format!("{}/module.json", module.path)));
+    module.transpose()
 }
 
-impl Modules<'_> {
-    /// The document of a module, if the URDD lists it.
-    fn read<T: DeserializeOwned>(&self, kind: ModuleKind) -> Result<Option<T>, PartFault> {
-        let document = self.document(kind)?;
-        Ok(document.map(|(document, _)| document))
-    }
+/// A JSON document of a URDD, with its length in bytes.
+pub(super) fn document<T: DeserializeOwned>(
+    root: &Root,
+    path: &str,
+) -> Result<(T, usize), PartFault> {
+    let bytes = bytes(root, path)?;
+    Ok((parsed(&bytes, path)?, bytes.len()))
+}
 
-    /// The document of a module with its length in bytes, if the URDD lists it.
-    fn document<T: DeserializeOwned>(
-        &self,
-        kind: ModuleKind,
-    ) -> Result<Option<(T, usize)>, PartFault> {
-        let mut listed = self.metadata.modules.iter();
-        let Some(module) = listed.find(|module| module.name == kind.name()) else {
-            return Ok(None);
-        };
-        let path = format!("{}/module.json", module.path);
-        let unreadable = |reason: String| PartFault::Unreadable {
-            file: path.clone(),
-            reason,
-        };
-        let bytes = self.root.read(&path, MAX_DOCUMENT_BYTES);
-        let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
-        let value = json::read(&bytes).map_err(|error| unreadable(error.to_string()))?;
-        let document = serde_json::from_value(value.value);
-        document
-            .map(|document| Some((document, bytes.len())))
-            .map_err(|error| unreadable(error.to_string()))
-    }
+fn bytes(root: &Root, path: &str) -> Result<Vec<u8>, PartFault> {
+    let bytes = root.read(path, MAX_DOCUMENT_BYTES);
+    bytes.map_err(|error| PartFault::unreadable(path, error))
+}
+
+/// The value of a JSON document; `path` names it in faults.
+pub(super) fn parsed<T: DeserializeOwned>(bytes: &[u8], path: &str) -> Result<T, PartFault> {
+    let value = json::read(bytes).map_err(|error| PartFault::unreadable(path, error))?;
+    serde_json::from_value(value.value).map_err(|error| PartFault::unreadable(path, error))
 }

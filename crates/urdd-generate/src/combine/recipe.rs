@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::CombineError;
+use super::error::{CombineError, PartFault};
 use super::recipe_fault::RecipeFault;
 use crate::MAX_SOURCE_BYTES;
 use urdd_directory::path::portable;
@@ -121,6 +121,45 @@ pub struct JointDescription {
     pub limit: Option<Limit>,
 }
 
+impl Part {
+    /// The whole of a robot, not attached.
+    pub(super) fn new(id: String, source: PathBuf, prefix: String) -> Self {
+        Part {
+            id: Word::new(id),
+            source,
+            prefix: Word::new(prefix),
+            drop: Vec::new(),
+            freeze: Vec::new(),
+            attach: None,
+            skip: Vec::new(),
+            names: Vec::new(),
+        }
+    }
+
+    /// An error about this part.
+    pub(super) fn refused(&self, fault: PartFault) -> CombineError {
+        CombineError::Part {
+            id: self.id.text.clone(),
+            source_path: self.source.display().to_string(),
+            fault,
+        }
+    }
+}
+
+impl JointDescription {
+    /// A fixed joint.
+    pub(super) fn fixed(name: String, xyz: [f64; 3], rpy: [f64; 3]) -> Self {
+        JointDescription {
+            name: Word::new(name),
+            joint_type: JointType::Fixed,
+            xyz,
+            rpy,
+            axis: None,
+            limit: None,
+        }
+    }
+}
+
 impl Recipe {
     /// The usual case: one robot on a link of another. The names of the first one remain unchanged.
     ///
@@ -138,34 +177,19 @@ impl Recipe {
         if second.eq_ignore_ascii_case(&first) {
             second += "_2";
         }
-        let part = |id: &str, source: &Path, prefix: String| Part {
-            id: Word::new(id),
-            source: source.to_owned(),
-            prefix: Word::new(prefix),
-            drop: Vec::new(),
-            freeze: Vec::new(),
-            attach: None,
-            skip: Vec::new(),
-            names: Vec::new(),
-        };
-        let mut held = part(&second, held, format!("{second}_"));
+        let joint = JointDescription::fixed(format!("{second}_attachment"), xyz, rpy);
+        let prefix = format!("{second}_");
+        let mut held = Part::new(second.clone(), held.to_owned(), prefix);
         held.attach = Some(Attachment {
             to: Word::new(format!("{first}/{to}")),
-            joint: JointDescription {
-                name: Word::new(format!("{second}_attachment")),
-                joint_type: JointType::Fixed,
-                xyz,
-                rpy,
-                axis: None,
-                limit: None,
-            },
+            joint,
         });
         let name = name.map_or_else(|| format!("{first}_{second}"), str::to_owned);
         let recipe = Recipe {
             shown: "command line".to_owned(),
             name: Word::new(name),
             base: None,
-            parts: vec![part(&first, holder, String::new()), held],
+            parts: vec![Part::new(first, holder.to_owned(), String::new()), held],
             sources: Sources::Named,
         };
         recipe.check()?;

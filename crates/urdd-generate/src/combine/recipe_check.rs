@@ -4,9 +4,10 @@
 use std::collections::HashMap;
 
 use super::error::CombineError;
-use super::recipe::{Attachment, Recipe, Word};
+use super::recipe::{Recipe, Word};
 use super::recipe_fault::RecipeFault;
 use crate::MOST_LINKS;
+use crate::cycles::cycles;
 
 /// Maximum length of a robot's name in bytes: files are named after it.
 const MAX_NAME_BYTES: usize = 200;
@@ -104,47 +105,26 @@ impl Recipe {
         Ok(())
     }
 
-    /// Follows each part to the root part; visits no part twice.
+    /// Checks that each part is attached to the root part, or to one that is.
     fn check_attachments(&self) -> Result<(), CombineError> {
-        let mut holders: Vec<Option<(usize, &Attachment)>> = Vec::new();
+        let mut holders = Vec::new();
         for part in &self.parts {
             holders.push(match &part.attach {
-                Some(attach) => self.target(&attach.to)?.0.map(|holder| (holder, attach)),
+                Some(attach) => self.target(&attach.to)?.0,
                 None => None,
             });
         }
-        // For each part, the start from which it was first reached.
-        let mut seen: Vec<Option<usize>> = vec![None; self.parts.len()];
-        for start in 0..self.parts.len() {
-            let mut now = start;
-            while seen[now].is_none() {
-                seen[now] = Some(start);
-                let Some((holder, attach)) = holders[now] else {
-                    break;
-                };
-                if seen[holder] == Some(start) {
-                    let at = holders[holder].map_or(&attach.to, |(_, attach)| &attach.to);
-                    return Err(self.refused(at, self.ring(holder, &holders)));
-                }
-                now = holder;
-            }
-        }
-        Ok(())
-    }
-
-    /// The cycle that contains a part.
-    fn ring(&self, start: usize, holders: &[Option<(usize, &Attachment)>]) -> RecipeFault {
-        let (mut ids, mut now) = (Vec::new(), start);
-        while let Some((holder, _)) = holders[now] {
-            ids.push(self.parts[now].id.text.clone());
-            now = holder;
-            if now == start {
-                break;
-            }
-        }
-        match ids.len() {
+        let Some(ring) = cycles(&holders).into_iter().next() else {
+            return Ok(());
+        };
+        let first = &self.parts[ring[0]];
+        let at = first.attach.as_ref().map_or(&first.id, |attach| &attach.to);
+        let ids = ring.iter().map(|part| self.parts[*part].id.text.clone());
+        let mut ids: Vec<String> = ids.collect();
+        let fault = match ids.len() {
             1 => RecipeFault::OnItself(ids.swap_remove(0)),
             _ => RecipeFault::Ring(ids),
-        }
+        };
+        Err(self.refused(at, fault))
     }
 }

@@ -1,6 +1,8 @@
 //! Builds the `composition_module`, which records how a robot was composed.
 
-use super::compose::Taken;
+use std::collections::HashMap;
+
+use super::compose::{Taken, held};
 use super::error::CombineError;
 use super::recipe::Recipe;
 use urdd_format::composition::{
@@ -19,37 +21,20 @@ pub(super) fn composition(
     parts: &[Taken],
     robot: &UrdfModule,
 ) -> Result<CompositionModule, CombineError> {
-    let links = robot.links.iter().zip(0..);
-    let links: std::collections::HashMap<&str, u32> =
-        links.map(|(link, idx)| (link.name.as_str(), idx)).collect();
-    let joints = robot.joints.iter().zip(0..);
-    let joints: std::collections::HashMap<&str, u32> = joints
-        .map(|(joint, idx)| (joint.name.as_str(), idx))
-        .collect();
+    let links = (robot.links.iter().map(|link| link.name.as_str())).zip(0..);
+    let links: HashMap<&str, u32> = links.collect();
+    let joints = (robot.joints.iter().map(|joint| joint.name.as_str())).zip(0..);
+    let joints: HashMap<&str, u32> = joints.collect();
     let link = |name: &str| LinkIdx(links.get(name).copied().unwrap_or_default());
     let joint = |name: &str| JointIdx(joints.get(name).copied().unwrap_or_default());
     let mut made = Vec::new();
     for taken in parts {
         let (part, of) = (taken.part, &taken.loaded.robot);
-        let attachment = match (&part.attach, &recipe.base) {
-            (Some(attach), _) => {
-                let (holder, name) = recipe.target(&attach.to)?;
-                Some(PartAttachment {
-                    part_idx: holder.map(|part| RobotIdx(part as u32)),
-                    link_idx: match holder {
-                        Some(part) => link(&parts[part].renamed(name)),
-                        None => link(name),
-                    },
-                    joint_idx: joint(&attach.joint.name.text),
-                })
-            }
-            (None, Some(base)) => Some(PartAttachment {
-                part_idx: None,
-                link_idx: link(&base.link.text),
-                joint_idx: joint(&base.joint.name.text),
-            }),
-            (None, None) => None,
-        };
+        let attachment = held(recipe, parts, taken)?.map(|held| PartAttachment {
+            part_idx: held.part.map(|part| RobotIdx(part as u32)),
+            link_idx: link(&held.link),
+            joint_idx: joint(&held.joint.name.text),
+        });
         let all_links = of.links.iter().map(|link| &link.name).enumerate();
         let (kept, dropped): (Vec<_>, Vec<_>) =
             all_links.partition(|(idx, _)| taken.trim.keeps_link(*idx));

@@ -53,7 +53,7 @@ impl Rewrite<'_> {
         let text = self.loaded.text.trim_start_matches('\u{feff}');
         let document = parse(text, Kind::Robot).map_err(|error| error.words(text))?;
         let found = names::find(&document, &self.loaded.robot, self.names);
-        let mut edits = mesh_edits(text, self.meshes)?;
+        let mut edits = mesh_edits(&document, self.meshes);
         let dropped = self.structure(text, &document, &mut edits);
         let mut gone = BTreeMap::new();
         let mut own = Vec::new();

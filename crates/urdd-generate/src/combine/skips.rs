@@ -43,11 +43,11 @@ pub(super) fn decisions(
                     ..edit.clone()
                 });
             } else {
-                notes.push(Note::EditLost {
-                    part: taken.part.id.text.clone(),
-                    link_a: edit.link_a.clone(),
-                    link_b: edit.link_b.clone(),
-                });
+                let text = format!(
+                    "the edit of the skips between `{}` and `{}` is left out, since one of them is dropped",
+                    edit.link_a, edit.link_b
+                );
+                notes.push(Note::of_part("edit-lost", &taken.part.id.text, text));
             }
         }
     }
@@ -67,7 +67,12 @@ pub(super) fn decisions(
     }
     let first = reasons.first().copied().cloned();
     if reasons.windows(2).any(|two| two[0] != two[1]) {
-        notes.push(Note::ReasonsDiffer);
+        let text = "the parts skip pairs for different reasons; the default ones are used: same-link, always, adjacent, default (`--skip` chooses others)";
+        notes.push(Note {
+            kind: "reasons-differ",
+            part: None,
+            text: text.to_owned(),
+        });
         return Ok((edits, None));
     }
     Ok((edits, first))

@@ -56,11 +56,7 @@ impl Recipe {
     /// not run.
     pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source, CombineError> {
         self.allowed(&part.source, settings)
-            .map_err(|fault| CombineError::Part {
-                id: part.id.text.clone(),
-                source_path: part.source.display().to_string(),
-                fault,
-            })
+            .map_err(|fault| part.refused(fault))
     }
 
     fn allowed(&self, source: &Path, settings: &Settings) -> Result<Source, PartFault> {

@@ -6,9 +6,9 @@ use super::error::CombineError;
 use super::part::Loaded;
 use super::recipe::{Part, Recipe, Word};
 use super::recipe_fault::RecipeFault;
-use crate::urdf::num_dofs;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::{Joint, JointType};
+use urdd_kinematics::num_dofs;
 
 /// What is dropped and frozen. Lists are indexed by the part's own links and joints.
 #[derive(Debug)]

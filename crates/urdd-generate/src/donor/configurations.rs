@@ -6,19 +6,13 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::Donor;
-use super::decided::Decided;
+use super::decided::{Decided, Fault, names};
 use crate::error::{EditsFault, GenerateError};
-use urdd_directory::json;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::root::Root;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_format::registry::ModuleKind;
 
 /// Key of the configurations.
 const CONFIGURATIONS: &str = "configurations";
-
-/// What is wrong, with its JSON Pointer.
-type Fault = (String, EditsFault);
 
 /// Reads the named configurations from a folder that is to be replaced, whatever else is wrong with it.
 ///
@@ -28,23 +22,17 @@ pub(crate) fn read(
     folder: &Path,
     replaced: Option<&Donor>,
 ) -> Result<Vec<ConfigurationEdit>, GenerateError> {
-    let Ok(root) = Root::open(folder) else {
-        return Ok(Vec::new());
-    };
     let decided = Decided {
-        root: &root,
         folder,
         kind: ModuleKind::NamedConfigurations,
         what: "named configurations",
         keys: &[CONFIGURATIONS],
     };
-    let Some(document) = decided.document()? else {
-        return Ok(Vec::new());
-    };
-    let edits = parse(&document.value).and_then(|edits| check(edits, dof_names(&root).as_ref()));
-    let edits = edits.map_err(|(pointer, fault)| decided.fault(&document, &pointer, fault))?;
-    decided.check_mirror(&document, replaced)?;
-    Ok(edits)
+    let edits = decided.read(replaced, |root, document| {
+        let dofs = names(root, ModuleKind::Dof, "dofs");
+        check(parse(document)?, dofs.as_ref())
+    })?;
+    Ok(edits.unwrap_or_default())
 }
 
 /// The names and positions in the document.
@@ -106,15 +94,4 @@ fn check(
         }
     }
     Ok(edits)
-}
-
-/// The DOFs of the URDD's own robot, if they can be read.
-fn dof_names(root: &Root) -> Option<HashSet<String>> {
-    let path = format!("{}/module.json", ModuleKind::Dof.folder());
-    let module = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
-    let dofs = module.value.get("dofs")?.as_array()?;
-    let names = dofs
-        .iter()
-        .map(|dof| Some(dof.get("name")?.as_str()?.to_owned()));
-    names.collect()
 }

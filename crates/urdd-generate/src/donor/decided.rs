@@ -1,6 +1,7 @@
 //! A module of the replaced URDD that holds a user's decisions. If it cannot be read, generation fails: a syntax error must
 //! not discard a user's work.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value;
@@ -17,7 +18,6 @@ use urdd_format::registry::ModuleKind;
 
 /// A module with decisions, in a folder that is to be replaced.
 pub(super) struct Decided<'a> {
-    pub root: &'a Root,
     pub folder: &'a Path,
     pub kind: ModuleKind,
     /// What the decisions are, for messages.
@@ -26,20 +26,47 @@ pub(super) struct Decided<'a> {
     pub keys: &'a [&'a str],
 }
 
+/// What is wrong with a document, with its JSON Pointer.
+pub(super) type Fault = (String, EditsFault);
+
 /// Its document.
-pub(super) struct Document {
-    pub value: Value,
-    pub text: String,
+struct Document {
+    value: Value,
+    text: String,
 }
 
 impl Decided<'_> {
+    /// The decisions, whatever else is wrong with the URDD; `None` if there is no such module. `parse` reads them from the
+    /// document. The URDD is `replaced` if its root metadata is readable.
+    ///
+    /// # Errors
+    /// If there may be some and they cannot be read.
+    pub fn read<T>(
+        &self,
+        replaced: Option<&Donor>,
+        parse: impl FnOnce(&Root, &Value) -> Result<T, Fault>,
+    ) -> Result<Option<T>, GenerateError> {
+        let Ok(root) = Root::open(self.folder) else {
+            return Ok(None);
+        };
+        let Some(document) = self.document(&root)? else {
+            return Ok(None);
+        };
+        let decisions = parse(&root, &document.value).map_err(|(pointer, fault)| {
+            let at = position::locate(&document.text, &pointer);
+            self.refused(&self.path("module.json"), at, fault)
+        })?;
+        self.check_mirror(&root, &document, replaced)?;
+        Ok(Some(decisions))
+    }
+
     /// The document; `None` if there is no such module.
-    pub fn document(&self) -> Result<Option<Document>, GenerateError> {
+    fn document(&self, root: &Root) -> Result<Option<Document>, GenerateError> {
         let (json_path, yaml_path) = (self.path("module.json"), self.path("module.yaml"));
-        let bytes = match self.root.read(&json_path, MAX_DOCUMENT_BYTES) {
+        let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
             Err(ReadError::Missing) => {
-                return match self.root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
+                return match root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
                     Err(ReadError::Missing) => Ok(None),
                     _ => Err(self.refused(&yaml_path, None, EditsFault::NoJson)),
                 };
@@ -69,23 +96,18 @@ impl Decided<'_> {
         }))
     }
 
-    /// The error for a fault at a JSON Pointer of the document.
-    pub fn fault(&self, document: &Document, pointer: &str, fault: EditsFault) -> GenerateError {
-        let at = position::locate(&document.text, pointer);
-        self.refused(&self.path("module.json"), at, fault)
-    }
-
     /// Checks that the YAML file says the same. The user may have edited only that one. A YAML file that is still as
     /// generated is merely out of date.
-    pub fn check_mirror(
+    fn check_mirror(
         &self,
+        root: &Root,
         document: &Document,
         replaced: Option<&Donor>,
     ) -> Result<(), GenerateError> {
         let path = self.path("module.yaml");
         let bytes = match is_as_made(replaced, &path) {
             true => return Ok(()),
-            false => self.root.read(&path, MAX_DOCUMENT_BYTES),
+            false => root.read(&path, MAX_DOCUMENT_BYTES),
         };
         let Ok(bytes) = bytes else {
             return Ok(());
@@ -141,4 +163,15 @@ fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
     files
         .find(|file| file.path == path)
         .is_some_and(|file| replaced.is_intact(file))
+}
+
+/// The names in a list of a module of the URDD, if they can be read.
+pub(super) fn names(root: &Root, kind: ModuleKind, list: &str) -> Option<HashSet<String>> {
+    let path = format!("{}/module.json", kind.folder());
+    let module = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
+    let listed = module.value.get(list)?.as_array()?;
+    let names = listed
+        .iter()
+        .map(|of| Some(of.get("name")?.as_str()?.to_owned()));
+    names.collect()
 }

@@ -2,17 +2,14 @@
 //!
 //! They are read before any module is built.
 
-use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value;
 
 use super::Donor;
-use super::decided::Decided;
+use super::decided::{Decided, Fault, names};
 use crate::error::{EditsFault, GenerateError};
 use crate::selection::Selection;
-use urdd_directory::json;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
@@ -85,26 +82,18 @@ pub(crate) fn read(
     selection: &Selection,
     replaced: Option<&Donor>,
 ) -> Result<Decisions, GenerateError> {
-    let Ok(root) = Root::open(folder) else {
-        return Ok(Decisions::default());
-    };
     let decided = Decided {
-        root: &root,
         folder,
         kind: ModuleKind::LinkShapesSkips,
         what: "edits of skips",
         keys: &[EDITS, SKIPPED_REASONS],
     };
-    let Some(document) = decided.document()? else {
-        return Ok(Decisions::default());
-    };
-    let decisions = parse(&document.value)
-        .map_err(|(pointer, fault)| decided.fault(&document, &pointer, fault))?;
-    if let Some((idx, link)) = unknown_link(&root, &decisions.edits) {
-        let pointer = format!("/{EDITS}/{idx}");
-        return Err(decided.fault(&document, &pointer, EditsFault::UnknownLink(link)));
-    }
-    decided.check_mirror(&document, replaced)?;
+    let decisions = decided.read(replaced, |root, document| {
+        let decisions = parse(document)?;
+        check_links(root, &decisions.edits)?;
+        Ok(decisions)
+    })?;
+    let decisions = decisions.unwrap_or_default();
     if !decisions.edits.is_empty() && !selection.has(decided.kind) {
         let fault = EditsFault::NotAskedFor(decisions.edits.len());
         return Err(decided.refused(&decided.path("module.json"), None, fault));
@@ -112,27 +101,27 @@ pub(crate) fn read(
     Ok(decisions)
 }
 
-/// The first edit with a link that the URDD's own robot lacks, and the link: a mistyped name. A link that only the new
-/// robot lacks is handled elsewhere.
-fn unknown_link(root: &Root, edits: &[SkipEdit]) -> Option<(usize, String)> {
+/// Refuses an edit with a link that the URDD's own robot lacks: a mistyped name. A link that only the new robot lacks is
+/// handled elsewhere.
+fn check_links(root: &Root, edits: &[SkipEdit]) -> Result<(), Fault> {
     if edits.is_empty() {
-        return None;
+        return Ok(());
     }
-    let path = format!("{}/module.json", ModuleKind::Urdf.folder());
-    let robot = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
-    let links = robot.value.get("links")?.as_array()?;
-    let names = links.iter().map(|link| link.get("name")?.as_str());
-    let names = names.collect::<Option<HashSet<&str>>>()?;
-    edits.iter().enumerate().find_map(|(idx, edit)| {
-        let unknown = [&edit.link_a, &edit.link_b]
-            .into_iter()
-            .find(|name| !names.contains(name.as_str()))?;
-        Some((idx, unknown.clone()))
-    })
+    let Some(links) = names(root, ModuleKind::Urdf, "links") else {
+        return Ok(());
+    };
+    for (idx, edit) in edits.iter().enumerate() {
+        let mut named = [&edit.link_a, &edit.link_b].into_iter();
+        if let Some(unknown) = named.find(|name| !links.contains(*name)) {
+            let fault = EditsFault::UnknownLink(unknown.clone());
+            return Err((format!("/{EDITS}/{idx}"), fault));
+        }
+    }
+    Ok(())
 }
 
 /// The decisions in a document of any draft, or the JSON Pointer to an invalid one and what is wrong with it.
-fn parse(document: &Value) -> Result<Decisions, (String, EditsFault)> {
+fn parse(document: &Value) -> Result<Decisions, Fault> {
     let skipped_reasons = match document.get(SKIPPED_REASONS) {
         // An early draft of the format had edits but no choice of reasons.
         None => SkippedReason::USUAL.to_vec(),

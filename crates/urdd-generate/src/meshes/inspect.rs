@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use super::roots::{Place, Roots};
 use super::sniff;
-use crate::bounded::read_file;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use urdd_directory::regular;
 use urdd_geometry::read::{Format, NoteCode, Scene, read};
 
 /// A mesh file after inspection. A file is opened only once: the inspected bytes are those that are stored.
@@ -48,9 +48,9 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         left_out: Vec::new(),
         remarks: Vec::new(),
     };
-    let bytes = match read_file(mesh, MAX_DOCUMENT_BYTES) {
+    let bytes = match regular::read(mesh, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
-        Err(why) => return unusable(None, why),
+        Err(why) => return unusable(None, why.to_string()),
     };
     let name = mesh.file_name().unwrap_or_default().to_string_lossy();
     let beside = Beside {
@@ -185,7 +185,7 @@ impl Beside<'_> {
                 file.display()
             ));
         };
-        let bytes = read_file(&file, MAX_DOCUMENT_BYTES);
+        let bytes = regular::read(&file, MAX_DOCUMENT_BYTES);
         let bytes = bytes.map_err(|why| format!("which cannot be read: {why}"))?;
         let bytes = Arc::new(bytes);
         Ok((file, SideFile { bytes, place }))

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::bounded::read_file;
+use urdd_directory::regular;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
@@ -139,7 +139,7 @@ fn is_named(folder: &Path, name: &str) -> bool {
 
 /// The name in a folder's `package.xml`, if that is there and is well-formed.
 pub fn package_name(folder: &Path) -> Option<String> {
-    let bytes = read_file(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
+    let bytes = regular::read(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
     let text = String::from_utf8(bytes).ok()?;
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
     let mut elements = document.root_element().children();

@@ -70,10 +70,7 @@ pub(crate) fn files_of(
         Shading::Flat => write::glb(parts),
         Shading::Smooth => write::smooth_glb(parts),
     };
-    let internal = |error: write::WriteError| GenerateError::Internal {
-        file: files.glb.clone(),
-        reason: error.to_string(),
-    };
+    let internal = |error: write::WriteError| GenerateError::internal(&files.glb, error);
     let file = |path: &String, bytes: Vec<u8>| MadeFile {
         path: path.clone(),
         bytes: Arc::new(bytes),
@@ -92,10 +89,7 @@ pub(crate) fn files_of(
 /// Reads a mesh from the files of an earlier run.
 pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, GenerateError> {
     let bytes = root.read(&files.glb, MAX_DOCUMENT_BYTES);
-    let bytes = bytes.map_err(|error| GenerateError::Internal {
-        file: files.glb.clone(),
-        reason: error.to_string(),
-    })?;
+    let bytes = bytes.map_err(|error| GenerateError::internal(&files.glb, error))?;
     read_glb(&bytes, &files.glb)
 }
 
@@ -106,10 +100,7 @@ pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh, Generate
         ..Options::default()
     };
     let scene = read_with(bytes, path, &mut |_| None, &options);
-    let mut scene = scene.map_err(|error| GenerateError::Internal {
-        file: path.to_owned(),
-        reason: error.to_string(),
-    })?;
+    let mut scene = scene.map_err(|error| GenerateError::internal(path, error))?;
     for part in &mut scene.parts {
         // Merge vertices that were split for their normals.
         part.mesh.weld();

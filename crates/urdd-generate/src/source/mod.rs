@@ -7,7 +7,7 @@ pub(crate) mod xacro;
 
 use std::path::{Path, PathBuf};
 
-use super::bounded::{MAX_SOURCE_BYTES, read_file};
+use super::bounded::MAX_SOURCE_BYTES;
 use super::error::GenerateError;
 use super::fault::{Fault, PlacedFault};
 use super::meshes::package::Packages;
@@ -16,6 +16,7 @@ use super::urdf::{self, Reading};
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::path::portable;
 use urdd_directory::position::LineIndex;
+use urdd_directory::regular;
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::element::apply;
@@ -108,7 +109,8 @@ pub(crate) fn find(path: &Path, shown: &str) -> Result<File, GenerateError> {
         file: shown.to_owned(),
         reason,
     };
-    let bytes = read_file(path, MAX_SOURCE_BYTES).map_err(unreadable)?;
+    let bytes = regular::read(path, MAX_SOURCE_BYTES);
+    let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
     let canonical = path
         .canonicalize()
         .map_err(|error| unreadable(error.to_string()))?;
@@ -311,10 +313,8 @@ fn mend(
         is_verbatim = false;
         text = apply(&text, reading.edits);
     }
-    Err(GenerateError::Internal {
-        file: shown.to_owned(),
-        reason: "the repaired URDF needs repairs again".to_owned(),
-    })
+    let reason = "the repaired URDF needs repairs again";
+    Err(GenerateError::internal(shown, reason))
 }
 
 fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mut Vec<Note>) {

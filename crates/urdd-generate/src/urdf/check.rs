@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 
 use super::reader::{Reader, shortened};
-use super::tree::{has_axis, num_dofs, written_axis};
+use super::tree::written_axis;
+use crate::cycles::cycles;
 use crate::fault::Fault;
 use crate::note::NoteKind;
 use urdd_format::urdf::{Joint, JointType, UrdfModule};
 use urdd_kinematics::rotation::unit_axis;
+use urdd_kinematics::{has_axis, num_dofs};
 
 /// Checks the robot and fills in its tree. `robot_at` is the byte offset of `<robot>`.
 pub(super) fn check(reader: &mut Reader, robot_at: usize) {
@@ -27,45 +29,31 @@ pub(super) fn check(reader: &mut Reader, robot_at: usize) {
 
 fn same_names(reader: &mut Reader) {
     let robot = &reader.reading.robot;
-    let links = robot.links.iter().map(|link| link.name.as_str());
-    let joints = robot.joints.iter().map(|joint| joint.name.as_str());
-    let joint_offsets: Vec<usize> = reader
-        .joint_places
-        .iter()
-        .map(|place| place.joint)
-        .collect();
-    let twice = [
-        (twice(links), &reader.link_places, true),
-        (twice(joints), &joint_offsets, false),
-    ];
-    let mut faults = Vec::new();
-    for (found, offsets, are_links) in twice {
-        for (first, again, name) in found {
-            let name = name.to_owned();
-            faults.push((offsets[again], offsets[first], name, are_links));
-        }
-    }
-    for (offset, first_offset, name, are_links) in faults {
-        // Holds the byte offset until `read` in `mod.rs` replaces it by the line.
-        let first = u32::try_from(first_offset).unwrap_or(u32::MAX);
-        let fault = match are_links {
-            true => Fault::TwoLinks { name, first },
-            false => Fault::TwoJoints { name, first },
-        };
-        reader.fault(offset, fault);
-    }
+    let links = robot.links.iter().map(|link| &link.name);
+    let links = links.zip(reader.link_places.iter().copied());
+    let joints = robot.joints.iter().map(|joint| &joint.name);
+    let joints = joints.zip(reader.joint_places.iter().map(|place| place.joint));
+    let mut faults = twice(links, |name, first| Fault::TwoLinks { name, first });
+    faults.extend(twice(joints, |name, first| Fault::TwoJoints {
+        name,
+        first,
+    }));
+    reader.faults.extend(faults);
 }
 
-/// Repeated names: index of the first, index of the repetition.
-fn twice<'a>(names: impl Iterator<Item = &'a str>) -> Vec<(usize, usize, &'a str)> {
+/// The faults of repeated names, each at its byte offset. `fault` takes the name and the byte offset of the first, until
+/// `read` in `mod.rs` replaces it by the line.
+fn twice<'a>(
+    names: impl Iterator<Item = (&'a String, usize)>,
+    fault: fn(String, u32) -> Fault,
+) -> Vec<(usize, Fault)> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     let mut found = Vec::new();
-    for (idx, name) in names.enumerate() {
-        match seen.get(name) {
-            Some(first) => found.push((*first, idx, name)),
-            None => {
-                seen.insert(name, idx);
-            }
+    for (name, offset) in names {
+        let first = *seen.entry(name).or_insert(offset);
+        if first != offset {
+            let first = u32::try_from(first).unwrap_or(u32::MAX);
+            found.push((offset, fault(name.clone(), first)));
         }
     }
     found
@@ -182,33 +170,11 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
 
 /// Links in a cycle, each the parent of the next, starting with the one that comes first in the file.
 fn ring(parent: &[Option<usize>]) -> Option<Vec<usize>> {
-    // For each link, the walk that visited it first. A walk that meets itself has found a cycle.
-    let mut walk_of = vec![usize::MAX; parent.len()];
-    for start in 0..parent.len() {
-        let mut link = start;
-        while walk_of[link] == usize::MAX {
-            walk_of[link] = start;
-            match parent[link] {
-                Some(above) => link = above,
-                None => break,
-            }
-        }
-        if walk_of[link] == start && parent[link].is_some() {
-            let mut ring = vec![link];
-            let mut above = parent[link];
-            while let Some(next) = above.filter(|next| *next != link) {
-                ring.push(next);
-                above = parent[next];
-            }
-            ring.reverse();
-            let first = (0..ring.len())
-                .min_by_key(|at| ring[*at])
-                .unwrap_or_default();
-            ring.rotate_left(first);
-            return Some(ring);
-        }
-    }
-    None
+    let mut ring = cycles(parent).into_iter().next()?;
+    ring.reverse();
+    let first = (0..ring.len()).min_by_key(|at| ring[*at]);
+    ring.rotate_left(first.unwrap_or_default());
+    Some(ring)
 }
 
 fn axes(reader: &mut Reader) {
@@ -269,36 +235,14 @@ fn mimics(reader: &mut Reader) {
         reader.edit(place, "");
         reader.reading.robot.joints[idx].mimic = None;
     }
-    for idx in in_circles(&drivers) {
+    let mut circling = cycles(&drivers).concat();
+    circling.sort_unstable();
+    for idx in circling {
         let name = shortened(&reader.reading.robot.joints[idx].name);
         let place = reader.joint_places[idx].mimic.start;
         reader.fault(place, Fault::MimicCircle(name));
     }
     reader.reading.tree.drivers = drivers;
-}
-
-/// The joints that are part of a mimic cycle, ascending; without those that only lead into one.
-fn in_circles(drivers: &[Option<usize>]) -> Vec<usize> {
-    // For each joint, the walk that visited it first. A walk that meets itself has found a cycle.
-    let mut walk_of = vec![usize::MAX; drivers.len()];
-    let mut found = Vec::new();
-    for start in 0..drivers.len() {
-        let mut joint = start;
-        while walk_of[joint] == usize::MAX {
-            walk_of[joint] = start;
-            match drivers[joint] {
-                Some(driver) => joint = driver,
-                None => break,
-            }
-        }
-        if walk_of[joint] == start && drivers[joint].is_some() {
-            found.push(joint);
-            let around = std::iter::successors(drivers[joint], |joint| drivers[*joint]);
-            found.extend(around.take_while(|other| *other != joint));
-        }
-    }
-    found.sort_unstable();
-    found
 }
 
 fn missing_limits(reader: &mut Reader) {

@@ -18,7 +18,7 @@ use super::fault::{Fault, PlacedFault};
 use urdd_directory::position;
 
 pub(crate) use reading::Reading;
-pub(crate) use tree::{Tree, has_axis, num_dofs, written_axis};
+pub(crate) use tree::{Tree, written_axis};
 
 /// Reads a URDF. A robot without a name is named `file_stem`.
 ///

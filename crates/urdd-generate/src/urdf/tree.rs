@@ -1,6 +1,6 @@
-//! The kinematic tree, and the DOFs and axes of joint types.
+//! The kinematic tree, and the axes of joints.
 
-use urdd_format::urdf::{Joint, JointType};
+use urdd_format::urdf::Joint;
 
 /// The kinematic tree, by link and joint indices.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -13,23 +13,8 @@ pub(crate) struct Tree {
     pub drivers: Vec<Option<usize>>,
 }
 
-/// Number of DOFs of a joint type, unless the joint is a mimic joint.
-pub(crate) fn num_dofs(joint_type: JointType) -> usize {
-    match joint_type {
-        JointType::Fixed => 0,
-        JointType::Revolute | JointType::Continuous | JointType::Prismatic => 1,
-        JointType::Planar | JointType::Spherical => 3,
-        JointType::Floating => 6,
-    }
-}
-
 /// The axis of SPEC 5.7, not normalised.
 pub(crate) fn written_axis(joint: &Joint) -> [f64; 3] {
     let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
     axis.unwrap_or([1.0, 0.0, 0.0])
-}
-
-pub(crate) fn has_axis(joint_type: JointType) -> bool {
-    use JointType::{Continuous, Planar, Prismatic, Revolute};
-    matches!(joint_type, Revolute | Continuous | Prismatic | Planar)
 }
