@@ -13,6 +13,7 @@ use std::path::Path;
 use serde::Serialize;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+use urdd_directory::source::Memory;
 use urdd_directory::{canonical, file_entry};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
@@ -415,6 +416,17 @@ impl Fixture {
             entry["size"] = json!(size);
             entry["sha256"] = json!(sha256);
         }
+    }
+
+    /// The URDD as a source for a validator, without a disk.
+    ///
+    /// # Panics
+    /// If a path is not one that SPEC 2.8 allows.
+    pub fn in_memory(&self) -> Memory {
+        let files = self.files.iter();
+        let files = files.map(|(path, bytes)| (path.clone(), bytes.as_slice().into()));
+        Memory::new("robot", files.collect())
+            .unwrap_or_else(|(path, fault)| panic!("{path}: {fault}"))
     }
 
     /// Writes every file below `root`, which is created if it does not exist.

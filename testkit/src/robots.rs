@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::files;
+use urdd_generate::note::Note;
 use urdd_generate::{Settings, generate};
 
 /// The URDFs of the project's robots.
@@ -32,29 +33,36 @@ pub fn our_robots() -> Vec<(String, PathBuf)> {
     robots
 }
 
-/// The files of a URDD, by their paths in it.
-type Files = BTreeMap<String, Vec<u8>>;
+/// The files of a URDD by their paths in it, and what was noted while it was made.
+type Made = (BTreeMap<String, Vec<u8>>, Vec<Note>);
 
 /// A URDD of one of these robots, generated once, in a temporary folder that is removed with the returned guard.
 pub fn made(urdf: &Path) -> (tempfile::TempDir, PathBuf) {
-    static MADE: Mutex<BTreeMap<PathBuf, Arc<OnceLock<Files>>>> = Mutex::new(BTreeMap::new());
+    let (folder, target, _) = made_with_notes(urdf);
+    (folder, target)
+}
+
+/// As [`made`], with the notes.
+pub fn made_with_notes(urdf: &Path) -> (tempfile::TempDir, PathBuf, Vec<Note>) {
+    static MADE: Mutex<BTreeMap<PathBuf, Arc<OnceLock<Made>>>> = Mutex::new(BTreeMap::new());
     let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let one = Arc::clone(all.entry(urdf.to_owned()).or_default());
     drop(all);
     let folder = tempfile::tempdir().expect("a folder");
     let target = folder.path().join("robot");
     let generated = || {
-        generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
+        let made = generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
         let files = files::below(&target);
         std::fs::remove_dir_all(&target).expect("a folder");
-        files
+        (files, made.notes)
     };
-    for (path, bytes) in one.get_or_init(generated) {
+    let (files, notes) = one.get_or_init(generated);
+    for (path, bytes) in files {
         let path = target.join(path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         std::fs::write(path, bytes).expect("a file");
     }
-    (folder, target)
+    (folder, target, notes.clone())
 }
 
 /// A URDD generated from the text of a URDF.

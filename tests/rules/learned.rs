@@ -6,14 +6,16 @@ use urdd_format::self_collision_model::SelfCollisionModelModule;
 use urdd_validate::code::Code;
 use urdd_validate::code::Code::*;
 use urdd_validate::learned::counts::Judge;
+use urdd_validate::rule::Rule;
 use urdd_validate::settings::Settings;
 use urdd_validate::skip::SkipReason;
 use urdd_validate::solids::Solids;
-use urdd_validate::validate;
+use urdd_validate::{rules, validate, validate_with};
 
-use crate::{Case, changed, findings};
+use crate::{Case, changed, findings_in};
 use testkit::fixture::Fixture;
 use testkit::model::{MODEL, Said, fixture, fixture_with, trained_on};
+use testkit::trials::trials;
 
 /// A case with some values changed.
 fn case(code: Code, name: &'static str, caught: bool, changes: &[(&'static str, Value)]) -> Case {
@@ -95,8 +97,21 @@ fn as_drafted(fixture: &mut Fixture) {
 
 /// The codes found in a model, except infos.
 fn codes(fixture: &Fixture) -> Vec<String> {
-    let found = findings(&|folder| fixture.write_to(folder));
-    found.into_keys().collect()
+    findings_in(fixture).into_keys().collect()
+}
+
+/// The codes that the rule on the size of a model finds, without those that evaluate it.
+fn codes_of_size(fixture: &Fixture) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    fixture.write_to(folder.path());
+    let size: Vec<&'static Rule> = rules::all()
+        .into_iter()
+        .filter(|rule| rule.code == LRN005)
+        .collect();
+    let run = validate_with(&[folder.path()], &Settings::default(), &size);
+    let urdds = run.expect("a URDD").report.urdds;
+    let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
+    findings.map(|finding| finding.code.clone()).collect()
 }
 
 /// Models that overstate their accuracy, each in a different way. All of them passed in 0.2.0.
@@ -109,10 +124,21 @@ mod flattering {
         let mut small = fixture();
         padded(65_536)(&mut small);
         small.seal();
-        assert_eq!(codes(&small), [""; 0], "as large as a model may be");
+        assert_eq!(codes_of_size(&small), [""; 0], "as large as a model may be");
+        // Each configuration is counted: with the largest model where much is tried, and with a smaller one here.
+        let mut padded_little = fixture();
+        padded(if trials(1) > 1 { 65_536 } else { 2_048 })(&mut padded_little);
+        padded_little.seal();
+        assert_eq!(codes(&padded_little), [""; 0]);
+        let few = padded_little.get(MODEL, "/evaluation/num_missed").as_u64();
+        let fewer = few.expect("a count").saturating_sub(3);
+        padded_little.set(MODEL, "/evaluation/num_missed", json!(fewer));
+        padded_little.seal();
+        assert_eq!(codes(&padded_little), ["LRN010"]);
         let mut large = fixture();
         padded(65_560)(&mut large);
         large.seal();
+        assert_eq!(codes_of_size(&large), ["LRN005"]);
         assert_eq!(codes(&large), ["LRN005"]);
         // Its stated rates do not count as verified.
         large.set(MODEL, "/evaluation/num_missed", json!(0));
@@ -146,7 +172,7 @@ mod flattering {
             ..said
         });
         assert_eq!(*honest.get(MODEL, "/evaluation/num_missed"), json!(known));
-        let found = findings(&|folder| model.write_to(folder));
+        let found = findings_in(&model);
         assert_eq!(
             found.keys().collect::<Vec<_>>(),
             ["LRN011"],

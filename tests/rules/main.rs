@@ -43,7 +43,7 @@ use testkit::fixture::Fixture;
 use urdd_format::report;
 use urdd_validate::code::Code;
 use urdd_validate::settings::Settings;
-use urdd_validate::{rules, validate};
+use urdd_validate::{Run, rules, validate, validate_source};
 
 /// How a URDD is built.
 pub enum Make {
@@ -173,9 +173,17 @@ fn findings(write: &dyn Fn(&Path)) -> BTreeMap<String, String> {
     let root = folder.path().join("robot");
     std::fs::create_dir(&root).expect("the URDD's folder");
     write(&root);
-    let run = validate(&[&root], &Settings::default()).expect("something to examine");
-    let report = run.report;
-    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    told(&validate(&[&root], &Settings::default()).expect("something to examine"))
+}
+
+/// As [`findings`], in a fixture whose paths are all allowed.
+fn findings_in(fixture: &Fixture) -> BTreeMap<String, String> {
+    let run = validate_source(fixture.in_memory(), "robot", &Settings::default());
+    told(&run.expect("not cancelled"))
+}
+
+fn told(run: &Run) -> BTreeMap<String, String> {
+    let findings = run.report.urdds.iter().flat_map(|urdd| &urdd.findings);
     findings
         .filter(|f| f.severity != report::Severity::Info)
         .map(|f| {

@@ -123,7 +123,7 @@ fn what_is_dropped_takes_along_what_names_it() {
         text.contains("ros2_control") && text.contains("l/force"),
         "{text}"
     );
-    let gone = notes.iter().filter(|note| note.kind() == "gone").count();
+    let gone = notes.iter().filter(|note| note.kind == "gone").count();
     assert_eq!(gone, 6, "{notes:?}");
 }
 
@@ -145,7 +145,7 @@ fn a_follower_of_a_frozen_joint_is_frozen_too() {
     );
     assert!(!text.contains("transmission"), "{text}");
     assert!(
-        notes.iter().any(|note| note.kind() == "following"),
+        notes.iter().any(|note| note.kind == "following"),
         "{notes:?}"
     );
 }

@@ -15,23 +15,24 @@ use crate::conformance::in_repository;
 /// may differ (SPEC 9.4 and 13.3).
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
-fn generating_gives_what_is_kept() {
+fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     let suite = urdd::suite::carried().expect("the suite reads");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let robots = folder.path().join("robots");
     valid::write_robots(&suite.data, &robots).expect("the robots");
+    let urdds = folder.path().join("valid");
     write_valid(
         &suite.data,
         &valid::robots(&suite.data),
         &robots,
-        folder.path(),
+        &urdds,
         &Default::default(),
     )
     .expect("URDDs");
     let update = std::env::var_os("URDD_UPDATE").is_some();
     let mut stale = BTreeSet::new();
     for robot in valid::robots(&suite.data) {
-        let made = folder.path().join(&robot);
+        let made = urdds.join(&robot);
         let made = valid::kept(&Tree::read(&made, &made).expect("a URDD"));
         let place = in_repository("conformance/valid").join(&robot);
         let kept = match place.is_dir() {
@@ -52,23 +53,7 @@ fn generating_gives_what_is_kept() {
         "urdd generate does not make these of our robots any more; if that is meant, run URDD_UPDATE=1 cargo test \
          --test program conformance and read what changed: {stale:#?}"
     );
-}
 
-#[test]
-fn nothing_is_found_in_them() {
-    let suite = urdd::suite::carried().expect("the suite reads");
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let robots = folder.path().join("robots");
-    valid::write_robots(&suite.data, &robots).expect("the robots");
-    let urdds = folder.path().join("valid");
-    write_valid(
-        &suite.data,
-        &valid::robots(&suite.data),
-        &robots,
-        &urdds,
-        &Default::default(),
-    )
-    .expect("URDDs");
     let run = validate(&[&urdds], &Settings::default()).expect("URDDs");
     let report = run.report;
     assert_eq!(report.urdds.len(), 9);

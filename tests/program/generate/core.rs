@@ -11,14 +11,14 @@ use crate::generate::{findings_of, our_robots, read_json};
 use testkit::difference::difference;
 use testkit::fixture::Fixture;
 use testkit::robot::{Robot, arbitrary_robot};
+use testkit::robots::made_with_notes;
+use testkit::trials::trials;
 
 #[test]
 fn our_robots_have_no_findings() {
     for (name, path) in our_robots() {
-        let folder = tempfile::tempdir().unwrap();
-        let target = folder.path().join(&name);
-        let made = generate(&path, &target, &Settings::default(), &()).unwrap();
-        assert_eq!(made.notes, [], "{name}");
+        let (_folder, target, notes) = made_with_notes(&path);
+        assert_eq!(notes, [], "{name}");
         assert_eq!(findings_of(&target), [], "{name}");
     }
 }
@@ -26,14 +26,13 @@ fn our_robots_have_no_findings() {
 #[test]
 fn arbitrary_robots_are_as_the_others_have_them() {
     let core = Selection::parse(["core", "kinematics_samples"]).unwrap();
-    on_arbitrary_robots(60, &core);
+    on_arbitrary_robots(trials(12), &core);
 }
 
-/// With meshes, pieces, boxes and distances. `.ci/full` tries more.
+/// With meshes, pieces, boxes and distances.
 #[test]
 fn arbitrary_robots_have_no_findings() {
-    let cases = std::env::var("URDD_CASES").map_or(15, |cases| cases.parse().expect("a number"));
-    on_arbitrary_robots(cases, &Selection::all());
+    on_arbitrary_robots(trials(4), &Selection::all());
 }
 
 fn on_arbitrary_robots(cases: u32, selection: &Selection) {

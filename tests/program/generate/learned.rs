@@ -1,6 +1,8 @@
 //! `self_collision_model_module`: trained, the same with any number of threads, and refused where it is useless.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use serde_json::Value;
 use urdd_generate::note::NoteKind;
@@ -56,6 +58,21 @@ fn pair(folder: &Path, joint: &str) -> PathBuf {
     path
 }
 
+/// The URDD of [`pair`] on hinges, with a model: trained once, by one thread.
+fn trained(urdf: &Path, target: &Path) {
+    static FILES: OnceLock<BTreeMap<String, Vec<u8>>> = OnceLock::new();
+    let train = || {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.unwrap().install(|| make(urdf, target, &settings()));
+        testkit::files::below(target)
+    };
+    for (path, bytes) in FILES.get_or_init(train) {
+        let file = target.join(path);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, bytes).unwrap();
+    }
+}
+
 fn make(urdf: &Path, folder: &Path, settings: &Settings) -> Generated {
     generate(urdf, folder, settings, &()).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -68,7 +85,7 @@ fn count(model: &Value, key: &str) -> u64 {
 fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
     let folder = tempfile::tempdir().unwrap();
     let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
-    make(&urdf, &made, &settings());
+    trained(&urdf, &made);
     assert_eq!(findings_of(&made), []);
     let model = read_json(&made.join(MODULE));
     let [colliding, missed, near, near_missed, free, cleared] = [
@@ -104,20 +121,19 @@ fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
 fn the_same_bytes_by_one_thread_and_by_three() {
     let folder = tempfile::tempdir().unwrap();
     let urdf = pair(folder.path(), "revolute");
-    let texts = [1, 3].map(|threads| {
-        let made = folder.path().join(threads.to_string());
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.unwrap().install(|| make(&urdf, &made, &settings()));
-        std::fs::read_to_string(made.join(MODULE)).unwrap()
-    });
-    assert_eq!(texts[0], texts[1]);
+    let [one, three] = ["one", "three"].map(|name| folder.path().join(name));
+    trained(&urdf, &one);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+    pool.unwrap().install(|| make(&urdf, &three, &settings()));
+    let [one, three] = [one, three].map(|made| std::fs::read_to_string(made.join(MODULE)).unwrap());
+    assert_eq!(one, three);
 }
 
 #[test]
 fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
-    make(&urdf, &made, &settings());
+    trained(&urdf, &made);
     let again = make(&urdf, &made, &settings());
     assert!(!again.changed);
     assert!(again.modules.last().is_some_and(|module| module.kept));

@@ -14,6 +14,7 @@ use proptest::test_runner::{Config, TestCaseError, TestRunner};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use testkit::documents::{Choices, arbitrary_json, instance};
+use testkit::trials::trials;
 use urdd_format::conformance::{ProducerResult, ValidatorResult};
 use urdd_format::diff_report::DiffReport;
 use urdd_format::registry::ModuleDocument;
@@ -22,10 +23,10 @@ use urdd_format::root_metadata::RootMetadata;
 use urdd_format::schema::{Subject, Variant};
 
 /// Generated documents for each schema; each is mutated [`MUTATIONS`] times.
-const CASES: u32 = 300;
+const CASES: u32 = 60;
 const MUTATIONS: usize = 25;
 /// Minimum number of times that each verdict must occur for each schema; below it, the comparison is meaningless.
-const ENOUGH: usize = 500;
+const ENOUGH: usize = 100;
 
 #[derive(Debug, PartialEq, Serialize)]
 #[serde(untagged)]
@@ -70,7 +71,7 @@ fn choices(most: usize) -> impl Strategy<Value = Vec<u16>> {
 /// Runs a property that generates a document from the first choices, and changes it by the second.
 fn run(cases: u32, property: impl Fn(&mut Choices, &mut Choices) -> Result<(), TestCaseError>) {
     let mut runner = TestRunner::new(Config {
-        cases,
+        cases: trials(cases),
         failure_persistence: None,
         ..Config::default()
     });

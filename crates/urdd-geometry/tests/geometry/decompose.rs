@@ -5,6 +5,8 @@ use urdd_geometry::Mesh;
 use urdd_geometry::decompose::{Settings, decompose};
 use urdd_geometry::hull::ConvexHull;
 
+use crate::dice::trials;
+
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| a[i] - b[i])
 }
@@ -193,12 +195,12 @@ fn a_convex_link_is_one_piece() {
     let pieces = check(&cube, &exact());
     assert_eq!(pieces.len(), 1);
     assert!((volume(&pieces[0]) - 0.006).abs() < 1e-9);
-    let n = 64;
+    let n = 32;
     let half: Vec<[f64; 2]> = (0..=n / 2)
         .map(|k| std::f64::consts::PI * (f64::from(k) / f64::from(n / 2) - 0.5))
         .map(|a| [0.05 * a.cos(), 0.05 * a.sin()])
         .collect();
-    assert_eq!(check(&turned(&half, 64), &Settings::default()).len(), 1);
+    assert_eq!(check(&turned(&half, n), &Settings::default()).len(), 1);
 }
 
 #[test]
@@ -337,7 +339,7 @@ fn threads_do_not_change_a_bit() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: trials(10), failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
     fn soups_are_covered(
         corners in prop::collection::vec([-1.0_f32..1.0, -1.0_f32..1.0, -0.3_f32..0.3], 9..120),
@@ -363,7 +365,7 @@ fn turned_box(half: [f64; 3], rpy: [f64; 3], xyz: [f64; 3]) -> Mesh {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: trials(40), failure_persistence: None, ..ProptestConfig::default() })]
     /// Cuts in any direction through bodies with an interior: vertices added at a cut stay in the hull.
     #[test]
     fn pieces_of_boxes_that_cross_are_in_their_hull(

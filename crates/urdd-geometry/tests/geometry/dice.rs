@@ -41,3 +41,9 @@ impl Dice {
             .collect()
     }
 }
+
+/// The number of arbitrary inputs to try: `few`, times `URDD_TRIALS` where it is set.
+pub fn trials(few: u32) -> u32 {
+    let factor = std::env::var("URDD_TRIALS");
+    few * factor.map_or(1, |factor| factor.parse().expect("a number"))
+}

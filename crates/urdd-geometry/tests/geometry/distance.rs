@@ -6,6 +6,7 @@ use urdd_geometry::convex::{ConvexShape, OrientedBox, ShapeError, Sphere, TOLERA
 use urdd_geometry::mesh::Mesh;
 
 use crate::brute_force;
+use crate::dice::trials;
 
 fn hull(points: &[[f64; 3]]) -> ConvexShape {
     ConvexShape::of_points(points).expect("a shape")
@@ -320,7 +321,7 @@ fn size(a: &[[f64; 3]], b: &[[f64; 3]], pose: &Isometry3<f64>) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(std::env::var("URDD_CASES").map_or(400, |x| x.parse().unwrap())))]
+    #![proptest_config(ProptestConfig::with_cases(trials(100)))]
 
     #[test]
     fn agrees_with_trying_everything(a in points(), b in points(), pose in pose()) {

@@ -1,23 +1,21 @@
 //! The rules on meshes and link shapes, on arbitrary robots: no finding on valid URDDs, and consistent results for any
 //! document.
 
-use std::path::Path;
-
 use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::{Value, json};
 use urdd_format::report::Report;
 use urdd_format::report::Status;
 use urdd_validate::settings::Settings;
-use urdd_validate::validate;
+use urdd_validate::validate_source;
 
 use testkit::fixture::Fixture;
 use testkit::robot::arbitrary_box_robot;
+use testkit::trials::trials;
 
-fn report(fixture: &Fixture, root: &Path) -> Report {
-    fixture.write_to(root);
-    let run = validate(&[root], &Settings::default()).expect("something to examine");
-    run.report
+fn report(fixture: &Fixture) -> Report {
+    let run = validate_source(fixture.in_memory(), "robot", &Settings::default());
+    run.expect("not cancelled").report
 }
 
 /// Whether a rule is in the tested families.
@@ -26,12 +24,11 @@ fn ours(code: &str) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: trials(6), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn nothing_is_found_in_valid_urdds(robot in arbitrary_box_robot()) {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let report = report(&Fixture::full(&robot), folder.path());
+        let report = report(&Fixture::full(&robot));
         let found: Vec<_> = report.urdds.iter().flat_map(|urdd| &urdd.findings).filter(|f| ours(&f.code)).collect();
         prop_assert!(found.is_empty(), "{found:#?}");
         let skipped: Vec<_> = report.urdds.iter().flat_map(|urdd| &urdd.checks)
@@ -44,7 +41,6 @@ proptest! {
     fn no_rule_crashes_on_nonsense(
         changes in prop::collection::vec((any::<Index>(), any::<Index>(), nonsense()), 1..6),
     ) {
-        let folder = tempfile::tempdir().expect("a temporary folder");
         let mut fixture = Fixture::toy();
         let modules: Vec<String> = fixture.documents.keys().filter(|key| key.contains('/')).cloned().collect();
         for (module, place, new) in changes {
@@ -58,7 +54,7 @@ proptest! {
             }
         }
         fixture.seal();
-        let report = report(&fixture, folder.path());
+        let report = report(&fixture);
         let crashed: Vec<_> = report.urdds.iter().flat_map(|urdd| &urdd.checks)
             .filter(|check| check.status == Status::Crashed)
             .collect();

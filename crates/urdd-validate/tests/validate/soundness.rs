@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use serde_json::{Value, json};
 use testkit::fixture::Fixture;
-use testkit::folder::Folder;
 use testkit::meshes::{Point, glb, obj, stl};
 use testkit::robot::*;
+use urdd_directory::root::Root;
 use urdd_document::urdd::Urdd;
 use urdd_format::urdf::{Joint, JointType, Link};
 use urdd_validate::code::Code;
@@ -80,9 +80,7 @@ fn put(urdd: &mut Fixture, module: &str, pointer: &str, corners: &[Point; 8]) {
 
 fn examine(mut urdd: Fixture) -> Examined {
     urdd.seal();
-    let mut folder = Folder::new();
-    let path = folder.put(&urdd).to_path_buf();
-    let urdd = Urdd::read(&path).expect("a URDD");
+    let urdd = Urdd::of(Root::of(urdd.in_memory())).expect("a URDD");
     urdd_validate::examine(urdd, "robot", &Settings::default(), &rules::all())
 }
 
