@@ -12,6 +12,7 @@ import type { Stage } from "./stage";
 import { CHOOSES_PAIRS, initial, LAYERS, OVERLAYS } from "./state";
 import type { State } from "./state";
 import { keepToken } from "./token";
+import { bytes, count } from "./ui/format";
 
 /** Delay between a change and the update of the address, ms. */
 const QUIET = 400;
@@ -22,6 +23,8 @@ export class Address {
   private shown = "";
   /** Counts navigations, so that only the last one takes effect. */
   private turn = 0;
+  /** Takes back the drop that is being sent. */
+  private sending = new AbortController();
 
   constructor(
     private readonly app: App,
@@ -52,9 +55,10 @@ export class Address {
     await this.read(entry);
   }
 
-  /** Closes the robot, and removes it from the address. */
+  /** Closes the robot, and removes it from the address. Takes back what is being sent. */
   leave(): void {
     this.turn++;
+    this.sending.abort();
     this.put("", true);
     this.app.close();
   }
@@ -79,7 +83,10 @@ export class Address {
   private async send(files: Dropped[], turn: number): Promise<void> {
     const { store, site } = this.app;
     if (site.mode !== "live") throw new Error(NEEDS_PROGRAM);
-    const sent = await site.drop(files);
+    this.sending = new AbortController();
+    const size = bytes(files.reduce((sum, { file }) => sum + file.size, 0));
+    store.set({ loading: { title: "Sending", what: `${count(files.length, "file")} (${size})`, done: 0, of: 0 } });
+    const sent = await site.drop(files, this.sending.signal);
     const entries = await site.robots();
     store.set({ entries });
     if (turn !== this.turn) return;

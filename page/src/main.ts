@@ -58,13 +58,20 @@ function start(): void {
     failure.hidden = text === null;
     fill(failure, h("p", {}, text), back);
   });
-  const waiting = h("div", { class: "waiting", role: "status" });
+  const progress = h("div", { role: "status" });
+  // It stays while the words change, so that a click is not lost.
+  const waiting = h(
+    "div",
+    { class: "waiting" },
+    progress,
+    button("Cancel", {}, () => address.leave()),
+  );
   app.store.on(["robot", "loading"], ({ robot, loading }) => {
     waiting.hidden = robot !== null || loading === null;
     if (!loading) return;
-    const progress = h("progress", { "aria-label": loading.what, max: Math.max(loading.of, 1) });
-    if (loading.of > 0) progress.value = loading.done;
-    fill(waiting, h("p", {}, said(loading)), progress);
+    const bar = h("progress", { "aria-label": loading.what, max: Math.max(loading.of, 1) });
+    if (loading.of > 0) bar.value = loading.done;
+    fill(progress, h("p", {}, said(loading)), bar);
   });
   const middle = h(
     "main",

@@ -106,19 +106,19 @@ export class Site {
     return (await this.json(path, PATIENCE)) as { revision: string | null; entry: Entry };
   }
 
-  /** Sends URDFs and their meshes to `urdd view`. Returns the ids of their robots. */
-  async drop(files: { path: string; file: File }[]): Promise<string[]> {
+  /** Sends URDFs and their meshes to `urdd view`. Returns the ids of their robots. An abort takes the drop back. */
+  async drop(files: { path: string; file: File }[], signal: AbortSignal): Promise<string[]> {
     const list = JSON.stringify(files.map(({ path, file }) => ({ path, size: file.size })));
     const body = new Blob([list, "\n", ...files.map(({ file }) => file)]);
-    return ((await this.send("drops", body)) as { robots: string[] }).robots;
+    return ((await this.send("drops", body, signal)) as { robots: string[] }).robots;
   }
 
   async post(path: string, body: unknown): Promise<unknown> {
     return this.send(path, JSON.stringify(body));
   }
 
-  private async send(path: string, body: string | Blob): Promise<unknown> {
-    const response = await this.fetch(path, { method: "POST", body });
+  private async send(path: string, body: string | Blob, signal: AbortSignal | null = null): Promise<unknown> {
+    const response = await this.fetch(path, { method: "POST", body, signal });
     const text = await response.text();
     if (!response.ok) throw new Error(text || `the server answered ${response.status}`);
     return JSON.parse(text) as unknown;

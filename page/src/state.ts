@@ -110,8 +110,8 @@ export interface State {
   making: Pick<Entry, "making" | "failure">;
   /** Whether `urdd view` answers, has ended, or was replaced by another one. */
   server: "here" | "gone" | "another";
-  /** The unfolded panel in a narrow window. */
-  unfolded: "links" | "panels" | null;
+  /** What is unfolded in a narrow window: a panel, or the pills without room. */
+  unfolded: "links" | "panels" | "pills" | null;
 }
 
 export const NO_SKIPS: State["skips"] = { answer: null, error: null, before: [], dirty: false, saved: 0 };

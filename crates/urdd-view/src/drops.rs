@@ -3,15 +3,17 @@
 //! The body is a line of JSON, a list of `path` and `size`, and then the files' bytes one after another. Everything in it
 //! is hostile: no path leaves the folder, no file replaces another, and number, sizes and depth have limits.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::io::{ErrorKind, Write};
+use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::json;
 
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
+use crate::endings::Endings;
 use crate::reply::Reply;
 use crate::save::Failure;
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
@@ -22,6 +24,8 @@ use urdd_generate::batch;
 pub const MAX_BODY: u64 = 256 << 20;
 /// Maximum number of files of one drop.
 const MAX_FILES: usize = 10_000;
+/// Maximum number of packages of one URDF for which a folder is searched in the drop. URDFs name a few.
+const MAX_PACKAGES: usize = 1000;
 /// The prefix of mesh names in a package.
 const IN_PACKAGE: &str = "package://";
 
@@ -33,21 +37,31 @@ struct Item {
     size: u64,
 }
 
-/// Takes a drop, and adds its robots to the collection.
-pub fn take(collection: &Collection, body: &[u8]) -> Reply {
+/// Takes a drop, and adds its robots to the collection, unless the page does not wait any more.
+pub fn take(collection: &Collection, body: &[u8], is_gone: &dyn Fn() -> bool) -> Reply {
     let Some(drops) = &collection.drops else {
         return Reply::failure(403, "no URDFs are taken here\n");
     };
-    match taken(collection, drops, body) {
+    match taken(collection, drops, body, is_gone) {
         Ok(ids) => Reply::json(&json!({ "robots": ids })),
         Err((status, message)) => Reply::failure(status, format!("{message}\n")),
     }
 }
 
-fn taken(collection: &Collection, drops: &Drops, body: &[u8]) -> Result<Vec<String>, Failure> {
+fn taken(
+    collection: &Collection,
+    drops: &Drops,
+    body: &[u8],
+    is_gone: &dyn Fn() -> bool,
+) -> Result<Vec<String>, Failure> {
     let (items, content) = items(body)?;
+    let wanted = || match is_gone() {
+        true => Err((409, "the page does not wait any more".to_owned())),
+        false => Ok(()),
+    };
     let folder = drops.begin(content.len() as u64)?;
-    let sources = write(&items, content, &folder).and_then(|()| sources(&folder, drops.with_xacro));
+    let sources = write(&items, content, &folder, &wanted)
+        .and_then(|()| sources(&items, &folder, drops.with_xacro, &wanted));
     let sources = sources.inspect_err(|_| {
         let _ = fs::remove_dir_all(&folder);
     })?;
@@ -86,9 +100,24 @@ fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
     Ok((items, content))
 }
 
-fn write(items: &[Item], mut content: &[u8], folder: &Path) -> Result<(), Failure> {
-    let failed = |path: &str, error: &std::io::Error| (400, format!("{path:?}: {error}"));
+fn write(
+    items: &[Item],
+    mut content: &[u8],
+    folder: &Path,
+    wanted: &dyn Fn() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let failed = |path: &str, error: &std::io::Error| {
+        let why = match error.kind() {
+            // Nothing is replaced: two files of one name are an error.
+            ErrorKind::AlreadyExists | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
+                "another file or folder of this drop has the same name".to_owned()
+            }
+            _ => error.to_string(),
+        };
+        (400, format!("{path:?}: {why}"))
+    };
     for Item { path, size } in items {
+        wanted()?;
         let size = usize::try_from(*size).unwrap_or(usize::MAX);
         let (bytes, rest) = content
             .split_at_checked(size)
@@ -98,7 +127,6 @@ fn write(items: &[Item], mut content: &[u8], folder: &Path) -> Result<(), Failur
         if let Some(parent) = target.parent() {
             fs::create_dir_all(parent).map_err(|error| failed(path, &error))?;
         }
-        // Nothing is replaced: two files of one name are an error.
         let mut file = File::create_new(&target).map_err(|error| failed(path, &error))?;
         file.write_all(bytes)
             .map_err(|error| failed(path, &error))?;
@@ -113,7 +141,12 @@ fn write(items: &[Item], mut content: &[u8], folder: &Path) -> Result<(), Failur
 }
 
 /// The URDFs of a drop, by name.
-fn sources(folder: &Path, with_xacro: bool) -> Result<Vec<(String, Source)>, Failure> {
+fn sources(
+    items: &[Item],
+    folder: &Path,
+    with_xacro: bool,
+    wanted: &dyn Fn() -> Result<(), Failure>,
+) -> Result<Vec<(String, Source)>, Failure> {
     let mut jobs = batch::jobs(&[folder.to_owned()])
         .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
     if !with_xacro {
@@ -123,53 +156,62 @@ fn sources(folder: &Path, with_xacro: bool) -> Result<Vec<(String, Source)>, Fai
         let why = "xacro files are programs: start `urdd view --xacro` to run them";
         return Err((403, why.to_owned()));
     }
-    let folders = folders(folder);
+    let dropped = Endings::of(items.iter().map(|item| &*item.path).collect());
     let sources = jobs.into_iter().map(|job| {
-        let packages = packages(&job.source, folder, &folders);
+        wanted()?;
+        let text = fs::read(&job.source).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let packages = packages(&text, &dropped).into_iter();
+        let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
         let source = Source {
             file: job.source,
-            packages,
+            packages: packages.collect(),
         };
-        (job.name, source)
+        Ok((job.name, source))
     });
-    Ok(sources.collect())
+    sources.collect()
 }
 
-/// All folders below one, itself first.
-fn folders(folder: &Path) -> Vec<PathBuf> {
-    let mut found = vec![folder.to_owned()];
-    let mut at = 0;
-    while let Some(folder) = found.get(at).cloned() {
-        at += 1;
-        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-        let inside = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
-        found.extend(inside.map(|entry| entry.path()));
-    }
-    found
-}
-
-/// The packages that a URDF names and that no dropped folder is called: the folder in which the first mesh of each is
-/// found, as when the content of a package was dropped without its folder.
-fn packages(urdf: &Path, dropped: &Path, folders: &[PathBuf]) -> Vec<String> {
-    let text = fs::read(urdf).unwrap_or_default();
-    let text = String::from_utf8_lossy(&text);
-    let mut found: Vec<(&str, String)> = Vec::new();
+/// The packages that a URDF names and that no dropped folder is called, each with the folder in which its first mesh
+/// that is there is found, as when the content of a package was dropped without its folder.
+fn packages<'a>(text: &'a str, dropped: &Endings<'a>) -> BTreeMap<&'a str, &'a str> {
+    let mut found = BTreeMap::new();
     for rest in text.split(IN_PACKAGE).skip(1) {
         let end = rest.find(['"', '\'', '<']).unwrap_or(rest.len());
         let Some((package, file)) = rest[..end].split_once('/') else {
             continue;
         };
-        let is_known = found.iter().any(|(known, _)| *known == package)
-            || folders.iter().any(|folder| folder.ends_with(package));
+        let is_known = found.contains_key(package) || dropped.has_folder(package);
         if is_known || path::check(package).is_err() || path::check(file).is_err() {
             continue;
         }
-        let mut folders = folders.iter();
-        if let Some(folder) = folders.find(|folder| folder.join(file).is_file())
-            && folder.starts_with(dropped)
-        {
-            found.push((package, format!("{package}={}", folder.display())));
+        if let Some(folder) = dropped.folder_with(file) {
+            found.insert(package, folder);
+            if found.len() == MAX_PACKAGES {
+                break;
+            }
         }
     }
-    found.into_iter().map(|(_, package)| package).collect()
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_are_where_their_meshes_are_and_their_number_is_bounded() {
+        let paths = ["x/meshes/a.obj", "y/meshes/b.obj", "known/meshes/a.obj"];
+        let dropped = Endings::of(paths.to_vec());
+        let text = "<m f='package://p/meshes/none.obj'/><m f='package://p/meshes/b.obj'/>
+            <m f=\"package://q/meshes/a.obj\"/><m f=\"package://known/meshes/b.obj\"/>
+            <m f='package://../meshes/a.obj'/><m f='package://r/../a.obj'/><m>package://s/meshes/a.obj</m>";
+        let found = packages(text, &dropped);
+        let found: Vec<_> = found.into_iter().collect();
+        assert_eq!(found, [("p", "y"), ("q", "known"), ("s", "known")]);
+        let many: String = (0..2 * MAX_PACKAGES)
+            .map(|k| format!("<m f='package://p{k}/meshes/a.obj'/>"))
+            .collect();
+        assert_eq!(packages(&many, &dropped).len(), MAX_PACKAGES);
+    }
 }

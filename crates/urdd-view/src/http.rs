@@ -95,11 +95,12 @@ impl Write for Timed {
 }
 
 /// Serves one request of a connection. `admit` receives the request without its body, and returns the maximum size of
-/// the body, or refuses the request.
+/// the body, or refuses the request. `answer` also receives a question to ask during long work: whether the client has
+/// closed the connection.
 pub fn converse(
     stream: TcpStream,
     admit: impl FnOnce(&Asked) -> Result<u64, Reply>,
-    answer: impl FnOnce(&Asked) -> Reply,
+    answer: impl FnOnce(&Asked, &dyn Fn() -> bool) -> Reply,
 ) -> io::Result<()> {
     stream.set_nodelay(true)?;
     let until = Instant::now() + MAX_HEAD_TIME;
@@ -117,7 +118,10 @@ pub fn converse(
             };
             let head_only = asked.method == "HEAD";
             match received {
-                Ok(()) => (answer(&asked), head_only),
+                Ok(()) => {
+                    let stream = &reader.get_ref().stream;
+                    (answer(&asked, &|| is_closed(stream)), head_only)
+                }
                 Err(refused) => (refused, head_only),
             }
         }
@@ -129,6 +133,18 @@ pub fn converse(
     reader.get_mut().for_another(LINGER);
     io::copy(&mut reader.take(MAX_LINGER), &mut io::sink())?;
     Ok(())
+}
+
+/// Whether the client has closed the connection. Does not wait.
+fn is_closed(stream: &TcpStream) -> bool {
+    if stream.set_nonblocking(true).is_err() {
+        return true;
+    }
+    let closed = match stream.peek(&mut [0]) {
+        Ok(read) => read == 0,
+        Err(error) => error.kind() != io::ErrorKind::WouldBlock,
+    };
+    closed || stream.set_nonblocking(false).is_err()
 }
 
 /// Reads a request up to its body; an invalid request gives the response to send.

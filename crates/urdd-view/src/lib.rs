@@ -8,6 +8,7 @@ pub mod collection;
 mod connections;
 mod drop_folder;
 mod drops;
+mod endings;
 pub mod export;
 mod export_error;
 mod guard;

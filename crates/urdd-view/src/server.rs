@@ -113,7 +113,7 @@ impl Server {
             // If no thread can be started, the connection is closed.
             let _ = thread::Builder::new().spawn(move || {
                 let admit = |asked: &Asked| server.admit(asked, &connection);
-                let _ = converse(stream, admit, |asked| server.reply(asked));
+                let _ = converse(stream, admit, |asked, is_gone| server.reply(asked, is_gone));
             });
         }
     }
@@ -140,8 +140,8 @@ impl Server {
         }
     }
 
-    /// The response to an admitted request.
-    fn reply(&self, asked: &Asked) -> Reply {
+    /// The response to an admitted request. `is_gone` says whether the client has closed the connection.
+    fn reply(&self, asked: &Asked, is_gone: &dyn Fn() -> bool) -> Reply {
         let route = Route::of(&asked.url);
         match (&*asked.method, &route) {
             ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
@@ -149,7 +149,7 @@ impl Server {
                 Some(robot) => save::skips(&robot, &asked.body),
                 None => Reply::failure(404, "there is no such robot\n"),
             },
-            ("POST", Route::Drops) => drops::take(&self.collection, &asked.body),
+            ("POST", Route::Drops) => drops::take(&self.collection, &asked.body, is_gone),
             ("POST", Route::Keep(id)) => match self.collection.find(id) {
                 Some(robot) => keep::keep(&robot, &asked.body),
                 None => Reply::failure(404, "there is no such robot\n"),

@@ -6,6 +6,7 @@ import { button, fill, h } from "../ui/dom";
 import { count, name } from "../ui/format";
 import { LAYERS, LAYER_HINTS, LAYER_NAMES } from "../state";
 import { toggleTheme } from "../ui/theme";
+import { Pills } from "../ui/pills";
 import { absentChip } from "./absent";
 import { collision } from "./status";
 
@@ -17,7 +18,7 @@ export function header(
   actions: { save: () => void; share: () => void; picture: () => void; gallery: () => void },
 ): HTMLElement {
   const title = h("div", { class: "title" });
-  const chips = h("div", { class: "chips" });
+  const chips = new Pills(app);
   const buttons = SHORT.map((layer) => {
     const hint = [LAYER_HINTS[layer], "Shift-click for several"].filter(Boolean).join(". ");
     const made = button(LAYER_NAMES[layer], { "aria-pressed": "false", title: hint }, (event) => {
@@ -51,7 +52,7 @@ export function header(
     { class: "bar" },
     links,
     title,
-    chips,
+    chips.element,
     h("span", { class: "spring" }),
     layers,
     frames,
@@ -59,6 +60,7 @@ export function header(
     share,
     picture,
     button("◐", { class: "quiet icon", "aria-label": "Dark or light", title: "Dark or light" }, toggleTheme),
+    chips.rest,
   );
   const touching = button(
     "",
@@ -69,10 +71,11 @@ export function header(
     () => app.store.set({ tab: "Proximity", unfolded: "panels" }),
   );
   app.store.on(["robot", "proximity", "contacts"], (state) => {
-    const { text, kind } = collision(state);
+    const { brief, kind } = collision(state);
     touching.hidden = state.robot === null || state.contacts === null;
     touching.className = `chip ${kind === "bad" ? "error" : kind}`;
-    if (touching.textContent !== text) touching.textContent = text;
+    if (touching.textContent !== brief) touching.textContent = brief;
+    chips.fit();
   });
   app.store.on(["robot", "entries", "report", "absent", "making"], ({ robot, entries, report, absent, making }) => {
     const several = entries.length > 1;
@@ -93,8 +96,14 @@ export function header(
         () => app.store.set({ tab: "Findings", unfolded: "panels" }),
       );
     };
-    fill(
-      chips,
+    // The most important first.
+    chips.fill(
+      touching,
+      chip("error"),
+      chip("warning"),
+      absentChip(app, robot ? absent.length : 0),
+      robot && making.making && h("span", { class: "chip making" }, progress(making.making)),
+      robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
       robot &&
         h(
           "span",
@@ -104,10 +113,6 @@ export function header(
             .join(" · "),
           h("span", { class: "roomy" }, ` · ${version(robot.about.metadata, robot.about.profile)}`),
         ),
-      touching,
-      absentChip(app, robot ? absent.length : 0),
-      robot && making.making && h("span", { class: "chip making" }, progress(making.making)),
-      robot?.entry.temporary && h("span", { class: "chip", title: "Deleted when `urdd view` ends" }, "not saved"),
       robot &&
         robot.entry.notes.length > 0 &&
         button(
@@ -115,8 +120,6 @@ export function header(
           { class: "chip", title: "Assumptions during generation" },
           () => app.store.set({ tab: "Info", unfolded: "panels" }),
         ),
-      chip("error"),
-      chip("warning"),
     );
     for (const element of [layers, frames, share, picture]) element.hidden = !robot;
     save.hidden = !robot?.entry.temporary;

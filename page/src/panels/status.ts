@@ -15,24 +15,28 @@ export function said({ title = "Loading", what, done, of }: NonNullable<State["l
   return `${title} ${what}${of > 0 ? `, ${done} of ${of}` : ""}`;
 }
 
-/** Whether the robot collides: a short text, and a class. */
+/** Whether the robot collides: a text, a shorter one, and a class. */
 export function collision({ robot, proximity, contacts }: Readonly<State>): {
   text: string;
+  brief: string;
   kind: string;
   more: string;
 } {
   const { answer, error } = proximity;
-  if (error !== null || !robot?.moves)
-    return { text: "collisions unknown", kind: "open", more: error ?? "the joints cannot be moved" };
-  if (!answer || !contacts) return { text: "checking for collisions…", kind: "open", more: "" };
+  const as = (text: string, kind: string, more: string, brief = text): ReturnType<typeof collision> => ({
+    text,
+    brief,
+    kind,
+    more,
+  });
+  if (error !== null || !robot?.moves) return as("collisions unknown", "open", error ?? "the joints cannot be moved");
+  if (!answer || !contacts) return as("checking for collisions…", "open", "");
   const pairs = contacts.pairs.map(({ links }) => links.map((link) => name(robot.links[link]?.name ?? "")).join(" – "));
-  if (pairs.length === 0) return { text: "no self-collision", kind: "good", more: "" };
+  if (pairs.length === 0) return as("no self-collision", "good", "");
   const rest = pairs.length > NAMED ? ` and ${pairs.length - NAMED} more` : "";
-  return {
-    text: `self-collision: ${count(pairs.length, "pair")} of links`,
-    kind: "bad",
-    more: pairs.slice(0, NAMED).join(", ") + rest,
-  };
+  const more = pairs.slice(0, NAMED).join(", ") + rest;
+  const brief = count(pairs.length, "self-collision");
+  return as(`self-collision: ${count(pairs.length, "pair")} of links`, "bad", more, brief);
 }
 
 export function status(app: App): HTMLElement {

@@ -1,7 +1,10 @@
 //! URDFs that are dropped on the page.
 
 use std::fs;
+use std::io::Write;
+use std::net::TcpStream;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use urdd_view::Collection;
@@ -105,7 +108,10 @@ fn no_path_leaves_the_folder_and_nothing_is_replaced() {
     let inside = [("a.urdf", URDF), ("a.urdf/b.urdf", URDF)];
     let around = [("a/b.urdf", URDF), ("a", "x")];
     for files in [twice, inside, around] {
-        assert_eq!(drop_on(&server, &files).status, 400, "{files:?}");
+        let answer = drop_on(&server, &files);
+        assert_eq!(answer.status, 400, "{files:?}");
+        let told = "another file or folder of this drop has the same name\n";
+        assert!(answer.text().ends_with(told), "{}", answer.text());
     }
     for bad in [
         &b"[]"[..],
@@ -143,4 +149,58 @@ fn no_path_leaves_the_folder_and_nothing_is_replaced() {
     let answer = server.raw("POST /drops", &other, &body(&[("a.urdf", URDF)]));
     assert_eq!(answer.status, 403);
     assert_eq!(files(folder.path()), Vec::<String>::new());
+}
+
+/// A package of 1,500 folders, whose URDF names 20,000 packages that are not there.
+fn vast() -> Vec<u8> {
+    let meshes = (0..1500).map(|k| format!("vast/a{}/b{k}/{k}.obj", k % 90));
+    let mut list: Vec<Value> = meshes
+        .map(|path| json!({ "path": path, "size": MESH.len() }))
+        .collect();
+    let named = (0..20_000).map(|k| {
+        format!(
+            r#"<visual><geometry><mesh filename="package://p{k}/m/{k}.obj"/></geometry></visual>"#
+        )
+    });
+    let named: String = named.collect();
+    let urdf = format!(r#"<robot name="vast"><link name="a">{named}</link></robot>"#);
+    let content = MESH.repeat(list.len()) + &urdf;
+    list.push(json!({ "path": "vast/vast.urdf", "size": urdf.len() }));
+    format!("{}\n{content}", Value::from(list)).into_bytes()
+}
+
+#[test]
+fn packages_that_are_not_there_take_seconds_and_not_minutes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let collection = Collection::default().with_drops(folder.path().join("in"), false);
+    let server = Running::with(collection);
+    let begun = Instant::now();
+    let answer = server.send("/drops", &vast());
+    assert_eq!(answer.text(), r#"{"robots":["vast"]}"#);
+    let took = begun.elapsed();
+    assert!(took < Duration::from_secs(20), "{took:?}");
+}
+
+#[test]
+fn a_drop_that_the_page_takes_back_leaves_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let within = folder.path().join("in");
+    let collection = Collection::default().with_drops(within.clone(), false);
+    let server = Running::with(collection);
+    let body = vast();
+    let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
+    let (host, token, size) = (server.host(), &server.token, body.len());
+    let head = format!(
+        "POST /drops HTTP/1.1\r\nHost: {host}\r\nX-Urdd-Token: {token}\r\nContent-Length: {size}\r\n\r\n"
+    );
+    stream.write_all(head.as_bytes()).expect("sent");
+    stream.write_all(&body).expect("sent");
+    drop(stream);
+    let begun = Instant::now();
+    let is_empty = || fs::read_dir(&within).is_ok_and(|entries| entries.count() == 0);
+    while !is_empty() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "it stays");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert_eq!(server.json("/robots.json"), json!([]));
 }
