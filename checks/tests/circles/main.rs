@@ -121,6 +121,20 @@ fn circles_are_found_however_names_are_written() {
     let a = ("a.rs", "use crate::B; pub struct A(B);");
     let ties = planted(&[mods, a, ("b.rs", "use super::a::A; pub struct B(A);")]);
     assert_eq!(ties, "  a.rs -> b.rs: B\n  b.rs -> a.rs: A\n");
+    // A name of another crate, or of a third file, that a file re-exports.
+    let mods = ("lib.rs", "mod a; mod b; mod c;");
+    let b = ("b.rs", "use super::a::Name; pub struct B(Name);");
+    let c = ("c.rs", "pub struct Name;");
+    for name in ["other::Name", "super::c::Name", "crate::c::Name"] {
+        let a = format!("use super::b::B; pub use {name}; pub struct A(B);");
+        let ties = planted(&[mods, ("a.rs", &a), b, c]);
+        assert_eq!(ties, "  a.rs -> b.rs: B\n  b.rs -> a.rs: Name\n", "{name}");
+    }
+    // A root that re-exports another crate's name, and uses its child.
+    let root = "mod a; pub use other::Name; pub fn f() { a::f() }";
+    let a = ("a.rs", "use crate::Name; pub fn f() -> Name {}");
+    let ties = planted(&[("lib.rs", root), a]);
+    assert_eq!(ties, "  a.rs -> lib.rs: Name\n  lib.rs -> a.rs: f\n");
     // Through three files.
     let files = [
         ("lib.rs", "mod a; mod b; mod c;"),
@@ -164,10 +178,10 @@ fn what_is_no_circle_is_not_found() {
             "use super::b::B; pub struct A(B);",
             "/// See [`super::a::A`].\npub struct B;",
         ),
-        // Another crate's name.
+        // Another crate's name, taken from there.
         (
             "use super::b::B; pub use other::Name; pub struct A(B);",
-            "use super::a::Name; pub struct B(Name);",
+            "use other::Name; pub struct B(Name);",
         ),
         // Fields and methods.
         (

@@ -1,5 +1,6 @@
 //! Which names each file uses from each other file. A path is followed through modules and imports to the file that
-//! defines the name, not to one that re-exports it. Methods do not count.
+//! defines the name. If another file re-exports the name, the path needs that file too, unless it is a `mod.rs` or a root
+//! that re-exports what its children define. Methods do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -106,6 +107,19 @@ impl<'a> Resolver<'a> {
         }
     }
 
+    /// The module that a path names, if it re-exports the name: of another crate, or outside of roots and `mod.rs` of any
+    /// file.
+    fn re_exporter(&self, module: usize, path: &[String], place: Option<&Place>) -> Option<usize> {
+        let (name, above) = path.split_last()?;
+        let Place::Module(at) = self.resolve(module, above)? else {
+            return None;
+        };
+        let known = &self.read.modules[at];
+        let is_parent = known.parent == at || known.file.ends_with("mod.rs");
+        let is_ours = matches!(place, Some(Place::Item(..) | Place::Module(_)));
+        (known.imports.contains_key(name) && !(is_parent && is_ours)).then_some(at)
+    }
+
     /// The names that each file uses from each other file.
     fn ties(&self) -> Ties<'a> {
         let mut ties = Ties::new();
@@ -131,6 +145,11 @@ impl<'a> Resolver<'a> {
                     }
                     None => self.resolve(index, path),
                 };
+                if let (Some(at), Some(name)) =
+                    (self.re_exporter(index, path, place.as_ref()), path.last())
+                {
+                    tie(at, name);
+                }
                 if let Some(Place::Item(to, name)) = place {
                     tie(to, &name);
                 }

@@ -71,7 +71,7 @@ pub enum Thing {
 
 /// Everything that is counted, in the order of [`Thing`]: its word in `x-index`, and that in `x-length` if lists have
 /// one element for each.
-const THINGS: [(Thing, &str, Option<&str>); 12] = [
+pub const THINGS: [(Thing, &str, Option<&str>); 12] = [
     (Thing::Link, "link", Some("links")),
     (Thing::Joint, "joint", Some("joints")),
     (Thing::Dof, "dof", Some("dofs")),

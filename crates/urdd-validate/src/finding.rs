@@ -4,7 +4,6 @@ use std::collections::{HashMap, HashSet};
 
 use super::memory::bytes;
 use super::part::{Part, Why};
-use super::rule::Severity;
 use super::scope::{Faulted, Scope};
 use super::skip::SkipReason;
 use super::tolerance::number_tolerance;
@@ -13,7 +12,7 @@ use urdd_directory::position::Position;
 use urdd_document::entries::Entry;
 use urdd_document::module::Module;
 use urdd_format::index::Count;
-use urdd_format::report::{Fix, Magnitude};
+use urdd_format::report::{Fix, Magnitude, Severity};
 
 pub use urdd_format::report::Place;
 
