@@ -36,7 +36,7 @@ pub(super) fn next(text: &str, at: usize) -> Option<Markup> {
     } else if rest.starts_with("<?") {
         (MarkupKind::Instruction, until("<?", "?>"))
     } else if rest.starts_with("<!") {
-        (MarkupKind::Declaration, tag_length(rest, &[b'>', b'[']))
+        (MarkupKind::Declaration, tag_length(rest, b">["))
     } else {
         (MarkupKind::Tag, tag_length(rest, b">"))
     };

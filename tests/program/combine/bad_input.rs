@@ -350,7 +350,8 @@ fn parts_of_unequal_modules_are_said() {
     let notes: Vec<(&str, String)> = (made.notes.iter())
         .map(|note| (note.kind, note.to_string()))
         .collect();
-    let unequal = "part `gripper`: it has no original_meshes_module, which other parts have; it is computed";
+    let unequal =
+        "part `gripper`: it has no original_meshes_module, which other parts have; it is computed";
     assert_eq!(notes, [("unequal-modules", unequal.to_owned())]);
     // The whole has what one of them lacks.
     let meshes = "mesh_modules/original_meshes_module/module.json";

@@ -164,10 +164,7 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
     };
     write(&folder.join("welding_arm"), edits);
     let (made, target) = put_together(DOG, folder, &quick()).expect("a robot");
-    let lost = made
-        .notes
-        .iter()
-        .filter(|note| note.kind == "edit-lost");
+    let lost = made.notes.iter().filter(|note| note.kind == "edit-lost");
     assert_eq!(lost.count(), 1, "{:?}", made.notes);
     let of_parts = vec![
         edit("arm_base", "arm_flange", true, "seen"),
