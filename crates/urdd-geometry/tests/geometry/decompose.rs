@@ -365,7 +365,7 @@ fn turned_box(half: [f64; 3], rpy: [f64; 3], xyz: [f64; 3]) -> Mesh {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: trials(40), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: trials(80), failure_persistence: None, ..ProptestConfig::default() })]
     /// Cuts in any direction through bodies with an interior: vertices added at a cut stay in the hull.
     #[test]
     fn pieces_of_boxes_that_cross_are_in_their_hull(
