@@ -419,8 +419,8 @@ fn the_specification_lists_every_word() {
         .into_iter()
         .map(|row| (row[0].clone(), row[1].clone()))
         .collect();
-    let all = Thing::ALL.iter();
-    let all = all.map(|thing| {
+    let all = annotations::THINGS.iter();
+    let all = all.map(|(thing, ..)| {
         (
             thing.index().to_owned(),
             thing.length().unwrap_or_default().to_owned(),

@@ -2,9 +2,8 @@
 
 use urdd_format::legacy::urdf as legacy;
 use urdd_format::urdf::{
-    Axis, Capsule, Collision, Color, Cuboid, Cylinder, Dynamics, Geometry, Inertia, Inertial,
-    Joint, JointType, Limit, Link, LinkName, Mass, Material, Mesh, Mimic, Origin, SafetyController,
-    Sphere, Texture, UrdfModule, Visual,
+    Axis, Capsule, Collision, Dynamics, Geometry, Inertia, Inertial, Joint, JointType, Limit, Link,
+    Material, Mesh, Origin, SafetyController, UrdfModule, Visual,
 };
 
 /// The same robot in version 1. Legacy modules write zeros for missing masses and limits; these become absent.
@@ -30,14 +29,13 @@ fn origin(origin: &legacy::Origin) -> Option<Origin> {
 fn link(link: &legacy::Link) -> Link {
     let i = &link.inertial.inertia;
     let inertia = [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz];
-    let mass = link.inertial.mass.value;
-    let absent = mass == 0.0 && inertia == [0.0; 6];
+    let absent = link.inertial.mass.value == 0.0 && inertia == [0.0; 6];
     let [ixx, ixy, ixz, iyy, iyz, izz] = inertia.map(Some);
     Link {
         name: link.name.clone(),
         inertial: (!absent).then(|| Inertial {
             origin: origin(&link.inertial.origin),
-            mass: Some(Mass { value: mass }),
+            mass: Some(link.inertial.mass.clone()),
             inertia: Some(Inertia {
                 ixx,
                 ixy,
@@ -76,31 +74,21 @@ fn geometry(geometry: &legacy::Geometry) -> Geometry {
             filename: mesh.filename.clone(),
             scale: mesh.scale,
         }),
-        legacy::Geometry::Box(cuboid) => Geometry::Box(Cuboid { size: cuboid.size }),
-        legacy::Geometry::Cylinder(cylinder) => Geometry::Cylinder(Cylinder {
-            radius: cylinder.radius,
-            length: cylinder.length,
-        }),
+        legacy::Geometry::Box(cuboid) => Geometry::Box(cuboid.clone()),
+        legacy::Geometry::Cylinder(cylinder) => Geometry::Cylinder(cylinder.clone()),
         legacy::Geometry::Capsule(capsule) => Geometry::Capsule(Capsule {
             radius: capsule.radius,
             length: capsule.length,
         }),
-        legacy::Geometry::Sphere(sphere) => Geometry::Sphere(Sphere {
-            radius: sphere.radius,
-        }),
+        legacy::Geometry::Sphere(sphere) => Geometry::Sphere(sphere.clone()),
     }
 }
 
 fn material(material: &legacy::Material) -> Material {
     Material {
         name: Some(material.name.clone()),
-        color: material
-            .color
-            .as_ref()
-            .map(|color| Color { rgba: color.rgba }),
-        texture: material.texture.as_ref().map(|texture| Texture {
-            filename: texture.filename.clone(),
-        }),
+        color: material.color.clone(),
+        texture: material.texture.clone(),
     }
 }
 
@@ -120,12 +108,8 @@ fn joint(joint: &legacy::Joint) -> Joint {
             Old::Spherical => JointType::Spherical,
         },
         origin: origin(&joint.origin),
-        parent: LinkName {
-            link: joint.parent.link.clone(),
-        },
-        child: LinkName {
-            link: joint.child.link.clone(),
-        },
+        parent: joint.parent.clone(),
+        child: joint.child.clone(),
         axis: Some(Axis {
             xyz: Some(joint.axis.xyz),
         }),
@@ -142,11 +126,7 @@ fn joint(joint: &legacy::Joint) -> Joint {
             damping: Some(dynamics.damping),
             friction: Some(dynamics.friction),
         }),
-        mimic: joint.mimic.as_ref().map(|mimic| Mimic {
-            joint: mimic.joint.clone(),
-            multiplier: mimic.multiplier,
-            offset: mimic.offset,
-        }),
+        mimic: joint.mimic.clone(),
         safety_controller: joint
             .safety_controller
             .as_ref()

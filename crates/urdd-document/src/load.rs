@@ -43,29 +43,10 @@ impl Loaded {
     /// If the root itself cannot be listed.
     pub fn read(root: Root) -> Result<Self, ReadError> {
         let listing = root.list()?;
-        let metadata = read_metadata(&root);
         let folders = module_folders(&listing);
-        let mut listed: HashMap<&str, &Version> = HashMap::new();
-        for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
-            listed.entry(&entry.path).or_insert(&entry.version);
-        }
-        let modules: Vec<Module> = folders
-            .into_par_iter()
-            .map(|(folder, kind)| {
-                let listed = listed.get(folder.as_str()).copied();
-                read_module(&root, folder, kind, listed, Want::Mirror(&listing))
-            })
-            .collect();
-        let profile = profile(&metadata, &modules);
-        let urdf = carried_urdf::read(&root, &listing, &metadata);
-        Ok(Loaded {
-            root,
-            listing,
-            metadata,
-            modules,
-            urdf,
-            profile,
-        })
+        let mut loaded = Self::of(root, listing, folders, true);
+        loaded.urdf = carried_urdf::read(&loaded.root, &loaded.listing, &loaded.metadata);
+        Ok(loaded)
     }
 
     /// Reads only some modules, without mirrors and URDF.
@@ -74,29 +55,37 @@ impl Loaded {
     /// If the root itself cannot be listed.
     pub fn read_only(root: Root, kinds: &[ModuleKind]) -> Result<Self, ReadError> {
         let listing = root.list()?;
+        let folders = known_folders(kinds, &listing);
+        Ok(Self::of(root, listing, folders, false))
+    }
+
+    fn of(
+        root: Root,
+        listing: Listing,
+        folders: Vec<(String, Option<ModuleKind>)>,
+        with_mirrors: bool,
+    ) -> Self {
         let metadata = read_metadata(&root);
-        let listed = |kind: ModuleKind| {
-            let entries = metadata.metadata.iter().flat_map(|m| &m.modules);
-            let mut entries = entries.filter(|entry| entry.path == kind.folder());
-            entries.next().map(|entry| &entry.version)
-        };
-        let modules: Vec<Module> = kinds
-            .par_iter()
-            .filter(|kind| listing.has_folder(kind.folder()))
-            .map(|kind| {
-                let folder = kind.folder().to_owned();
-                read_module(&root, folder, Some(*kind), listed(*kind), Want::Document)
+        let mut listed: HashMap<&str, &Version> = HashMap::new();
+        for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
+            listed.entry(&entry.path).or_insert(&entry.version);
+        }
+        let mirrors = with_mirrors.then_some(&listing);
+        let modules: Vec<Module> = folders
+            .into_par_iter()
+            .map(|(folder, kind)| {
+                let listed = listed.get(folder.as_str()).copied();
+                read_module(&root, folder, kind, listed, mirrors)
             })
             .collect();
-        let profile = profile(&metadata, &modules);
-        Ok(Loaded {
+        Loaded {
+            profile: profile(&metadata, &modules),
+            urdf: Err(NoUrdf::NotRead),
             root,
             listing,
             metadata,
             modules,
-            urdf: Err(NoUrdf::NotRead),
-            profile,
-        })
+        }
     }
 }
 
@@ -148,13 +137,18 @@ fn newer_minor(metadata: &serde_json::Value) -> bool {
     }
 }
 
+fn known_folders(kinds: &[ModuleKind], listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
+    let kinds = kinds
+        .iter()
+        .filter(|kind| listing.has_folder(kind.folder()));
+    kinds
+        .map(|kind| (kind.folder().to_owned(), Some(*kind)))
+        .collect()
+}
+
 /// Every module folder: first those of the registry, then other folders that look like modules.
 fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
-    let mut folders: Vec<(String, Option<ModuleKind>)> = ModuleKind::ALL
-        .iter()
-        .filter(|kind| listing.has_folder(kind.folder()))
-        .map(|kind| (kind.folder().to_owned(), Some(*kind)))
-        .collect();
+    let mut folders = known_folders(ModuleKind::ALL, listing);
     let known = folders.len();
     let mut inside: HashSet<String> = folders.iter().map(|(folder, _)| folder.clone()).collect();
     // Sorted by path, so that a folder comes before its contents.
@@ -183,22 +177,13 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     folders
 }
 
-/// How much of a module to read.
-#[derive(Clone, Copy)]
-enum Want<'a> {
-    /// Its parsed document.
-    Document,
-    /// Also its text and its mirror.
-    Mirror(&'a Listing),
-}
-
-/// Reads a module.
+/// Reads a module, and its mirror if a listing is given.
 fn read_module(
     root: &Root,
     folder: String,
     kind: Option<ModuleKind>,
     listed: Option<&Version>,
-    want: Want,
+    mirrors: Option<&Listing>,
 ) -> Module {
     let file = |name: &str| format!("{folder}/{name}");
     let version_file = match root.read(&file("VERSION"), MAX_VERSION_BYTES) {
@@ -218,10 +203,7 @@ fn read_module(
         Some(kind) => find_spec(kind, version.as_deref()),
         None => (None, false),
     };
-    let yaml = match want {
-        Want::Document => None,
-        Want::Mirror(listing) => Some(read_yaml(root, listing, &file("module.yaml"))),
-    };
+    let yaml = mirrors.map(|listing| read_yaml(root, listing, &file("module.yaml")));
     let mut bytes = root.read(&file("module.json"), MAX_DOCUMENT_BYTES);
     let taken = match (spec, &mut bytes) {
         (Some(spec), Ok(bytes)) => take(spec, bytes, yaml.as_ref()),

@@ -1,7 +1,7 @@
 //! Version-independent view of the mesh modules: the meshes of each link, with their paths and JSON Pointers.
 
-use urdd_format::legacy;
 use urdd_format::meshes::MeshFiles;
+use urdd_format::plain_meshes::PlainMesh;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 
 /// The modules of derived meshes.
@@ -114,103 +114,60 @@ impl<'a> Meshes<'a> {
 
 /// The view of a mesh module. `None` for `original_meshes_module` of version 1, which is not organised by link.
 pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
+    use ModuleDocument as Document;
+    use ModuleKind::{ConvexDecompositionMeshes, ConvexHullMeshes, OriginalMeshes, PlainMeshes};
+    let key = "link_mesh_relative_paths";
     let (kind, profile, lists) = match document {
-        ModuleDocument::PlainMeshes(module) => {
-            let meshes = module.link_meshes.iter().enumerate().map(|(link, mesh)| {
-                let at = format!("/link_meshes/{link}/files");
-                mesh.iter().map(|mesh| three(&mesh.files, &at)).collect()
+        Document::PlainMeshes(module) => {
+            let list = list("link_meshes", false, &module.link_meshes, |mesh, at| {
+                let mesh: &PlainMesh = mesh;
+                three(&mesh.files, at + "/files")
             });
-            let list = MeshList {
-                key: "link_meshes",
-                links: meshes.collect(),
-            };
-            (ModuleKind::PlainMeshes, Profile::V1, vec![list])
+            (PlainMeshes, Profile::V1, vec![list])
         }
-        ModuleDocument::ConvexHullMeshes(module) => {
-            let hulls = module.link_hulls.iter().enumerate().map(|(link, hull)| {
-                let at = format!("/link_hulls/{link}");
-                hull.iter().map(|files| three(files, &at)).collect()
-            });
-            let list = MeshList {
-                key: "link_hulls",
-                links: hulls.collect(),
-            };
-            (ModuleKind::ConvexHullMeshes, Profile::V1, vec![list])
+        Document::ConvexHullMeshes(module) => {
+            let list = list("link_hulls", false, &module.link_hulls, three);
+            (ConvexHullMeshes, Profile::V1, vec![list])
         }
-        ModuleDocument::ConvexDecompositionMeshes(module) => {
-            let pieces = module.link_pieces.iter().enumerate().map(|(link, pieces)| {
-                let pieces = pieces.iter().enumerate();
-                pieces
-                    .map(|(piece, files)| three(files, &format!("/link_pieces/{link}/{piece}")))
-                    .collect()
-            });
-            let list = MeshList {
-                key: "link_pieces",
-                links: pieces.collect(),
-            };
-            (
-                ModuleKind::ConvexDecompositionMeshes,
-                Profile::V1,
-                vec![list],
-            )
+        Document::ConvexDecompositionMeshes(module) => {
+            let list = list("link_pieces", true, &module.link_pieces, three);
+            (ConvexDecompositionMeshes, Profile::V1, vec![list])
         }
-        ModuleDocument::LegacyPlainMeshes(module) => {
-            let legacy::plain_meshes::PlainMeshesModule {
-                stl_link_mesh_relative_paths: stl,
-                obj_link_mesh_relative_paths: obj,
-                glb_link_mesh_relative_paths: glb,
-            } = module.as_ref();
-            (
-                ModuleKind::PlainMeshes,
-                Profile::Legacy,
-                by_format([stl, obj, glb]),
-            )
-        }
-        ModuleDocument::LegacyConvexHullMeshes(module) => {
-            let legacy::convex_hull_meshes::ConvexHullMeshesModule {
-                stl_link_mesh_relative_paths: stl,
-                obj_link_mesh_relative_paths: obj,
-                glb_link_mesh_relative_paths: glb,
-            } = module.as_ref();
-            (
-                ModuleKind::ConvexHullMeshes,
-                Profile::Legacy,
-                by_format([stl, obj, glb]),
-            )
-        }
-        ModuleDocument::LegacyConvexDecompositionMeshes(module) => {
+        Document::LegacyPlainMeshes(module) => {
             let lists = [
-                (Format::Stl, &module.stl_link_mesh_relative_paths),
-                (Format::Obj, &module.obj_link_mesh_relative_paths),
-                (Format::Glb, &module.glb_link_mesh_relative_paths),
+                &module.stl_link_mesh_relative_paths,
+                &module.obj_link_mesh_relative_paths,
+                &module.glb_link_mesh_relative_paths,
             ];
-            (
-                ModuleKind::ConvexDecompositionMeshes,
-                Profile::Legacy,
-                lists
-                    .into_iter()
-                    .map(|(format, list)| many(legacy_key(format), Some(format), list))
-                    .collect(),
-            )
+            (PlainMeshes, Profile::Legacy, by_format(false, lists))
         }
-        ModuleDocument::LegacyOriginalMeshes(module) => (
-            ModuleKind::OriginalMeshes,
-            Profile::Legacy,
-            vec![one(
-                "link_mesh_relative_paths",
-                None,
-                &module.link_mesh_relative_paths,
-            )],
-        ),
-        ModuleDocument::LegacyOriginalMeshLists(module) => (
-            ModuleKind::OriginalMeshes,
-            Profile::Legacy,
-            vec![many(
-                "link_mesh_relative_paths",
-                None,
-                &module.link_mesh_relative_paths,
-            )],
-        ),
+        Document::LegacyConvexHullMeshes(module) => {
+            let lists = [
+                &module.stl_link_mesh_relative_paths,
+                &module.obj_link_mesh_relative_paths,
+                &module.glb_link_mesh_relative_paths,
+            ];
+            (ConvexHullMeshes, Profile::Legacy, by_format(false, lists))
+        }
+        Document::LegacyConvexDecompositionMeshes(module) => {
+            let lists = [
+                &module.stl_link_mesh_relative_paths,
+                &module.obj_link_mesh_relative_paths,
+                &module.glb_link_mesh_relative_paths,
+            ];
+            let lists = by_format(true, lists);
+            (ConvexDecompositionMeshes, Profile::Legacy, lists)
+        }
+        Document::LegacyOriginalMeshes(module) => {
+            let paths = &module.link_mesh_relative_paths;
+            let list = list(key, false, paths, |path, at| one(path, at, None));
+            (OriginalMeshes, Profile::Legacy, vec![list])
+        }
+        Document::LegacyOriginalMeshLists(module) => {
+            let paths = &module.link_mesh_relative_paths;
+            let list = list(key, true, paths, |path, at| one(path, at, None));
+            (OriginalMeshes, Profile::Legacy, vec![list])
+        }
         _ => return None,
     };
     Some(Meshes {
@@ -220,15 +177,52 @@ pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
     })
 }
 
-fn legacy_key(format: Format) -> &'static str {
-    match format {
-        Format::Stl => "stl_link_mesh_relative_paths",
-        Format::Obj => "obj_link_mesh_relative_paths",
-        Format::Glb => "glb_link_mesh_relative_paths",
+/// A list of the document: an option or, with `of_pieces`, a list for each link. `mesh` reads an entry, given its
+/// pointer.
+fn list<'a, E: 'a, L>(
+    key: &'static str,
+    of_pieces: bool,
+    entries: &'a [L],
+    mesh: impl Fn(&'a E, String) -> Mesh<'a>,
+) -> MeshList<'a>
+where
+    &'a L: IntoIterator<Item = &'a E>,
+{
+    let of_link = |(link, own): (usize, &'a L)| {
+        let own = own.into_iter().enumerate();
+        let pointer = |piece| match of_pieces {
+            true => format!("/{key}/{link}/{piece}"),
+            false => format!("/{key}/{link}"),
+        };
+        own.map(|(piece, entry)| mesh(entry, pointer(piece)))
+            .collect()
+    };
+    MeshList {
+        key,
+        links: entries.iter().enumerate().map(of_link).collect(),
     }
 }
 
-fn three<'a>(files: &'a MeshFiles, at: &str) -> Mesh<'a> {
+/// One list per format, as in legacy modules.
+fn by_format<'a, L>(of_pieces: bool, lists: [&'a Vec<L>; 3]) -> Vec<MeshList<'a>>
+where
+    &'a L: IntoIterator<Item = &'a String>,
+{
+    let keys = [
+        "stl_link_mesh_relative_paths",
+        "obj_link_mesh_relative_paths",
+        "glb_link_mesh_relative_paths",
+    ];
+    let each = Format::ALL.into_iter().zip(keys).zip(lists);
+    each.map(|((format, key), paths)| {
+        list(key, of_pieces, paths, |path, at| {
+            one(path, at, Some(format))
+        })
+    })
+    .collect()
+}
+
+fn three(files: &MeshFiles, at: String) -> Mesh<'_> {
     let each = [
         (Format::Stl, files.stl.as_ref()),
         (Format::Obj, files.obj.as_ref()),
@@ -246,40 +240,7 @@ fn three<'a>(files: &'a MeshFiles, at: &str) -> Mesh<'a> {
     }
 }
 
-fn by_format(lists: [&Vec<Option<String>>; 3]) -> Vec<MeshList<'_>> {
-    Format::ALL
-        .into_iter()
-        .zip(lists)
-        .map(|(format, list)| one(legacy_key(format), Some(format), list))
-        .collect()
-}
-
-fn one<'a>(key: &'static str, format: Option<Format>, list: &'a [Option<String>]) -> MeshList<'a> {
-    let single = |(link, path): (usize, &'a Option<String>)| {
-        path.iter()
-            .map(|path| single_path(path, format!("/{key}/{link}"), format))
-            .collect()
-    };
-    MeshList {
-        key,
-        links: list.iter().enumerate().map(single).collect(),
-    }
-}
-
-fn many<'a>(key: &'static str, format: Option<Format>, list: &'a [Vec<String>]) -> MeshList<'a> {
-    let several = |(link, paths): (usize, &'a Vec<String>)| {
-        let paths = paths.iter().enumerate();
-        paths
-            .map(|(piece, path)| single_path(path, format!("/{key}/{link}/{piece}"), format))
-            .collect()
-    };
-    MeshList {
-        key,
-        links: list.iter().enumerate().map(several).collect(),
-    }
-}
-
-fn single_path(path: &str, pointer: String, format: Option<Format>) -> Mesh<'_> {
+fn one(path: &str, pointer: String, format: Option<Format>) -> Mesh<'_> {
     Mesh {
         paths: vec![MeshPath {
             path,

@@ -4,7 +4,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::urdd::Urdd;
 use urdd_format::legacy::link_shapes_approximations as legacy;
-use urdd_format::link_shapes_approximations as v1;
+use urdd_format::link_shapes_approximations::{BoundingSphere, Obb};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::shape_kind::ShapeKind;
 
@@ -170,13 +170,13 @@ impl<T> ShapeList<T> {
 /// The lists of `link_shapes_approximations_module`: boxes and spheres.
 pub fn approximations(document: &ModuleDocument) -> Option<[ShapeList<Volume>; 4]> {
     macro_rules! lists {
-        ($module:expr, $types:ident) => {{
-            let of_box = |b: &$types::Obb| Volume::Box {
+        ($module:expr, $sphere:ty) => {{
+            let of_box = |b: &Obb| Volume::Box {
                 half_extents: b.half_extents,
                 offset: b.offset_xyz,
                 rpy: b.offset_rpy,
             };
-            let of_sphere = |s: &$types::BoundingSphere| Volume::Sphere {
+            let of_sphere = |s: &$sphere| Volume::Sphere {
                 radius: s.radius,
                 offset: s.offset_xyz,
             };
@@ -189,33 +189,34 @@ pub fn approximations(document: &ModuleDocument) -> Option<[ShapeList<Volume>; 4
         };
     }
     match document {
-        ModuleDocument::LinkShapesApproximations(module) => Some(lists!(module, v1)),
-        ModuleDocument::LegacyLinkShapesApproximations(module) => Some(lists!(module, legacy)),
+        ModuleDocument::LinkShapesApproximations(module) => Some(lists!(module, BoundingSphere)),
+        ModuleDocument::LegacyLinkShapesApproximations(module) => {
+            Some(lists!(module, legacy::BoundingSphere))
+        }
         _ => None,
     }
 }
 
 /// The lists of `link_shapes_max_distance_from_origin_module`, in the order of [`ShapeKind::ALL`].
 pub fn max_distances(document: &ModuleDocument) -> Option<[ShapeList<f64>; 6]> {
+    let (ModuleDocument::LinkShapesMaxDistanceFromOrigin(module)
+    | ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module)) = document
+    else {
+        return None;
+    };
     macro_rules! lists {
-        ($module:expr; $($kind:ident $field:ident)*) => {
-            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &$module.$field, |d: &f64| *d)),*]
-        };
-        ($module:expr) => {
-            lists!($module;
-                Hulls full_convex_hulls_maximum_distances
-                Boxes full_obbs_maximum_distances
-                Spheres full_bounding_spheres_maximum_distances
-                Pieces decomposition_convex_hulls_maximum_distances
-                PieceBoxes decomposition_obbs_maximum_distances
-                PieceSpheres decomposition_bounding_spheres_maximum_distances)
+        ($($kind:ident $field:ident)*) => {
+            [$(ShapeList::new(ShapeKind::$kind, stringify!($field), &module.$field, |d: &f64| *d)),*]
         };
     }
-    match document {
-        ModuleDocument::LinkShapesMaxDistanceFromOrigin(module) => Some(lists!(module)),
-        ModuleDocument::LegacyLinkShapesMaxDistanceFromOrigin(module) => Some(lists!(module)),
-        _ => None,
-    }
+    Some(lists!(
+        Hulls full_convex_hulls_maximum_distances
+        Boxes full_obbs_maximum_distances
+        Spheres full_bounding_spheres_maximum_distances
+        Pieces decomposition_convex_hulls_maximum_distances
+        PieceBoxes decomposition_obbs_maximum_distances
+        PieceSpheres decomposition_bounding_spheres_maximum_distances
+    ))
 }
 
 /// The number of entries per link, for every list of a module with lists.

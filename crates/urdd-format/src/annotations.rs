@@ -69,72 +69,51 @@ pub enum Thing {
     Other,
 }
 
-impl Thing {
-    /// Everything that is counted, in the order of the specification.
-    pub const ALL: &[Thing] = &[
-        Thing::Link,
-        Thing::Joint,
-        Thing::Dof,
-        Thing::Visual,
-        Thing::Collision,
-        Thing::Piece,
-        Thing::FullShape,
+/// Everything that is counted, in the order of [`Thing`]: its word in `x-index`, and that in `x-length` if lists have
+/// one element for each.
+pub const THINGS: [(Thing, &str, Option<&str>); 12] = [
+    (Thing::Link, "link", Some("links")),
+    (Thing::Joint, "joint", Some("joints")),
+    (Thing::Dof, "dof", Some("dofs")),
+    (Thing::Visual, "visual", None),
+    (Thing::Collision, "collision", None),
+    (Thing::Piece, "piece", Some("pieces")),
+    (Thing::FullShape, "full_shape", Some("full_shapes")),
+    (
         Thing::DecompositionShape,
-        Thing::Part,
-        Thing::Pair,
-        Thing::Sample,
-        Thing::Other,
-    ];
+        "decomposition_shape",
+        Some("decomposition_shapes"),
+    ),
+    (Thing::Part, "part", Some("parts")),
+    (Thing::Pair, "pair", Some("pairs")),
+    (Thing::Sample, "sample", None),
+    (Thing::Other, "other", None),
+];
 
+impl Thing {
     /// The word of `x-index`.
     pub fn index(self) -> &'static str {
-        match self {
-            Thing::Link => "link",
-            Thing::Joint => "joint",
-            Thing::Dof => "dof",
-            Thing::Visual => "visual",
-            Thing::Collision => "collision",
-            Thing::Piece => "piece",
-            Thing::FullShape => "full_shape",
-            Thing::DecompositionShape => "decomposition_shape",
-            Thing::Part => "part",
-            Thing::Pair => "pair",
-            Thing::Sample => "sample",
-            Thing::Other => "other",
-        }
+        THINGS[self as usize].1
     }
 
     /// The word of `x-length`; `None` for what no list has one element for each.
     pub fn length(self) -> Option<&'static str> {
-        match self {
-            Thing::Link => Some("links"),
-            Thing::Joint => Some("joints"),
-            Thing::Dof => Some("dofs"),
-            Thing::Piece => Some("pieces"),
-            Thing::FullShape => Some("full_shapes"),
-            Thing::DecompositionShape => Some("decomposition_shapes"),
-            Thing::Part => Some("parts"),
-            Thing::Pair => Some("pairs"),
-            Thing::Visual | Thing::Collision | Thing::Sample | Thing::Other => None,
-        }
+        THINGS[self as usize].2
     }
 }
 
 /// What the text of an `x-index` names: one thing, or a choice. `None` where a word is unknown.
 pub fn of_index(text: &str) -> Option<Vec<Thing>> {
-    named(text, |thing| Some(thing.index()))
+    named(text, |(_, index, _), word| *index == word)
 }
 
 /// What the text of an `x-length` names: one thing, or a choice. `None` where a word is unknown.
 pub fn of_length(text: &str) -> Option<Vec<Thing>> {
-    named(text, Thing::length)
+    named(text, |(_, _, length), word| *length == Some(word))
 }
 
-fn named(text: &str, word_of: fn(Thing) -> Option<&'static str>) -> Option<Vec<Thing>> {
-    let of_word = |word| {
-        let mut all = Thing::ALL.iter().copied();
-        all.find(|thing| word_of(*thing) == Some(word))
-    };
+fn named(text: &str, is: fn(&(Thing, &str, Option<&str>), &str) -> bool) -> Option<Vec<Thing>> {
+    let of_word = |word| Some(THINGS.iter().find(|thing| is(thing, word))?.0);
     // A text may name a thing a thousand times.
     let things: BTreeSet<Thing> = text.split(OR).map(of_word).collect::<Option<_>>()?;
     Some(things.into_iter().collect())
@@ -234,12 +213,11 @@ fn shown(text: &str) -> String {
 }
 
 fn words(keyword: &str) -> Vec<&'static str> {
-    let all = Thing::ALL.iter();
     match keyword {
         UNIT => UNITS.to_vec(),
         FRAME => FRAMES.to_vec(),
-        INDEX => all.map(|thing| thing.index()).collect(),
-        _ => all.filter_map(|thing| thing.length()).collect(),
+        INDEX => THINGS.iter().map(|thing| thing.1).collect(),
+        _ => THINGS.iter().filter_map(|thing| thing.2).collect(),
     }
 }
 
@@ -358,6 +336,9 @@ mod tests {
         assert_eq!(of_length("link"), None);
         assert_eq!(of_length("samples"), None);
         assert_eq!(of_length(""), None);
+        for (thing, index, length) in THINGS {
+            assert_eq!((thing.index(), thing.length()), (index, length));
+        }
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub struct Rate {
 impl Rate {
     /// The rate of two counts. A `count` above `of` is clamped to `of` for the interval.
     pub fn new(count: u32, of: u32) -> Self {
-        let (lower, upper) = interval(f64::from(count.min(of)), f64::from(of));
+        let [lower, upper] = interval(count.min(of) as usize, of as usize);
         Self {
             count,
             of,
@@ -43,18 +43,27 @@ impl Rate {
     }
 }
 
-/// Without configurations, the interval is 0 to 1.
-fn interval(count: f64, of: f64) -> (f64, f64) {
-    if of == 0.0 {
-        return (0.0, 1.0);
+/// The 95 % interval of a proportion (E. B. Wilson, JASA 22, 1927); 0 to 1 if `of` is 0.
+pub fn interval(count: usize, of: usize) -> [f64; 2] {
+    if of == 0 {
+        return [0.0, 1.0];
     }
-    let (p, z2) = (count / of, Z * Z);
-    let scale = 1.0 + z2 / of;
-    let centre = (p + z2 / (2.0 * of)) / scale;
-    let half = Z / scale * (p * (1.0 - p) / of + z2 / (4.0 * of * of)).sqrt();
-    let lower = if count == 0.0 { 0.0 } else { centre - half };
-    let upper = if count == of { 1.0 } else { centre + half };
-    (lower, upper)
+    let (n, p) = (of as f64, count as f64 / of as f64);
+    let middle = p + Z * Z / (2.0 * n);
+    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let under = 1.0 + Z * Z / n;
+    [
+        if count == 0 {
+            0.0
+        } else {
+            (middle - half) / under
+        },
+        if count == of {
+            1.0
+        } else {
+            (middle + half) / under
+        },
+    ]
 }
 
 /// `0.69 % (0.50 to 0.96 %) of 5,078`.
@@ -103,6 +112,19 @@ mod tests {
             let (none, all) = (Rate::new(0, n), Rate::new(n, n));
             assert!((none.upper - most).abs() < 1e-15 && none.lower == 0.0);
             assert!((all.lower - (1.0 - most)).abs() < 1e-15 && all.upper == 1.0);
+        }
+    }
+
+    #[test]
+    fn intervals_are_those_of_scipy() {
+        // From scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
+        for (count, of, low, high) in [
+            (9, 903, 0.005252, 0.018833),
+            (0, 10_000, 0.0, 0.000384),
+            (50, 50, 0.928652, 1.0),
+        ] {
+            let [a, b] = interval(count, of);
+            assert!((a - low).abs() < 1e-6 && (b - high).abs() < 1e-6, "{a} {b}");
         }
     }
 

@@ -190,7 +190,7 @@ modules! {
     LegacyConvexHullMeshes(legacy::convex_hull_meshes::ConvexHullMeshesModule): ConvexHullMeshes @ "0.0.1", Legacy;
     LegacyConvexDecompositionMeshes(legacy::convex_decomposition_meshes::ConvexDecompositionMeshesModule): ConvexDecompositionMeshes @ "0.0.1", Legacy;
     LegacyLinkShapesApproximations(legacy::link_shapes_approximations::LinkShapesApproximationsModule): LinkShapesApproximations @ "0.0.3", Legacy;
-    LegacyLinkShapesMaxDistanceFromOrigin(legacy::link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule): LinkShapesMaxDistanceFromOrigin @ "0.0.3", Legacy;
+    LegacyLinkShapesMaxDistanceFromOrigin(link_shapes_max_distance_from_origin::LinkShapesMaxDistanceFromOriginModule): LinkShapesMaxDistanceFromOrigin @ "0.0.3", Legacy;
     LegacyLinkShapesDistanceStatistics(legacy::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule): LinkShapesDistanceStatistics @ "0.0.3", Legacy;
     LegacyLinkShapesSimpleSkips(legacy::link_shapes_simple_skips::LinkShapesSimpleSkipsModule): LinkShapesSimpleSkips @ "0.0.5", Legacy;
     LegacyLinkShapesSkips(legacy::link_shapes_skips::LinkShapesSkipsModule): LinkShapesSkips @ "0.0.2" | "0.0.1", Legacy;
@@ -202,16 +202,6 @@ modules! {
 }
 
 impl ModuleSpec {
-    /// The module's name and version as one word: `dof_module@1.0.0`.
-    pub fn id(&self) -> String {
-        let version = if self.version.is_empty() {
-            "unversioned"
-        } else {
-            self.version
-        };
-        format!("{}@{version}", self.kind.name())
-    }
-
     /// Its strict JSON Schema.
     pub fn schema(&self) -> Schema {
         (self.schema)()

@@ -1,5 +1,7 @@
 //! `link_shapes_approximations_module` 0.0.3: boxes and spheres around links and pieces.
 
+// Boxes are as in version 1.
+pub use crate::link_shapes_approximations::Obb;
 use crate::object::{module, object};
 
 module! {
@@ -14,18 +16,6 @@ module! {
         pub decomposition_obbs: Vec<Vec<Obb>>,
         /// For each link, a sphere for each convex piece.
         pub decomposition_bounding_spheres: Vec<Vec<BoundingSphere>>,
-    }
-}
-
-object! {
-    /// An oriented bounding box.
-    pub struct Obb {
-        /// Half of each side length, metres, along the box's own axes.
-        pub half_extents: [f64; 3],
-        /// Centre in the link's frame, metres.
-        pub offset_xyz: [f64; 3],
-        /// Rotation from the box's axes to the link's: fixed-axis roll, pitch, yaw, radians.
-        pub offset_rpy: [f64; 3],
     }
 }
 

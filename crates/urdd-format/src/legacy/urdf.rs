@@ -2,6 +2,8 @@
 
 use crate::object::{module, object, string_enum};
 use crate::tagged::tagged;
+// These are as in version 1.
+pub use crate::urdf::{Color, Cuboid, Cylinder, LinkName, Mass, Mimic, Sphere, Texture};
 
 module! {
     /// The URDF as data. What the URDF leaves out of an inertial, a limit, an origin or an axis is
@@ -52,14 +54,6 @@ object! {
         pub xyz: [f64; 3],
         /// Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame.
         pub rpy: [f64; 3],
-    }
-}
-
-object! {
-    /// Mass of a link.
-    pub struct Mass {
-        /// Kilograms.
-        pub value: f64,
     }
 }
 
@@ -134,38 +128,12 @@ object! {
 }
 
 object! {
-    /// A box about the origin.
-    pub struct Cuboid {
-        /// Full side lengths along x, y, z, metres.
-        pub size: [f64; 3],
-    }
-}
-
-object! {
-    /// A cylinder about the origin, along z.
-    pub struct Cylinder {
-        /// Radius, metres.
-        pub radius: f64,
-        /// Full length, metres.
-        pub length: f64,
-    }
-}
-
-object! {
     /// A capsule about the origin, along z.
     pub struct Capsule {
         /// Radius, metres.
         pub radius: f64,
         /// Length, metres.
         pub length: f64,
-    }
-}
-
-object! {
-    /// A sphere about the origin.
-    pub struct Sphere {
-        /// Radius, metres.
-        pub radius: f64,
     }
 }
 
@@ -178,22 +146,6 @@ object! {
         pub color: Option<Color>,
         /// Texture.
         pub texture: Option<Texture>,
-    }
-}
-
-object! {
-    /// A colour.
-    pub struct Color {
-        /// Red, green, blue, opacity, each from 0 to 1.
-        pub rgba: [f64; 4],
-    }
-}
-
-object! {
-    /// A texture.
-    pub struct Texture {
-        /// File name as the URDF has it.
-        pub filename: String,
     }
 }
 
@@ -245,14 +197,6 @@ object! {
 }
 
 object! {
-    /// A link, by name.
-    pub struct LinkName {
-        /// Name of the link.
-        pub link: String,
-    }
-}
-
-object! {
     /// The axis of a joint.
     pub struct Axis {
         /// Direction in the joint's frame.
@@ -281,18 +225,6 @@ object! {
         pub damping: f64,
         /// Static friction: N m, or N.
         pub friction: f64,
-    }
-}
-
-object! {
-    /// Follows another joint: `position = multiplier * position of joint + offset`.
-    pub struct Mimic {
-        /// Name of the joint that is followed.
-        pub joint: String,
-        /// Factor; null means 1.
-        pub multiplier: Option<f64>,
-        /// Offset, rad or m; null means 0.
-        pub offset: Option<f64>,
     }
 }
 

@@ -80,31 +80,21 @@ fn geometry(geometry: &v1::Geometry) -> old::Geometry {
             filename: mesh.filename.clone(),
             scale: mesh.scale,
         }),
-        v1::Geometry::Box(cuboid) => old::Geometry::Box(old::Cuboid { size: cuboid.size }),
-        v1::Geometry::Cylinder(cylinder) => old::Geometry::Cylinder(old::Cylinder {
-            radius: cylinder.radius,
-            length: cylinder.length,
-        }),
+        v1::Geometry::Box(cuboid) => old::Geometry::Box(cuboid.clone()),
+        v1::Geometry::Cylinder(cylinder) => old::Geometry::Cylinder(cylinder.clone()),
         v1::Geometry::Capsule(capsule) => old::Geometry::Capsule(old::Capsule {
             radius: capsule.radius,
             length: capsule.length,
         }),
-        v1::Geometry::Sphere(sphere) => old::Geometry::Sphere(old::Sphere {
-            radius: sphere.radius,
-        }),
+        v1::Geometry::Sphere(sphere) => old::Geometry::Sphere(sphere.clone()),
     }
 }
 
 fn material(material: &v1::Material) -> old::Material {
     old::Material {
         name: material.name.clone().unwrap_or_default(),
-        color: material
-            .color
-            .as_ref()
-            .map(|color| old::Color { rgba: color.rgba }),
-        texture: material.texture.as_ref().map(|texture| old::Texture {
-            filename: texture.filename.clone(),
-        }),
+        color: material.color.clone(),
+        texture: material.texture.clone(),
     }
 }
 
@@ -112,9 +102,6 @@ fn joint(joint: &v1::Joint) -> old::Joint {
     use v1::JointType as New;
     let limit = joint.limit.as_ref();
     let bound = |pick: fn(&v1::Limit) -> Option<f64>| limit.and_then(pick).unwrap_or(0.0);
-    let link_name = |name: &v1::LinkName| old::LinkName {
-        link: name.link.clone(),
-    };
     old::Joint {
         name: joint.name.clone(),
         joint_type: match joint.joint_type {
@@ -127,8 +114,8 @@ fn joint(joint: &v1::Joint) -> old::Joint {
             New::Spherical => old::JointType::Spherical,
         },
         origin: origin(joint.origin.as_ref()),
-        parent: link_name(&joint.parent),
-        child: link_name(&joint.child),
+        parent: joint.parent.clone(),
+        child: joint.child.clone(),
         axis: old::Axis {
             xyz: joint
                 .axis
@@ -146,11 +133,7 @@ fn joint(joint: &v1::Joint) -> old::Joint {
             damping: dynamics.damping.unwrap_or(0.0),
             friction: dynamics.friction.unwrap_or(0.0),
         }),
-        mimic: joint.mimic.as_ref().map(|mimic| old::Mimic {
-            joint: mimic.joint.clone(),
-            multiplier: mimic.multiplier,
-            offset: mimic.offset,
-        }),
+        mimic: joint.mimic.clone(),
         safety_controller: joint
             .safety_controller
             .as_ref()

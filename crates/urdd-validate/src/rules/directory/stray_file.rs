@@ -4,7 +4,7 @@ use super::listed_files;
 use crate::rules::prelude::*;
 use urdd_directory::root::EntryKind;
 use urdd_document::entries::MODULE_FILES;
-use urdd_document::paths::{self, PathRole, Place};
+use urdd_document::paths::{self, Place};
 
 declare_rule! {
     /// A module's folder holds a file that neither the module nor `urdd.json` names.
@@ -62,6 +62,6 @@ fn misnames_files(context: &Context, module: &Module) -> bool {
             Place::Here(path) => entries::look(context, path).is_ok(),
             _ => false,
         };
-        !there || (path.role != PathRole::MeshReference && !seen.insert(path.path))
+        !there || (!path.is_reference && !seen.insert(path.path))
     })
 }
