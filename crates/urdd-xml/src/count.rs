@@ -4,150 +4,82 @@ use std::collections::HashSet;
 
 use super::error::{XmlError, text_pos};
 use super::limits::{Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_PREFIXES};
+use super::markup::{self, MarkupKind};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
 pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
     let mut prefixes: HashSet<&[u8]> = HashSet::new();
     let (mut levels, mut elements) = (0_usize, 0_usize);
-    let bytes = text.as_bytes();
     let mut at = 0;
-    while let Some(found) = find(bytes, at, b"<") {
-        let rest = &bytes[found..];
-        // `<!-->` starts a comment but does not end it.
-        let end_of = |start: &[u8], mark: &[u8]| {
-            find(bytes, found + start.len(), mark).map(|end| end + mark.len())
+    while let Some(markup) = markup::next(text, at) {
+        let end = markup.end.unwrap_or(text.len());
+        let inside = &text.as_bytes()[markup.start..end];
+        at = end;
+        let too_many = |what, limit| XmlError::TooMany {
+            what,
+            limit,
+            pos: text_pos(text, markup.start),
         };
-        let end = if rest.starts_with(b"<!--") {
-            end_of(b"<!--", b"-->")
-        } else if rest.starts_with(b"<![CDATA[") {
-            end_of(b"<![CDATA[", b"]]>")
-        } else if rest.starts_with(b"<?") {
-            end_of(b"<?", b"?>")
-        } else {
-            let tag = Tag::read(bytes, found);
-            let too_many = |what, limit| XmlError::TooMany {
-                what,
-                limit,
-                pos: text_pos(text, found),
-            };
-            if tag.attributes > MOST_ATTRIBUTES {
-                return Err(too_many("attributes of one element", MOST_ATTRIBUTES));
+        match markup.kind {
+            MarkupKind::Text | MarkupKind::Instruction => continue,
+            MarkupKind::Declaration if inside.starts_with(b"<!ENTITY") => {
+                return Err(XmlError::Entities(text_pos(text, markup.start)));
             }
-            prefixes.extend(tag.prefixes);
-            if prefixes.len() > MOST_PREFIXES {
-                return Err(too_many("prefixes of namespaces", MOST_PREFIXES));
-            }
-            match tag.kind {
-                TagKind::Start | TagKind::Empty => {
-                    elements += 1;
-                    if elements > kind.most_elements() {
-                        return Err(too_many("elements", kind.most_elements()));
-                    }
-                    if levels >= MOST_LEVELS {
-                        let what = "levels of nested elements";
-                        return Err(too_many(what, MOST_LEVELS));
-                    }
-                    levels += usize::from(tag.kind == TagKind::Start);
-                }
-                TagKind::End => levels = levels.saturating_sub(1),
-                TagKind::Declaration => {
-                    if rest.starts_with(b"<!ENTITY") {
-                        return Err(XmlError::Entities(text_pos(text, found)));
-                    }
-                }
-            }
-            Some(tag.end)
-        };
-        match end {
-            Some(end) => at = end,
-            None => break,
+            MarkupKind::Declaration | MarkupKind::Tag => {}
         }
+        if count_attributes(inside, &mut prefixes) > MOST_ATTRIBUTES {
+            return Err(too_many("attributes of one element", MOST_ATTRIBUTES));
+        }
+        if prefixes.len() > MOST_PREFIXES {
+            return Err(too_many("prefixes of namespaces", MOST_PREFIXES));
+        }
+        if markup.kind == MarkupKind::Declaration {
+            continue;
+        }
+        if inside.starts_with(b"</") {
+            levels = levels.saturating_sub(1);
+            continue;
+        }
+        elements += 1;
+        if elements > kind.most_elements() {
+            return Err(too_many("elements", kind.most_elements()));
+        }
+        if levels >= MOST_LEVELS {
+            return Err(too_many("levels of nested elements", MOST_LEVELS));
+        }
+        levels += usize::from(!inside.ends_with(b"/>"));
     }
     Ok(())
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum TagKind {
-    /// `<a>`.
-    Start,
-    /// `<a/>`.
-    Empty,
-    /// `</a>`.
-    End,
-    /// `<!DOCTYPE …`, and the declarations inside it.
-    Declaration,
-}
-
-/// The counted properties of a tag.
-struct Tag<'t> {
-    kind: TagKind,
-    /// Number of `=` outside quotes.
-    attributes: usize,
-    /// The names between `xmlns:` and such a `=`.
-    prefixes: Vec<&'t [u8]>,
-    /// Byte offset of its end.
-    end: usize,
-}
-
-impl<'t> Tag<'t> {
-    fn read(bytes: &'t [u8], start: usize) -> Self {
-        let mut tag = Tag {
-            kind: match bytes.get(start + 1) {
-                Some(b'/') => TagKind::End,
-                Some(b'!') => TagKind::Declaration,
-                _ => TagKind::Start,
-            },
-            attributes: 0,
-            prefixes: Vec::new(),
-            end: bytes.len(),
-        };
-        let mut quote = None;
-        // Start of the last word, and whether the word has ended.
-        let (mut word, mut ended) = (start + 1, false);
-        for (offset, byte) in bytes[start + 1..].iter().enumerate() {
-            let at = start + 1 + offset;
-            match (quote, byte) {
-                (Some(open), byte) if *byte == open => {
-                    quote = None;
-                    ended = true;
-                }
-                (Some(_), _) => {}
-                (None, b'"' | b'\'') => quote = Some(*byte),
-                (None, b'=') => {
-                    tag.attributes += 1;
-                    let name = bytes[word..at].trim_ascii();
-                    tag.prefixes.extend(name.strip_prefix(b"xmlns:"));
-                    ended = true;
-                }
-                // A DOCTYPE contains other declarations.
-                (None, b'>' | b'[') => {
-                    tag.end = at + 1;
-                    if tag.kind == TagKind::Start && bytes[at - 1] == b'/' {
-                        tag.kind = TagKind::Empty;
-                    }
-                    break;
-                }
-                (None, _) if byte.is_ascii_whitespace() => ended = true,
-                (None, _) if ended => (word, ended) = (at, false),
-                (None, _) => {}
+/// The number of `=` outside quotes in a tag, at most one more than [`MOST_ATTRIBUTES`]. Adds the names between `xmlns:`
+/// and such a `=` to `prefixes`.
+fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> usize {
+    let mut count = 0;
+    let mut quote = None;
+    // Start of the last word, and whether the word has ended.
+    let (mut word, mut ended) = (1, false);
+    for (at, byte) in tag.iter().enumerate().skip(1) {
+        match (quote, byte) {
+            (Some(open), byte) if *byte == open => {
+                quote = None;
+                ended = true;
             }
-            if tag.attributes > MOST_ATTRIBUTES {
-                break;
+            (Some(_), _) => {}
+            (None, b'"' | b'\'') => quote = Some(*byte),
+            (None, b'=') => {
+                count += 1;
+                let name = tag[word..at].trim_ascii();
+                prefixes.extend(name.strip_prefix(b"xmlns:"));
+                ended = true;
             }
+            (None, _) if byte.is_ascii_whitespace() => ended = true,
+            (None, _) if ended => (word, ended) = (at, false),
+            (None, _) => {}
         }
-        tag
-    }
-}
-
-fn find(bytes: &[u8], from: usize, mark: &[u8]) -> Option<usize> {
-    let rest = bytes.get(from..)?;
-    let first = mark.first()?;
-    let mut at = 0;
-    loop {
-        at += rest[at..].iter().position(|byte| byte == first)?;
-        if rest[at..].starts_with(mark) {
-            return Some(from + at);
+        if count > MOST_ATTRIBUTES {
+            break;
         }
-        at += 1;
     }
+    count
 }

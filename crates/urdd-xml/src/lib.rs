@@ -11,6 +11,7 @@ mod declaration;
 pub mod element;
 mod error;
 mod limits;
+mod markup;
 mod strict;
 mod words;
 
@@ -20,6 +21,7 @@ pub use limits::{
     Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_NODES, MOST_PREFIXES, MOST_ROBOT_ELEMENTS,
 };
 use roxmltree::{Document, ParsingOptions};
+pub use strict::is_character;
 
 /// Parses a document.
 ///

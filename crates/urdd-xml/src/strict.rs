@@ -2,6 +2,7 @@
 //! characters that XML does not have.
 
 use super::error::{XmlError, text_pos};
+use super::markup::{self, MarkupKind};
 
 const COLON: &str =
     "a name begins or ends with a colon, or has two; a name has at most one, after a prefix";
@@ -27,36 +28,24 @@ type Found = (usize, &'static str);
 
 fn fault(text: &str) -> Option<Found> {
     let mut at = 0;
-    while let Some(found) = text[at..].find('<').map(|offset| at + offset) {
-        if let Some(fault) = references(&text[at..found], at) {
+    while let Some(markup) = markup::next(text, at) {
+        if let Some(fault) = references(&text[at..markup.start], at) {
             return Some(fault);
         }
-        let rest = &text[found..];
-        let until = |start: &str, mark: &str| {
-            Some(found + start.len() + rest.get(start.len()..)?.find(mark)? + mark.len())
-        };
-        at = if rest.starts_with("<!--") {
-            until("<!--", "-->")?
-        } else if rest.starts_with("<![CDATA[") {
-            until("<![CDATA[", "]]>")?
-        } else if rest.starts_with("<?") {
-            let end = until("<?", "?>")?;
-            if let Some(what) = instruction(
-                &text[found + 2..end - 2],
-                found == 0 || &text[..found] == "\u{feff}",
-            ) {
-                return Some((found, what));
+        at = markup.end?;
+        let inside = &text[markup.start..at];
+        let fault = match markup.kind {
+            MarkupKind::Instruction => {
+                let at_start = matches!(&text[..markup.start], "" | "\u{feff}");
+                let what = instruction(&inside[2..inside.len() - 2], at_start);
+                what.map(|what| (0, what))
             }
-            end
-        } else {
-            let end = tag_end(rest)?;
-            if !rest.starts_with("<!")
-                && let Some((offset, what)) = tag(&rest[1..end - 1])
-            {
-                return Some((found + 1 + offset, what));
-            }
-            found + end
+            MarkupKind::Tag => tag(&inside[1..inside.len() - 1]).map(|(at, what)| (at + 1, what)),
+            MarkupKind::Text | MarkupKind::Declaration => None,
         };
+        if let Some((offset, what)) = fault {
+            return Some((markup.start + offset, what));
+        }
     }
     None
 }
@@ -80,22 +69,6 @@ fn instruction(text: &str, at_start: bool) -> Option<&'static str> {
     let value = after.trim_start().strip_prefix('=')?.trim_start();
     let quoted = ["\"yes\"", "'yes'", "\"no\"", "'no'"];
     (!quoted.iter().any(|right| value.starts_with(right))).then_some(STANDALONE)
-}
-
-/// The end of a tag, or of a declaration up to its `[`.
-fn tag_end(rest: &str) -> Option<usize> {
-    let mut quote = None;
-    for (at, byte) in rest.bytes().enumerate() {
-        match (quote, byte) {
-            (Some(open), byte) if byte == open => quote = None,
-            (Some(_), _) => {}
-            (None, b'"' | b'\'') => quote = Some(byte),
-            (None, b'>') => return Some(at + 1),
-            (None, b'[') if rest.starts_with("<!") => return Some(at + 1),
-            (None, _) => {}
-        }
-    }
-    None
 }
 
 /// The fault of a tag, without `<` and `>`, and its offset.
@@ -143,10 +116,15 @@ fn references(text: &str, start: usize) -> Option<Found> {
             Some(digits) => u32::from_str_radix(digits, 16),
             None => digits.parse(),
         };
-        let is_character = |number: u32| matches!(number, 0x9 | 0xA | 0xD | 0x20..=0xD7FF | 0xE000..=0xFFFD | 0x1_0000..=0x10_FFFF);
-        if !number.is_ok_and(is_character) {
+        let character = number.ok().and_then(char::from_u32);
+        if !character.is_some_and(is_character) {
             return Some((start + at, NO_CHARACTER));
         }
     }
     None
+}
+
+/// Whether XML 1.0 allows a character (production 2).
+pub fn is_character(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

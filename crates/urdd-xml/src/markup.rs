@@ -1,0 +1,64 @@
+//! Markup of XML, found without parsing.
+
+/// What a `<` begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum MarkupKind {
+    /// A comment, or a CDATA section.
+    Text,
+    /// `<?target …?>`.
+    Instruction,
+    /// `<!DOCTYPE …` up to its `[`, and the declarations inside it.
+    Declaration,
+    /// `<a>`, `<a/>`, `</a>`.
+    Tag,
+}
+
+/// A piece of markup.
+pub(super) struct Markup {
+    pub kind: MarkupKind,
+    /// Byte offset of its `<`.
+    pub start: usize,
+    /// Byte offset of its end; `None` if it has none.
+    pub end: Option<usize>,
+}
+
+/// The first markup from byte `at` on.
+pub(super) fn next(text: &str, at: usize) -> Option<Markup> {
+    let start = at + text[at..].find('<')?;
+    let rest = &text[start..];
+    // `<!-->` starts a comment but does not end it.
+    let until =
+        |head: &str, mark: &str| Some(head.len() + rest[head.len()..].find(mark)? + mark.len());
+    let (kind, length) = if rest.starts_with("<!--") {
+        (MarkupKind::Text, until("<!--", "-->"))
+    } else if rest.starts_with("<![CDATA[") {
+        (MarkupKind::Text, until("<![CDATA[", "]]>"))
+    } else if rest.starts_with("<?") {
+        (MarkupKind::Instruction, until("<?", "?>"))
+    } else if rest.starts_with("<!") {
+        (MarkupKind::Declaration, tag_length(rest, b">["))
+    } else {
+        (MarkupKind::Tag, tag_length(rest, b">"))
+    };
+    Some(Markup {
+        kind,
+        start,
+        end: length.map(|length| start + length),
+    })
+}
+
+/// The length up to the first of `ends` outside quotes.
+fn tag_length(text: &str, ends: &[u8]) -> Option<usize> {
+    let mut quote = None;
+    let end = text.bytes().position(|byte| match quote {
+        Some(open) => {
+            quote = (byte != open).then_some(open);
+            false
+        }
+        None => {
+            quote = matches!(byte, b'"' | b'\'').then_some(byte);
+            ends.contains(&byte)
+        }
+    });
+    Some(end? + 1)
+}
