@@ -95,11 +95,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let name = canonical
             .file_name()
             .map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-        return Ok(vec![Found {
-            path: path.to_owned(),
-            name,
-            closed: None,
-        }]);
+        return Ok(vec![found_at(path.to_owned(), name, None)]);
     }
     if let Err(error) = fs::read_dir(&canonical) {
         return Err(DiscoverError::Unreadable {
@@ -114,11 +110,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let entries = match list(&folder, depth) {
             Ok(entries) => entries,
             Err(error) => {
-                found.push(Found {
-                    path: folder,
-                    name: prefix,
-                    closed: Some(error),
-                });
+                found.push(found_at(folder, prefix, Some(error)));
                 continue;
             }
         };
@@ -144,11 +136,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
                 format!("{prefix}/{name}")
             };
             if is_urdd(&entry.path()) {
-                found.push(Found {
-                    path: entry.path(),
-                    name,
-                    closed: None,
-                });
+                found.push(found_at(entry.path(), name, None));
             } else {
                 folders.push((entry.path(), name, depth + 1));
             }
@@ -159,6 +147,10 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     }
     found.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(found)
+}
+
+fn found_at(path: PathBuf, name: String, closed: Option<ReadError>) -> Found {
+    Found { path, name, closed }
 }
 
 fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {

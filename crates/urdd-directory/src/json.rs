@@ -6,7 +6,7 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-use super::json_fault::{EncodingKinds, decode, explain, report_repeated_keys};
+use super::json_fault::{decode, explain, report_repeated_keys};
 use super::limits::DEPTH_LIMIT;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults, UnreadableText};
 
@@ -27,7 +27,8 @@ pub struct JsonDocument {
 /// If there is no usable value: not UTF-8, not JSON, a number that is not finite, or nesting beyond [`DEPTH_LIMIT`].
 pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     let mut faults = TextFaults::default();
-    let text = match decode(bytes, &JSON_KINDS, &mut faults) {
+    let kinds = [TextFaultKind::ByteOrderMark, TextFaultKind::NotUtf8];
+    let text = match decode(bytes, kinds, &mut faults) {
         Ok(text) => text.to_owned(),
         Err(fault) => return Err(unreadable(faults, fault)),
     };
@@ -54,11 +55,6 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
         faults,
     })
 }
-
-const JSON_KINDS: EncodingKinds = EncodingKinds {
-    not_utf8: TextFaultKind::NotUtf8,
-    byte_order_mark: TextFaultKind::ByteOrderMark,
-};
 
 fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
     faults.push(fault);
@@ -144,10 +140,6 @@ impl<'de> Visitor<'de> for Seed<'_> {
 
     fn visit_str<E>(self, value: &str) -> Result<Value, E> {
         Ok(Value::String(value.to_owned()))
-    }
-
-    fn visit_string<E>(self, value: String) -> Result<Value, E> {
-        Ok(Value::String(value))
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Value, A::Error> {

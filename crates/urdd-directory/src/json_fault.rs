@@ -7,23 +7,18 @@ use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// The kinds under which a language reports encoding faults.
-pub struct EncodingKinds {
-    pub not_utf8: TextFaultKind,
-    pub byte_order_mark: TextFaultKind,
-}
-
-/// The text without a byte order mark, which it reports; or the fault that prevents decoding.
+/// The text without a byte order mark, which it reports; or the fault that prevents decoding. The language reports them
+/// under these kinds.
 pub fn decode<'a>(
     bytes: &'a [u8],
-    kinds: &EncodingKinds,
+    [byte_order_mark, not_utf8]: [TextFaultKind; 2],
     faults: &mut TextFaults,
 ) -> Result<&'a str, TextFault> {
     let rest = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let start = bytes.len() - rest.len();
     if start > 0 {
         let fault = TextFault::new(
-            kinds.byte_order_mark,
+            byte_order_mark,
             "the file begins with a byte order mark, which many readers refuse: save it as UTF-8 without one",
         );
         faults.push(fault.at(super::position::position("", 0)));
@@ -40,7 +35,7 @@ pub fn decode<'a>(
         let found = rest[valid..].first().map(|byte| format!("0x{byte:02X}"));
         TextFault {
             found,
-            ..TextFault::new(kinds.not_utf8, message).at(super::position::position(before, valid))
+            ..TextFault::new(not_utf8, message).at(super::position::position(before, valid))
         }
     })
 }

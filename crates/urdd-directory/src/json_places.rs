@@ -2,16 +2,20 @@
 
 use std::collections::HashMap;
 
-use super::json_scan::{Scan, segments};
+use super::json_scan::Scan;
 
 /// Byte offsets of the values at many pointers, in one pass through the text.
 pub fn find_values(text: &str, pointers: &[&str]) -> Vec<Option<usize>> {
     let mut wanted = Wanted::default();
     for (number, pointer) in pointers.iter().enumerate() {
-        let parts: Option<Vec<_>> = segments(pointer).and_then(|parts| parts.collect());
-        let Some(parts) = parts else { continue };
-        let place = parts.into_iter().fold(&mut wanted, |place, part| {
-            place.below.entry(part.into_owned()).or_default()
+        let mut parts = pointer.split('/');
+        // A pointer is empty or begins with a slash.
+        if parts.next() != Some("") {
+            continue;
+        }
+        let place = parts.fold(&mut wanted, |place, part| {
+            let key = part.replace("~1", "/").replace("~0", "~");
+            place.below.entry(key).or_default()
         });
         place.numbers.push(number);
     }

@@ -52,22 +52,6 @@ pub fn push_segment(pointer: &mut String, segment: &str) {
     }
 }
 
-/// The unescaped segments of a pointer. A segment with an invalid escape is `None`.
-pub(super) fn segments(pointer: &str) -> Option<impl Iterator<Item = Option<Cow<'_, str>>>> {
-    let mut parts = pointer.split('/');
-    // A pointer is empty or begins with a slash.
-    parts.next().filter(|before| before.is_empty())?;
-    Some(parts.map(unescape))
-}
-
-fn unescape(segment: &str) -> Option<Cow<'_, str>> {
-    if !segment.contains('~') {
-        return Some(Cow::Borrowed(segment));
-    }
-    let plain = segment.replace("~1", "").replace("~0", "");
-    (!plain.contains('~')).then(|| Cow::Owned(segment.replace("~1", "/").replace("~0", "~")))
-}
-
 pub(super) struct Scan<'a> {
     text: &'a str,
     /// Byte offset of the next byte.

@@ -16,15 +16,9 @@ const LARGEST_WITHOUT_EXPONENT: f64 = 1e16;
 /// side of the point (`0.0001`, `3.0`). Any other has one digit before the point, at least one after it, `e`, a sign,
 /// and the exponent without leading zeros (`1.0e-5`, `1.25e+22`).
 pub fn write(number: &Number, out: &mut impl Write) -> fmt::Result {
-    if let Some(n) = number.as_u64() {
-        write!(out, "{n}")
-    } else if let Some(n) = number.as_i64() {
-        write!(out, "{n}")
-    } else if let Some(x) = number.as_f64() {
-        write_float(x, out)
-    } else {
-        // Only with serde_json's arbitrary_precision, which is disabled.
-        write!(out, "{number}")
+    match number.as_f64() {
+        Some(x) if number.is_f64() => write_float(x, out),
+        _ => write!(out, "{number}"),
     }
 }
 

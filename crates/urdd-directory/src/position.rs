@@ -13,6 +13,14 @@ pub struct Position {
     pub column: u32,
 }
 
+impl Position {
+    /// A position from 1-based counts of any size.
+    pub(crate) fn of(line: usize, column: usize) -> Self {
+        let [line, column] = [line, column].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+        Position { line, column }
+    }
+}
+
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.line, self.column)
@@ -59,10 +67,8 @@ impl<'a> LineIndex<'a> {
         let offset = offset.min(self.text.len());
         let line = self.starts.partition_point(|&start| start <= offset);
         let start = self.starts[line - 1];
-        Position {
-            line: count(line),
-            column: count(self.scalars_before(offset) - self.scalars_before(start) + 1),
-        }
+        let before = self.scalars_before(offset) - self.scalars_before(start);
+        Position::of(line, before + 1)
     }
 
     /// Number of scalar values that begin before a byte offset.
@@ -96,10 +102,6 @@ pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
     offsets
         .map(|offset| offset.map(|offset| index.position(offset)))
         .collect()
-}
-
-fn count(n: usize) -> u32 {
-    u32::try_from(n).unwrap_or(u32::MAX)
 }
 
 /// Counts scalar values: every byte of UTF-8 except continuation bytes.

@@ -36,6 +36,26 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
+/// Reads a file whose size is known, of at most `limit` bytes.
+///
+/// # Errors
+/// If it is larger, or cannot be read.
+pub(crate) fn read_sized(file: impl Read, size: u64, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let fits = |size: u64| match size > limit {
+        true => Err(ReadError::TooLarge { size, limit }),
+        false => Ok(()),
+    };
+    fits(size)?;
+    // Allocate once, with room for the read that detects the end.
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default() + 32);
+    // The file may grow while it is read: enforce the limit again.
+    file.take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ReadError::from_io(&error))?;
+    fits(bytes.len() as u64)?;
+    Ok(bytes)
+}
+
 fn check_kind(metadata: &Metadata) -> Result<(), ReadError> {
     if metadata.is_file() {
         Ok(())

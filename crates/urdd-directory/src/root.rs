@@ -1,12 +1,12 @@
 //! The root of a URDD in any storage: lists its contents, and reads files without ever leaving the root.
 
-use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
 pub use super::listing::{Entry, EntryKind, Listing};
 use super::path;
 pub use super::read_error::ReadError;
+use super::regular;
 use super::source::{Archive, Disk, OpenFile, Source, is_archive};
 
 /// The root of a URDD.
@@ -65,21 +65,7 @@ impl Root {
     /// If SPEC 2.8 forbids the path, it leads out of the root, or it cannot be read.
     pub fn read(&self, relative: &str, limit: u64) -> Result<Vec<u8>, ReadError> {
         let (file, size) = self.open_file(relative)?;
-        if size > limit {
-            return Err(ReadError::TooLarge { size, limit });
-        }
-        let mut bytes = Vec::with_capacity(size as usize);
-        // The file may grow while it is read: enforce the limit again.
-        file.take(limit + 1)
-            .read_to_end(&mut bytes)
-            .map_err(|error| ReadError::from_io(&error))?;
-        if bytes.len() as u64 > limit {
-            return Err(ReadError::TooLarge {
-                size: bytes.len() as u64,
-                limit,
-            });
-        }
-        Ok(bytes)
+        regular::read_sized(file, size, limit)
     }
 
     /// Opens a file for reading, and returns its size.

@@ -55,7 +55,8 @@ fn content(
     Ok(())
 }
 
-fn file(from: &Path, to: &Path) -> Result<(), StagingError> {
+/// Copies a file or a symbolic link. `to` must not exist.
+pub(crate) fn file(from: &Path, to: &Path) -> Result<(), StagingError> {
     #[cfg(unix)]
     if fs::symlink_metadata(from).is_ok_and(|metadata| metadata.is_symlink()) {
         let target = fs::read_link(from).map_err(|error| unread(from, error))?;

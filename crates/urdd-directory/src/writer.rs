@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::document::Document;
 use super::staging::StagingError;
+use super::take;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
@@ -69,11 +70,7 @@ impl Writer {
     /// # Errors
     /// If it cannot be read or written.
     pub fn keep(&self, from: &Path, path: &str) -> Result<(), StagingError> {
-        let to = self.place(path)?;
-        if fs::hard_link(from, &to).is_err() {
-            fs::copy(from, &to).map_err(|error| StagingError::Write { path: to, error })?;
-        }
-        Ok(())
+        take::file(from, &self.place(path)?)
     }
 
     /// Writes `VERSION`, `module.json` and `module.yaml` of a module.

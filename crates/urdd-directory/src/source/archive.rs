@@ -14,7 +14,7 @@ use flate2::Crc;
 use flate2::bufread::DeflateDecoder;
 
 use super::tree::{Item, Node, Tree};
-use super::zip_list::{self, Listed, entry_fault};
+use super::zip_list::{self, Listed, Packed, entry_fault};
 use super::{OpenFile, Source};
 use crate::archive_fault::{ArchiveFault, EntryFault};
 use crate::layout::ROOT_METADATA;
@@ -74,16 +74,6 @@ pub struct Archive {
     tree: Tree<Packed>,
 }
 
-/// Location and properties of an entry's packed bytes.
-#[derive(Debug, Clone, Copy)]
-struct Packed {
-    start: usize,
-    end: usize,
-    is_deflated: bool,
-    size: u64,
-    crc: u32,
-}
-
 type Member = Item<Packed>;
 
 impl Archive {
@@ -92,25 +82,10 @@ impl Archive {
     /// # Errors
     /// If it cannot be read, or is not an archive of one URDD.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let from_io = |error: io::Error| ReadError::from_io(&error);
         let file = regular::open(path)?;
-        let limit = MAX_ARCHIVE_BYTES;
-        let stated = file.metadata().map_err(from_io)?.len();
-        if stated > limit {
-            return Err(ReadError::TooLarge {
-                size: stated,
-                limit,
-            });
-        }
-        // Allocate once, with room for the read that detects the end.
-        let mut bytes = Vec::with_capacity(usize::try_from(stated).unwrap_or_default() + 32);
-        file.take(limit + 1)
-            .read_to_end(&mut bytes)
-            .map_err(from_io)?;
-        let size = bytes.len() as u64;
-        if size > limit {
-            return Err(ReadError::TooLarge { size, limit });
-        }
+        let metadata = file.metadata();
+        let size = metadata.map_err(|error| ReadError::from_io(&error))?.len();
+        let bytes = regular::read_sized(file, size, MAX_ARCHIVE_BYTES)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self::new(&name, bytes)?)
     }
@@ -170,7 +145,7 @@ fn members(bytes: &Bytes) -> Result<Vec<Member>, ArchiveFault> {
         check(entry).map_err(|fault| entry_fault(entry.name, fault))?;
     }
     // Check the total size before inflating anything.
-    let size = listed.iter().map(|entry| entry.size).sum();
+    let size = listed.iter().map(|entry| entry.packed.size).sum();
     if size > limit {
         return Err(ArchiveFault::Inflates { size, limit });
     }
@@ -213,11 +188,11 @@ fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
         KIND_LINK => MAX_LINK_BYTES,
         _ => MAX_DOCUMENT_BYTES,
     };
-    let size = entry.size;
+    let size = entry.packed.size;
     if size > limit {
         return Err(EntryFault::TooLarge { size, limit });
     }
-    match entry.method {
+    match entry.packed.method {
         STORED | DEFLATED => Ok(()),
         method => Err(EntryFault::Method { method }),
     }
@@ -227,13 +202,7 @@ fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
 fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
     let name = String::from_utf8_lossy(entry.name);
     let path = name.strip_suffix('/').unwrap_or(&name).to_owned();
-    let data = Packed {
-        start: entry.start,
-        end: entry.end,
-        is_deflated: entry.method == DEFLATED,
-        size: entry.size,
-        crc: entry.crc,
-    };
+    let data = entry.packed;
     let mut file = inflate(bytes, &data);
     let node = match entry.kind {
         KIND_LINK => {
@@ -247,7 +216,7 @@ fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
                 _ if name.ends_with('/') => Node::Folder,
                 KIND_FOLDER => Node::Folder,
                 0 | KIND_FILE => Node::File {
-                    size: entry.size,
+                    size: data.size,
                     data,
                 },
                 _ => Node::Other,
@@ -300,30 +269,20 @@ fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
 }
 
 /// The packed bytes of an entry.
-struct Slice {
-    bytes: Bytes,
-    start: usize,
-    end: usize,
-}
+struct Slice(Bytes, Packed);
 
 impl AsRef<[u8]> for Slice {
     fn as_ref(&self) -> &[u8] {
-        self.bytes
-            .all()
-            .get(self.start..self.end)
-            .unwrap_or_default()
+        let packed = self.0.all().get(self.1.start..self.1.end);
+        packed.unwrap_or_default()
     }
 }
 
 fn inflate(bytes: &Bytes, packed: &Packed) -> Checked {
-    let slice = Cursor::new(Slice {
-        bytes: bytes.clone(),
-        start: packed.start,
-        end: packed.end,
-    });
-    let inner: OpenFile = match packed.is_deflated {
-        true => Box::new(DeflateDecoder::new(slice)),
-        false => Box::new(slice),
+    let slice = Cursor::new(Slice(bytes.clone(), *packed));
+    let inner: OpenFile = match packed.method {
+        DEFLATED => Box::new(DeflateDecoder::new(slice)),
+        _ => Box::new(slice),
     };
     Checked {
         inner,

@@ -31,18 +31,25 @@ pub struct Listed<'a> {
     pub name: &'a [u8],
     /// Whether it is encrypted.
     pub is_encrypted: bool,
-    /// Its compression method.
-    pub method: u16,
-    /// CRC-32 of its content.
-    pub crc: u32,
-    /// Size of its content, bytes.
-    pub size: u64,
-    /// Start of its packed bytes.
-    pub start: usize,
-    /// End of its packed bytes.
-    pub end: usize,
     /// The file type bits of its Unix mode; 0 if it has none.
     pub kind: u32,
+    /// Its content.
+    pub packed: Packed,
+}
+
+/// Location and properties of an entry's packed bytes.
+#[derive(Debug, Clone, Copy)]
+pub struct Packed {
+    /// Compression method.
+    pub method: u16,
+    /// CRC-32 of the content.
+    pub crc: u32,
+    /// Size of the content, bytes.
+    pub size: u64,
+    /// Start of the packed bytes.
+    pub start: usize,
+    /// End of the packed bytes.
+    pub end: usize,
 }
 
 /// Every entry, in the order of the central directory.
@@ -159,15 +166,17 @@ fn entry<'a>(
     let listed = Listed {
         name,
         is_encrypted: flags & ENCRYPTED != 0,
-        method: fields.short(10),
-        crc,
-        size: size.into(),
-        start,
-        end,
         kind: if has_mode {
             (fields.word(38) >> 16) & 0o170_000
         } else {
             0
+        },
+        packed: Packed {
+            method: fields.short(10),
+            crc,
+            size: size.into(),
+            start,
+            end,
         },
     };
     Ok((listed, (begin, end, has_descriptor)))

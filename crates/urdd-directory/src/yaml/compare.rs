@@ -391,9 +391,5 @@ fn scalar_kind(event: &Event<'_>) -> Option<ScalarStyle> {
 }
 
 fn place(marker: Marker) -> Position {
-    let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    Position {
-        line: count(marker.line()),
-        column: count(marker.col() + 1),
-    }
+    Position::of(marker.line(), marker.col() + 1)
 }

@@ -15,17 +15,12 @@ use std::fmt;
 use serde_json::Value;
 
 use super::canonical;
-use super::json_fault::{EncodingKinds, decode};
+use super::json_fault::decode;
 use super::position::LineIndex;
 use super::text_fault::{TextFault, TextFaultKind, TextFaults};
 use message::excerpt;
 
 pub use transcript::is_mirrored;
-
-const YAML_KINDS: EncodingKinds = EncodingKinds {
-    not_utf8: TextFaultKind::YamlNotUtf8,
-    byte_order_mark: TextFaultKind::YamlByteOrderMark,
-};
 
 /// Reports everything that prevents every reader from reading the YAML file as `json`.
 ///
@@ -37,7 +32,8 @@ pub fn check_mirror(yaml: &[u8], json: &Value) -> TextFaults {
     if is_canonical(yaml, json) {
         return faults;
     }
-    let text = match decode(yaml, &YAML_KINDS, &mut faults) {
+    let kinds = [TextFaultKind::YamlByteOrderMark, TextFaultKind::YamlNotUtf8];
+    let text = match decode(yaml, kinds, &mut faults) {
         Ok(text) => text,
         Err(fault) => {
             faults.push(fault);

@@ -3,6 +3,9 @@
 //! YAML 1.2 is the core schema (YAML 1.2.2, 10.3.2). YAML 1.1 is what PyYAML's `SafeLoader` resolves, plus the booleans
 //! `y` and `n`, which the YAML 1.1 types define and yaml-cpp reads.
 
+use std::sync::LazyLock;
+
+use regex::Regex;
 use serde_json::{Number, Value};
 
 /// The type of a plain scalar to a reader.
@@ -47,25 +50,55 @@ impl Readings {
     }
 }
 
+/// The forms of numbers and timestamps.
+struct Forms {
+    non_finite: Regex,
+    integer12: Regex,
+    float12: Regex,
+    /// Binary, hexadecimal, octal, decimal, base 60.
+    integer11: Regex,
+    /// PyYAML does not allow a sign before a bare point; before version 6 it allowed a leading `_` after it.
+    float11: Regex,
+    /// A date of ten characters, or a less strict date followed by a time.
+    timestamp: Regex,
+}
+
+static FORMS: LazyLock<Forms> = LazyLock::new(|| {
+    let whole = |form: &str| {
+        let form = Regex::new(&format!("^(?:{form})$"));
+        form.unwrap_or_else(|error| unreachable!("{error}"))
+    };
+    Forms {
+        non_finite: whole(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"),
+        integer12: whole(r"[-+]?[0-9]+|0x[0-9a-fA-F]+|0o[0-7]+"),
+        float12: whole(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?"),
+        integer11: whole(r"[-+]?(0b[01_]+|0x[0-9a-fA-F_]+|0|0[0-7_]+|[1-9][0-9_]*(:[0-5]?[0-9])*)"),
+        float11: whole(
+            r"[-+]?[0-9][0-9_]*(\.[0-9_]*([eE][-+][0-9]+)?|(:[0-5]?[0-9])+\.[0-9_]*)|\.[0-9_]*[0-9][0-9_]*([eE][-+][0-9]+)?",
+        ),
+        timestamp: whole(
+            r"[0-9]{4}-[0-9]{2}-[0-9]{2}|[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt]|[ \t]+)[0-9]{1,2}:[0-9]{2}:[0-9]{2}(\.[0-9]*)?([ \t]*(Z|[-+][0-9]{1,2}(:[0-9]{2})?))?",
+        ),
+    }
+});
+
 /// Classifies a plain scalar by both versions of YAML.
 pub fn classify(text: &str) -> Readings {
-    let bytes = text.as_bytes();
     // Fast path: nearly all scalars of a generated file are numbers or names.
-    match bytes.first() {
-        Some(b'0'..=b'9' | b'-') => {
-            if let Some(reading) = json_number(bytes) {
+    match text.as_bytes() {
+        [b'0'..=b'9' | b'-', ..] => {
+            if let Some(reading) = usual_number(text) {
                 return Readings::same(reading);
             }
         }
-        Some(b'a'..=b'z' | b'A'..=b'Z') if bytes.len() > 5 => return Readings::same(Reading::Text),
+        [b'a'..=b'z' | b'A'..=b'Z', _, _, _, _, _, ..] => return Readings::same(Reading::Text),
         _ => {}
     }
     let (yaml12, yaml11) = (yaml12(text), yaml11(text));
     // Octal in YAML 1.1, decimal in YAML 1.2, and a string to some readers.
-    let leading_zero = yaml12 == Reading::Integer && {
-        let digits = unsigned(bytes);
-        digits.len() > 1 && digits[0] == b'0' && digits[1].is_ascii_digit()
-    };
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let leading_zero =
+        yaml12 == Reading::Integer && matches!(digits.as_bytes(), [b'0', b'0'..=b'9', ..]);
     Readings {
         yaml12,
         yaml11,
@@ -73,219 +106,45 @@ pub fn classify(text: &str) -> Readings {
     }
 }
 
-/// Numbers that all readers interpret alike: no leading zero, a digit on each side of the point, and an exponent only
-/// after a fraction and with a sign.
-fn json_number(bytes: &[u8]) -> Option<Reading> {
-    let digits = bytes.strip_prefix(b"-").unwrap_or(bytes);
-    let (whole, rest) = split_digits(digits);
-    if whole.is_empty() || (whole.len() > 1 && whole[0] == b'0') {
-        return None;
+/// Numbers that all readers interpret alike: those of JSON with an exponent only after a fraction and with a sign.
+fn usual_number(text: &str) -> Option<Reading> {
+    text.parse::<Number>().ok()?;
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "+"));
+    match (mantissa.contains('.'), exponent.starts_with(['+', '-'])) {
+        (true, true) => Some(Reading::Float),
+        (false, true) if mantissa == text => Some(Reading::Integer),
+        _ => None,
     }
-    if rest.is_empty() {
-        return Some(Reading::Integer);
-    }
-    let (fraction, rest) = split_digits(rest.strip_prefix(b".")?);
-    if fraction.is_empty() {
-        return None;
-    }
-    (rest.is_empty() || is_signed_exponent(rest)).then_some(Reading::Float)
 }
 
 fn yaml12(text: &str) -> Reading {
-    let bytes = text.as_bytes();
     match text {
-        "" | "~" | "null" | "Null" | "NULL" => return Reading::Null,
-        "true" | "True" | "TRUE" => return Reading::Bool(true),
-        "false" | "False" | "FALSE" => return Reading::Bool(false),
-        _ if is_non_finite(text) => return Reading::NonFinite,
-        _ => {}
-    }
-    let radix = |prefix: &[u8], is_digit: fn(u8) -> bool| {
-        bytes.strip_prefix(prefix).is_some_and(|d| all(d, is_digit))
-    };
-    if radix(b"0x", |b| b.is_ascii_hexdigit()) || radix(b"0o", |b| matches!(b, b'0'..=b'7')) {
-        return Reading::Integer;
-    }
-    let (whole, rest) = split_digits(unsigned(bytes));
-    if rest.is_empty() && !whole.is_empty() {
-        return Reading::Integer;
-    }
-    let (fraction, rest) = match rest.strip_prefix(b".") {
-        Some(after) => split_digits(after),
-        None => (&b""[..], rest),
-    };
-    let has_digits = !whole.is_empty() || !fraction.is_empty();
-    if has_digits && (rest.is_empty() || is_exponent(rest)) {
-        Reading::Float
-    } else {
-        Reading::Text
+        "" | "~" | "null" | "Null" | "NULL" => Reading::Null,
+        "true" | "True" | "TRUE" => Reading::Bool(true),
+        "false" | "False" | "FALSE" => Reading::Bool(false),
+        _ if FORMS.non_finite.is_match(text) => Reading::NonFinite,
+        _ if FORMS.integer12.is_match(text) => Reading::Integer,
+        _ if FORMS.float12.is_match(text) => Reading::Float,
+        _ => Reading::Text,
     }
 }
 
 fn yaml11(text: &str) -> Reading {
     match text {
-        "" | "~" | "null" | "Null" | "NULL" => return Reading::Null,
+        "" | "~" | "null" | "Null" | "NULL" => Reading::Null,
         "true" | "True" | "TRUE" | "yes" | "Yes" | "YES" | "on" | "On" | "ON" | "y" | "Y" => {
-            return Reading::Bool(true);
+            Reading::Bool(true)
         }
         "false" | "False" | "FALSE" | "no" | "No" | "NO" | "off" | "Off" | "OFF" | "n" | "N" => {
-            return Reading::Bool(false);
+            Reading::Bool(false)
         }
-        "<<" | "=" => return Reading::Special,
-        _ if is_non_finite(text) => return Reading::NonFinite,
-        _ => {}
+        "<<" | "=" => Reading::Special,
+        _ if FORMS.non_finite.is_match(text) => Reading::NonFinite,
+        _ if FORMS.integer11.is_match(text) => Reading::Integer,
+        _ if FORMS.float11.is_match(text) => Reading::Float,
+        _ if FORMS.timestamp.is_match(text) => Reading::Timestamp,
+        _ => Reading::Text,
     }
-    let bytes = text.as_bytes();
-    let digits = unsigned(bytes);
-    if is_integer11(digits) {
-        Reading::Integer
-    } else if is_float11(digits, digits.len() < bytes.len()) {
-        Reading::Float
-    } else if is_timestamp(bytes) {
-        Reading::Timestamp
-    } else {
-        Reading::Text
-    }
-}
-
-fn is_non_finite(text: &str) -> bool {
-    let bare = text.strip_prefix(['+', '-']).unwrap_or(text);
-    matches!(bare, ".inf" | ".Inf" | ".INF") || matches!(text, ".nan" | ".NaN" | ".NAN")
-}
-
-fn is_integer11(digits: &[u8]) -> bool {
-    if let Some(binary) = digits.strip_prefix(b"0b") {
-        return all(binary, |b| matches!(b, b'0' | b'1' | b'_'));
-    }
-    if let Some(hexadecimal) = digits.strip_prefix(b"0x") {
-        return all(hexadecimal, |b| b.is_ascii_hexdigit() || b == b'_');
-    }
-    match digits {
-        [b'0'] => true,
-        [b'0', octal @ ..] => all(octal, |b| matches!(b, b'0'..=b'7' | b'_')),
-        [b'1'..=b'9', ..] => {
-            let (_, rest) = split_while(digits, |b| b.is_ascii_digit() || b == b'_');
-            rest.is_empty() || is_base60_tail(rest)
-        }
-        _ => false,
-    }
-}
-
-fn is_float11(digits: &[u8], signed: bool) -> bool {
-    if let Some(after) = digits.strip_prefix(b".") {
-        // PyYAML does not allow a sign before a bare point; before version 6 it allowed a leading `_` after it.
-        let (fraction, rest) = split_while(after, |b| b.is_ascii_digit() || b == b'_');
-        return !signed
-            && fraction.iter().any(u8::is_ascii_digit)
-            && (rest.is_empty() || is_signed_exponent(rest));
-    }
-    let (whole, rest) = split_while(digits, |b| b.is_ascii_digit() || b == b'_');
-    if !whole.first().is_some_and(u8::is_ascii_digit) {
-        return false;
-    }
-    let is_fraction = |b: u8| b.is_ascii_digit() || b == b'_';
-    if let Some(after) = rest.strip_prefix(b".") {
-        let (_, rest) = split_while(after, is_fraction);
-        return rest.is_empty() || is_signed_exponent(rest);
-    }
-    match rest.iter().position(|&b| b == b'.') {
-        Some(point) => {
-            is_base60_tail(&rest[..point]) && rest[point + 1..].iter().all(|&b| is_fraction(b))
-        }
-        None => false,
-    }
-}
-
-/// One or more groups of `:` and a number of one or two digits below 60.
-fn is_base60_tail(mut rest: &[u8]) -> bool {
-    if rest.is_empty() {
-        return false;
-    }
-    while let Some(after) = rest.strip_prefix(b":") {
-        let (digits, next) = split_digits(after);
-        if !matches!(digits, [_] | [b'0'..=b'5', _]) {
-            return false;
-        }
-        rest = next;
-    }
-    rest.is_empty()
-}
-
-/// PyYAML's timestamps: a date of ten characters, or a less strict date followed by a time.
-fn is_timestamp(bytes: &[u8]) -> bool {
-    let (year, rest) = split_digits(bytes);
-    let Some(rest) = rest.strip_prefix(b"-").filter(|_| year.len() == 4) else {
-        return false;
-    };
-    let (month, rest) = split_digits(rest);
-    let Some(rest) = rest.strip_prefix(b"-") else {
-        return false;
-    };
-    let (day, rest) = split_digits(rest);
-    if rest.is_empty() {
-        return month.len() == 2 && day.len() == 2;
-    }
-    let short = |digits: &[u8]| matches!(digits.len(), 1 | 2);
-    let is_blank = |b: u8| matches!(b, b' ' | b'\t');
-    let time = match rest {
-        [b'T' | b't', time @ ..] => time,
-        [b' ' | b'\t', ..] => split_while(rest, is_blank).1,
-        _ => return false,
-    };
-    let (hour, time) = split_digits(time);
-    if !short(month) || !short(day) || !short(hour) || time.len() < 6 {
-        return false;
-    }
-    let [b':', m1, m2, b':', s1, s2, after @ ..] = time else {
-        return false;
-    };
-    if ![m1, m2, s1, s2].iter().all(|b| b.is_ascii_digit()) {
-        return false;
-    }
-    let after = match after {
-        [b'.', fraction @ ..] => split_digits(fraction).1,
-        _ => after,
-    };
-    let zone = split_while(after, is_blank).1;
-    match zone {
-        // Blanks may precede a time zone, but not replace it; a scalar never ends with blanks.
-        [] | [b'Z'] => true,
-        [b'+' | b'-', zone @ ..] => {
-            let (hours, rest) = split_digits(zone);
-            short(hours) && matches!(rest, [] | [b':', b'0'..=b'9', b'0'..=b'9'])
-        }
-        _ => false,
-    }
-}
-
-fn unsigned(bytes: &[u8]) -> &[u8] {
-    match bytes {
-        [b'+' | b'-', rest @ ..] => rest,
-        _ => bytes,
-    }
-}
-
-fn all(bytes: &[u8], is: impl Fn(u8) -> bool) -> bool {
-    !bytes.is_empty() && bytes.iter().all(|&b| is(b))
-}
-
-fn split_while(bytes: &[u8], is: impl Fn(u8) -> bool) -> (&[u8], &[u8]) {
-    bytes.split_at(bytes.iter().position(|&b| !is(b)).unwrap_or(bytes.len()))
-}
-
-fn split_digits(bytes: &[u8]) -> (&[u8], &[u8]) {
-    split_while(bytes, |b| b.is_ascii_digit())
-}
-
-fn is_exponent(bytes: &[u8]) -> bool {
-    match bytes {
-        [b'e' | b'E', rest @ ..] => all(unsigned(rest), |b| b.is_ascii_digit()),
-        _ => false,
-    }
-}
-
-fn is_signed_exponent(bytes: &[u8]) -> bool {
-    is_exponent(bytes) && matches!(bytes.get(1), Some(b'+' | b'-'))
 }
 
 /// Whether a plain scalar, read by YAML 1.2, equals this JSON value.

@@ -73,11 +73,8 @@ impl Tabs {
             }
             let message = "a tab between tokens or in an unquoted scalar makes YAML 1.1 readers such as PyYAML refuse the file: write spaces";
             faults.add(TextFaultKind::YamlSyntax, || {
-                let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-                TextFault::new(TextFaultKind::YamlSyntax, message).at(Position {
-                    line: count(line),
-                    column: count(column + 1),
-                })
+                TextFault::new(TextFaultKind::YamlSyntax, message)
+                    .at(Position::of(line, column + 1))
             });
         }
         self.passed = self.passed.max(end);
