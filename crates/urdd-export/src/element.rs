@@ -110,11 +110,6 @@ fn attribute(value: &str) -> String {
     text.replace('\n', "&#10;").replace('\r', "&#13;")
 }
 
-/// Whether XML 1.0 allows the character (production 2).
-pub(super) fn is_character(c: char) -> bool {
-    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -153,7 +148,7 @@ mod tests {
                     !comment.contains("--") && !comment.ends_with('-'),
                     "{comment}"
                 );
-                assert!(comment.chars().all(is_character));
+                assert!(comment.chars().all(urdd_xml::is_character));
             }
             assert_eq!(parsed.root().children().count(), 3, "{written}");
         }

@@ -114,6 +114,11 @@ pub enum Note {
 }
 
 impl Note {
+    pub(super) fn joint(joint: &str, what: &'static str) -> Note {
+        let joint = joint.to_owned();
+        Note::Joint { joint, what }
+    }
+
     /// The note of a link-level format on a pair of links. `None` if all their pairs of shapes are treated alike, or if
     /// the pair is checked and the skipped shapes never touched.
     pub fn of_pair(pair: &LinkPair) -> Option<Note> {

@@ -25,12 +25,7 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
         let mut joint = source.clone();
         joint.origin = (joint.origin.as_ref())
             .map(|origin| without_quaternion(origin, &view.origin, quaternions));
-        let mut note = |what| {
-            notes.push(Note::Joint {
-                joint: view.name.clone(),
-                what,
-            });
-        };
+        let mut note = |what| notes.push(Note::joint(&view.name, what));
         // A mimic of a fixed joint is meaningless (SPEC 6.1.5).
         joint.mimic = None;
         if let Some(resolved) = resolved {

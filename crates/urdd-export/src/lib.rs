@@ -55,7 +55,7 @@ pub use format::Format;
 pub use options::{Options, SphereBudget};
 pub use output::Export;
 pub use pairs::{Contacts, LinkPair, MixedPair};
-pub use spheres::{SphereRates, interval};
+pub use spheres::SphereRates;
 pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
 pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
 

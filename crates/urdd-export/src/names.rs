@@ -2,12 +2,12 @@
 
 use std::collections::HashSet;
 
-use super::element::is_character;
 use super::error::ExportError;
 use super::format::Format;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
 use urdd_format::escape;
+use urdd_xml::is_character;
 
 /// Maximum length of a link name within a file name.
 const LONGEST: usize = 80;

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::options::Options;
 use urdd_format::link_shapes_simple_skips::SkipReason;
-use urdd_format::link_shapes_skips::SkipEdit;
-use urdd_robot::{Robot, RobotError};
+use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_robot::{Robot, RobotError, Skips};
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,27 +55,61 @@ pub struct Contacts {
     pub samples: u32,
 }
 
+/// The user's last edit of each pair of links, by their indices in `links`, ascending.
+pub(super) fn last_edits<'e>(
+    edits: &'e [SkipEdit],
+    links: &[String],
+) -> HashMap<[usize; 2], &'e SkipEdit> {
+    let indices: HashMap<&str, usize> = links.iter().map(String::as_str).zip(0..).collect();
+    let pair = |edit: &'e SkipEdit| {
+        let [a, b] = [&edit.link_a, &edit.link_b].map(|name| indices.get(name.as_str()).copied());
+        Some((ascending(a?, b?), edit))
+    };
+    edits.iter().filter_map(pair).collect()
+}
+
+pub(super) fn ascending(a: usize, b: usize) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// Decides on pairs of shapes: by the user's last edit, else by the requested reasons, else by the URDD.
+pub(super) struct Decision<'a> {
+    skips: &'a Skips,
+    pub edits: HashMap<[usize; 2], &'a SkipEdit>,
+    reasons: Option<&'a [SkippedReason]>,
+}
+
+impl<'a> Decision<'a> {
+    pub fn new(skips: &'a Skips, links: &[String], options: &'a Options) -> Self {
+        Decision {
+            skips,
+            edits: last_edits(skips.edits(), links),
+            reasons: options.reasons.as_deref(),
+        }
+    }
+
+    pub fn is_skipped(&self, i: usize, j: usize) -> bool {
+        let [a, b] = [i, j].map(|shape| self.skips.places()[shape].0);
+        let edit = self.edits.get(&ascending(a, b));
+        match (edit, self.reasons, self.skips.reason(i, j)) {
+            (Some(edit), _, _) => edit.skip,
+            (None, Some(reasons), Some(reason)) => has(reasons, reason),
+            _ => self.skips.is_skipped(i, j),
+        }
+    }
+}
+
+fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
+    reasons.iter().any(|one| one.of_pair() == reason)
+}
+
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
 pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
     let skips = robot.skips(options.shapes)?;
-    let reasons = options.reasons.as_deref();
-    let chosen = reasons.or(skips.skipped_reasons());
-    let names = robot.description()?.links;
-    let index: HashMap<&str, usize> = names
-        .iter()
-        .enumerate()
-        .map(|(link, described)| (described.name.as_str(), link))
-        .collect();
-    let mut last: HashMap<[usize; 2], &SkipEdit> = HashMap::new();
-    for edit in skips.edits() {
-        let ends = [&edit.link_a, &edit.link_b].map(|name| index.get(name.as_str()).copied());
-        if let [Some(a), Some(b)] = ends {
-            last.insert([a.min(b), a.max(b)], edit);
-        }
-    }
-    let is_chosen = |reason: SkipReason| {
-        chosen.is_some_and(|all| all.iter().any(|one| one.of_pair() == reason))
-    };
+    let links = robot.description()?.links.into_iter();
+    let names: Vec<String> = links.map(|link| link.name).collect();
+    let decision = Decision::new(&skips, &names, options);
+    let chosen = decision.reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
     let places = skips.places();
     for i in 0..places.len() {
@@ -88,16 +122,10 @@ pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, R
             if links[0] == links[1] {
                 continue;
             }
-            let reason = skips.reason(i, j);
-            let skipped = match (last.get(&links), reasons, reason) {
-                (Some(edit), _, _) => edit.skip,
-                (None, Some(_), Some(reason)) => is_chosen(reason),
-                _ => skips.is_skipped(i, j),
-            };
             found.entry(links).or_default().push(Seen {
                 pieces: [places[first].1, places[second].1],
-                reason,
-                skipped,
+                reason: skips.reason(i, j),
+                skipped: decision.is_skipped(i, j),
             });
         }
     }
@@ -106,13 +134,16 @@ pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, R
         let mixed = mixed(&seen);
         let disabled = match mixed {
             None => seen.iter().all(|seen| seen.skipped),
-            Some(_) => !options.keep_pairs && reason.is_some_and(is_chosen),
+            Some(_) => {
+                let is_chosen = |(reasons, reason)| has(reasons, reason);
+                !options.keep_pairs && chosen.zip(reason).is_some_and(is_chosen)
+            }
         };
         Some(LinkPair {
             links,
-            names: [names.get(links[0])?, names.get(links[1])?].map(|link| link.name.clone()),
+            names: [names.get(links[0])?.clone(), names.get(links[1])?.clone()],
             reason,
-            edit: last.get(&links).map(|edit| (*edit).clone()),
+            edit: decision.edits.get(&links).map(|edit| (*edit).clone()),
             disabled,
             mixed,
         })

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use roxmltree::Node;
 use thiserror::Error;
 
-use super::srdf_merge::{SrdfError, parse};
+use super::pairs::{ascending, last_edits};
+use super::srdf_merge::{SrdfError, elements, parse};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
@@ -102,60 +103,48 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         };
         known.map_or_else(|| robot.link(name).map_err(unknown), Ok)
     };
-    let elements = |name: &'static str| {
-        let children = root.children();
-        children.filter(move |child| child.is_element() && child.tag_name().name() == name)
-    };
     // Pairs of links, lower index first: whether they are skipped, and why.
-    let mut wanted: BTreeMap<(usize, usize), (bool, String)> = BTreeMap::new();
+    let mut wanted: BTreeMap<[usize; 2], (bool, String)> = BTreeMap::new();
     let mut defaults = BTreeSet::new();
-    for node in elements("disable_default_collisions") {
+    for node in elements(root, "disable_default_collisions") {
         defaults.insert(link(node, "disable_default_collisions", "link")?);
     }
     for of in defaults {
         for other in (0..links.len()).filter(|other| *other != of) {
-            wanted.insert(pair(of, other), (true, "SRDF: default".to_owned()));
+            wanted.insert(ascending(of, other), (true, "SRDF: default".to_owned()));
         }
     }
     for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
-        for node in elements(name) {
+        for node in elements(root, name) {
             let of = [link(node, name, "link1")?, link(node, name, "link2")?];
             let reason = match node.attribute("reason") {
                 Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
                 _ => "SRDF".to_owned(),
             };
             if of[0] != of[1] {
-                wanted.insert(pair(of[0], of[1]), (skip, reason));
+                wanted.insert(ascending(of[0], of[1]), (skip, reason));
             }
         }
     }
     let now = skipped_now(robot)?;
     let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
-    // The last edit of a pair applies.
-    let mut last: HashMap<(usize, usize), &SkipEdit> = HashMap::new();
-    for edit in &there {
-        let of = [&edit.link_a, &edit.link_b].map(|name| by_name.get(name.as_str()).copied());
-        if let [Some(a), Some(b)] = of {
-            last.insert(pair(a, b), edit);
-        }
-    }
+    let last = last_edits(&there, links);
     let mut imported = ImportedSkips {
         edits: there.clone(),
         added: 0,
         already: 0,
         unlisted: 0,
     };
-    for ((a, b), (skip, reason)) in &wanted {
+    for (pair, (skip, reason)) in &wanted {
         // A link without shapes needs no edit.
-        let Some(all_are) = now.get(&(*a, *b)) else {
+        let Some(all_are) = now.get(pair) else {
             continue;
         };
         if *all_are == Some(*skip) {
             imported.already += 1;
             continue;
         }
-        let names = [&links[*a], &links[*b]];
-        if let Some(edit) = last.get(&(*a, *b)).filter(|_| !force) {
+        if let Some(edit) = last.get(pair).filter(|_| !force) {
             return Err(ImportError::Edited {
                 link_a: edit.link_a.clone(),
                 link_b: edit.link_b.clone(),
@@ -164,34 +153,30 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         }
         imported.added += 1;
         imported.edits.push(SkipEdit {
-            link_a: names[0].clone(),
-            link_b: names[1].clone(),
+            link_a: links[pair[0]].clone(),
+            link_b: links[pair[1]].clone(),
             skip: *skip,
             reason: reason.clone(),
         });
     }
     let unlisted = now.iter().filter(|(pair, skipped)| {
-        **skipped == Some(true) && !wanted.get(pair).is_some_and(|(skip, _)| *skip)
+        **skipped == Some(true) && !wanted.get(*pair).is_some_and(|(skip, _)| *skip)
     });
     imported.unlisted = unlisted.count();
     Ok(imported)
 }
 
-fn pair(a: usize, b: usize) -> (usize, usize) {
-    (a.min(b), a.max(b))
-}
-
 /// For each pair of links with shapes: true if all their pairs of shapes, of all kinds, are skipped, false if none is,
 /// `None` if some are.
-fn skipped_now(robot: &Robot) -> Result<BTreeMap<(usize, usize), Option<bool>>, RobotError> {
-    let mut found: BTreeMap<(usize, usize), BTreeSet<bool>> = BTreeMap::new();
+fn skipped_now(robot: &Robot) -> Result<BTreeMap<[usize; 2], Option<bool>>, RobotError> {
+    let mut found: BTreeMap<[usize; 2], BTreeSet<bool>> = BTreeMap::new();
     for kind in ShapeKind::ALL {
         let skips = robot.skips(kind)?;
         let places = skips.places();
         for i in 0..places.len() {
             for j in 0..i {
-                let of = pair(places[i].0, places[j].0);
-                if of.0 != of.1 {
+                let of = ascending(places[i].0, places[j].0);
+                if of[0] != of[1] {
                     found.entry(of).or_default().insert(skips.is_skipped(i, j));
                 }
             }

@@ -147,7 +147,10 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
     }
 }
 
-fn elements<'a>(robot: Node<'a, 'a>, name: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+pub(super) fn elements<'a>(
+    robot: Node<'a, 'a>,
+    name: &'a str,
+) -> impl Iterator<Item = Node<'a, 'a>> {
     robot
         .children()
         .filter(move |child| child.is_element() && child.tag_name().name() == name)

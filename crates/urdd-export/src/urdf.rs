@@ -19,7 +19,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         robot.push(element);
     }
     for joint in joints(subject, &mut notes) {
-        let mut element = element_of_joint(&joint, "joint", type_name(joint.joint_type));
+        let mut element = element_of_joint(&joint, "joint", &type_name(joint.joint_type));
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }

@@ -249,14 +249,7 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
     element
 }
 
-pub(super) fn type_name(joint_type: JointType) -> &'static str {
-    match joint_type {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        JointType::Fixed => "fixed",
-        JointType::Floating => "floating",
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
-    }
+/// URDF's word for a type of joint.
+pub(super) fn type_name(joint_type: JointType) -> String {
+    joint_type.as_str().to_ascii_lowercase()
 }

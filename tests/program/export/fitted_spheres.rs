@@ -4,7 +4,8 @@
 use std::collections::BTreeSet;
 
 use nalgebra::{Isometry3, Point3};
-use urdd_export::{Export, Format, Note, Options, SphereBudget, export, interval};
+use urdd_export::{Export, Format, Note, Options, SphereBudget, export};
+use urdd_format::rate::interval;
 use urdd_robot::{Robot, ShapeKind};
 
 use testkit::robots::{made, made_of, our_robots};

@@ -54,10 +54,7 @@ pub(super) fn joints<'a>(
         clean(&mut joint, view, notes);
         let parts = match joint.joint_type {
             JointType::Floating if !is_free(subject, view) => {
-                notes.push(Note::Joint {
-                    joint: joint.name.clone(),
-                    what: FLOATING,
-                });
+                notes.push(Note::joint(&joint.name, FLOATING));
                 let parts = parts(&joint);
                 let between = parts.iter().take(parts.len() - 1);
                 made.links
@@ -68,12 +65,12 @@ pub(super) fn joints<'a>(
         };
         for part in parts {
             let (tag, kind) = match part.joint_type {
-                JointType::Planar => ("drake:joint", "planar"),
-                JointType::Spherical => ("drake:joint", "ball"),
+                JointType::Spherical => ("drake:joint", "ball".to_owned()),
+                JointType::Planar => ("drake:joint", type_name(JointType::Planar)),
                 standard => ("joint", type_name(standard)),
             };
             made.elements
-                .push((element_of_joint(&part, tag, kind), source));
+                .push((element_of_joint(&part, tag, &kind), source));
             names.push(part.name);
         }
         match joint.joint_type {
@@ -100,12 +97,7 @@ fn is_free(subject: &Subject, view: &View) -> bool {
 
 /// Removes what Drake rejects.
 fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
-    let mut note = |what| {
-        notes.push(Note::Joint {
-            joint: view.name.clone(),
-            what,
-        });
-    };
+    let mut note = |what| notes.push(Note::joint(&view.name, what));
     let mut is_negative = false;
     let mut positive = |value: &mut Option<f64>| {
         if value.is_some_and(|value| value < 0.0) {

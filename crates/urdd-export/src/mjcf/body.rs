@@ -19,28 +19,21 @@ const SMALLEST_VOLUME: f64 = 1e-13;
 /// Half the thickness of a flat box, in metres.
 const HALF_THICKNESS: f64 = 1e-6;
 
-/// The assets, files and notes created with the bodies.
-pub(super) struct Made {
-    pub assets: Element,
-    pub files: Vec<(String, Vec<u8>)>,
-    /// Whether moments of inertia violate the triangle inequality.
-    pub balanced: bool,
-    pub notes: Vec<Note>,
-}
-
+/// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
     shapes: Vec<Vec<LinkShape>>,
     looks: Vec<Vec<Look>>,
     /// Bounding boxes, to replace flat shapes, by link and piece.
     boxes: Vec<LinkShape>,
-    files: MeshFiles<'a>,
-    assets: Element,
+    pub files: MeshFiles<'a>,
+    pub assets: Element,
     /// Paths that already have an asset.
     named: HashSet<String>,
     inertials: Vec<Option<Element>>,
-    balanced: bool,
-    notes: Vec<Note>,
+    /// Whether moments of inertia violate the triangle inequality.
+    pub balanced: bool,
+    pub notes: Vec<Note>,
 }
 
 impl<'a> Bodies<'a> {
@@ -69,15 +62,6 @@ impl<'a> Bodies<'a> {
             balanced,
             notes,
         })
-    }
-
-    pub fn finish(self) -> Made {
-        Made {
-            assets: self.assets,
-            files: self.files.into_files(),
-            balanced: self.balanced,
-            notes: self.notes,
-        }
     }
 
     /// The `worldbody` with all bodies.

@@ -9,6 +9,9 @@ use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_kinematics::rotation::{planar_basis, unit_axis};
 
+const CROSSED: &str =
+    "its lower limit is not below its upper one, which MuJoCo refuses; it has no range";
+
 /// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
 pub(super) fn joints(joint: &Joint, source: &Source, notes: &mut Vec<Note>) -> Vec<Element> {
     let name = joint.name.as_str();
@@ -68,19 +71,11 @@ fn of_one(joint: &Joint, source: &Source, kind: &'static str, notes: &mut Vec<No
         .with("name", joint.name.as_str())
         .with("type", kind)
         .with("axis", numbers(&joint.axis));
-    let mut note = |what| {
-        notes.push(Note::Joint {
-            joint: joint.name.clone(),
-            what,
-        });
-    };
     match joint.position_limits() {
         Some((lower, upper)) if lower < upper => {
             element = element.with("range", numbers(&[lower, upper]));
         }
-        Some(_) => note(
-            "its lower limit is not below its upper one, which MuJoCo refuses; it has no range",
-        ),
+        Some(_) => notes.push(Note::joint(&joint.name, CROSSED)),
         None => {}
     }
     if let Some(effort) = joint.limit.and_then(|limit| limit.effort)

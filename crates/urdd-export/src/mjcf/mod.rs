@@ -17,22 +17,20 @@ use super::names::check_unique;
 use super::numbers::numbers;
 use super::output::Export;
 use super::subject::Subject;
-use body::{Bodies, Made, geom_name};
+use body::{Bodies, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
+
+const SEVERAL: &str =
+    "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely";
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut bodies = Bodies::new(subject)?;
     let world = bodies.world()?;
-    let Made {
-        assets,
-        files,
-        balanced,
-        mut notes,
-    } = bodies.finish();
+    let mut notes = bodies.notes;
     let mut compiler = Element::new("compiler")
         .with("angle", "radian")
         .with("autolimits", "true");
-    if balanced {
+    if bodies.balanced {
         compiler = compiler.with("balanceinertia", "true");
     }
     let mut root = Element::new("mujoco").with("model", subject.urdf.name.as_str());
@@ -40,8 +38,8 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let flag = Element::new("flag").with("filterparent", "disable");
     root.push(Element::new("option").holding(flag));
     root.push(classes());
-    if !assets.is_empty() {
-        root.push(assets);
+    if !bodies.assets.is_empty() {
+        root.push(bodies.assets);
     }
     root.push(world);
     let equality = equality(subject, &mut notes);
@@ -56,7 +54,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let what = format!("Geoms for collision: {}.", subject.options.shapes);
     Ok(Export {
         text: root.document(&subject.comments(what, &notes)?),
-        files,
+        files: bodies.files.into_files(),
         notes,
     })
 }
@@ -132,10 +130,7 @@ fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
             // A fixed joint is at 0.
             0 => 0.0,
             _ => {
-                notes.push(Note::Joint {
-                    joint: joint.name.clone(),
-                    what: "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely",
-                });
+                notes.push(Note::joint(&joint.name, SEVERAL));
                 continue;
             }
         };

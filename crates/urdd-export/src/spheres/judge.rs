@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::model::{Placeable, Placed, Spheres};
 use super::samples::Sample;
+use urdd_format::rate::interval;
 
 /// Allowed rates of missed collisions, and of false contacts in free configurations.
 pub const MAX_MISSED: f64 = 0.01;
@@ -30,37 +31,12 @@ impl SphereRates {
         self.missed as f64 <= MAX_MISSED * self.colliding as f64
             && self.false_contacts as f64 <= MAX_FALSE * self.free as f64
     }
-}
 
-impl SphereRates {
     /// The greater of the upper ends of the intervals of both rates, each relative to its goal.
     pub(super) fn worse(&self) -> f64 {
         (interval(self.missed, self.colliding)[1] / MAX_MISSED)
             .max(interval(self.false_contacts, self.free)[1] / MAX_FALSE)
     }
-}
-
-/// The 95 % interval of a rate (E. B. Wilson, JASA 22, 1927); 0 to 1 if the total is 0.
-pub fn interval(hits: usize, of: usize) -> [f64; 2] {
-    const Z: f64 = 1.959_963_984_540_054;
-    if of == 0 {
-        return [0.0, 1.0];
-    }
-    let (n, p) = (of as f64, hits as f64 / of as f64);
-    let middle = p + Z * Z / (2.0 * n);
-    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-    let under = 1.0 + Z * Z / n;
-    let low = if hits == 0 {
-        0.0
-    } else {
-        (middle - half) / under
-    };
-    let high = if hits == of {
-        1.0
-    } else {
-        (middle + half) / under
-    };
-    [low.max(0.0), high.min(1.0)]
 }
 
 /// Number of samples in which a pair of links caused a wrong result for the robot.
@@ -199,20 +175,6 @@ mod tests {
             touching: Vec::from_iter(collides.then_some(0)),
         };
         collide.iter().map(one).collect()
-    }
-
-    #[test]
-    fn intervals_are_those_of_the_closed_form() {
-        // From scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
-        for (hits, of, low, high) in [
-            (9, 903, 0.005252, 0.018833),
-            (0, 10_000, 0.0, 0.000384),
-            (50, 50, 0.928652, 1.0),
-        ] {
-            let [a, b] = interval(hits, of);
-            assert!((a - low).abs() < 1e-6 && (b - high).abs() < 1e-6, "{a} {b}");
-        }
-        assert_eq!(interval(0, 0), [0.0, 1.0]);
     }
 
     #[test]

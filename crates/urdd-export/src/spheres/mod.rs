@@ -25,7 +25,7 @@ use super::options::SphereBudget;
 use super::subject::Subject;
 use fit::Limits;
 use frame::Point;
-pub use judge::{SphereRates, interval};
+pub use judge::SphereRates;
 use measure::{Measured, Numbers, measure};
 use model::{Sphere, Spheres};
 use pairs::Pairs;

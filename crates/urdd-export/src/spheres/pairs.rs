@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use nalgebra::Isometry3;
 
 use super::super::error::ExportError;
+use super::super::pairs::Decision;
 use super::super::subject::Subject;
-use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::convex::BodyPairs;
-use urdd_robot::{LinkShape, RobotError, Skips, Solid};
+use urdd_robot::{LinkShape, RobotError, Solid};
 
 /// Pairs of links with shapes of which the URDD checks at least one pair of pieces.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ impl Pairs {
             return Err(RobotError::OutOfRange { what, index, count }.into());
         }
         let skips = subject.robot.skips(subject.options.shapes)?;
-        let reasons = subject.options.reasons.as_deref();
+        let decision = Decision::new(&skips, &subject.links, subject.options);
         let rows: HashMap<(usize, usize), usize> = skips
             .places()
             .iter()
@@ -46,7 +46,7 @@ impl Pairs {
         let row = |shape: &LinkShape| rows.get(&(shape.link, shape.piece)).copied();
         let rows: Vec<Option<usize>> = shapes.iter().map(row).collect();
         let is_checked = |a: usize, b: usize| match rows[a].zip(rows[b]) {
-            Some((a, b)) => !is_skipped(&skips, &subject.links, reasons, [a, b]),
+            Some((a, b)) => !decision.is_skipped(a, b),
             None => true,
         };
         let meshes: Vec<(usize, Mesh)> = shapes
@@ -98,25 +98,5 @@ impl Pairs {
     /// Whether any pair is in contact.
     pub fn any_touches(&self, poses: &[Isometry3<f64>]) -> bool {
         self.exact.any_touches(poses)
-    }
-}
-
-/// Whether a pair of shapes is skipped: by the user's edit, else by the requested reasons, else by the URDD.
-fn is_skipped(
-    skips: &Skips,
-    links: &[String],
-    reasons: Option<&[SkippedReason]>,
-    [a, b]: [usize; 2],
-) -> bool {
-    let (Some(reasons), Some(reason)) = (reasons, skips.reason(a, b)) else {
-        return skips.is_skipped(a, b);
-    };
-    let ends = [a, b].map(|shape| links.get(skips.places()[shape].0));
-    let is_of_both =
-        |x: &String, y: &String| ends == [Some(x), Some(y)] || ends == [Some(y), Some(x)];
-    let mut edits = skips.edits().iter().rev();
-    match edits.find(|edit| is_of_both(&edit.link_a, &edit.link_b)) {
-        Some(edit) => edit.skip,
-        None => reasons.iter().any(|skipped| skipped.of_pair() == reason),
     }
 }

@@ -4,11 +4,12 @@ use serde_json::{Value, json};
 
 use super::super::Note;
 use super::super::subject::Subject;
-use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates, interval};
+use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use super::measure::{Measured, Numbers};
 use super::model::Sphere;
 use super::{Model, Point};
 use urdd_format::escape;
+use urdd_format::rate::interval;
 
 /// Maximum number of pairs of links that are named.
 const NAMED: usize = 10;

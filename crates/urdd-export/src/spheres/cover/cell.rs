@@ -55,36 +55,25 @@ impl Chunk {
 
     /// The parts below and above a plane; both include the points on it.
     fn cut(&self, normal: &Vector3<f64>, offset: f64) -> [Option<Chunk>; 2] {
-        let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
-        let below = heights.iter().any(|height| *height < 0.0);
-        let above = heights.iter().any(|height| *height > 0.0);
-        if !above {
-            return [Some(self.clone()), None];
-        }
-        if !below {
-            return [None, Some(self.clone())];
-        }
-        if self.edges.is_empty() {
-            // Collinear, without an edge to cut: whole on both sides, so that no point is lost.
-            return [Some(self.clone()), Some(self.clone())];
-        }
         let mut sides = [Vec::new(), Vec::new()];
         self.sides(normal, offset, &mut sides);
-        sides.map(|points| (!points.is_empty()).then(|| Chunk::new(points)))
+        sides.map(|points| match points {
+            points if points.is_empty() => None,
+            points if points == self.points => Some(self.clone()),
+            points => Some(Chunk::new(points)),
+        })
     }
 
     /// Adds the points below and above a plane to their sides, and the points where edges cross it to both.
     fn sides(&self, normal: &Vector3<f64>, offset: f64, sides: &mut [Vec<Vector3<f64>>; 2]) {
         let heights: Vec<f64> = self.points.iter().map(|p| normal.dot(p) - offset).collect();
-        if self.edges.is_empty()
-            && heights.iter().any(|h| *h < 0.0)
-            && heights.iter().any(|h| *h > 0.0)
-        {
+        let below = heights.iter().any(|height| *height < 0.0);
+        let above = heights.iter().any(|height| *height > 0.0);
+        if self.edges.is_empty() && below && above {
+            // Collinear, without an edge to cut: whole on both sides, so that no point is lost.
             sides.iter_mut().for_each(|side| side.extend(&self.points));
             return;
         }
-        let below = heights.iter().any(|height| *height < 0.0);
-        let above = heights.iter().any(|height| *height > 0.0);
         for (point, height) in self.points.iter().zip(&heights) {
             if *height <= 0.0 && (below || !above) {
                 sides[0].push(*point);
