@@ -98,25 +98,19 @@ pub(super) fn path_fault(
             )
         })
     };
-    let mut link = from;
-    for place in 0..up {
+    // Up from the one end, then up from the other: which end, and the places of the link and of the joint above it.
+    let ups = (0..up).map(|place| (0, place, place));
+    let downs = (up..length).rev().map(|place| (1, place + 1, place));
+    let mut links = [from, to];
+    for (end, at, place) in ups.chain(downs) {
+        let link = links[end];
         let joint = tree.parent_joint[link]?;
-        let faulty = fault("links", place, link, path.links[place].get())
+        let faulty = fault("links", at, link, path.links[at].get())
             .or_else(|| fault("joints", place, joint, path.joints[place].get()));
         if faulty.is_some() {
             return faulty;
         }
-        link = tree.parent_link[link]?;
-    }
-    let mut link = to;
-    for place in (up..length).rev() {
-        let joint = tree.parent_joint[link]?;
-        let faulty = fault("links", place + 1, link, path.links[place + 1].get())
-            .or_else(|| fault("joints", place, joint, path.joints[place].get()));
-        if faulty.is_some() {
-            return faulty;
-        }
-        link = tree.parent_link[link]?;
+        links[end] = tree.parent_link[link]?;
     }
     fault("links", up, top, path.links[up].get())
 }
