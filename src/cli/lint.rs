@@ -12,7 +12,7 @@ use super::reporting::ReportArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
 use urdd_format::escape;
-use urdd_lint::{Baseline, LintSettings, Mended};
+use urdd_lint::{Baseline, LeftAlone, LintSettings, Mended};
 use urdd_validate::Run;
 
 /// Arguments of `urdd lint`.
@@ -21,6 +21,8 @@ use urdd_validate::Run;
     after_help = "The rules are explained by `urdd explain LNT`, `urdd explain SRC`, and in docs/lint.md.\n\n\
     `<!-- urdd: allow LNT001 why -->` before an element allows a finding in it; [[ignore]] and [severity] in urdd.toml \
     are as for `urdd validate`.\n\n\
+    --fix changes only files that are named, or are in a folder that is. It says which it leaves alone: links that lead \
+    elsewhere, and, without --force, files that are read-only or have several names.\n\n\
     Exit status: 0 no findings at or above --fail-on, or nothing to change with --diff; 1 findings, or changes with \
     --diff; 2 usage error, nothing could be examined, or a file could not be written; 101 a rule crashed (a bug in this \
     program)."
@@ -38,6 +40,11 @@ pub struct LintArguments {
     /// Shows what --fix would change, and changes nothing.
     #[arg(long, conflicts_with = "fix")]
     diff: bool,
+
+    /// With --fix or --diff: also files that are read-only, or have several names (hard links), of which the others keep
+    /// the old text.
+    #[arg(long)]
+    force: bool,
 
     /// Leaves out the findings in this file, which --write-baseline made; in urdd.toml it is `baseline`.
     #[arg(long, value_name = "FILE")]
@@ -94,7 +101,8 @@ fn work(
     color: Color,
 ) -> Result<u8, String> {
     if arguments.fix || arguments.diff {
-        let mended = urdd_lint::mend(paths, settings).map_err(|error| error.to_string())?;
+        let mended =
+            urdd_lint::mend(paths, settings, arguments.force).map_err(|error| error.to_string())?;
         if arguments.diff {
             return show(&mended);
         }
@@ -107,10 +115,19 @@ fn work(
     arguments.report.write(&run, &settings.report, true, color)
 }
 
-/// Prints what would change, as a patch.
+/// The file to write; says why if it is left alone.
+fn target(mended: &Mended) -> Option<&Path> {
+    let say = |why: &LeftAlone| {
+        let shown = format!("{}: left as it is: {why}", mended.path.display());
+        output::error(&escape::line(&shown));
+    };
+    mended.target.as_deref().inspect_err(|why| say(why)).ok()
+}
+
+/// Prints what would change, as a patch. What is left alone is to be changed, too.
 fn show(mended: &[Mended]) -> Result<u8, String> {
     let mut text = String::new();
-    for one in mended {
+    for one in mended.iter().filter(|one| target(one).is_some()) {
         let name = escape::line(&one.path.display().to_string()).into_owned();
         let diff = TextDiff::from_lines(&one.before, &one.after);
         text += &diff.unified_diff().header(&name, &name).to_string();
@@ -122,10 +139,11 @@ fn show(mended: &[Mended]) -> Result<u8, String> {
 /// Writes the mended files. A file that was changed meanwhile stays.
 fn write(mended: &[Mended]) -> Result<(), String> {
     for one in mended {
+        let Some(target) = target(one) else { continue };
         let shown = one.path.display().to_string();
-        one.check()
+        one.check(target)
             .map_err(|error| format!("{}: {error}", escape::line(&shown)))?;
-        output::write_bytes(&one.path, one.after.as_bytes())?;
+        output::write_bytes(target, one.after.as_bytes())?;
         let places = match one.places {
             1 => "1 place".to_owned(),
             places => format!("{places} places"),

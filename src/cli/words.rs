@@ -30,9 +30,9 @@ impl Class {
 /// A severity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Level {
-    /// A violated MUST of the specification.
+    /// What programs refuse or get wrong, or what a URDD must not have.
     Error,
-    /// A violated SHOULD of the specification, or an unusual robot.
+    /// What is wrong or risky for some programs, or what a URDD should not have.
     Warning,
     /// An outdated convention, or something worth knowing.
     Info,

@@ -90,6 +90,112 @@ fn a_fault_in_urdd_toml_is_said_with_its_place() {
     }
 }
 
+/// What `--fix` writes to.
+#[cfg(unix)]
+mod fix {
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+
+    use super::*;
+
+    /// Runs `urdd lint` on `home`, and returns what it says of files, with its exit status.
+    fn fix(folder: &Path, arguments: &[&str]) -> (String, Option<i32>) {
+        let output = output(
+            &[&["lint", "--quiet", "--fail-on", "warning"], arguments].concat(),
+            folder,
+        );
+        let said = String::from_utf8(output.stderr).expect("UTF-8");
+        (said, output.status.code())
+    }
+
+    fn is_mended(file: &Path) -> bool {
+        let text = fs::read_to_string(file).expect("a file");
+        assert_ne!(text.contains("0 0 2"), text.contains("0 0 1"), "{text}");
+        text.contains("0 0 1")
+    }
+
+    #[test]
+    fn a_fix_stays_in_what_was_named_whatever_links_say() {
+        let folder = slide();
+        let root = folder.path();
+        let outside = root.join("robots/slide.urdf");
+        fs::create_dir_all(root.join("home/inner")).expect("a folder");
+        fs::copy(&outside, root.join("home/own.txt")).expect("a copy");
+        let link =
+            |to: &str, name: &str| symlink(to, root.join("home").join(name)).expect("a link");
+        link("../robots/slide.urdf", "led.urdf");
+        link("own.txt", "inner.urdf");
+        link("gone", "gone.urdf");
+        link("itself.urdf", "itself.urdf");
+        link("round-b.urdf", "round-a.urdf");
+        link("round-a.urdf", "round-b.urdf");
+        link("/dev/zero", "endless.urdf");
+        link("/", "all");
+        link("/", "all.urdf");
+        link("..", "inner/up");
+        link("../robots", "elsewhere");
+        let pipe = std::process::Command::new("mkfifo")
+            .arg(root.join("home/pipe.urdf"))
+            .status();
+        assert!(pipe.expect("mkfifo").success());
+        for changed in ["--diff", "--fix"] {
+            let (said, status) = fix(root, &["home", changed]);
+            let led = said
+                .lines()
+                .filter(|line| line.contains("home/led.urdf"))
+                .collect::<Vec<_>>();
+            assert_eq!(led.len(), 1, "{said}");
+            assert!(
+                led[0].contains("left as it is: the link leads to")
+                    && led[0].ends_with(
+                        "robots/slide.urdf, outside of what was named; name that file to mend it"
+                    ),
+                "{said}"
+            );
+            assert_eq!(status, Some(1), "{said}");
+            assert!(!is_mended(&outside));
+        }
+        assert!(is_mended(&root.join("home/own.txt")));
+        let is_link = |name: &str| root.join("home").join(name).is_symlink();
+        assert!(is_link("inner.urdf") && is_link("led.urdf") && is_link("endless.urdf"));
+        // No option leads out. The link by its name, or the file's folder, does.
+        assert!(
+            fix(root, &["home", "--fix", "--force"])
+                .0
+                .contains("outside of what was named")
+        );
+        assert!(!is_mended(&outside));
+        fix(root, &["home/led.urdf", "--fix"]);
+        assert!(is_mended(&outside) && is_link("led.urdf"));
+    }
+
+    #[test]
+    fn read_only_files_and_hard_links_are_left_alone_unless_forced() {
+        let folder = slide();
+        let root = folder.path();
+        let (own, other) = (root.join("robots/slide.urdf"), root.join("other.txt"));
+        let mode = |mode| fs::set_permissions(&own, fs::Permissions::from_mode(mode)).expect("it");
+        let left = |words: &str| {
+            for changed in ["--diff", "--fix"] {
+                let (said, status) = fix(root, &["robots/slide.urdf", changed]);
+                assert!(said.contains(words) && said.lines().count() == 1, "{said}");
+                assert_eq!(status, Some(1), "{changed}: it is not mended");
+                assert!(!is_mended(&own));
+            }
+        };
+        mode(0o444);
+        left("robots/slide.urdf: left as it is: the file is read-only");
+        mode(0o644);
+        fs::hard_link(&own, &other).expect("a link");
+        left("robots/slide.urdf: left as it is: the file has 2 names (hard links)");
+        assert_eq!(fs::metadata(&own).expect("it").nlink(), 2);
+        mode(0o444);
+        let (said, _) = fix(root, &["robots/slide.urdf", "--fix", "--force"]);
+        assert_eq!(said, "urdd: mended 1 place in robots/slide.urdf\n");
+        assert!(is_mended(&own) && !is_mended(&other));
+        assert_eq!(fs::metadata(&own).expect("it").mode() & 0o777, 0o444);
+    }
+}
+
 /// With a program in place of xacro: what it prints for such files is that of xacro 2.1.
 #[cfg(unix)]
 pub mod xacro {

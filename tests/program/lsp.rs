@@ -138,6 +138,37 @@ fn it_ends_when_its_input_does_or_is_no_message() {
     assert_eq!(server.end(), (Some(2), String::new()));
 }
 
+#[test]
+fn a_message_beyond_the_bound_is_refused_before_it_is_read() {
+    let endless = format!("X: {}", "x".repeat(1 << 20));
+    for (header, words) in [
+        (
+            "Content-Length: 99999999999\r\n\r\n",
+            "99999999999 bytes; at most 134217728",
+        ),
+        (
+            "Content-Length: 134217729\r\n\r\n",
+            "134217729 bytes; at most 134217728",
+        ),
+        (endless.as_str(), "a header has more than 4096 bytes"),
+    ] {
+        let mut server = Command::new(env!("CARGO_BIN_EXE_urdd"))
+            .arg("lsp")
+            .stdin(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program");
+        let mut input = server.stdin.take().expect("open");
+        // It may end before it has read all.
+        let _ = input.write_all(header.as_bytes());
+        drop(input);
+        let output = server.wait_with_output().expect("its output");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words) && said.lines().count() == 1, "{said}");
+    }
+}
+
 /// With the program in place of xacro that `urdd lint` is tried with.
 #[cfg(unix)]
 mod xacro {

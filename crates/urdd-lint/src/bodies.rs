@@ -53,6 +53,31 @@ impl Bodies {
     }
 }
 
+/// The links that can only slide: prismatic and fixed joints lead to them from a base that is fixed to the world, so that
+/// their inertia has no effect. A base is fixed if it is called `world`, or has no mass to move by.
+pub fn slide_only(robot: &Robot, bodies: &Bodies) -> Vec<bool> {
+    let root = bodies.tree.root;
+    let has_mass = |link: usize| {
+        let inertial = robot.links[link].inertial.as_ref();
+        inertial.and_then(|inertial| inertial.mass) > Some(0.0)
+    };
+    let is_fixed = robot.links[root].name == "world" || !bodies.members(root).any(has_mass);
+    let mut slides = vec![false; robot.links.len()];
+    for &link in &bodies.tree.order {
+        slides[link] = match (
+            bodies.tree.parent_joint[link],
+            bodies.tree.parent_link[link],
+        ) {
+            (Some(joint), Some(parent)) => {
+                let kind = robot.joints[joint].joint_type;
+                slides[parent] && matches!(kind, JointType::Fixed | JointType::Prismatic)
+            }
+            _ => is_fixed,
+        };
+    }
+    slides
+}
+
 /// The rigid transform of an origin.
 pub fn isometry(origin: &Origin) -> Isometry3<f64> {
     let rotation = Rotation3::from_matrix_unchecked(origin.rotation());

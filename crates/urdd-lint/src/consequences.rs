@@ -19,15 +19,16 @@ use urdd_xml::element::{Edit, apply};
 const AT_THE_SAME_PLACE: [(Code, Code); 2] =
     [(Code::LNT029, Code::LNT027), (Code::LNT030, Code::LNT027)];
 
-/// A rule whose findings follow from those of another about the same link: an inertia or a centre of mass that is computed
-/// again mends both.
-const OF_ONE_LINK: [(Code, Code); 6] = [
+/// A rule whose findings follow from those of another about the same link or joint: an inertia, a centre of mass or
+/// limits that are written mend both.
+const OF_ONE_PART: [(Code, Code); 7] = [
     (Code::LNT001, Code::SRC004),
     (Code::LNT001, Code::SRC005),
     (Code::LNT001, Code::LNT002),
     (Code::LNT005, Code::SRC004),
     (Code::LNT005, Code::SRC005),
     (Code::SRC003, Code::LNT008),
+    (Code::SRC006, Code::LNT017),
 ];
 
 /// A misspelt name.
@@ -43,7 +44,7 @@ pub fn mark(checks: &mut [Check]) {
     for (effect, cause) in AT_THE_SAME_PLACE {
         follow(checks, effect, cause, at);
     }
-    for (effect, cause) in OF_ONE_LINK {
+    for (effect, cause) in OF_ONE_PART {
         follow(checks, effect, cause, |place| place.subject.clone());
     }
 }

@@ -1,14 +1,16 @@
 //! Mends what has one right answer.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use thiserror::Error;
 
 use super::offset::offset;
+use super::target::{LeftAlone, target};
 use super::{LintError, LintSettings, sources, stems};
 use urdd_directory::position::LineIndex;
+use urdd_directory::read_error::ReadError;
+use urdd_directory::regular;
 use urdd_format::report::{Fix, Place, TextEdit};
 use urdd_xml::element::{Edit, apply};
 
@@ -20,8 +22,10 @@ const BYTE_ORDER_MARK: &str = "\u{feff}";
 /// A file whose text changes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mended {
-    /// The file.
+    /// The file, as it was found.
     pub path: PathBuf,
+    /// The file to write, with links resolved; or why it is left as it is.
+    pub target: Result<PathBuf, LeftAlone>,
     /// Its text as it was read.
     pub before: String,
     /// The text that is to be there.
@@ -38,38 +42,53 @@ pub enum ChangedError {
     Changed,
     /// It is gone, or cannot be read.
     #[error("the file cannot be read again: {0}")]
-    Unreadable(#[from] std::io::Error),
+    Unreadable(#[from] ReadError),
 }
 
 impl Mended {
-    /// Checks that the file is still the one that was read.
+    /// Checks that `target` is still the file that was read: itself, and not a link by now.
     ///
     /// # Errors
     /// If it is not.
-    pub fn check(&self) -> Result<(), ChangedError> {
-        match fs::read(&self.path)? == self.before.as_bytes() {
-            true => Ok(()),
-            false => Err(ChangedError::Changed),
+    pub fn check(&self, target: &Path) -> Result<(), ChangedError> {
+        let is_itself = target.canonicalize().is_ok_and(|now| now == target);
+        match regular::read(target, self.before.len() as u64) {
+            Ok(bytes) if is_itself && bytes == self.before.as_bytes() => Ok(()),
+            Ok(_) | Err(ReadError::TooLong { .. }) => Err(ChangedError::Changed),
+            Err(error) => Err(error.into()),
         }
     }
 }
 
 /// What the safe fixes of all findings make of the files, as `lint` would report them. Writes nothing. Text that xacro made
-/// is left out, as is a file that is not UTF-8: its places are not those of a text that a person wrote.
+/// is left out, as is a file that is not UTF-8: its places are not those of a text that a person wrote. `is_forced` also
+/// changes files that are read-only or have several names.
 ///
 /// # Errors
 /// If a path has nothing to examine, or the run is cancelled.
-pub fn mend(paths: &[PathBuf], settings: &LintSettings) -> Result<Vec<Mended>, LintError> {
+pub fn mend(
+    paths: &[PathBuf],
+    settings: &LintSettings,
+    is_forced: bool,
+) -> Result<Vec<Mended>, LintError> {
     let (files, _) = sources(paths, settings)?;
-    let mended = files.par_iter().filter_map(|path| mended(path, settings));
+    let to = |path: &Path| target(path, paths, is_forced).ok();
+    let mended = files
+        .par_iter()
+        .filter_map(|path| mended(path, settings, to));
     let mended = mended.collect();
     settings.report.cancellation.check()?;
     Ok(mended)
 }
 
-fn mended(path: &Path, settings: &LintSettings) -> Option<Mended> {
+fn mended(
+    path: &Path,
+    settings: &LintSettings,
+    target: impl Fn(&Path) -> Option<Result<PathBuf, LeftAlone>>,
+) -> Option<Mended> {
     let read = urdd_generate::read_source(path, &settings.source).ok()?;
-    let before = String::from_utf8(fs::read(path).ok()?).ok()?;
+    let size = read.text.len() + BYTE_ORDER_MARK.len();
+    let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
     let mark = if before.starts_with(BYTE_ORDER_MARK) {
         BYTE_ORDER_MARK
     } else {
@@ -98,8 +117,12 @@ fn mended(path: &Path, settings: &LintSettings) -> Option<Mended> {
         (text, places) = (next, places + mended);
     }
     let after = format!("{mark}{text}");
-    (after != before).then(|| Mended {
+    if after == before {
+        return None;
+    }
+    Some(Mended {
         path: path.to_owned(),
+        target: target(path)?,
         before,
         after,
         places,

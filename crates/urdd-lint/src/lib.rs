@@ -24,6 +24,7 @@ pub mod rules;
 mod settings;
 mod srdf;
 mod subject;
+mod target;
 mod textures;
 mod unknown;
 pub mod vocabulary;
@@ -33,6 +34,7 @@ pub use baseline::{Baseline, BaselineError, BaselineFileError, BaselineFileFault
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 pub use settings::LintSettings;
+pub use target::LeftAlone;
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,9 @@
 //! What a rule of the family LNT is.
 
 use super::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_validate::finding::{Finding, Findings};
 pub use urdd_validate::rule::Description;
+use urdd_validate::rule::Severity;
 
 /// A rule about URDFs.
 pub struct LintRule {
@@ -12,6 +13,12 @@ pub struct LintRule {
     pub on_by_default: bool,
     /// Reports what it finds. `None`: what it judges is not there, for a reason given to [`Findings::skip`].
     pub check: fn(&Subject, &mut Findings) -> Option<()>,
+}
+
+/// The finding, as an error if a program refuses the whole robot for it, and the rule's others are less.
+pub(crate) fn error_if(is_refused: bool, mut finding: Finding) -> Finding {
+    finding.severity = is_refused.then_some(Severity::Error);
+    finding
 }
 
 /// Declares the rule of a file as `RULE`, checked by the file's function `check`. `urdd explain` prints its

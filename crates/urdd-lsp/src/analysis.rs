@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, at_the_top, of_check};
-use crate::document::{MAX_TEXT_BYTES, Snapshot};
+use crate::document::Snapshot;
 use crate::failures::failures;
 use crate::kind::Kind;
 use crate::project::Project;
@@ -53,8 +53,8 @@ impl Analysis {
         if snapshot.kind == Kind::Other {
             return Some(Analysis::default());
         }
-        if snapshot.is_too_large() {
-            return Some(too_large(snapshot));
+        if let Some(excess) = snapshot.excess() {
+            return Some(too_large(snapshot, excess));
         }
         let analysis = match &snapshot.kind {
             Kind::Urdf | Kind::Xacro => of_xml(snapshot, depth, cancellation),
@@ -71,16 +71,13 @@ impl Analysis {
     }
 }
 
-fn too_large(snapshot: &Snapshot) -> Analysis {
-    let size = snapshot.text.as_str().len() >> 20;
-    let limit = MAX_TEXT_BYTES >> 20;
+fn too_large(snapshot: &Snapshot, excess: &str) -> Analysis {
     let command = match snapshot.kind {
         Kind::Urdd { .. } => "urdd validate",
         _ => "urdd lint",
     };
-    let message = format!(
-        "the file is too large for the editor: {size} MiB, at most {limit} MiB; `{command}` examines it"
-    );
+    let message =
+        format!("the file is too large for the editor: {excess}; `{command}` examines it");
     Analysis {
         found: vec![at_the_top(snapshot, DiagnosticSeverity::WARNING, &message)],
         postponed: Postponed::None,

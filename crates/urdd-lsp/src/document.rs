@@ -16,6 +16,9 @@ use urdd_directory::cancellation::Cancellation;
 
 /// Maximum size of a text, bytes: that of a URDF of several thousand links. `urdd lint` takes larger ones.
 pub const MAX_TEXT_BYTES: usize = 16 << 20;
+/// Maximum number of elements, and of links and joints among them. Each symbol of an outline takes 8 kB.
+const MAX_ELEMENTS: usize = 100_000;
+const MAX_PARTS: usize = 20_000;
 
 /// A version of a document.
 pub struct Snapshot {
@@ -37,6 +40,7 @@ pub struct Snapshot {
     robot: OnceLock<Option<Arc<RobotModel>>>,
     markup: OnceLock<Markup>,
     outline: OnceLock<Outline>,
+    excess: OnceLock<Option<String>>,
 }
 
 /// What described a robot before.
@@ -73,6 +77,7 @@ impl Snapshot {
             robot: OnceLock::new(),
             markup: OnceLock::new(),
             outline: OnceLock::new(),
+            excess: OnceLock::new(),
         }
     }
 
@@ -98,6 +103,7 @@ impl Snapshot {
             robot: OnceLock::new(),
             markup: OnceLock::new(),
             outline: OnceLock::new(),
+            excess: OnceLock::new(),
         }
     }
 
@@ -108,7 +114,13 @@ impl Snapshot {
 
     /// Whether the text is too large to be read.
     pub fn is_too_large(&self) -> bool {
-        self.text.as_str().len() > MAX_TEXT_BYTES
+        self.excess().is_some()
+    }
+
+    /// What the text has too much of to be read, and how much it may have.
+    pub fn excess(&self) -> Option<&str> {
+        let measure = || excess(self.text.as_str(), self.kind.is_xml());
+        self.excess.get_or_init(measure).as_deref()
     }
 
     /// The elements of the text, also where it is half typed. None if it is too large, or is not XML.
@@ -142,4 +154,25 @@ impl Snapshot {
             None => None,
         })
     }
+}
+
+fn excess(text: &str, is_xml: bool) -> Option<String> {
+    if text.len() > MAX_TEXT_BYTES {
+        let (size, limit) = (text.len() >> 20, MAX_TEXT_BYTES >> 20);
+        return Some(format!("{size} MiB, at most {limit} MiB"));
+    }
+    if !is_xml {
+        return None;
+    }
+    let (mut elements, mut parts) = (0, 0);
+    for (at, _) in text.match_indices('<') {
+        let name = &text[at + 1..];
+        elements += usize::from(!name.starts_with(['/', '!', '?']));
+        parts += usize::from(name.starts_with("link") || name.starts_with("joint"));
+    }
+    if elements > MAX_ELEMENTS {
+        return Some(format!("{elements} elements, at most {MAX_ELEMENTS}"));
+    }
+    let words = || format!("{parts} links and joints, at most {MAX_PARTS}");
+    (parts > MAX_PARTS).then(words)
 }

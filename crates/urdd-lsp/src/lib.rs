@@ -33,6 +33,7 @@ mod server;
 mod shown;
 mod symbols;
 mod text;
+mod transport;
 mod urdd_documents;
 mod uri;
 mod vocabulary;
@@ -40,6 +41,7 @@ mod xacro;
 
 pub use document::MAX_TEXT_BYTES;
 pub use server::Ended;
+pub use transport::MAX_MESSAGE_BYTES;
 
 use std::io;
 
@@ -50,11 +52,14 @@ use lsp_server::Connection;
 /// # Errors
 /// If a message cannot be read or written.
 pub fn serve_stdio() -> io::Result<Ended> {
-    let (connection, threads) = Connection::stdio();
+    let (connection, threads) = transport::stdio()?;
     let ended = serve(connection);
     // The reader waits for an editor that is gone.
     if ended != Ended::ParentGone {
-        threads.join()?;
+        for thread in threads {
+            let crashed = |_| Err(io::Error::other("a thread of the connection crashed"));
+            thread.join().unwrap_or_else(crashed)?;
+        }
     }
     Ok(ended)
 }

@@ -1,6 +1,7 @@
 //! A document's text, and positions in it as editors count them.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use lsp_types::{Position, PositionEncodingKind, TextDocumentContentChangeEvent};
 
@@ -47,7 +48,24 @@ impl Encoding {
             Encoding::Utf32 => 1,
         }
     }
+
+    /// The units of the characters that begin in these bytes of UTF-8. Bytes of UTF-8 count all.
+    fn units_in(self, bytes: &[u8]) -> usize {
+        let begins = |byte: &&u8| **byte & 0xC0 != 0x80;
+        // Characters of four bytes have two units of UTF-16.
+        let is_pair = |byte: &&u8| **byte >= 0xF0;
+        match self {
+            Encoding::Utf8 => bytes.len(),
+            Encoding::Utf16 => {
+                bytes.iter().filter(begins).count() + bytes.iter().filter(is_pair).count()
+            }
+            Encoding::Utf32 => bytes.iter().filter(begins).count(),
+        }
+    }
 }
+
+/// Size of a block, bytes.
+const BLOCK: usize = 1024;
 
 /// A text with its lines. A line ends with `\n`, `\r\n`, or a lone `\r`.
 #[derive(Debug, Clone)]
@@ -55,6 +73,8 @@ pub struct Text {
     text: String,
     starts: Vec<usize>,
     encoding: Encoding,
+    /// Units before each block of the text: a whole file may be one line.
+    before_block: OnceLock<Vec<usize>>,
 }
 
 impl Text {
@@ -65,6 +85,7 @@ impl Text {
             starts: starts.collect(),
             text,
             encoding,
+            before_block: OnceLock::new(),
         }
     }
 
@@ -112,17 +133,26 @@ impl Text {
         }
         let line = self.starts.partition_point(|&start| start <= offset) - 1;
         // An offset in a line's end is shown at it.
-        let content = self.line(line);
-        let before = &content[..(offset - self.starts[line]).min(content.len())];
-        let units = match self.encoding {
-            Encoding::Utf8 => before.len(),
-            _ if before.is_ascii() => before.len(),
-            encoding => before.chars().map(|c| encoding.units(c)).sum(),
-        };
+        let start = self.starts[line];
+        let offset = offset.min(start + self.line(line).len());
         Position {
             line: count(line),
-            character: count(units),
+            character: count(self.units_before(offset) - self.units_before(start)),
         }
+    }
+
+    /// The units before a byte offset.
+    fn units_before(&self, offset: usize) -> usize {
+        let bytes = self.text.as_bytes();
+        let before_block = self.before_block.get_or_init(|| {
+            let blocks = bytes.chunks(BLOCK).scan(0, |before, block| {
+                *before += self.encoding.units_in(block);
+                Some(*before)
+            });
+            std::iter::once(0).chain(blocks).collect()
+        });
+        let block = offset / BLOCK;
+        before_block[block] + self.encoding.units_in(&bytes[block * BLOCK..offset])
     }
 
     /// The editor's range of a range of bytes.
@@ -170,6 +200,7 @@ impl Text {
         let start = self.offset(range.start);
         let end = self.offset(range.end).max(start);
         self.text.replace_range(start..end, &change.text);
+        self.before_block = OnceLock::new();
         // Lines are found anew from the line before the change, whose end may be half of `\r\n`, to behind it.
         let first = self.starts.partition_point(|&start_of| start_of < start);
         let first = first.saturating_sub(1);
@@ -235,6 +266,29 @@ mod tests {
             assert_eq!(text.position(text.as_str().find('z').unwrap()), at(2, 0));
             assert_eq!(text.position(usize::MAX), at(3, 0));
             assert_eq!(text.offset(at(9, 0)), text.as_str().len());
+        }
+    }
+
+    #[test]
+    fn long_lines_are_counted_as_short_ones() {
+        let line = "é\u{1F916}x".repeat(2000);
+        for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
+            let mut text = Text::new(format!("\n{line}"), encoding);
+            let mut units = 0;
+            for (at, c) in line.char_indices() {
+                assert_eq!(text.position(at + 1), at(1, units));
+                units += encoding.units(c) as u32;
+            }
+            // A change is counted too.
+            let range = Some(text.range(0..1));
+            let (range_length, added) = (None, "é".to_owned());
+            text.apply(TextDocumentContentChangeEvent {
+                range,
+                range_length,
+                text: added,
+            });
+            let shift = encoding.units('é') as u32;
+            assert_eq!(text.position(usize::MAX), at(0, units + shift));
         }
     }
 

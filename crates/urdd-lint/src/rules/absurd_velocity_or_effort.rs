@@ -1,13 +1,14 @@
 use crate::elements::{ONE_DOF, child, number};
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The effort or velocity of a joint's limit is negative, or one of them is 0.
     ///
-    /// With effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0,
-    /// MoveIt's time parameterization fails. Pinocchio refuses a robot with a negative effort. MuJoCo takes 0 as "no limit".
+    /// Pinocchio refuses the whole robot if one of them is negative, on joints that follow another one too: an error. With
+    /// effort 0, Gazebo, ros2_control and whoever asks PyBullet for the limit apply no force. With velocity 0, MoveIt's time
+    /// parameterization fails. MuJoCo takes 0 as "no limit".
     ///
     /// Write what the motor can do, in N or N m, and in m/s or rad/s. Where both are 0, SRC009 says so.
     LNT013 "absurd-velocity-or-effort", Warning, WrongMotion, since "1.1.0"
@@ -15,26 +16,26 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for joint in urdf.joints_of(&ONE_DOF) {
-        let Some(limit) = child(joint, "limit").filter(|_| child(joint, "mimic").is_none()) else {
+        let Some(limit) = child(joint, "limit") else {
             continue;
         };
         let bound = |name| number(limit, name).unwrap_or(0.0);
         let is_free = joint.attribute("type") == Some("continuous");
         // PyBullet takes a lower limit above the upper one as "free", and SRC tells others.
-        if !is_free && bound("lower") >= bound("upper") {
-            continue;
-        }
+        let is_still = !is_free && bound("lower") >= bound("upper");
+        let may_be_0 = is_still || child(joint, "mimic").is_some();
         for (name, other) in [("velocity", "effort"), ("effort", "velocity")] {
             let other = number(limit, other);
+            let is_negative = number(limit, name).is_some_and(|value| value < 0.0);
             let wrong = match number(limit, name) {
-                Some(value) if value < 0.0 => "is negative",
-                Some(0.0) if other.is_some_and(|other| other != 0.0) => {
+                Some(_) if is_negative => "is negative, and Pinocchio refuses the robot",
+                Some(0.0) if !may_be_0 && other.is_some_and(|other| other != 0.0) => {
                     "is 0: programs that keep to it do not move the joint"
                 }
                 _ => continue,
             };
             let message = format!("`{name}` {wrong}; write what the motor can do");
-            urdf.at_attribute(limit, name, message).report(findings);
+            error_if(is_negative, urdf.at_attribute(limit, name, message)).report(findings);
         }
     }
     Some(())

@@ -1,14 +1,16 @@
 use roxmltree::Node;
 use urdd_format::meshes::GeometryKind;
 
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
+use urdd_geometry::read::Format;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A collision mesh has more than 50,000 triangles.
     ///
-    /// Collision checks take long, and so does loading: PR2's took 30 s. MuJoCo refuses an STL of more than 200,000, and
+    /// Collision checks take long, and so does loading: PR2's took 30 s. MuJoCo refuses a robot
+    /// with an STL of more than 200,000: an error.
     /// PyBullet loads a part of a large one. Common robots have 100 to 5,000 a link.
     ///
     /// Take the convex hull, or a few boxes. `urdd generate` makes convex pieces.
@@ -16,6 +18,8 @@ declare_lint! {
 }
 
 const MANY: usize = 50_000;
+/// The most triangles that MuJoCo reads of an STL.
+const MUJOCO_STL: usize = 200_000;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
@@ -30,8 +34,9 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 "the collision mesh has {} triangles; take its convex hull, or a few boxes",
                 facts.triangles
             );
-            urdf.at_attribute(node, "filename", message)
-                .report(findings);
+            let is_stl = facts.format == Format::StlBinary;
+            let finding = urdf.at_attribute(node, "filename", message);
+            error_if(is_stl && facts.triangles > MUJOCO_STL, finding).report(findings);
         }
     }
     Some(())

@@ -2,6 +2,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use crate::bodies::slide_only;
 use crate::geometry::diagonal;
 use crate::inertial::Inertial;
 use crate::rule::declare_lint;
@@ -20,6 +21,9 @@ declare_lint! {
     /// times the inertia that evenly filled wrists have (Pinocchio). Common causes: the identity matrix, `0.01 0 0 0.01 0
     /// 0.01`, a tensor in other units or about another point, another link's tensor.
     ///
+    /// Links that only slide, on prismatic joints from a base that is fixed to the world, are left out: their inertia has no
+    /// effect. A base is taken for fixed if it is called `world`, or has no mass.
+    ///
     /// Compute the tensor from the link's geometry, about its centre of mass, in kg m². If the number stands for a
     /// rotor, write it as the joint's armature in the simulator.
     LNT001 "inertia-beyond-geometry", Warning, WrongMotion, since "1.1.0"
@@ -34,6 +38,7 @@ const LEAST: f64 = 0.01;
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let geometry = urdf.geometry(findings)?;
+    let slides = slide_only(robot, bodies);
     let inertials: Vec<Option<Inertial>> = robot.links.iter().map(Inertial::of).collect();
     let mut of_body: HashMap<usize, f64> = HashMap::new();
     for (link, inertial) in inertials.iter().enumerate() {
@@ -46,7 +51,12 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let is_little = inertial.trace() <= 0.0 || inertial.trace() < LEAST * of_body[&top];
-        if body.is_partial || body.is_turned() || body.shapes.is_empty() || is_little {
+        if slides[link]
+            || body.is_partial
+            || body.is_turned()
+            || body.shapes.is_empty()
+            || is_little
+        {
             continue;
         }
         let points = body.in_frame(&bodies.pose[link]);

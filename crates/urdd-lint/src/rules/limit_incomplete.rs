@@ -4,10 +4,10 @@ use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
-    /// A `<limit>` has no effort or no velocity.
+    /// A `<limit>` has no effort or no velocity, or a revolute or prismatic joint has no `<limit>`.
     ///
-    /// urdfdom, so all of ROS and Pinocchio, refuses the whole file, on joints of any type: `Could not parse limit element`.
-    /// MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
+    /// urdfdom, so all of ROS and Pinocchio, refuses the whole file. A `<limit>` needs both on joints of any type, and a joint
+    /// that follows another needs a `<limit>`: `Could not parse limit element`, `did not specify limits`. MuJoCo, PyBullet and yourdfpy load it, so that nobody sees it.
     ///
     /// Write both: what the motor can do, in N or N m, and in m/s or rad/s.
     LNT017 "limit-incomplete", Error, Format, since "1.1.0"
@@ -16,6 +16,11 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for joint in &urdf.joints {
         let Some(limit) = child(*joint, "limit") else {
+            if matches!(joint.attribute("type"), Some("revolute" | "prismatic")) {
+                let message = "the joint has no `<limit>`, and ROS (urdfdom) refuses the whole file; write it, with effort and \
+                    velocity";
+                urdf.at(*joint, message).report(findings);
+            }
             continue;
         };
         let missing = ["effort", "velocity"].into_iter();

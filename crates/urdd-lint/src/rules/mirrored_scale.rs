@@ -1,7 +1,7 @@
 use urdd_format::meshes::GeometryKind;
 
 use crate::elements::numbers;
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
@@ -9,7 +9,8 @@ declare_lint! {
     /// The scale of a collision mesh mirrors it, or flattens it.
     ///
     /// A mirrored mesh has its faces inside out, and Gazebo's collisions fail with it. MuJoCo 4 and trimesh turn the faces.
-    /// Two negative factors are a rotation, and no finding. With a factor of 0, MuJoCo refuses the robot.
+    /// Two negative factors are a rotation, and no finding. With a factor of 0 on a
+    /// collision mesh, MuJoCo refuses the robot: an error.
     ///
     /// Export a mirrored mesh, and write positive factors.
     LNT023 "mirrored-scale", Warning, Collisions, since "1.1.0"
@@ -20,16 +21,17 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Some([x, y, z]) = numbers::<3>(node, "scale") else {
             continue;
         };
-        let message = if [x, y, z].contains(&0.0) {
+        let is_collision = mesh.geometry == GeometryKind::Collision;
+        let is_flat = [x, y, z].contains(&0.0);
+        let message = if is_flat {
             "a factor of 0 flattens the mesh; write what it is to be multiplied by"
-        } else if x.signum() * y.signum() * z.signum() < 0.0
-            && mesh.geometry == GeometryKind::Collision
-        {
+        } else if x.signum() * y.signum() * z.signum() < 0.0 && is_collision {
             "the scale mirrors the mesh, so that its faces are inside out; export a mirrored mesh"
         } else {
             continue;
         };
-        urdf.at_attribute(node, "scale", message).report(findings);
+        let finding = urdf.at_attribute(node, "scale", message);
+        error_if(is_flat && is_collision, finding).report(findings);
     }
     Some(())
 }

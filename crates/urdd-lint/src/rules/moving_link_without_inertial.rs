@@ -1,4 +1,4 @@
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
 use urdd_format::urdf::JointType;
 use urdd_validate::finding::Findings;
@@ -6,8 +6,8 @@ use urdd_validate::finding::Findings;
 declare_lint! {
     /// A joint moves links of which none has a mass.
     ///
-    /// MuJoCo fills a link that has shapes and no `<inertial>` with 1000 kg/m³, and refuses a robot where it has none. PyBullet gives it 1 kg,
-    /// Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
+    /// MuJoCo fills collision shapes with 1000 kg/m³, and refuses the robot where the links have none: an error. PyBullet
+    /// gives such a link 1 kg, Pinocchio 0 kg. Gazebo leaves out the link with its joint. Links that fixed joints hold together count as one.
     ///
     /// Write an `<inertial>`, or make the joint `fixed`.
     LNT006 "moving-link-without-inertial", Warning, WrongMotion, since "1.1.0"
@@ -27,11 +27,18 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         inertial.is_some_and(|inertial| inertial.mass.is_some()) && !has_mass(link)
     };
     let moves = |joint: &usize| robot.joints[*joint].joint_type != JointType::Fixed;
+    // Of a body without mass, MuJoCo reads collision shapes alone.
+    let is_refused = |top: usize| {
+        let collides = |link: usize| !robot.links[link].collision.is_empty();
+        bodies.tree.parent_joint[top].is_some_and(|joint| moves(&joint))
+            && !bodies.members(top).any(collides)
+    };
     if !(0..robot.links.len()).any(has_mass) {
         let is_told = bodies.tops().any(says_zero);
         if !is_told && (0..robot.joints.len()).any(|joint| moves(&joint)) {
             let message = "no link has a mass: simulators invent masses, or refuse the robot; write an `<inertial>` for each";
-            urdf.at(urdf.root, message).report(findings);
+            let finding = urdf.at(urdf.root, message);
+            error_if(bodies.tops().any(is_refused), finding).report(findings);
         }
         return Some(());
     }
@@ -45,7 +52,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 `<inertial>`",
                 robot.joints[joint].name
             );
-            urdf.at(urdf.links[top], message).report(findings);
+            error_if(is_refused(top), urdf.at(urdf.links[top], message)).report(findings);
         }
     }
     Some(())

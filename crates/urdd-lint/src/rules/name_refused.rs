@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use roxmltree::Node;
 
 use crate::elements::{child, text};
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
@@ -11,10 +11,10 @@ declare_lint! {
     /// A link or joint has a name that a program refuses.
     ///
     /// - A joint and a link of one name: SDFormat, so Gazebo, refuses the robot.
-    /// - `world` on a link that is not the root: MuJoCo and SDFormat keep this name for the world.
+    /// - `world` on a link that is not the root: MuJoCo refuses the robot, an error; SDFormat keeps this name for the world.
     /// - A slash at the beginning: tf2 refuses it as the name of a frame.
     /// - `::`, and `__` at both ends: reserved in SDFormat.
-    /// - An empty name: PyBullet 3.2.7 crashes, urdfdom refuses the file.
+    /// - An empty name: PyBullet 3.2.7 crashes. urdfdom, so Pinocchio, refuses the file if it is a link's: an error.
     ///
     /// Choose another name, and change it wherever it is used: SRDF, controllers, launch files.
     LNT015 "name-refused", Warning, Format, since "1.1.0"
@@ -44,12 +44,13 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else if is_joint && links.contains(name) {
             "a link has the same name, and SDFormat, so Gazebo, refuses that"
         } else if !is_joint && name == "world" && children.contains(name) {
-            "MuJoCo and SDFormat keep `world` for the world itself, and this link is not the root"
+            "MuJoCo refuses the robot: `world` is the world itself, and this link is not the root"
         } else {
             continue;
         };
         let message = format!("{wrong}; choose another name");
-        urdf.at_attribute(*node, "name", message).report(findings);
+        let is_refused = !is_joint && (name.is_empty() || name == "world");
+        error_if(is_refused, urdf.at_attribute(*node, "name", message)).report(findings);
     }
     Some(())
 }

@@ -1,13 +1,14 @@
+use urdd_format::meshes::GeometryKind;
 use urdd_geometry::read::{Format, NoteCode};
 
-use crate::rule::declare_lint;
+use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// An STL is text, or is cut off.
     ///
-    /// MuJoCo refuses the robot. PyBullet loads the link without its collision shape, and says so in its log alone.
+    /// MuJoCo refuses the robot if it is a collision mesh: an error. PyBullet loads the link without its collision shape, and says so in its log alone.
     /// Pinocchio and yourdfpy read text.
     ///
     /// Export the mesh as binary STL.
@@ -25,8 +26,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             _ => continue,
         };
-        urdf.at_attribute(node, "filename", message)
-            .report(findings);
+        let is_refused = mesh.kind == GeometryKind::Collision;
+        error_if(is_refused, urdf.at_attribute(node, "filename", message)).report(findings);
     }
     Some(())
 }

@@ -51,7 +51,7 @@ fn the_cause_names_what_follows_and_is_as_severe() {
     assert!(message.starts_with("LNT008 "), "{message}");
     assert_eq!(effect.line.map(|line| line.get()), Some(14));
     for (change, severity) in [
-        (("<limit ", "<limits "), Severity::Warning),
+        (("<limit ", "<limits "), Severity::Error),
         (("<axis ", "<axsi "), Severity::Warning),
         (("effort=", "efort="), Severity::Error),
         (("<parent ", "<parnt "), Severity::Error),

@@ -19,7 +19,7 @@ fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
                 .report
                 .severities
                 .insert(code, rule.description.severity);
-            let mended = mend(std::slice::from_ref(&file), &settings).expect("it");
+            let mended = mend(std::slice::from_ref(&file), &settings, false).expect("it");
             let Some(mended) = mended.into_iter().next() else {
                 continue;
             };
@@ -33,7 +33,7 @@ fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
                 "{}: {left:?}",
                 case.display()
             );
-            let again = mend(std::slice::from_ref(&file), &settings).expect("it");
+            let again = mend(std::slice::from_ref(&file), &settings, false).expect("it");
             assert_eq!(again, [], "{}", case.display());
         }
     }
@@ -44,7 +44,7 @@ fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
 fn every_other_byte_stays() {
     let text = format!("\u{feff}<!-- \u{1F916} -->\n{SLIDE}").replace('\n', "\r\n");
     let (_folder, file) = written(&text);
-    let mended = mend(std::slice::from_ref(&file), &LintSettings::default()).expect("it");
+    let mended = mend(std::slice::from_ref(&file), &LintSettings::default(), false).expect("it");
     let [mended] = &mended[..] else {
         panic!("{mended:?}");
     };
@@ -61,16 +61,19 @@ fn every_other_byte_stays() {
         .collect();
     assert_eq!(axis, [0.0, 0.0, 1.0]);
     assert_eq!(mended.places, 1);
-    mended.check().expect("unchanged");
+    let target = mended.target.clone().expect("nothing forbids it");
+    mended.check(&target).expect("unchanged");
     fs::write(&file, SLIDE).expect("written");
-    assert!(mended.check().is_err(), "somebody wrote to it");
+    assert!(mended.check(&target).is_err(), "somebody wrote to it");
 }
 
 #[test]
 fn what_is_allowed_or_ignored_is_not_mended() {
     let allowed = SLIDE.replace("<axis", "<!-- urdd: allow LNT012 --><axis");
     let (_folder, file) = written(&allowed);
-    let of = |file: &Path, settings: &LintSettings| mend(&[file.to_owned()], settings).expect("it");
+    let of = |file: &Path, settings: &LintSettings| {
+        mend(&[file.to_owned()], settings, false).expect("it")
+    };
     assert_eq!(of(&file, &LintSettings::default()), []);
     let (_folder, file) = written(SLIDE);
     let mut settings = LintSettings::default();
@@ -86,7 +89,7 @@ fn mended(text: &str, files: &[&str]) -> Option<String> {
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
         fs::write(path, include_bytes!("../cases/LNT027/meshes/box.stl")).expect("written");
     }
-    let mended = mend(&[file], &LintSettings::default()).expect("it");
+    let mended = mend(&[file], &LintSettings::default(), false).expect("it");
     mended.into_iter().next().map(|mended| mended.after)
 }
 

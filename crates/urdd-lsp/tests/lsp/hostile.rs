@@ -107,6 +107,42 @@ fn a_large_text_is_said_to_be_too_large() {
     );
 }
 
+/// What the first message of a text says, and its outline.
+fn opened(text: &str) -> (String, Value) {
+    let mut client = Client::new();
+    client.open("untitled:a", text);
+    let found = client.until(1, |found| !found.is_empty());
+    let document = json!({"textDocument": {"uri": "untitled:a"}});
+    let symbols = client.request("textDocument/documentSymbol", document);
+    (found[0]["message"].as_str().unwrap().to_owned(), symbols)
+}
+
+#[test]
+fn a_text_of_very_many_elements_is_said_to_be_too_large() {
+    let text = |part: &str, count: usize| format!("<robot name='r'>{}</robot>", part.repeat(count));
+    for (part, count, words) in [
+        (
+            "<link name='l'/>",
+            300_000,
+            "300001 elements, at most 100000",
+        ),
+        ("<a/>", 100_000, "100001 elements, at most 100000"),
+        (
+            "<link name='l'/>",
+            20_001,
+            "20001 links and joints, at most 20000",
+        ),
+    ] {
+        let (message, symbols) = opened(&text(part, count));
+        let expected = format!("too large for the editor: {words}; `urdd lint` examines it");
+        assert!(message.contains(&expected), "{message}");
+        assert_eq!(symbols, Value::Null);
+    }
+    let (message, symbols) = opened(&text("<link name='l'/>", 20_000));
+    assert!(!message.contains("too large"), "{message}");
+    assert_eq!(symbols.as_array().map(Vec::len), Some(20_000));
+}
+
 #[test]
 fn many_findings_are_cut_with_a_word() {
     let joint = |index: usize| {
