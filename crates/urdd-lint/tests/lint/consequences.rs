@@ -76,7 +76,7 @@ fn each_misspelling_speaks_for_itself() {
         effects.push((line, code.unwrap_or_default().to_owned()));
     }
     effects.sort();
-    let expected = [(10, "LNT016"), (11, "SRC006"), (17, "LNT008")];
+    let expected = [(10, "LNT016"), (11, "LNT017"), (17, "LNT008")];
     assert_eq!(
         effects,
         expected.map(|(line, code)| (line, code.to_owned()))
@@ -87,7 +87,7 @@ fn each_misspelling_speaks_for_itself() {
 fn another_fault_of_the_same_element_is_reported() {
     let limit = "    <limit lower=\"-2\" upper=\"2\" effort=\"10\" jerk=\"10\" velocity=\"1\"/>\n";
     for (changes, other) in [
-        (&[("<axis ", "<axsi "), (limit, "")][..], "SRC006"),
+        (&[("<axis ", "<axsi "), (limit, "")][..], "LNT017"),
         (&[MISSPELT, (" iyz=\"0\"", "")], "LNT008"),
         (&[("<axis xyz=\"0 0 1\"/>", "<axsi/>")], "LNT016"),
     ] {
