@@ -275,8 +275,8 @@ mod tests {
         for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
             let mut text = Text::new(format!("\n{line}"), encoding);
             let mut units = 0;
-            for (at, c) in line.char_indices() {
-                assert_eq!(text.position(at + 1), at(1, units));
+            for (offset, c) in line.char_indices() {
+                assert_eq!(text.position(offset + 1), at(1, units));
                 units += encoding.units(c) as u32;
             }
             // A change is counted too.
