@@ -5,9 +5,9 @@ use std::path::{Component, Path};
 
 use serde::de::DeserializeOwned;
 
+use super::document::parsed;
 use super::error::{CombineError, PartFault};
 use super::note::Note;
-use super::part::parsed;
 use super::recipe::{Attachment, BASE, Base, JointDescription, Part, Recipe, Sources, Word};
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::Root;

@@ -8,9 +8,9 @@ use std::path::Path;
 
 use roxmltree::Document;
 
+use super::document::document;
 use super::error::PartFault;
 use super::names::mesh_edits;
-use super::part::document;
 use crate::{MAX_SOURCE_BYTES, read_urdf};
 use urdd_directory::root::Root;
 use urdd_format::legacy::plain_meshes::PlainMeshesModule;

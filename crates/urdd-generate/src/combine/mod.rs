@@ -7,6 +7,7 @@
 mod check_parts;
 mod compose;
 mod configurations;
+mod document;
 mod error;
 mod from_legacy;
 mod frozen;

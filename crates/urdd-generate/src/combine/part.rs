@@ -7,14 +7,13 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use super::document::{bytes, document, parsed};
 use super::error::{CombineError, PartFault};
 use super::legacy;
 use super::sources::{Source, SourceKind};
 use crate::note::Note;
 use crate::{MAX_SOURCE_BYTES, Selection, Settings, generate, generate_text, read_urdf};
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::json;
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::regular;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::writer::sha256;
@@ -220,24 +219,4 @@ fn module<T: DeserializeOwned>(
     let module = listed.find(|module| module.name == kind.name());
     let module = module.map(|module| document(root, &format!("{}/module.json", module.path)));
     module.transpose()
-}
-
-/// A JSON document of a URDD, with its length in bytes.
-pub(super) fn document<T: DeserializeOwned>(
-    root: &Root,
-    path: &str,
-) -> Result<(T, usize), PartFault> {
-    let bytes = bytes(root, path)?;
-    Ok((parsed(&bytes, path)?, bytes.len()))
-}
-
-fn bytes(root: &Root, path: &str) -> Result<Vec<u8>, PartFault> {
-    let bytes = root.read(path, MAX_DOCUMENT_BYTES);
-    bytes.map_err(|error| PartFault::unreadable(path, error))
-}
-
-/// The value of a JSON document; `path` names it in faults.
-pub(super) fn parsed<T: DeserializeOwned>(bytes: &[u8], path: &str) -> Result<T, PartFault> {
-    let value = json::read(bytes).map_err(|error| PartFault::unreadable(path, error))?;
-    serde_json::from_value(value.value).map_err(|error| PartFault::unreadable(path, error))
 }
