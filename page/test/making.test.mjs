@@ -29,9 +29,14 @@ inPage(
     await drawn(page, "odd");
     const { notes } = (await state(page, "robot")).entry;
     assert.ok(notes.length > 0);
-    await page.getByRole("button", { name: /assumption/ }).click();
+    // The header may have folded it.
+    await page.locator("header").evaluate((header) => {
+      [...header.querySelectorAll("button")]
+        .find((button) => /^\d+ assumption/.test(button.textContent.trim()))
+        .click();
+    });
     assert.equal(await page.locator("#panel-Info .notes li").count(), notes.length);
-    await page.getByText("not saved", { exact: true }).waitFor();
+    await page.getByText("not saved", { exact: true }).first().waitFor({ state: "attached" });
     const mine = join(folder, "mine");
     mkdirSync(mine);
     writeFileSync(join(mine, "letter.txt"), "mine");
