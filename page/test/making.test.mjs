@@ -32,9 +32,9 @@ inPage(
     // The header folds what has no room.
     const more = page.locator(".chip.more");
     if (await more.isVisible()) await more.click();
+    await page.getByText("not saved", { exact: true }).waitFor();
     await page.getByRole("button", { name: /assumption/ }).click();
     assert.equal(await page.locator("#panel-Info .notes li").count(), notes.length);
-    await page.getByText("not saved", { exact: true }).waitFor();
     const mine = join(folder, "mine");
     mkdirSync(mine);
     writeFileSync(join(mine, "letter.txt"), "mine");
