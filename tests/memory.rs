@@ -36,7 +36,7 @@ fn assert_within(multiple: usize, size: usize, status: i32, arguments: &[&str], 
 
 #[test]
 fn documents_take_a_stated_multiple_of_memory() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(
         folder.path().join("r.urdf"),
         "<robot name=\"r\"><link name=\"a\"/></robot>",
@@ -71,7 +71,7 @@ fn documents_take_a_stated_multiple_of_memory() {
 
 #[test]
 fn a_urdf_takes_a_stated_multiple_of_memory() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for element in ["<a/>", "<a b=\"c\" d=\"e\"/>", "<!--x-->", "<?a?>"] {
         let many = element.repeat(1_600_000 / element.len());
         let text = format!("<robot name=\"r\"><link name=\"a\"/>{many}</robot>");
@@ -82,7 +82,7 @@ fn a_urdf_takes_a_stated_multiple_of_memory() {
 
 #[test]
 fn a_mesh_takes_a_stated_multiple_of_memory() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let urdf = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"m.obj\"/></geometry></visual></link></robot>";
     fs::write(folder.path().join("r.urdf"), urdf).unwrap();
     // A field of waves, of 200 x 200 squares.
@@ -117,7 +117,7 @@ fn a_mesh_takes_a_stated_multiple_of_memory() {
 fn many_levels_take_no_memory() {
     use std::io::Write as _;
     use zip::write::{SimpleFileOptions, ZipWriter};
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("a.zip");
     let pack = |entries: &[(String, usize)]| {
         let stored =

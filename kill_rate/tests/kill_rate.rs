@@ -20,7 +20,7 @@ use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 
 fn core() -> TempDir {
-    let folder = TempDir::new().expect("a folder");
+    let folder = testkit::temporary::folder();
     Fixture::core(&toy_robot()).write_to(folder.path());
     folder
 }
@@ -118,7 +118,7 @@ fn the_result_is_the_same_for_any_number_of_threads() {
 
 #[test]
 fn only_what_is_right_is_measured_with() {
-    let folder = TempDir::new().expect("a folder");
+    let folder = testkit::temporary::folder();
     let mut fixture = Fixture::core(&toy_robot());
     fixture.set("dof_module", "/num_dofs", json!(3));
     fixture.seal();
@@ -178,7 +178,7 @@ fn a_warning_counts() {
 
 #[test]
 fn what_lies_beside_the_triangles_of_a_mesh_is_changed_too() {
-    let folder = TempDir::new().expect("a folder");
+    let folder = testkit::temporary::folder();
     Fixture::toy().write_to(folder.path());
     // Changes of nodes are rare among those of a mesh.
     let plan = Plan {
@@ -249,7 +249,7 @@ fn the_command_tells_by_its_status() {
         run(folder.path(), &["--min-rate", "1.1"]).status.code(),
         Some(1)
     );
-    let empty = TempDir::new().expect("a folder");
+    let empty = testkit::temporary::folder();
     assert_eq!(run(empty.path(), &[]).status.code(), Some(2));
     fs::remove_file(folder.path().join("bounds_module/VERSION")).expect("a file");
     assert_eq!(run(folder.path(), &[]).status.code(), Some(1));

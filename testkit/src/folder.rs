@@ -23,7 +23,7 @@ impl Folder {
     /// An empty folder.
     pub fn new() -> Folder {
         Folder {
-            folder: TempDir::new().expect("a temporary folder"),
+            folder: crate::temporary::folder(),
             holds: BTreeMap::new(),
         }
     }

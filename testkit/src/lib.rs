@@ -14,6 +14,7 @@
 //! - [`documents`]: documents that fit a JSON Schema
 //! - [`difference`]: comparing two producers' documents
 //! - [`trials`]: how much tests try
+//! - [`temporary`]: folders for tests
 //! - [`transform`]: rotations and rigid transforms as matrices
 //! - [`core_modules`], [`urdf_to_core`]: joints and robots -> core modules of a URDD
 //!
@@ -33,6 +34,7 @@ pub mod model;
 pub mod robot;
 pub mod robots;
 pub mod shapes;
+pub mod temporary;
 pub mod transform;
 pub mod trials;
 pub mod urdf_to_core;

@@ -48,7 +48,7 @@ pub fn made_with_notes(urdf: &Path) -> (tempfile::TempDir, PathBuf, Vec<Note>) {
     let mut all = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let one = Arc::clone(all.entry(urdf.to_owned()).or_default());
     drop(all);
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = crate::temporary::folder();
     let target = folder.path().join("robot");
     let generated = || {
         let made = generate(urdf, &target, &Settings::default(), &()).expect("a URDD");
@@ -67,7 +67,7 @@ pub fn made_with_notes(urdf: &Path) -> (tempfile::TempDir, PathBuf, Vec<Note>) {
 
 /// A URDD generated from the text of a URDF.
 pub fn made_of(urdf: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = crate::temporary::folder();
     let file = folder.path().join("robot.urdf");
     std::fs::write(&file, urdf).expect("a file");
     let target = folder.path().join("robot");

@@ -311,7 +311,7 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
     }
     fixture.canonical = true;
     fixture.seal();
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     fixture.write_to(&root);
     let run = validate(&[&root], &Settings::default()).expect("something to examine");

@@ -31,7 +31,7 @@ impl Outcome {
 fn validate(path: &Path) -> Outcome {
     let started = Instant::now();
     // Into files: a pipe that nobody reads would block the program.
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (out, err) = (folder.path().join("out"), folder.path().join("err"));
     let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
         .args(["validate", "--format", "json"])
@@ -63,7 +63,7 @@ fn validate(path: &Path) -> Outcome {
 
 /// The outcome of a folder `robot` that `write` fills.
 fn examine(write: impl FnOnce(&Path)) -> Outcome {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     fs::create_dir(&root).expect("a folder");
     write(&root);
@@ -108,7 +108,7 @@ fn nothing_to_examine() {
         &examine(|root| fs::create_dir_all(root.join("a/b/c")).expect("folders")),
         "no URDD here",
     );
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("urdd.json");
     fs::write(&file, "{}").expect("written");
     assert_refused(&validate(&file), "not a single file");
@@ -119,7 +119,7 @@ fn nothing_to_examine() {
 #[test]
 fn a_folder_that_may_not_be_read() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let closed = folder.path().join("closed");
     fs::create_dir(&closed).expect("a folder");
     fs::set_permissions(&closed, fs::Permissions::from_mode(0o000)).expect("closed");
@@ -146,7 +146,7 @@ fn a_folder_that_may_not_be_read() {
 #[cfg(unix)]
 fn as_plain_user(command: &mut Command) -> &mut Command {
     use std::os::unix::process::CommandExt;
-    let closed = tempfile::tempdir().expect("a folder");
+    let closed = testkit::temporary::folder();
     let may_read_all = {
         use std::os::unix::fs::PermissionsExt;
         fs::set_permissions(closed.path(), fs::Permissions::from_mode(0o000)).expect("closed");
@@ -164,7 +164,7 @@ fn as_plain_user(command: &mut Command) -> &mut Command {
 #[test]
 fn a_closed_folder_among_urdds() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let program = folder.path().join("urdd");
     fs::copy(env!("CARGO_BIN_EXE_urdd"), &program).expect("a copy that anyone can run");
     fs::set_permissions(folder.path(), fs::Permissions::from_mode(0o755)).expect("open");
@@ -332,7 +332,7 @@ mod unix {
         });
         assert_refused(&outcome, "no URDD here");
         // The path itself.
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = testkit::temporary::folder();
         let link = folder.path().join("loop");
         symlink("loop", &link).expect("a link");
         let outcome = validate(&link);
@@ -386,7 +386,7 @@ mod unix {
         });
         assert_findings(&outcome, &["DIR024"]);
         // The root itself.
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = testkit::temporary::folder();
         let root = folder.path().join(odd);
         Fixture::toy().write_to(&root);
         assert_eq!(validate(&root).status, 0);
@@ -529,7 +529,7 @@ fn hostile_annotations_of_extensions() {
 /// `rehash` does not vouch for documents: one that it updates may still be broken.
 #[test]
 fn rehash_says_which_document_is_broken() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("toy");
     let mut toy = Fixture::toy();
     toy.seal();
@@ -560,7 +560,7 @@ fn rehash_says_which_document_is_broken() {
 /// A folder for a URDD that is still being written is not a URDD, under a name of this version or of 0.1.0.
 #[test]
 fn staging_folders_are_not_examined() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     toy.seal();
     for name in ["toy", ".urdd-0123456789abcdef/new", ".toy.urdd-4711-0/new"] {

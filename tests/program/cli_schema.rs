@@ -52,7 +52,7 @@ fn an_unknown_id_is_a_usage_error_with_a_hint() {
 
 #[test]
 fn checks_what_it_exports_and_says_how_to_mend_it() {
-    let temporary = tempfile::tempdir().unwrap();
+    let temporary = testkit::temporary::folder();
     let folder = temporary.path().join("deep").join("schemas");
     let path = folder.to_str().unwrap();
     let check = || urdd(&["check", path]);

@@ -38,7 +38,7 @@ fn report(folder: &Path, arguments: &[&str]) -> Value {
 
 /// A folder with URDDs: `good`, `bad` (an error), and `odd` (a warning).
 fn collection() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let write = |name: &str, change: &dyn Fn(&mut Fixture)| {
         let mut toy = Fixture::toy();
         change(&mut toy);
@@ -294,7 +294,7 @@ fn settings() {
 
 #[test]
 fn same_input_same_bytes() {
-    let (folder, other) = (collection(), tempfile::tempdir().expect("a folder"));
+    let (folder, other) = (collection(), testkit::temporary::folder());
     let copy = other.path().join("deeper/down");
     copy_folder(folder.path(), &copy);
     for format in ["json", "human"] {
@@ -341,7 +341,7 @@ fn copy_folder(from: &Path, to: &Path) {
 
 #[test]
 fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     let mut toy = Fixture::toy();
     toy.seal();
@@ -393,7 +393,7 @@ fn findings(folder: &Path, arguments: &[&str]) -> Vec<Value> {
 
 #[test]
 fn machines_get_every_place_and_people_the_worst() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     // Each DOF's bounds are off by a different amount, the third by most.
     let dofs = toy
@@ -466,7 +466,7 @@ fn machines_get_every_place_and_people_the_worst() {
 
 #[test]
 fn an_unknown_key_is_reported_at_its_own_line() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     toy.doc_mut("dof_module")["no/key"] = json!(1);
     toy.seal();
@@ -484,7 +484,7 @@ fn an_unknown_key_is_reported_at_its_own_line() {
 
 #[test]
 fn many_urdds_are_summed_up() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     for number in 0..12 {
         let mut toy = Fixture::toy();
@@ -545,7 +545,7 @@ fn many_urdds_are_summed_up() {
 
 #[test]
 fn a_urdf_by_itself_is_judged_as_a_source() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let urdf = |links: &str| format!("<robot name=\"r\">{links}</robot>");
     let mass = |mass: f64| {
@@ -590,7 +590,7 @@ fn a_urdf_by_itself_is_judged_as_a_source() {
 
 #[test]
 fn files_of_other_formats_are_named() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     for (name, text, says) in [
         ("a.sdf", "", "SDF"),
@@ -704,7 +704,7 @@ fn colours_on_request() {
 
 #[test]
 fn workflow_commands_hold_no_others() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     toy.set(ROOT, "/robot_name", json!("a%0A::error::b\n::error::c,d:e"));
     toy.put_file("dof_module/::stop-commands::x", "y");
@@ -741,7 +741,7 @@ fn workflow_commands_hold_no_others() {
 
 #[test]
 fn explanations_as_json_and_completions() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let run = |arguments: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
         let output = command.args(arguments).current_dir(folder.path()).output();

@@ -92,7 +92,7 @@ fn an_archive_has_the_findings_of_its_folder() {
         )
         .into_bytes();
     urdd_files.insert("dof_module/notes.txt".to_owned(), b"stray".to_vec());
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("arm");
     for (path, bytes) in &urdd_files {
         let file = root.join(path);
@@ -115,7 +115,7 @@ fn an_archive_has_the_findings_of_its_folder() {
 
 #[test]
 fn info_reads_an_archive() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let zip = folder.path().join("arm.zip");
     fs::write(&zip, pack(&arm(), "arm/")).expect("written");
     let text = |path: &Path| {
@@ -167,7 +167,7 @@ fn sources_list_and_read_alike() {
 /// Other URDDs' reports are kept, and the archive's own report says why there is none.
 #[test]
 fn an_archive_that_cannot_be_read_is_unreadable() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let zip = folder.path().join("cut.zip");
     let whole = pack(&arm(), "");
     fs::write(&zip, &whole[..whole.len() / 2]).expect("written");
@@ -523,7 +523,7 @@ fn links_in_an_archive_are_as_on_disk() {
 
 #[test]
 fn rehash_says_that_it_writes_to_no_archive() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let zip = folder.path().join("arm.zip");
     let bytes = pack(&arm(), "");
     fs::write(&zip, &bytes).expect("written");

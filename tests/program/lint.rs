@@ -19,7 +19,7 @@ fn write(folder: &Path, name: &str, text: &str) {
 
 /// A folder with a URDF.
 fn slide() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let text = format!("<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/>{SLIDE}</robot>");
     write(folder.path(), "robots/slide.urdf", &text);
     folder
@@ -218,7 +218,7 @@ pub mod xacro {
 
     /// A folder with the two files, and a program `xacro` that knows them.
     pub fn hand(name: &str) -> tempfile::TempDir {
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = testkit::temporary::folder();
         let root = folder.path();
         write(root, &format!("{name}/hand.urdf.xacro"), MAIN);
         write(root, &format!("{name}/parts/finger.xacro"), MACRO);

@@ -23,7 +23,7 @@ fn stderr(output: &Output) -> String {
 }
 
 fn toy() -> (tempfile::TempDir, std::path::PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     let mut toy = Fixture::toy();
     toy.canonical = true;
@@ -72,7 +72,7 @@ fn an_extension_that_is_added_passes() {
 
 #[test]
 fn an_extension_in_a_folder_passes_when_it_is_listed() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let output = new_extension("acme_gripper", folder.path());
     assert!(output.status.success(), "{}", stderr(&output));
     let written = files::below(&folder.path().join("x_acme_gripper_module"));
@@ -136,7 +136,7 @@ fn nothing_is_overwritten() {
 
 #[test]
 fn names_that_no_extension_may_have_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for name in [
         "",
         "gripper",

@@ -139,7 +139,7 @@ fn hostile_urdds(folder: &Path) -> usize {
 
 #[test]
 fn nothing_that_a_terminal_would_act_upon() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let urdds = hostile_urdds(root);
     assert!(urdds > 60, "{urdds}");
@@ -176,7 +176,7 @@ fn nothing_that_a_terminal_would_act_upon() {
 
 #[test]
 fn nothing_from_the_command_line_or_the_settings() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let mut toy = Fixture::toy();
     toy.seal();
@@ -218,7 +218,7 @@ fn nothing_from_the_command_line_or_the_settings() {
 
 #[test]
 fn nothing_from_a_urdf() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let name = HOSTILE_IN_XML;
     let link = format!(
@@ -267,7 +267,7 @@ fn nothing_from_a_urdf() {
 
 /// A folder with a valid URDD.
 fn good() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     toy.seal();
     toy.write_to(&folder.path().join("good"));

@@ -36,7 +36,7 @@ fn on_arbitrary_robots() {
 
 fn compare(robot: &Robot) -> Result<(), String> {
     let ours = Fixture::core(robot);
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let (urdf, out) = (folder.path().join(URDF), folder.path().join("out"));
     std::fs::write(&urdf, robot.to_urdf_xml()).expect("the URDF");
     run_python(&urdf, &out)?;
@@ -106,7 +106,7 @@ fn check_hashes(out: &Path, root: &Value) -> Result<(), String> {
 #[ignore = "needs python3; .ci/run runs it"]
 fn our_robots_are_what_their_script_writes() {
     let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/robots");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let output = Command::new("python3")
         .arg(robots.join("make/make_robots.py"))
         .arg(folder.path())

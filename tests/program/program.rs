@@ -9,6 +9,7 @@ pub fn output(arguments: &[&str], folder: &Path) -> Output {
         .args(arguments)
         // No test reads or changes the user's cache.
         .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
+        .env("TMPDIR", testkit::temporary::place())
         .current_dir(folder)
         .output()
         .expect("the program")

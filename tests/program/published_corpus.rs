@@ -61,7 +61,7 @@ fn legacy_robots_move_as_their_urdfs_do() {
     for name in ["ur5", "z1", "robotiq_140"] {
         let folder = corpus().join(name);
         let legacy = Robot::open(&folder).unwrap();
-        let made = tempfile::tempdir().unwrap();
+        let made = testkit::temporary::folder();
         let settings = urdd_generate::Settings {
             selection: urdd_generate::Selection::parse(["core"]).unwrap(),
             ..urdd_generate::Settings::default()

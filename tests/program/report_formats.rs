@@ -35,7 +35,7 @@ fn uri(result: &Value) -> &str {
 /// A repository with robots in it: a valid one; an invalid one, whose name every format must escape; and one with a
 /// warning.
 fn repository() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let write = |path: &str, change: &dyn Fn(&mut Fixture)| {
         let mut toy = Fixture::toy();
         change(&mut toy);
@@ -274,7 +274,7 @@ const TWO_AXES: &str = r#"<robot name="r">
 
 #[test]
 fn a_finding_says_what_to_see_besides_and_what_mends_it() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("r.urdf"), TWO_AXES).expect("written");
     let report = text(folder.path(), "json", &["r.urdf"]);
     let report: Value = serde_json::from_str(&report).expect("JSON");

@@ -37,7 +37,7 @@ fn urdd(folder: &Path, arguments: &[&str]) -> String {
 
 #[test]
 fn faults_that_mean_the_same_are_one_cause() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     for number in 0..4 {
         let mut urdd = Fixture::full(&robot());
         for pointer in [
@@ -71,7 +71,7 @@ fn the_color_of_a_link_is_not_motion() {
 
 #[test]
 fn geometry_that_is_not_verified_is_named_in_every_format() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let mut shared = Fixture::full(&robot());
     let files = shared.get(PLAIN, "/link_meshes/1/files").clone();
@@ -112,7 +112,7 @@ fn geometry_that_is_not_verified_is_named_in_every_format() {
 
 #[test]
 fn a_model_that_is_not_verified_is_named_in_every_format() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path();
     let mut stale = testkit::model::fixture();
     stale.set(testkit::model::MODEL, "/trained_on", json!("0".repeat(64)));

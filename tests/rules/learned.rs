@@ -102,7 +102,7 @@ fn codes(fixture: &Fixture) -> Vec<String> {
 
 /// The codes that the rule on the size of a model finds, without those that evaluate it.
 fn codes_of_size(fixture: &Fixture) -> Vec<String> {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     fixture.write_to(folder.path());
     let size: Vec<&'static Rule> = rules::all()
         .into_iter()
@@ -145,7 +145,7 @@ mod flattering {
         large.set(MODEL, "/evaluation/num_near_contact_missed", json!(0));
         large.seal();
         assert_eq!(codes(&large), ["LRN005"]);
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = testkit::temporary::folder();
         large.write_to(folder.path());
         let run = validate(&[folder.path()], &Settings::default()).expect("a URDD");
         let report = run.report;
@@ -237,7 +237,7 @@ mod flattering {
         padded(1_000_000)(&mut large);
         let model: SelfCollisionModelModule =
             serde_json::from_value(large.get(MODEL, "").clone()).expect("a model");
-        let folder = tempfile::tempdir().expect("a folder");
+        let folder = testkit::temporary::folder();
         fixture().write_to(folder.path());
         let urdd = Urdd::read(folder.path()).expect("a URDD");
         let solids = Solids::read(&urdd);

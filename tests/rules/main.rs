@@ -169,7 +169,7 @@ fn cases() -> Vec<Case> {
 
 /// Codes that were found, except infos, with a message for each.
 fn findings(write: &dyn Fn(&Path)) -> BTreeMap<String, String> {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     std::fs::create_dir(&root).expect("the URDD's folder");
     write(&root);

@@ -99,7 +99,7 @@ fn findings_say_where_and_what_to_do() {
         let mut urdd = Fixture::toy();
         change(&mut urdd);
         urdd.seal();
-        let folder = tempfile::tempdir().expect("a temporary folder");
+        let folder = testkit::temporary::folder();
         let root = folder.path().join("robot");
         urdd.write_to(&root);
         let run = validate(&[&root], &Settings::default()).expect("something to examine");

@@ -57,7 +57,7 @@ fn fault(case: &Case, stand: Stand) -> Option<String> {
             false => rule,
         })
         .collect();
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     std::fs::create_dir(&root).expect("the URDD's folder");
     case.make.write(&root);

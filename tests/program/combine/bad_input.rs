@@ -33,7 +33,7 @@ attach = {{ to = "arm/tool0", xyz = [0, 0, 0.1] }}
 
 /// The fault of a recipe: what, at which line and column, and the message.
 fn fault(changes: &[(&str, &str)]) -> (RecipeFault, Option<(u32, u32)>, String) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let made = put_together(&recipe(changes), folder.path(), &core());
     assert!(!folder.path().join("cell").exists());
     let error = made.expect_err("a recipe that cannot be followed");
@@ -48,7 +48,7 @@ fn fault(changes: &[(&str, &str)]) -> (RecipeFault, Option<(u32, u32)>, String) 
 
 #[test]
 fn the_recipe_that_the_others_are_made_of_is_sound() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (made, _) = put_together(&recipe(&[]), folder.path(), &core()).expect("a robot");
     assert_eq!(made.generated.robot_name, "cell");
 }
@@ -103,7 +103,7 @@ fn keys_that_must_be_there_are_named() {
         fault(&[("to = \"arm/tool0\", ", "")]).0,
         RecipeFault::MissingKey("attach.to")
     );
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let error = put_together("name = \"x\"", folder.path(), &core()).expect_err("no part");
     assert!(matches!(
         error,
@@ -287,7 +287,7 @@ fn names_that_clash_are_told_with_both_parts() {
 
 #[test]
 fn sources_that_are_no_robots_are_told_with_the_part() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     std::fs::create_dir(folder.path().join("empty")).expect("a folder");
     for source in ["nowhere", "empty"] {
         let text = recipe(&[(ours("gripper").to_str().expect("a path"), source)]);
@@ -323,7 +323,7 @@ fn names_are_told_as_elements_or_attributes() {
 
 #[test]
 fn parts_of_unequal_modules_are_said() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     for (name, modules) in [
         ("six_axis_arm", &["core", "original_meshes"][..]),
@@ -361,7 +361,7 @@ fn parts_of_unequal_modules_are_said() {
 
 #[test]
 fn no_path_is_recorded_of_parts_from_elsewhere() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let recipes = folder.path().join("recipes");
     std::fs::create_dir(&recipes).expect("a folder");
     std::fs::copy(ours("gripper"), folder.path().join("gripper.urdf")).expect("a file");

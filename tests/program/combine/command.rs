@@ -7,7 +7,7 @@ const CORE: [&str; 2] = ["--modules", "core"];
 
 #[test]
 fn two_robots_need_no_recipe() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (arm, gripper) = (ours("six_axis_arm"), ours("gripper"));
     let pair = [
         arm.to_str().expect("a path"),
@@ -45,7 +45,7 @@ fn two_robots_need_no_recipe() {
 
 #[test]
 fn a_part_that_does_not_pass_is_refused_unless_asked() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     let (arm, gripper) = (ours("six_axis_arm"), ours("gripper"));
     let (arm, gripper) = (
@@ -85,7 +85,7 @@ fn a_part_that_does_not_pass_is_refused_unless_asked() {
 /// A part that passed is remembered in the user's cache folder, until its content changes; the result is the same.
 #[test]
 fn parts_that_passed_are_remembered_by_content() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     let gripper = ours("gripper");
     let run = |arguments: &[&str]| {
@@ -129,7 +129,7 @@ fn parts_that_passed_are_remembered_by_content() {
 
 #[test]
 fn results_are_told_as_json() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let recipe = format!(
         "[[part]]\nid = \"arm\"\nsource = \"{}\"\nfreeze = {{ joint_1 = 0.1 }}\n",
         ours("six_axis_arm").display()

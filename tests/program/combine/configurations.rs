@@ -50,7 +50,7 @@ fn edits_of(urdd: &Path) -> Vec<ConfigurationEdit> {
 
 #[test]
 fn configurations_of_parts_come_along_by_name_and_a_persons_stay() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     let gripper = folder.join("gripper");
     generate(&ours("gripper"), &gripper, &core(), &()).expect("a URDD");
@@ -81,7 +81,7 @@ fn configurations_of_parts_come_along_by_name_and_a_persons_stay() {
 
 #[test]
 fn of_two_configurations_with_one_name_the_first_is_kept() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     for (name, position) in [("gripper", 0.25), ("hand", 0.125)] {
         let urdd = folder.join(name);

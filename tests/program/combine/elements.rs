@@ -39,7 +39,7 @@ const GRIPPER: &str = r#"<?xml version="1.0"?>
 "#;
 
 fn composed(more: &str) -> (String, Vec<Note>) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     std::fs::write(folder.path().join("g.urdf"), GRIPPER).expect("a file");
     let recipe = format!(
         "[base]\nlink = \"world\"\n[[part]]\nid = \"g\"\nsource = \"g.urdf\"\nprefix = \"l/\"\n{more}\n"
@@ -152,7 +152,7 @@ fn a_follower_of_a_frozen_joint_is_frozen_too() {
 
 #[test]
 fn prefixes_of_xml_that_stand_for_two_things_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     std::fs::write(folder.path().join("g.urdf"), GRIPPER).expect("a file");
     let other = GRIPPER.replace("http://drake.mit.edu", "http://else.where");
     std::fs::write(folder.path().join("h.urdf"), other).expect("a file");
@@ -167,7 +167,7 @@ fn prefixes_of_xml_that_stand_for_two_things_are_refused() {
 
 #[test]
 fn materials_of_one_name_look_alike() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     std::fs::write(folder.path().join("g.urdf"), GRIPPER).expect("a file");
     let other = GRIPPER
         .replace("0.5 0.5 0.5 1", "0 0 0 1")
@@ -205,7 +205,7 @@ fn materials_of_one_name_look_alike() {
 
 #[test]
 fn textures_of_materials_are_not_carried_and_that_is_said() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let urdf = r#"<robot name="t">
   <material name="wood"><texture filename="textures/wood.png"/></material>
   <link name="a"><visual><geometry><box size="1 1 1"/></geometry>

@@ -30,7 +30,7 @@ fn attached(robot: &str, point: Value, kind: &str) -> Value {
 
 #[test]
 fn combined_robots_hang_on_the_world_and_on_each_other() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let link = json!({ "Link": { "robot_idx": 0, "link_name": "a/b" } });
     let (text, notes) = of(
         folder.path(),
@@ -78,7 +78,7 @@ attach = { to = "base/combined_robot_world", name = "connection_joint_robot_2", 
 
 #[test]
 fn adjusted_robots_lose_branches_and_joints() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (text, notes) = of(
         folder.path(),
         "adjusted_robot_module",
@@ -102,7 +102,7 @@ fn adjusted_robots_lose_branches_and_joints() {
 
 #[test]
 fn created_chains_say_what_a_recipe_cannot() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let pose = json!({ "rotation": [0.0, 0.0, 1.0, 0.0], "translation": [1.0, 2.0, 3.0] });
     let chain = json!({ "AddAlreadyExistingChain": { "name": "arm", "base_offset": pose, "scale": [1.0, 1.0, 2.0] } });
     let mass = json!({ "SetObjectMass": { "object_name": "x", "mass": 1.0 } });

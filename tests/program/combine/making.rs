@@ -84,7 +84,7 @@ fn are_near(a: &Value, b: &Value) -> bool {
 
 #[test]
 fn the_urdd_of_a_composed_robot_is_the_one_that_is_made_of_its_urdf() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     parts(folder);
     let (made, target) = put_together(DOG, folder, &quick()).expect("a robot");
@@ -122,7 +122,7 @@ fn the_urdd_of_a_composed_robot_is_the_one_that_is_made_of_its_urdf() {
 
 #[test]
 fn meshes_are_carried_once() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     generate(&ours("hand"), &folder.join("hand"), &quick(), &()).expect("a URDD");
     let recipe = "[base]\n[[part]]\nid = \"left\"\nsource = \"hand\"\n[[part]]\nid = \"right\"\nsource = \"hand\"\nattach = { to = \"left/palm\", xyz = [0, 1, 0] }";
@@ -138,7 +138,7 @@ fn meshes_are_carried_once() {
 
 #[test]
 fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     parts(folder);
     let edit = |link_a: &str, link_b: &str, skip: bool, reason: &str| SkipEdit {
@@ -181,7 +181,7 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
 
 #[test]
 fn a_composed_robot_is_a_part_again() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     let of_two = |recipe: &str, name: &str| {
         put_together(recipe, folder, &core()).expect("a robot");
@@ -206,7 +206,7 @@ fn a_composed_robot_is_a_part_again() {
 
 #[test]
 fn each_part_moves_as_by_itself() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     generate(&ours("six_axis_arm"), &folder.join("arm"), &core(), &()).expect("a URDD");
     generate(&ours("gripper"), &folder.join("gripper"), &core(), &()).expect("a URDD");

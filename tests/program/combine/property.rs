@@ -256,7 +256,7 @@ fn compare(whole: &Robot, members: &[Member], k: u64) {
 
 #[test]
 fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let folder = folder.path();
     let mut known: Vec<Known> = our_robots()
         .into_iter()

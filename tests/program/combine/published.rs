@@ -14,7 +14,7 @@ use crate::combine::support::findings;
 fn a_published_composition_becomes_a_urdd_that_passes() {
     let corpus = std::env::var_os("URDD_CORPUS").map(PathBuf::from);
     let corpus = corpus.unwrap_or_else(|| PathBuf::from("../shared/corpus"));
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let target = folder.path().join("robot");
     let legacy = corpus.join("z1_robotiq_140");
     let (recipe, notes) = Recipe::of_legacy(&legacy).expect("a recipe");

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use testkit::trials::sample;
 use urdd_conformance::case::{Case, Kind, Verdict};
 use urdd_conformance::judge;
 use urdd_conformance::suite::Suite;
@@ -38,7 +39,7 @@ fn report(case: &Case, suite: &Suite) -> Option<Report> {
         let run = validate_source(source, "robot", &Settings::default()).expect("not cancelled");
         return Some(run.report);
     }
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let root = folder.path().join("robot");
     match tree.write(&root) {
         Ok(()) => {}
@@ -49,11 +50,13 @@ fn report(case: &Case, suite: &Suite) -> Option<Report> {
     Some(run.report)
 }
 
+/// Every fourth case; every case where `URDD_TRIALS` is at least 4.
 #[test]
-fn every_case_is_judged_as_it_says() {
+fn cases_are_judged_as_they_say() {
     let suite = suite();
     assert!(suite.cases.len() > 500, "{} cases", suite.cases.len());
-    let differences = suite.cases.par_iter().filter_map(|case| {
+    let cases: Vec<&Case> = sample(&suite.cases, 4).collect();
+    let differences = cases.par_iter().filter_map(|case| {
         let report = report(case, &suite)?;
         judge::difference(case, &report)
     });

@@ -11,7 +11,7 @@ use crate::conformance::{conformance, stderr};
 
 #[test]
 fn everything_that_is_listed_is_there() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let out = folder.path().join("suite");
     let shown = out.to_str().expect("UTF-8");
     let mut suite = urdd::suite::carried().expect("the suite reads");

@@ -39,7 +39,7 @@ fn the_reference_generator_passes() {
 /// Core modules only, although more are requested.
 #[test]
 fn what_is_missing_is_told_by_class_and_module() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let skips = folder.path().join("skips");
     let command = [
         "--",
@@ -244,7 +244,7 @@ fn a_disorderly_refusal_fails() {
     };
     // `sound` is a URDF that has a URDD: in place of the other it stands for a repaired one.
     let sound = "conformance/robots/single_link.urdf";
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let made = folder.path().join("made");
     let shown = made.to_str().expect("UTF-8");
     let arguments = ["generate", "--modules", "core", sound, "-o", shown];
@@ -313,7 +313,7 @@ fn a_disorderly_refusal_fails() {
 
 #[test]
 fn robots_are_run_at_a_time_and_can_be_kept() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
     let more = [
         "--jobs",

@@ -17,7 +17,7 @@ use crate::conformance::in_repository;
 #[test]
 fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     let suite = urdd::suite::carried().expect("the suite reads");
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let robots = folder.path().join("robots");
     valid::write_robots(&suite.data, &robots).expect("the robots");
     let urdds = folder.path().join("valid");

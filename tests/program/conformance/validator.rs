@@ -135,7 +135,7 @@ fn some_paths_are_relative() {
         "{found:#}"
     );
     // Also for a folder that is kept, from the repository's folder.
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let kept = folder.path().join("kept");
     let keep = ["--keep", kept.to_str().expect("UTF-8")];
     assert_eq!(run(&["relative"], &keep, &[URDD, "validate", "{dir}"]).0, 0);
@@ -170,7 +170,7 @@ fn the_time_limit_is_no_verdict() {
 
 #[test]
 fn skips_excuse_and_go_stale() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("skips");
     let skip = ["--skip", file.to_str().expect("UTF-8")];
     let accept = ["sh", "-c", "exit 0", "sh", "{dir}"];
@@ -268,7 +268,7 @@ fn legacy_is_counted_apart() {
 
 #[test]
 fn results_are_logged_as_they_come_and_folders_can_stay() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let (log, kept) = (folder.path().join("log"), folder.path().join("kept"));
     let more = ["--log", log.to_str().expect("UTF-8"), "--jobs", "1"];
     let keep = ["--keep", kept.to_str().expect("UTF-8")];
@@ -370,7 +370,7 @@ fn family(folder: &std::path::Path, last: &str) -> String {
 fn a_signal_ends_all_that_was_started() {
     use std::time::{Duration, Instant};
     for (signal, status) in [("TERM", 143), ("INT", 130), ("HUP", 129)] {
-        let folder = tempfile::tempdir().expect("a temporary folder");
+        let folder = testkit::temporary::folder();
         let script = family(folder.path(), "sleep 600");
         let mut run = std::process::Command::new(URDD)
             .args([
@@ -407,7 +407,7 @@ fn whatever_a_command_started_ends_with_it() {
         ("sleep 600", "stopped at the time limit"),
         ("sleep 1; exit 7", "exit status 7"),
     ] {
-        let folder = tempfile::tempdir().expect("a temporary folder");
+        let folder = testkit::temporary::folder();
         let script = family(folder.path(), last);
         let command = ["sh", "-c", &script, "sh", "{dir}"];
         let start = [
@@ -428,7 +428,7 @@ fn whatever_a_command_started_ends_with_it() {
 
 #[test]
 fn a_log_replaces_no_other_file() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("thesis.tex");
     let log = ["--log", file.to_str().expect("UTF-8")];
     let start = ["validator", "--case", "DOF001"];

@@ -43,7 +43,7 @@ fn a_mass_that_is_removed_is_a_new_finding() {
 
 #[test]
 fn a_broken_module_is_a_new_finding_with_both_verdicts() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let (a, b) = (folder.path().join("a/toy"), folder.path().join("b/toy"));
     let mut fixture = Fixture::toy();
     fixture.write_to(&a);

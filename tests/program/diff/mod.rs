@@ -24,7 +24,7 @@ struct Workshop {
 
 impl Workshop {
     fn new() -> Workshop {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let robots = repository().join("conformance/robots");
         for (path, bytes) in testkit::files::below(&robots) {
             let is_needed = path.starts_with("meshes/") || path == "package.xml";

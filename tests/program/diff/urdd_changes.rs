@@ -23,7 +23,7 @@ impl Bench {
         fixture
             .files
             .retain(|path, _| !path.ends_with("/module.yaml"));
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let before = folder.path().join("before");
         fixture.write_to(&before);
         fixture.write_to(&folder.path().join("after"));

@@ -483,7 +483,7 @@ fn unknown_elements_add_nothing_that_urdf_defines() {
 /// The command line knows the same formats.
 #[test]
 fn every_format_of_the_command_line_is_tried() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (_, help, _) = crate::program::urdd(&["export", "--help"], folder.path());
     let listed = help.split("Possible values:").nth(1).expect("formats");
     let listed = listed

@@ -32,7 +32,7 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
                 ..Options::default()
             };
             let exported = export(&robot, Format::Urdf, &options).expect("an export");
-            let folder = tempfile::tempdir().expect("a folder");
+            let folder = testkit::temporary::folder();
             let file = write(folder.path(), &exported);
             let target = folder.path().join("again");
             let core = Settings {
@@ -123,7 +123,7 @@ fn an_awkward_robot_moves_as_before() {
         .find(|n| n.attribute("name") == Some("stand"))
         .expect("a joint");
     assert_eq!(stand.attribute("type"), Some("fixed"));
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let target = folder.path().join("again");
     generate(
         &write(folder.path(), &exported),

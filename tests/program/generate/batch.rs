@@ -15,7 +15,7 @@ const GOOD: &str = "<robot name=\"r\"><link name=\"a\"/></robot>\n";
 
 /// Folders with good robots, bad ones, and files with equal names.
 fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for (path, text) in [
         ("arm/arm.urdf", GOOD),
         ("leg/robot.urdf", GOOD),
@@ -257,7 +257,7 @@ fn exit_status_tells_usage_from_failure() {
 
 #[test]
 fn folders_too_deep_to_search_are_named() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let deep = folder.path().join("d/".repeat(33));
     fs::create_dir_all(&deep).unwrap();
     fs::write(folder.path().join("a.urdf"), "<robot name=\"a\"/>").unwrap();

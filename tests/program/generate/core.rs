@@ -53,7 +53,7 @@ fn on_arbitrary_robots(cases: u32, selection: &Selection) {
 }
 
 fn compare(robot: &Robot, settings: &Settings) -> Result<(), String> {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let (source, target) = (folder.path().join("robot.urdf"), folder.path().join("out"));
     let xml = robot.to_urdf_xml();
     fs::write(&source, &xml).unwrap();
@@ -88,7 +88,7 @@ fn compare(robot: &Robot, settings: &Settings) -> Result<(), String> {
 
 #[test]
 fn what_is_asked_for_is_made_and_the_core_class_with_it() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let selection = Selection::parse(["dof"]).unwrap();
     let settings = Settings {
         selection,

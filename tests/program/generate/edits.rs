@@ -29,7 +29,7 @@ fn edit() -> Value {
 
 /// A URDD with an edit in its JSON and YAML, as a user would write it: not canonical.
 fn edited() -> (tempfile::TempDir, PathBuf, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let source = folder.path().join("r.urdf");
     fs::write(&source, ROBOT).unwrap();
     let target = folder.path().join("out");

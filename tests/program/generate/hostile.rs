@@ -131,7 +131,7 @@ fn cases() -> Vec<(&'static str, Vec<u8>)> {
 fn each_has_its_message() {
     let mut told = String::new();
     for (name, bytes) in cases() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let source = folder.path().join("robot.urdf");
         fs::write(&source, bytes).unwrap();
         let target = folder.path().join("out");

@@ -27,7 +27,7 @@ fn robot(name: &str, links: usize) -> String {
 }
 
 fn workshop(links: usize) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let source = folder.path().join("robot.urdf");
     fs::write(&source, robot("r", links)).unwrap();
     (folder, source)
@@ -127,7 +127,7 @@ fn what_is_read_only_in_a_left_over_goes_too() {
 #[test]
 fn a_batch_that_is_asked_to_stop_leaves_whole_urdds_and_nothing_else() {
     for (signal, status) in [("-INT", 130), ("-TERM", 143)] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let robots = folder.path().join("robots");
         let out = folder.path().join("out");
         fs::create_dir_all(&robots).unwrap();

@@ -83,7 +83,7 @@ fn count(model: &Value, key: &str) -> u64 {
 
 #[test]
 fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
     trained(&urdf, &made);
     assert_eq!(findings_of(&made), []);
@@ -119,7 +119,7 @@ fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
 
 #[test]
 fn the_same_bytes_by_one_thread_and_by_three() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let urdf = pair(folder.path(), "revolute");
     let [one, three] = ["one", "three"].map(|name| folder.path().join(name));
     trained(&urdf, &one);
@@ -131,7 +131,7 @@ fn the_same_bytes_by_one_thread_and_by_three() {
 
 #[test]
 fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let (urdf, made) = (pair(folder.path(), "revolute"), folder.path().join("made"));
     trained(&urdf, &made);
     let again = make(&urdf, &made, &settings());
@@ -150,7 +150,7 @@ fn it_is_kept_while_nothing_changes_and_not_made_unless_asked_for() {
 /// A kept module is read back from its files.
 #[test]
 fn the_same_bytes_whether_the_rest_is_made_or_kept() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let urdf = robot("six_axis_arm.urdf");
     let [at_once, later] = ["at_once", "later"].map(|name| folder.path().join(name));
     make(&urdf, &at_once, &settings());
@@ -162,7 +162,7 @@ fn the_same_bytes_whether_the_rest_is_made_or_kept() {
 
 #[test]
 fn robots_for_which_it_is_of_no_use_go_without() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let apart = folder.path().join("apart.urdf");
     let text = std::fs::read_to_string(pair(folder.path(), "revolute")).unwrap();
     std::fs::write(&apart, text.replace("0.3 0", "3 0")).unwrap();
@@ -209,7 +209,7 @@ fn boxes(count: usize, parent: impl Fn(usize) -> String, at: impl Fn(usize) -> S
 
 #[test]
 fn robots_that_are_too_large_go_without() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let round = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / 40.0;
         format!("{} {} 0", angle.cos(), angle.sin())
@@ -248,7 +248,7 @@ fn robots_that_are_too_large_go_without() {
 
 #[test]
 fn a_robot_of_ours_with_lengths_turns_and_mimics() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let made = folder.path().join("made");
     let outcome = make(&robot("hand.urdf"), &made, &settings());
     assert_eq!(findings_of(&made), []);

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use tempfile::tempdir;
-
 use crate::generate::{bytes_below, findings_of, read_json, urdd};
 
 /// The extensions of the files of derived meshes, with the number of each.
@@ -32,7 +30,7 @@ fn generate(target: &Path, more: &[&str]) {
 
 #[test]
 fn those_asked_for_are_made_and_a_glb_always() {
-    let folder = tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let target = folder.path().join("gripper");
     generate(&target, &[]);
     let [glb, stl, obj] = extensions(&target);

@@ -29,7 +29,7 @@ fn settings() -> Settings {
 
 /// A URDD of the robot in the folder `out`.
 fn made() -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let target = folder.path().join("out");
     again(folder.path(), ROBOT).expect("a robot");
     (folder, target)

@@ -16,7 +16,7 @@ const SECRET: &str = "sesame-7431";
 
 /// A folder of the machine: a robot in a package, other packages beside it, a user's secrets, and private meshes.
 fn machine() -> tempfile::TempDir {
-    let machine = tempfile::tempdir().unwrap();
+    let machine = testkit::temporary::folder();
     let png = png();
     let mesh = ascii_stl("mesh", "0 1 0").into_bytes();
     let secret = format!("-----BEGIN KEY-----\n{SECRET}\n").into_bytes();

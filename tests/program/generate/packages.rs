@@ -7,7 +7,7 @@ use crate::generate::{ascii_stl, read_json, urdd};
 
 /// Lays out a workspace: the URDF's own package, others, and a mesh in each, which says where it is.
 fn workspace() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for path in [
         "ws/own_description/urdf/meshes/near.stl",
         "ws/own_description/meshes/own.stl",

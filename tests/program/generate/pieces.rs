@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use tempfile::tempdir;
-
 use crate::generate::{findings_of, read_json, urdd};
 
 fn run(target: &Path, more: &[&str]) -> std::process::Output {
@@ -29,7 +27,7 @@ fn counts(target: &Path, more: &[&str]) -> Vec<usize> {
 
 #[test]
 fn a_urdd_is_made_again_with_as_many_pieces_as_asked_for() {
-    let folder = tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let target = folder.path().join("hand");
     let usual = counts(&target, &[]);
     let most = *usual.iter().max().unwrap();
@@ -51,7 +49,7 @@ fn a_urdd_is_made_again_with_as_many_pieces_as_asked_for() {
 
 #[test]
 fn numbers_that_make_no_sense_are_wrong_usage() {
-    let folder = tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for (option, word) in [
         ("--pieces", "0"),
         ("--pieces", "65"),

@@ -22,7 +22,7 @@ fn settings(num_samples: u32) -> Settings {
 
 /// A URDD of a robot in `conformance/robots`.
 fn made(robot: &str, num_samples: u32) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let target = folder.path().join(robot);
     let robots = our_robots();
     let (_, source) = robots.iter().find(|(name, _)| name == robot).expect("ours");
@@ -33,7 +33,7 @@ fn made(robot: &str, num_samples: u32) -> (tempfile::TempDir, PathBuf) {
 
 /// A URDD of a text.
 fn made_of(text: &str, num_samples: u32) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let source = folder.path().join("robot.urdf");
     fs::write(&source, text).expect("written");
     let target = folder.path().join("made");
@@ -315,7 +315,7 @@ fn statistics_of_two_cubes_on_a_rail() {
 /// A user's edits of the skips are kept when the URDD is generated again; those of lost links are dropped, with a note.
 #[test]
 fn edits_of_skips_outlive_a_new_run() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let (source, target) = (folder.path().join("robot.urdf"), folder.path().join("made"));
     let link = |name: &str| {
         format!(
@@ -365,7 +365,7 @@ fn edits_of_skips_outlive_a_new_run() {
 /// A mesh with implausible coordinates is reported with its link, and nothing is written.
 #[test]
 fn a_mesh_beyond_all_measure_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let source = folder.path().join("robot.urdf");
     let text = "v 0 0 0\nv 1e12 0 0\nv 0 1e12 0\nf 1 2 3\n";
     fs::write(folder.path().join("far.obj"), text).expect("written");

@@ -20,7 +20,7 @@ fn made() -> BTreeMap<String, Value> {
         if !ROBOTS.contains(&name.as_str()) {
             continue;
         }
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let target = folder.path().join("out");
         let settings = Settings {
             num_samples: 10,

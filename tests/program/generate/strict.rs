@@ -19,7 +19,7 @@ const ROBOT: &str = r#"<robot name="r"><link name="a">
 "#;
 
 fn workshop(robot: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("r.urdf"), robot).unwrap();
     fs::write(folder.path().join("here.stl"), ascii_stl("here", "0 1 0")).unwrap();
     fs::write(folder.path().join("flat.stl"), ascii_stl("flat", "0 0 0")).unwrap();

@@ -14,7 +14,7 @@ use crate::generate::{ascii_stl, bytes_below, findings_of, our_robots, read_json
 
 /// A folder with a robot in it: links, a joint and two meshes with the same name.
 fn workshop() -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     for (path, text) in [
         ("robot.urdf", ROBOT),
         ("left/part.stl", "left"),
@@ -55,7 +55,7 @@ fn make(source: &Path, target: &Path) -> Generated {
 #[test]
 fn bytes_are_the_same_for_any_threads_and_folder() {
     for (name, source) in sample(our_robots(), 4) {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let mut seen: Option<BTreeMap<String, Vec<u8>>> = None;
         for (place, threads) in [("one", "1"), ("two/deeper", "2"), ("eight", "8")] {
             // The source gets another folder too: our robots' meshes are beside them.

@@ -43,7 +43,7 @@ fn run_with(
 
 #[test]
 fn is_expanded_by_the_program() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let source = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:arm/></robot>";
     fs::write(folder.path().join("arm.urdf.xacro"), source).unwrap();
     fs::write(folder.path().join("expanded"), EXPANDED).unwrap();
@@ -63,7 +63,7 @@ fn is_expanded_by_the_program() {
 
 #[test]
 fn without_the_program_the_message_says_what_to_do() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let (status, said) = run(folder.path(), "arm.xacro", None);
     assert_eq!(status, Some(1));
@@ -73,7 +73,7 @@ fn without_the_program_the_message_says_what_to_do() {
 
 #[test]
 fn what_the_program_says_is_passed_on() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let (status, said) = run(
         folder.path(),
@@ -87,7 +87,7 @@ fn what_the_program_says_is_passed_on() {
 /// A URDF that contains the word runs nothing, unless the user asks for it.
 #[test]
 fn a_urdf_is_expanded_only_where_the_user_asks_for_it() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let text = "<robot name=\"r\"><!-- <xacro:arm/> --><link name=\"a\"/></robot>\n";
     fs::write(folder.path().join("arm.urdf"), text).unwrap();
     fs::write(folder.path().join("expanded"), EXPANDED).unwrap();
@@ -110,7 +110,7 @@ fn a_urdf_is_expanded_only_where_the_user_asks_for_it() {
 
 #[test]
 fn it_gets_arguments_and_packages() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let package = folder.path().join("my_arm");
     fs::create_dir(&package).unwrap();
@@ -132,7 +132,7 @@ echo \"<robot name='$*'><link name='a'/></robot>\"";
 
 #[test]
 fn it_may_not_take_for_ever_nor_write_without_end() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let late = folder.path().join("late");
     let script = format!("(/bin/sleep 4; echo > {}) & /bin/sleep 60", late.display());
@@ -154,7 +154,7 @@ fn it_may_not_take_for_ever_nor_write_without_end() {
 
 #[test]
 fn arguments_that_no_file_takes_are_wrong_usage() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("r.urdf"), EXPANDED).unwrap();
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_"]);
     assert_eq!(status, Some(2), "{said}");
@@ -173,7 +173,7 @@ fn arguments_that_no_file_takes_are_wrong_usage() {
 #[cfg(target_os = "linux")]
 fn what_left_its_session_ends_too() {
     use std::time::{Duration, Instant};
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let number = folder.path().join("number");
     let script = format!(

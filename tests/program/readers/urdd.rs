@@ -69,7 +69,7 @@ impl Small {
 }
 
 static SMALL: LazyLock<Small> = LazyLock::new(|| {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let source = folder.path().join("robot.urdf");
     fs::write(&source, ROBOT).expect("the robot");
     generate(

@@ -32,7 +32,7 @@ fn generate_leaves_what_was_there() {
     let (_, urdf) = our_robots().swap_remove(8);
     let modules = 15;
     for stop in [0, 1, 7, 8, 9, 10, 12, modules - 1] {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let target = folder.path().join("robot");
         let cancellation = Cancellation::default();
         let settings = Settings {

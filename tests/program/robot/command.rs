@@ -159,7 +159,7 @@ fn a_robot_without_dofs_collides_in_each_configuration_or_in_none() {
         <link name='c'><visual><geometry><box size='1 1 1'/></geometry></visual></link>\
         <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\
         <joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint></robot>";
-    let folder = tempfile::tempdir().unwrap();
+    let folder = testkit::temporary::folder();
     let urdf = folder.path().join("still.urdf");
     std::fs::write(&urdf, boxes).unwrap();
     let settings = urdd_generate::Settings {

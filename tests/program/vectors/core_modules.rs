@@ -76,7 +76,7 @@ fn mimics() {
     assert!(robots.robots.len() > 5);
     for robot in robots.robots {
         let urdf = urdf(&robot);
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let target = generated(&urdf, folder.path());
         let text = fs::read_to_string(target.join("dof_module/module.json")).unwrap();
         let module: DofModule = serde_json::from_str(&text).unwrap();
@@ -181,7 +181,7 @@ fn inertia() {
         let urdf = format!(
             r#"<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="{ixx}" ixy="{ixy}" ixz="{ixz}" iyy="{iyy}" iyz="{iyz}" izz="{izz}"/></inertial></link></robot>"#
         );
-        let folder = tempfile::tempdir().unwrap();
+        let folder = testkit::temporary::folder();
         let target = generated(&urdf, folder.path());
         let run = validate(&[target], &Settings::default()).unwrap();
         let urdd = &run.report.urdds[0];

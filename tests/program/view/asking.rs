@@ -12,7 +12,7 @@ use urdd_view::{Collection, Server};
 
 /// A URDD of one of our robots, in a folder of its own.
 pub fn made(robot: &str) -> (tempfile::TempDir, PathBuf) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let target = folder.path().join(robot);
     let urdf =
         Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("conformance/robots/{robot}.urdf"));

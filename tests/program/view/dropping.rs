@@ -49,7 +49,7 @@ fn files(folder: &Path) -> Vec<String> {
 
 #[test]
 fn meshes_are_found_in_what_was_dropped() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let collection = Collection::default().with_drops(folder.path().join("in"), false);
     living(collection, |server| {
         let whole = [
@@ -77,7 +77,7 @@ fn meshes_are_found_in_what_was_dropped() {
 
 #[test]
 fn no_path_leaves_the_folder_and_nothing_is_replaced() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let within = folder.path().join("in");
     let collection = Collection::default().with_drops(within.clone(), false);
     let server = Running::with(collection);
@@ -171,7 +171,7 @@ fn vast() -> Vec<u8> {
 
 #[test]
 fn packages_that_are_not_there_take_seconds_and_not_minutes() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let collection = Collection::default().with_drops(folder.path().join("in"), false);
     let server = Running::with(collection);
     let begun = Instant::now();
@@ -183,7 +183,7 @@ fn packages_that_are_not_there_take_seconds_and_not_minutes() {
 
 #[test]
 fn a_drop_that_the_page_takes_back_leaves_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let within = folder.path().join("in");
     let collection = Collection::default().with_drops(within.clone(), false);
     let server = Running::with(collection);

@@ -233,7 +233,7 @@ fn one_file_carries_broken_meshes_as_they_are() {
 fn a_page_takes_the_place_of_an_unchanged_page_alone() {
     let (_folder, path) = made("gripper");
     let page = page_of(&path);
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("robot.html");
     assert!(may_hold_page(&file), "nothing is there");
     let mut cut = page.clone();
@@ -262,7 +262,7 @@ fn a_page_takes_the_place_of_an_unchanged_page_alone() {
 #[test]
 fn a_page_that_a_person_edited_stays() {
     let (_folder, path) = made("gripper");
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let file = folder.path().join("robot.html");
     let export = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));

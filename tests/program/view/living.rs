@@ -41,7 +41,7 @@ impl Drop for Ends {
 
 /// Acts on a server while its robots are generated and followed.
 pub fn living(collection: Collection, act: impl FnOnce(&Running)) {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let settings = Settings::default();
     let collection = Arc::new(collection);
     let live = Live {
@@ -118,7 +118,7 @@ fn has(server: &Running, module: &str) -> bool {
 
 #[test]
 fn the_picture_comes_first_and_a_change_is_shown() {
-    let around = tempfile::tempdir().expect("a folder");
+    let around = testkit::temporary::folder();
     let folder = around.path().join("a robot");
     fs::create_dir(&folder).expect("a folder");
     let urdf = folder.join("arm.urdf");
@@ -171,7 +171,7 @@ fn the_picture_comes_first_and_a_change_is_shown() {
 
 #[test]
 fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let urdf = folder.path().join("arm.urdf");
     let text = robot(1.0, r#"<sphere radius="0.3"/>"#);
     let text = text.replace(" velocity=\"1\"", "");
@@ -218,7 +218,7 @@ fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
 
 #[test]
 fn meshes_are_followed_and_those_that_are_missing_too() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let urdf = folder.path().join("arm.urdf");
     let mesh = folder.path().join("b.obj");
     fs::write(&urdf, robot(1.0, r#"<mesh filename="b.obj"/>"#)).expect("written");
@@ -248,7 +248,7 @@ fn meshes_are_followed_and_those_that_are_missing_too() {
 
 #[test]
 fn robots_of_a_gallery_are_generated_when_they_are_opened() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let urdfs = ["one", "two"].map(|name| folder.path().join(format!("{name}.urdf")));
     for urdf in &urdfs {
         fs::write(urdf, robot(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
@@ -286,7 +286,7 @@ fn view(words: &[&Path]) -> Command {
 
 #[test]
 fn a_package_shows_its_urdfs_and_runs_xacro_only_if_it_may() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let package = folder.path().join("arms");
     fs::create_dir_all(package.join("urdf")).expect("a folder");
     fs::write(
@@ -327,7 +327,7 @@ fn a_package_shows_its_urdfs_and_runs_xacro_only_if_it_may() {
 #[test]
 fn what_xacro_includes_is_followed() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = testkit::temporary::folder();
     let at = |name: &str| folder.path().join(name);
     fs::create_dir(at("bin")).expect("a folder");
     // As the program of that name does: the expanded file, or the list of what it includes.

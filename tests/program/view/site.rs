@@ -284,10 +284,7 @@ fn a_second_export_replaces_its_own_files_alone() {
     let (_other, other) = made("welding_arm");
     exported(&other, &site).expect("written");
     assert_eq!(robot_files(&site), listed(&other));
-    let (_fresh, fresh) = (
-        tempfile::tempdir().expect("a folder"),
-        folder.path().join("fresh"),
-    );
+    let (_fresh, fresh) = (testkit::temporary::folder(), folder.path().join("fresh"));
     exported(&other, &fresh).expect("written");
     let mut expected = all(&fresh);
     expected.extend(

@@ -1,6 +1,5 @@
 //! A rule that uses data without declaring the need is detected, and never counts as passed.
 
-use tempfile::tempdir;
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::folder::Folder;
 use urdd_document::urdd::Urdd;
@@ -53,7 +52,7 @@ fn a_forgotten_need_is_caught() {
 /// Without its needs, no rule passes on an empty URDD: a forgotten need is always detected.
 #[test]
 fn every_rule_takes_what_it_needs() {
-    let empty = tempdir().unwrap();
+    let empty = testkit::temporary::folder();
     let context = Context::new(Urdd::read(empty.path()).unwrap(), None);
     let mut passed = Vec::new();
     for rule in rules::all() {
