@@ -1,4 +1,4 @@
-"""Writes the typed modules: `lib/urdd/modules.py` and `lib/urdd/report.py`, from the schemas in `schema/`.
+"""Writes the typed modules: `modules.py`, `report.py` and `diff_report.py` in `lib/urdd`, from the schemas in `schema/`.
 
 python python/scripts/make_types.py            writes them
 python python/scripts/make_types.py --check    exits with 1 where they are not what it would write
@@ -72,8 +72,8 @@ def read_root_metadata(text: str) -> RootMetadata:
 
 REPORT_READER = '''
 
-def read_report(text: str) -> Report:
-    """A report as `urdd validate --format json` writes it."""
+def read_{schema}(text: str) -> {type}:
+    """A report as `urdd {command} --format json` writes it."""
     return {root}(json.loads(text))
 '''
 
@@ -317,22 +317,28 @@ def modules_file() -> str:
     return head + body(types) + "\n" + end
 
 
-def report_file() -> str:
+def report_file(schema: str, title: str, command: str) -> str:
     types = Types()
-    root = types.add(read_schema("report"))
+    root = types.add(read_schema(schema))
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(
-        title="The report of a validation, as dataclasses.",
+        title=title,
         imports=imports,
-        names=names_of(types, ["read_report"]),
+        names=names_of(types, [f"read_{schema}"]),
     )
-    return head + body(types) + REPORT_READER.format(root=f"_{snake(root)}")
+    end = REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
+    return head + body(types) + end
 
 
 def main() -> int:
     is_check = "--check" in sys.argv[1:]
     stale = 0
-    for name, text in {"modules.py": modules_file(), "report.py": report_file()}.items():
+    files = {
+        "modules.py": modules_file(),
+        "report.py": report_file("report", "The report of a validation, as dataclasses.", "validate"),
+        "diff_report.py": report_file("diff_report", "How two robots differ, as dataclasses.", "diff"),
+    }
+    for name, text in files.items():
         path = PACKAGE / name
         if path.exists() and path.read_text(encoding="utf-8") == text:
             continue

@@ -46,17 +46,7 @@ impl Options {
             Some(words) => Selection::parse(words.iter().map(String::as_str))
                 .map_err(|error| format!("modules: {error}"))?,
         };
-        let mut packages = Packages::from_environment(|name| std::env::var_os(name));
-        for (name, path) in &self.packages {
-            let added = packages.add(&format!("{name}={}", path.display()));
-            added.map_err(|error| format!("packages: {error}"))?;
-        }
-        for folder in &self.allowed_folders {
-            if !folder.is_dir() {
-                let folder = folder.display();
-                return Err(format!("allow_folders: {folder} is not a folder"));
-            }
-        }
+        let (packages, allowed_folders) = places(&self.packages, self.allowed_folders)?;
         let length = |metres: f64| metres > 0.0 && metres.is_finite();
         if !self.piece_tolerance.is_none_or(length) {
             return Err("piece_tolerance must be a number of metres above 0".to_owned());
@@ -94,7 +84,7 @@ impl Options {
                 stl: has("stl"),
                 obj: has("obj"),
             },
-            allowed_folders: self.allowed_folders,
+            allowed_folders,
             pieces: Pieces {
                 most: self.pieces,
                 tolerance: self.piece_tolerance,
@@ -113,6 +103,25 @@ impl Options {
             donors: Vec::new(),
             cancellation: Cancellation::default(),
         })
+    }
+}
+
+/// Where meshes are: packages, those of the environment too, and folders, which exist.
+pub fn places(
+    named: &[(String, PathBuf)],
+    allowed_folders: Vec<PathBuf>,
+) -> Result<(Packages, Vec<PathBuf>), String> {
+    let mut packages = Packages::from_environment(|name| std::env::var_os(name));
+    for (name, path) in named {
+        let added = packages.add(&format!("{name}={}", path.display()));
+        added.map_err(|error| format!("packages: {error}"))?;
+    }
+    match allowed_folders.iter().find(|folder| !folder.is_dir()) {
+        Some(folder) => {
+            let folder = folder.display();
+            Err(format!("allowed_folders: {folder} is not a folder"))
+        }
+        None => Ok((packages, allowed_folders)),
     }
 }
 

@@ -8,6 +8,7 @@ mod arrays;
 mod collision_model;
 mod combine;
 mod command;
+mod diff;
 mod errors;
 mod export;
 mod generate;
@@ -32,6 +33,8 @@ mod _urdd {
     use crate::combine::combine;
     #[pymodule_export]
     use crate::command::main;
+    #[pymodule_export]
+    use crate::diff::diff;
     #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]

@@ -39,6 +39,10 @@ pub struct DiffArguments {
     #[arg(long)]
     no_findings: bool,
 
+    /// Takes numbers that differ by at most this, in the unit of each value, as equal. Meshes are compared exactly.
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
+    tolerance: f64,
+
     #[command(flatten)]
     packages: PackageArguments,
 }
@@ -51,6 +55,13 @@ enum Format {
     Json,
     /// Markdown, for a comment on a pull request.
     Markdown,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(number @ 0.0..=f64::MAX) => Ok(number),
+        _ => Err("write a number that is not negative, such as 1e-9".to_owned()),
+    }
 }
 
 /// Runs `urdd diff`.
@@ -83,7 +94,7 @@ fn diff(arguments: &DiffArguments) -> Result<u8, String> {
         (Err(a), Err(b)) if a != b => return Err(format!("{a}\nurdd: {b}")),
         (Err(error), _) | (_, Err(error)) => return Err(error),
     };
-    let found = compare(&before, &after);
+    let found = compare(&before, &after, arguments.tolerance);
     match arguments.format {
         Format::Text => output::print(&text(&found))?,
         Format::Markdown => output::print_raw(&markdown(&found))?,

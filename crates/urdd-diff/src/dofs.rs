@@ -8,7 +8,7 @@ use urdd_format::diff_report::{DofDifference, Presence};
 use urdd_format::index::Count;
 
 /// The DOFs that differ.
-pub(super) fn differences(before: &Side, after: &Side) -> Vec<DofDifference> {
+pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<DofDifference> {
     let names =
         |side: &Side| -> Vec<String> { side.dofs.iter().map(|dof| dof.name.clone()).collect() };
     let (a, b) = (names(before), names(after));
@@ -25,7 +25,7 @@ pub(super) fn differences(before: &Side, after: &Side) -> Vec<DofDifference> {
                 // What follows from the joint is said at the joint.
                 let departs = |dof: &DofState| dof.stated.key() != dof.derived.key();
                 if departs(x) || departs(y) {
-                    difference.changes = compare("", &x.stated, &y.stated);
+                    difference.changes = compare("", &x.stated, &y.stated, tolerance);
                 }
                 if i == j && difference.changes.is_empty() {
                     continue;

@@ -13,6 +13,8 @@ struct Field {
     key: String,
     /// What people see.
     shown: String,
+    /// Its numbers, if it has nothing else: they may be equal within a tolerance.
+    numbers: Vec<f64>,
 }
 
 /// The values of a part, in order. What is absent has no entry.
@@ -41,7 +43,13 @@ impl Fields {
     ) {
         if let Some(value) = value {
             let text = numbers(&value);
-            self.keyed(name, unit, text.clone(), text);
+            self.0.push(Field {
+                name: name.into(),
+                unit,
+                key: text.clone(),
+                shown: text,
+                numbers: value.to_vec(),
+            });
         }
     }
 
@@ -58,6 +66,7 @@ impl Fields {
             unit,
             key,
             shown,
+            numbers: Vec::new(),
         });
     }
 
@@ -93,10 +102,26 @@ impl Fields {
     }
 }
 
+impl Field {
+    /// Whether two values are equal: numbers if they differ by at most the tolerance.
+    fn equals(&self, other: &Field, tolerance: f64) -> bool {
+        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;
+        self.key == other.key
+            || !self.numbers.is_empty()
+                && self.numbers.len() == other.numbers.len()
+                && self.numbers.iter().zip(&other.numbers).all(is_near)
+    }
+}
+
 /// The values in which two parts differ: in the order of the first, then those that only the second has. `prefix` goes
 /// before their names. Several values of an element (`limit.lower`, `limit.upper`) that only one part has are one value
 /// (`limit`).
-pub(super) fn compare(prefix: &str, before: &Fields, after: &Fields) -> Vec<ValueChange> {
+pub(super) fn compare(
+    prefix: &str,
+    before: &Fields,
+    after: &Fields,
+    tolerance: f64,
+) -> Vec<ValueChange> {
     let (before, after) = (&whole(before, after), &whole(after, before));
     let by_name: HashMap<&str, &Field> = after.0.iter().map(|f| (f.name.as_str(), f)).collect();
     let names: HashSet<&str> = before.0.iter().map(|field| field.name.as_str()).collect();
@@ -109,7 +134,7 @@ pub(super) fn compare(prefix: &str, before: &Fields, after: &Fields) -> Vec<Valu
     let mut changes = Vec::new();
     for field in &before.0 {
         let other = by_name.get(field.name.as_str()).copied();
-        if other.is_none_or(|other| other.key != field.key) {
+        if other.is_none_or(|other| !field.equals(other, tolerance)) {
             changes.push(change(&field.name, Some(field), other));
         }
     }

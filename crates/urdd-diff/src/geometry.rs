@@ -59,10 +59,11 @@ impl Element {
     }
 
     /// The values that differ. Where both name the same material, a difference is that of the material.
-    fn changes(&self, prefix: &str, other: &Element) -> Vec<ValueChange> {
-        let mut changes = compare(prefix, &self.shape, &other.shape);
+    fn changes(&self, prefix: &str, other: &Element, tolerance: f64) -> Vec<ValueChange> {
+        let mut changes = compare(prefix, &self.shape, &other.shape, tolerance);
         if self.material[0].key() != other.material[0].key() {
-            changes.extend(compare(prefix, &self.material[1], &other.material[1]));
+            let [a, b] = [self, other].map(|element| &element.material[1]);
+            changes.extend(compare(prefix, a, b, tolerance));
         }
         changes
     }
@@ -74,9 +75,10 @@ pub(super) fn difference(
     after: (&Side, usize),
     kind: GeometryKind,
     by_name: &HashSet<&str>,
+    tolerance: f64,
 ) -> Option<GeometryDifference> {
     let [a, b] = [before, after].map(|(side, link)| of_link(side, link, kind, by_name));
-    let changes = changes(&a, &b, kind);
+    let changes = changes(&a, &b, kind, tolerance);
     if changes.is_empty() {
         return None;
     }
@@ -94,7 +96,12 @@ pub(super) fn difference(
 
 /// Matches the elements of a link: those that are equal, in whatever order, then those with the same name, then the
 /// others in order.
-fn changes(before: &[Element], after: &[Element], kind: GeometryKind) -> Vec<ValueChange> {
+fn changes(
+    before: &[Element],
+    after: &[Element],
+    kind: GeometryKind,
+    tolerance: f64,
+) -> Vec<ValueChange> {
     let mut partner: Vec<Option<usize>> = vec![None; before.len()];
     let mut taken = vec![false; after.len()];
     let steps: [fn(&Element) -> Option<String>; 3] = [
@@ -138,7 +145,10 @@ fn changes(before: &[Element], after: &[Element], kind: GeometryKind) -> Vec<Val
     let mut changes = Vec::new();
     for (i, element) in before.iter().enumerate() {
         match partner[i] {
-            Some(j) => changes.extend(element.changes(&format!("{word}[{i}]."), &after[j])),
+            Some(j) => {
+                let prefix = format!("{word}[{i}].");
+                changes.extend(element.changes(&prefix, &after[j], tolerance));
+            }
             None => changes.push(whole(i, Some(element), None)),
         }
     }

@@ -38,31 +38,32 @@ use self::modules::InDetail;
 use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
 use urdd_format::report::Tool;
 
-/// Compares two robots.
-pub fn compare(before: &Side, after: &Side) -> DiffReport {
+/// Compares two robots. Numbers that differ by at most `tolerance`, in the unit of each value, are equal; 0 compares
+/// exactly.
+pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
     let parts = |parts: &dyn Fn(&Side) -> Vec<(String, Fields)>| -> Vec<PartDifference> {
-        parts::differences(&parts(before), &parts(after))
+        parts::differences(&parts(before), &parts(after), tolerance)
     };
     let mut notes = notes(before, after);
     let joints = parts(&|side| joints::parts(&side.robot.joints, side.has_quaternions()));
-    let dofs = dofs::differences(before, after);
+    let dofs = dofs::differences(before, after, tolerance);
     let pairs = pairs::differences(before, after, &mut notes);
     let in_detail = InDetail {
         dofs: !dofs.is_empty() || !joints.is_empty(),
         pairs: pairs.as_ref().is_some_and(|pairs| !pairs.is_empty()),
     };
-    let modules = modules::differences(before, after, &in_detail);
+    let modules = modules::differences(before, after, &in_detail, tolerance);
     let mut report = DiffReport {
         tool: Tool::urdd(),
         before: before.summary(),
         after: after.summary(),
         same: false,
         robot: robot(before, after),
-        links: links::differences(before, after),
+        links: links::differences(before, after, tolerance),
         joints,
         materials: parts(&|side| materials::parts(&side.robot.materials)),
         other_elements: parts(&|side| other_elements::parts(&side.robot.unknown_elements)),
-        poses: poses::difference(before, after),
+        poses: poses::difference(before, after, tolerance),
         dofs,
         pairs,
         modules,
@@ -83,7 +84,8 @@ fn robot(before: &Side, after: &Side) -> Vec<ValueChange> {
         fields.text("version", Some(version.unwrap_or("1.0")));
         fields
     };
-    fields::compare("", &fields(before), &fields(after))
+    // It has no numbers.
+    fields::compare("", &fields(before), &fields(after), 0.0)
 }
 
 /// What is not compared, and what differs without a difference in meaning.

@@ -9,7 +9,7 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Link;
 
 /// The links that differ.
-pub(super) fn differences(before: &Side, after: &Side) -> Vec<LinkDifference> {
+pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<LinkDifference> {
     let (a, b) = (before.link_names(), after.link_names());
     let by_name = geometry::compared_by_name(before, after);
     let mut found = Vec::new();
@@ -33,9 +33,10 @@ pub(super) fn differences(before: &Side, after: &Side) -> Vec<LinkDifference> {
                 difference.name = a[i].to_owned();
                 let [x, y] = [(before, i), (after, j)]
                     .map(|(side, link)| fields(&side.robot.links[link], side.has_quaternions()));
-                difference.changes = compare("", &x, &y);
+                difference.changes = compare("", &x, &y, tolerance);
                 for kind in [GeometryKind::Visual, GeometryKind::Collision] {
-                    let of_link = geometry::difference((before, i), (after, j), kind, &by_name);
+                    let of_link =
+                        geometry::difference((before, i), (after, j), kind, &by_name, tolerance);
                     difference.geometry.extend(of_link);
                 }
                 if difference.changes.is_empty() && difference.geometry.is_empty() {

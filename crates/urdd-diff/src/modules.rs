@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use serde_json::Value;
+
 use crate::side::Side;
 use urdd_document::module::{JsonFile, Module};
 use urdd_document::urdd::Urdd;
@@ -21,6 +23,7 @@ pub(super) fn differences(
     before: &Side,
     after: &Side,
     in_detail: &InDetail,
+    tolerance: f64,
 ) -> Option<Vec<ModuleDifference>> {
     let ((a, _), (b, _)) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
     let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
@@ -51,7 +54,7 @@ pub(super) fn differences(
             (Some(x), Some(y)) => {
                 let same_version = difference.version_before == difference.version_after;
                 let hidden = is_in_detail(either.kind, in_detail);
-                difference.document = !hidden && !same_document(x, y);
+                difference.document = !hidden && !same_document(x, y, tolerance);
                 difference.files = !hidden && files(a, folder) != files(b, folder);
                 if same_version && !difference.document && !difference.files {
                     continue;
@@ -80,7 +83,12 @@ fn is_in_detail(kind: Option<ModuleKind>, in_detail: &InDetail) -> bool {
 }
 
 /// Whether two documents say the same; formatting and the order of keys aside.
-fn same_document(a: &Module, b: &Module) -> bool {
+fn same_document(a: &Module, b: &Module, tolerance: f64) -> bool {
+    if let (Some(a), Some(b)) = (a.json.document(), b.json.document())
+        && tolerance > 0.0
+    {
+        return is_near(&a.value, &b.value, tolerance);
+    }
     match (&a.document, &b.document) {
         (Some(a), Some(b)) => a == b,
         (None, None) => match (a.json.document(), b.json.document()) {
@@ -92,6 +100,25 @@ fn same_document(a: &Module, b: &Module) -> bool {
             _ => false,
         },
         _ => false,
+    }
+}
+
+/// Whether two values differ in numbers alone, each by at most the tolerance.
+fn is_near(a: &Value, b: &Value, tolerance: f64) -> bool {
+    match (a, b) {
+        (Value::Number(x), Value::Number(y)) => match (x.as_f64(), y.as_f64()) {
+            (Some(x), Some(y)) => (x - y).abs() <= tolerance,
+            _ => x == y,
+        },
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| is_near(x, y, tolerance))
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            let mut entries = x.iter();
+            x.len() == y.len()
+                && entries.all(|(key, x)| y.get(key).is_some_and(|y| is_near(x, y, tolerance)))
+        }
+        _ => a == b,
     }
 }
 

@@ -43,6 +43,7 @@ pub(super) fn matched(before: &[&str], after: &[&str]) -> Vec<Matched> {
 pub(super) fn differences(
     before: &[(String, Fields)],
     after: &[(String, Fields)],
+    tolerance: f64,
 ) -> Vec<PartDifference> {
     let a: Vec<&str> = before.iter().map(|(name, _)| name.as_str()).collect();
     let b: Vec<&str> = after.iter().map(|(name, _)| name.as_str()).collect();
@@ -52,7 +53,7 @@ pub(super) fn differences(
             Matched::Removed(i) => (a[i], Presence::Removed, Vec::new()),
             Matched::Added(j) => (b[j], Presence::Added, Vec::new()),
             Matched::Both(i, j) => {
-                let changes = compare("", &before[i].1, &after[j].1);
+                let changes = compare("", &before[i].1, &after[j].1, tolerance);
                 if changes.is_empty() {
                     continue;
                 }

@@ -9,12 +9,13 @@ use urdd_document::tree::Tree;
 use urdd_format::diff_report::PoseDifference;
 
 /// Differences up to this, metres and radians, are due to rounding.
-const TOLERANCE: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
 type Pose = (Matrix3<f64>, Vector3<f64>);
 
 /// The links that are elsewhere; `None` if there are none, or if the joints of one robot form no tree.
-pub(super) fn difference(before: &Side, after: &Side) -> Option<PoseDifference> {
+pub(super) fn difference(before: &Side, after: &Side, tolerance: f64) -> Option<PoseDifference> {
+    let tolerance = tolerance.max(ROUNDING);
     let (a, b) = (poses(&before.view)?, poses(&after.view)?);
     let by_name: HashMap<&str, &Pose> = names(after).zip(&b).collect();
     let mut found: Option<PoseDifference> = None;
@@ -27,7 +28,7 @@ pub(super) fn difference(before: &Side, after: &Side) -> Option<PoseDifference> 
         let sine = (other_turn - turn).norm() / (2.0 * std::f64::consts::SQRT_2);
         let angle = 2.0 * sine.clamp(0.0, 1.0).asin();
         let is_finite = distance.is_finite() && angle.is_finite();
-        if !is_finite || (distance <= TOLERANCE && angle <= TOLERANCE) {
+        if !is_finite || (distance <= tolerance && angle <= tolerance) {
             continue;
         }
         let found = found.get_or_insert_with(|| PoseDifference {

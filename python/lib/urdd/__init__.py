@@ -10,7 +10,7 @@
 
 Lengths are metres, angles radians, poses matrices (4, 4) in the frame of the root link: see :class:`Robot`.
 :func:`generate` generates a URDD from a URDF, :func:`combine` one from several robots, :func:`validate` validates one,
-:func:`export` writes it in the formats of other programs. :class:`World` holds obstacles.
+:func:`export` writes it in the formats of other programs, :func:`diff` compares two. :class:`World` holds obstacles.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from ._answers import (
 )
 from ._collision_model import CollisionModel
 from ._combine import Combined, CombineNote, combine
+from ._diff import diff
 from ._export import Export, export
 from ._generate import Generated, Job, Note, find_urdfs, generate, generate_text
 from ._proximity import Proximity
@@ -62,7 +63,7 @@ from .errors import (
 )
 
 if TYPE_CHECKING:
-    from . import modules, report
+    from . import diff_report, modules, report
     from ._mujoco import MujocoRobot
     from ._pinocchio import PinocchioRobot
     from ._pybullet import PybulletRobot
@@ -117,6 +118,8 @@ __all__ = [
     "WorldProximity",
     "__version__",
     "combine",
+    "diff",
+    "diff_report",
     "errors",
     "explain",
     "export",
@@ -141,6 +144,7 @@ _LATER = {
     "Shown": "_show",
     "ShownByViser": "_show",
     "modules": "modules",
+    "diff_report": "diff_report",
     "report": "report",
 }
 

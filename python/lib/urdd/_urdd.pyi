@@ -19,6 +19,7 @@ __all__ = [
     "WorldProximity",
     "__version__",
     "combine",
+    "diff",
     "explain",
     "export",
     "find_urdfs",
@@ -151,6 +152,14 @@ def combine(
     options: GenerateOptions,
     progress: Callable[[str, int, int], object] | None,
 ) -> tuple[dict[str, Any], list[tuple[str, str]]]: ...
+def diff(
+    before: Path,
+    after: Path,
+    findings: bool,
+    tolerance: float,
+    packages: list[tuple[str, Path]],
+    allowed_folders: list[Path],
+) -> str: ...
 def generate(
     source: Path,
     text: bytes | None,

@@ -227,6 +227,11 @@ fn what_has_no_urdd_is_refused_or_repaired() {
 fn a_disorderly_refusal_fails() {
     let run = |script: &str, more: &[&str]| {
         let robot = "URD005/link-held-by-two-joints";
+        let timeout = if script.starts_with("sleep") {
+            "1"
+        } else {
+            "20"
+        };
         let start = [
             "producer",
             "--format",
@@ -234,7 +239,7 @@ fn a_disorderly_refusal_fails() {
             "--robot",
             robot,
             "--timeout",
-            "10",
+            timeout,
         ];
         let command = ["--", "sh", "-c", script, "sh", "{urdf}", "{out}", URDD];
         let (status, result) = result(&[&start[..], more, &command].concat());

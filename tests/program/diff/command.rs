@@ -53,6 +53,18 @@ fn two_versions() -> Workshop {
 }
 
 #[test]
+fn a_tolerance_that_is_none_is_refused() {
+    let folder = testkit::repository();
+    let robot = "conformance/robots/single_link.urdf";
+    for word in ["-1", "nan", "inf", "1e999", "x"] {
+        let (status, _, said) = diff(folder, &[robot, robot, &format!("--tolerance={word}")]);
+        assert_eq!(status, 2, "{word}");
+        assert!(said.contains("a number that is not negative"), "{said}");
+    }
+    assert_eq!(diff(folder, &[robot, robot, "--tolerance", "1e-9"]).0, 0);
+}
+
+#[test]
 fn each_format_says_the_same() {
     let shop = two_versions();
     let run = |format: &str| {

@@ -65,7 +65,7 @@ fn open(path: &Path) -> Side {
 }
 
 fn differences(before: &Path, after: &Path) -> DiffReport {
-    compare(&open(before), &open(after))
+    compare(&open(before), &open(after), 0.0)
 }
 
 /// The first and the last change of each kind: the others repeat what these show.

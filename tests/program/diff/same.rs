@@ -64,6 +64,36 @@ fn another_spelling_makes_no_difference() {
     }
 }
 
+/// Of lengths, masses and limits alike, in the unit of each. What is farther is named.
+#[test]
+fn numbers_within_the_tolerance_are_equal() {
+    let shop = Workshop::new();
+    let robot = |name: &str, by: f64| {
+        let (mass, z, upper) = (1.0 + by, 1.0 + by, 1.0 + by);
+        let text = format!(
+            "<robot name='r'><link name='a'><inertial><mass value='{mass}'/></inertial></link><link name='b'/>\
+             <joint name='j' type='revolute'><parent link='a'/><child link='b'/><origin xyz='0 0 {z}'/>\
+             <limit lower='-1' upper='{upper}' effort='1' velocity='1'/></joint></robot>"
+        );
+        open(&shop.write(name, &text))
+    };
+    // A power of two, so that the differences are exact.
+    let step = f64::exp2(-20.0);
+    let (before, after) = (robot("a.urdf", 0.0), robot("b.urdf", step));
+    let named = [
+        "joints/j/limit.upper",
+        "joints/j/origin.xyz",
+        "links/a/inertial.mass",
+    ];
+    for (tolerance, expected) in [(0.0, &named[..]), (step / 2.0, &named), (step, &[])] {
+        let report = compare(&before, &after, tolerance);
+        let mut found = places(&report);
+        found.sort();
+        assert_eq!(found, expected, "{tolerance}");
+        assert_eq!(report.poses.is_none(), expected.is_empty());
+    }
+}
+
 #[test]
 fn the_order_of_links_is_a_note_and_that_of_joints_moves_dofs() {
     let shop = Workshop::new();
@@ -120,7 +150,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
         };
         std::fs::write(shop.path(&other), bytes).unwrap();
         let text = text.replace("meshes/welding_arm/UPPER_ARM.STL", &other);
-        let report = compare(&before, &open(&shop.write("other.urdf", &text)));
+        let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0);
         // glTF is y-up: it is turned when it is read, which is another mesh.
         let expected = if end == "obj" { 0 } else { 2 };
         assert_eq!(
@@ -137,7 +167,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
     )
     .unwrap();
     let text = text.replace("UPPER_ARM.STL", "moved.obj");
-    let report = compare(&before, &open(&shop.write("other.urdf", &text)));
+    let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0);
     let expected = ["visual", "collision"].map(|kind| format!("links/upper_arm/{kind}[0].mesh"));
     assert_eq!(places(&report), expected);
 }

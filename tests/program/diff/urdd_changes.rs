@@ -44,7 +44,7 @@ impl Bench {
         let after = self.folder.path().join("after");
         let path = format!("{}/module.json", self.fixture.folder(module));
         fs::write(after.join(&path), document.to_string()).unwrap();
-        let found = places(&compare(&self.before, &open(&after)));
+        let found = places(&compare(&self.before, &open(&after), 0.0));
         fs::write(after.join(&path), self.fixture.file(&path)).unwrap();
         found
     }
@@ -233,11 +233,11 @@ fn a_module_that_is_gone_is_named() {
     bench.fixture.write_to(&after);
     let after = open(&after);
     assert_eq!(
-        places(&compare(&bench.before, &after)),
+        places(&compare(&bench.before, &after, 0.0)),
         ["modules/kinematics_samples_module/removed"]
     );
     assert_eq!(
-        places(&compare(&after, &bench.before)),
+        places(&compare(&after, &bench.before, 0.0)),
         ["modules/kinematics_samples_module/added"]
     );
 }

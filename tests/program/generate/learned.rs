@@ -18,13 +18,23 @@ const LITTLE: Effort = Effort {
     calibration: 3_000,
     epochs: 4,
 };
+/// Enough for some model.
+const LEAST: Effort = Effort {
+    training: 500,
+    calibration: 500,
+    epochs: 1,
+};
 
 const MODULE: &str = "link_shapes_modules/self_collision_model_module/module.json";
 
 fn settings() -> Settings {
+    with(LITTLE)
+}
+
+fn with(model_effort: Effort) -> Settings {
     Settings {
         selection: Selection::parse(["shapes", "self_collision_model"]).unwrap(),
-        model_effort: LITTLE,
+        model_effort,
         ..Settings::default()
     }
 }
@@ -153,9 +163,9 @@ fn the_same_bytes_whether_the_rest_is_made_or_kept() {
     let folder = testkit::temporary::folder();
     let urdf = robot("six_axis_arm.urdf");
     let [at_once, later] = ["at_once", "later"].map(|name| folder.path().join(name));
-    make(&urdf, &at_once, &settings());
+    make(&urdf, &at_once, &with(LEAST));
     make(&urdf, &later, &Settings::default());
-    make(&urdf, &later, &settings());
+    make(&urdf, &later, &with(LEAST));
     let [at_once, later] = [at_once, later].map(|made| std::fs::read(made.join(MODULE)).unwrap());
     assert!(at_once == later, "other bytes");
 }
@@ -250,7 +260,7 @@ fn robots_that_are_too_large_go_without() {
 fn a_robot_of_ours_with_lengths_turns_and_mimics() {
     let folder = testkit::temporary::folder();
     let made = folder.path().join("made");
-    let outcome = make(&robot("hand.urdf"), &made, &settings());
+    let outcome = make(&robot("hand.urdf"), &made, &with(LEAST));
     assert_eq!(findings_of(&made), []);
     let refused = outcome
         .notes

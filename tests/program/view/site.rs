@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use sha2::{Digest, Sha256};
+use testkit::trials::trials;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_view::{Collection, ExportError, export};
@@ -439,10 +440,11 @@ fn a_killed_export_leaves_a_whole_site() {
     let begun = std::time::Instant::now();
     assert!(export_it(&other).wait().expect("it ends").success());
     let usual = begun.elapsed();
-    for k in 0..16_u32 {
+    let kills = trials(6);
+    for k in 0..kills {
         let mut child = export_it(if k % 2 == 0 { &path } else { &other });
         // Most of the time passes before the first file is moved into place.
-        let share = usual.mul_f64(0.5 + 0.6 * f64::from(k) / 16.0);
+        let share = usual.mul_f64(0.5 + 0.6 * f64::from(k) / f64::from(kills));
         std::thread::sleep(share.max(Duration::from_millis(1)));
         let _ = child.kill();
         let _ = child.wait();
