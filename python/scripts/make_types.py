@@ -1,4 +1,4 @@
-"""Writes the typed modules: `modules.py`, `report.py` and `diff_report.py` in `lib/urdd`, from the schemas in `schema/`.
+"""Writes the typed modules `modules.py`, `report.py` and `diff_report.py` in `lib/urdd`, from the schemas in `schema/`.
 
 python python/scripts/make_types.py            writes them
 python python/scripts/make_types.py --check    exits with 1 where they are not what it would write

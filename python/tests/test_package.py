@@ -142,7 +142,9 @@ def test_every_public_name_is_documented() -> None:
                 assert (getattr(member, "__doc__", None) or "").strip(), f"{kind.__name__}.{name}"
 
 
-@pytest.mark.parametrize("module", [urdd, urdd._diff, urdd._robot, urdd._validate, urdd._world], ids=lambda module: module.__name__)
+@pytest.mark.parametrize(
+    "module", [urdd, urdd._diff, urdd._robot, urdd._validate, urdd._world], ids=lambda module: module.__name__
+)
 def test_examples_in_the_documentation(module: object, urdds: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(urdds)
     results = doctest.testmod(module)  # type: ignore[arg-type]

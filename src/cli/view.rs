@@ -4,6 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
 use clap::Args;
 
@@ -20,6 +21,9 @@ use urdd_view::{
     Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
     page_with,
 };
+
+/// Pause before the rest of a robot is generated.
+const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
 
 /// Arguments of `urdd view`.
 #[derive(Args)]
@@ -99,6 +103,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         folder: temporary.path(),
         settings: &settings,
         observer: &Printer::new(Format::Human, false, is_terminal),
+        pause: FIRST_THE_PICTURE,
     };
     if let Some(folder) = &arguments.export {
         for robot in &robots {

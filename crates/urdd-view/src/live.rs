@@ -24,8 +24,6 @@ use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings, inc
 const PAUSE: Duration = Duration::from_millis(200);
 /// A page that has not asked for so long shows another robot, or is closed.
 const FORGOTTEN: Duration = Duration::from_secs(5);
-/// Pause after a picture before the rest is generated: the page draws meanwhile, and whoever saves often is not hindered.
-const FIRST_THE_PICTURE: Duration = Duration::from_secs(2);
 /// What the picture, the joints and the sliders need, with the core class.
 const PICTURE: &[&str] = &["plain_meshes"];
 
@@ -40,6 +38,9 @@ pub struct Live<'a> {
     pub settings: &'a Settings,
     /// Receives the progress and the results for the terminal.
     pub observer: &'a dyn Observer,
+    /// Pause after a picture before the rest is generated: the page draws meanwhile, and whoever saves often is not
+    /// hindered.
+    pub pause: Duration,
 }
 
 /// A robot that was opened.
@@ -201,7 +202,7 @@ impl Live<'_> {
         scope: &'scope Scope<'scope, 'env>,
         known: &BTreeMap<String, Followed>,
     ) -> Option<Run<'scope>> {
-        let is_due = |since: Instant| since.elapsed() >= FIRST_THE_PICTURE;
+        let is_due = |since: Instant| since.elapsed() >= self.pause;
         let waiting = known
             .iter()
             .filter(|(_, robot)| robot.is_partial_since.is_some_and(is_due));

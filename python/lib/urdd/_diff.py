@@ -24,8 +24,8 @@ def diff(
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
     allowed_folders: Iterable[str | os.PathLike[str]] = (),
 ) -> DiffReport:
-    """Tells how two robots differ in meaning, as ``urdd diff`` does: formatting, the order of attributes, and the format
-    of meshes make no difference.
+    """Tells how two robots differ in meaning, as ``urdd diff`` does: formatting, the order of attributes, and the
+    format of meshes make no difference.
 
     >>> import urdd
     >>> report = urdd.diff("welding_arm", "welding_arm")

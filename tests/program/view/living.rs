@@ -48,6 +48,7 @@ pub fn living(collection: Collection, act: impl FnOnce(&Running)) {
         folder: folder.path(),
         settings: &settings,
         observer: &Quiet,
+        pause: Duration::from_millis(500),
     };
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
