@@ -8,6 +8,7 @@ mod baseline;
 mod cases;
 mod consequences;
 mod fix;
+mod severities;
 mod skips;
 
 use std::fs;

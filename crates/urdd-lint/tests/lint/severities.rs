@@ -1,0 +1,62 @@
+//! Rules that say an error where a program refuses the whole robot, and a warning or an info elsewhere.
+
+use std::fs;
+use std::path::Path;
+
+use super::cases::copied;
+use super::linted;
+use urdd_format::report::Severity::{self, Error, Info, Warning};
+use urdd_lint::LintSettings;
+
+/// The finding of a case's rule, its only one, after a text was replaced by another.
+fn severity(case: &str, old: &str, new: &str) -> Severity {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let (copy, file) = copied(&folder.join(case));
+    let text = fs::read_to_string(&file).expect("a case");
+    assert!(text.contains(old), "{case}: {old}");
+    fs::write(&file, text.replace(old, new)).expect("written");
+    // A binary STL of one triangle more than MuJoCo reads.
+    let mut stl = vec![0; 80];
+    stl.extend(200_001_u32.to_le_bytes());
+    let triangle: Vec<u8> = [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0]
+        .into_iter()
+        .flat_map(|number| (number as f32).to_le_bytes())
+        .chain([0, 0])
+        .collect();
+    for _ in 0..200_001 {
+        stl.extend(&triangle);
+    }
+    fs::write(copy.path().join("huge.stl"), stl).expect("written");
+    let found = linted(&file, &LintSettings::default())
+        .report
+        .urdds
+        .remove(0)
+        .findings;
+    let code = &case[.."LNT000".len()];
+    let own: Vec<Severity> = (found.iter().filter(|one| one.code == code))
+        .map(|one| one.severity)
+        .collect();
+    assert_eq!(own.len(), 1, "{case}, {new}: {found:#?}");
+    own[0]
+}
+
+#[test]
+fn what_a_program_refuses_whole_is_an_error() {
+    for (case, old, new, expected) in [
+        ("LNT006/invalid_all.urdf", "", "", Warning),
+        ("LNT006/invalid_all.urdf", "collision>", "visual>", Error),
+        ("LNT013/invalid.urdf", "", "", Warning),
+        ("LNT013/invalid_negative.urdf", "", "", Error),
+        ("LNT015/invalid.urdf", "", "", Warning),
+        ("LNT015/invalid_world.urdf", "", "", Error),
+        ("LNT017/invalid.urdf", "", "", Error),
+        ("LNT023/invalid.urdf", "", "", Warning),
+        ("LNT023/invalid.urdf", "1 -1 1", "1 0 1", Error),
+        ("LNT024/invalid.urdf", "", "", Info),
+        ("LNT024/invalid.urdf", "heavy.obj", "huge.stl", Error),
+        ("LNT034/invalid.urdf", "", "", Error),
+        ("LNT034/invalid.urdf", "collision>", "visual>", Warning),
+    ] {
+        assert_eq!(severity(case, old, new), expected, "{case}, {new}");
+    }
+}
