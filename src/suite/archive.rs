@@ -47,7 +47,8 @@ pub fn read_folder(folder: &Path) -> io::Result<Files> {
     Ok(files)
 }
 
-/// Packs the files into one archive, deterministically.
+/// Packs the files into one archive, deterministically. Files that begin alike stand together: compression looks back
+/// 32 KiB.
 ///
 /// # Errors
 /// If a name is too long.
@@ -57,6 +58,8 @@ pub fn read_folder(folder: &Path) -> io::Result<Files> {
 )]
 pub fn pack(files: &Files) -> io::Result<Vec<u8>> {
     let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::best()));
+    let mut files: Vec<(&String, &Vec<u8>)> = files.iter().collect();
+    files.sort_by_key(|(path, bytes)| (path.rsplit('.').next(), *bytes));
     for (path, bytes) in files {
         let mut header = tar::Header::new_gnu();
         header.set_size(bytes.len() as u64);

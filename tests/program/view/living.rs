@@ -331,18 +331,22 @@ fn what_xacro_includes_is_followed() {
     let folder = testkit::temporary::folder();
     let at = |name: &str| folder.path().join(name);
     fs::create_dir(at("bin")).expect("a folder");
+    // Not beside the robot: in a package that the command line names.
+    fs::create_dir(at("parts")).expect("a folder");
+    let elsewhere = testkit::temporary::folder();
+    let arm = elsewhere.path().join("arm.xacro");
+    let part = at("parts/part.xacro");
     // As the program of that name does: the expanded file, or the list of what it includes.
-    let part = at("part.xacro");
-    let script = format!(
-        "#!/bin/sh\nif [ \"$1\" = --deps ]; then echo '{0}'; else cat '{0}'; fi\n",
-        part.display()
-    );
+    let script = "#!/bin/sh\npart=${ROS_PACKAGE_PATH%%:*}/parts/part.xacro\n\
+        if [ \"$1\" = --deps ]; then echo \"$part\"; else cat \"$part\"; fi\n";
     fs::write(at("bin/xacro"), script).expect("written");
     fs::set_permissions(at("bin/xacro"), fs::Permissions::from_mode(0o755)).expect("set");
-    fs::write(at("arm.xacro"), "<robot/>").expect("written");
+    fs::write(&arm, "<robot/>").expect("written");
     let sphere = r#"<sphere radius="0.3"/>"#;
     fs::write(&part, robot(1.0, sphere)).expect("written");
-    let mut child = view(&[&at("arm.xacro"), &PathBuf::from("--no-open")])
+    let package = format!("parts={}", at("parts").display());
+    let mut child = view(&[&arm, &PathBuf::from("--no-open")])
+        .args(["--package", &package])
         .env("PATH", format!("{}:/usr/bin:/bin", at("bin").display()))
         .stdout(Stdio::piped())
         .stderr(Stdio::null())

@@ -7,6 +7,7 @@ use std::thread;
 
 use crate::process::{Ended, Running};
 use crate::settings::Settings;
+use crate::source::xacro::PackageIndex;
 
 /// Maximum length of the list, bytes, and maximum number of files.
 const MAX_LIST: u64 = 1 << 20;
@@ -32,6 +33,8 @@ fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
     let mut command = Command::new("xacro");
     command.arg("--deps").arg(file.canonicalize().ok()?);
     command.args(&settings.xacro.arguments);
+    let given = PackageIndex::new(&settings.packages).ok()?;
+    given.tell(&mut command);
     let mut running = Running::start(command).ok()?;
     let (output, errors) = running.streams();
     let read = |stream: Option<Box<dyn Read + Send>>| {
@@ -49,7 +52,8 @@ fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
         return None;
     }
     let text = output.join().ok()??;
-    let files: Vec<PathBuf> = text.split_whitespace().map(PathBuf::from).collect();
+    let files = text.split_whitespace().map(PathBuf::from);
+    let files: Vec<PathBuf> = files.map(|file| given.lasting(file)).collect();
     // A name with a blank is listed as two.
     files.iter().all(|file| file.is_file()).then_some(files)
 }

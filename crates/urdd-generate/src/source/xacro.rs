@@ -144,12 +144,12 @@ fn last_lines(words: &[u8]) -> Option<String> {
 }
 
 /// The packages named by the user, in a layout that ROS searches: `$(find NAME)` finds these first.
-struct PackageIndex {
+pub(super) struct PackageIndex {
     prefix: Option<TempDir>,
 }
 
 impl PackageIndex {
-    fn new(packages: &Packages) -> io::Result<Self> {
+    pub(super) fn new(packages: &Packages) -> io::Result<Self> {
         let mut given = packages.given().peekable();
         if given.peek().is_none() {
             return Ok(PackageIndex { prefix: None });
@@ -169,7 +169,7 @@ impl PackageIndex {
     }
 
     /// Puts them before those from the environment.
-    fn tell(&self, command: &mut Command) {
+    pub(super) fn tell(&self, command: &mut Command) {
         let Some(prefix) = &self.prefix else {
             return;
         };
@@ -178,6 +178,15 @@ impl PackageIndex {
             ("ROS_PACKAGE_PATH", prefix.path().join("share")),
         ] {
             command.env(name, before(folder, std::env::var_os(name)));
+        }
+    }
+
+    /// A path that outlives this layout.
+    pub(super) fn lasting(&self, path: PathBuf) -> PathBuf {
+        let prefix = self.prefix.as_ref();
+        match path.canonicalize() {
+            Ok(real) if prefix.is_some_and(|prefix| path.starts_with(prefix.path())) => real,
+            _ => path,
         }
     }
 }
