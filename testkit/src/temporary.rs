@@ -11,7 +11,8 @@ pub fn folder() -> TempDir {
 }
 
 /// Where tests write. Thousands of files that are made and removed take a fifth of the tests' time on a disk, so this is
-/// memory where the system offers 2 GiB of it as files. Else it is the folder for temporary files.
+/// memory where the system offers 2 GiB of it as files, and runs programs from there. Else it is the folder for
+/// temporary files.
 pub fn place() -> &'static Path {
     static PLACE: OnceLock<&Path> = OnceLock::new();
     PLACE.get_or_init(|| in_memory().unwrap_or(Box::leak(std::env::temp_dir().into_boxed_path())))
@@ -19,10 +20,12 @@ pub fn place() -> &'static Path {
 
 #[cfg(target_os = "linux")]
 fn in_memory() -> Option<&'static Path> {
+    use rustix::fs::StatVfsMountFlags;
     let place = Path::new("/dev/shm");
     let room = rustix::fs::statvfs(place).ok()?;
     let bytes = room.f_bavail.checked_mul(room.f_frsize)?;
-    (bytes >> 31 > 0 && tempfile::tempfile_in(place).is_ok()).then_some(place)
+    let runs = !room.f_flag.contains(StatVfsMountFlags::NOEXEC);
+    (runs && bytes >> 31 > 0 && tempfile::tempfile_in(place).is_ok()).then_some(place)
 }
 
 #[cfg(not(target_os = "linux"))]
