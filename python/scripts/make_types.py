@@ -1,4 +1,4 @@
-"""Writes the typed modules `modules.py`, `report.py` and `diff_report.py` in `lib/urdd`, from the schemas in `schema/`.
+"""Writes the typed modules: `lib/urdd/modules.py` and `lib/urdd/report.py`, from the schemas in `schema/`.
 
 python python/scripts/make_types.py            writes them
 python python/scripts/make_types.py --check    exits with 1 where they are not what it would write
@@ -317,28 +317,27 @@ def modules_file() -> str:
     return head + body(types) + "\n" + end
 
 
-def report_file(schema: str, title: str, command: str) -> str:
+def report_file() -> str:
     types = Types()
-    root = types.add(read_schema(schema))
+    readers = ""
+    names = []
+    for schema, command in [("report", "validate"), ("diff_report", "diff")]:
+        root = types.add(read_schema(schema))
+        readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
+        names.append(f"read_{schema}")
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"
     head = HEAD.format(
-        title=title,
+        title="The reports of a validation and of a comparison, as dataclasses.",
         imports=imports,
-        names=names_of(types, [f"read_{schema}"]),
+        names=names_of(types, names),
     )
-    end = REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
-    return head + body(types) + end
+    return head + body(types) + readers
 
 
 def main() -> int:
     is_check = "--check" in sys.argv[1:]
     stale = 0
-    files = {
-        "modules.py": modules_file(),
-        "report.py": report_file("report", "The report of a validation, as dataclasses.", "validate"),
-        "diff_report.py": report_file("diff_report", "How two robots differ, as dataclasses.", "diff"),
-    }
-    for name, text in files.items():
+    for name, text in {"modules.py": modules_file(), "report.py": report_file()}.items():
         path = PACKAGE / name
         if path.exists() and path.read_text(encoding="utf-8") == text:
             continue

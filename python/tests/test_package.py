@@ -74,7 +74,6 @@ PUBLIC = [
     "__version__",
     "combine",
     "diff",
-    "diff_report",
     "errors",
     "explain",
     "export",

@@ -1,6 +1,6 @@
 //! Folders for tests.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use tempfile::TempDir;
@@ -14,21 +14,21 @@ pub fn folder() -> TempDir {
 /// memory where the system offers 2 GiB of it as files, and runs programs from there. Else it is the folder for
 /// temporary files.
 pub fn place() -> &'static Path {
-    static PLACE: OnceLock<&Path> = OnceLock::new();
-    PLACE.get_or_init(|| in_memory().unwrap_or(Box::leak(std::env::temp_dir().into_boxed_path())))
+    static PLACE: OnceLock<PathBuf> = OnceLock::new();
+    PLACE.get_or_init(|| in_memory().unwrap_or_else(std::env::temp_dir))
 }
 
 #[cfg(target_os = "linux")]
-fn in_memory() -> Option<&'static Path> {
+fn in_memory() -> Option<PathBuf> {
     use rustix::fs::StatVfsMountFlags;
     let place = Path::new("/dev/shm");
     let room = rustix::fs::statvfs(place).ok()?;
     let bytes = room.f_bavail.checked_mul(room.f_frsize)?;
     let runs = !room.f_flag.contains(StatVfsMountFlags::NOEXEC);
-    (runs && bytes >> 31 > 0 && tempfile::tempfile_in(place).is_ok()).then_some(place)
+    (runs && bytes >> 31 > 0 && tempfile::tempfile_in(place).is_ok()).then(|| place.to_owned())
 }
 
 #[cfg(not(target_os = "linux"))]
-fn in_memory() -> Option<&'static Path> {
+fn in_memory() -> Option<PathBuf> {
     None
 }

@@ -63,7 +63,7 @@ from .errors import (
 )
 
 if TYPE_CHECKING:
-    from . import diff_report, modules, report
+    from . import modules, report
     from ._mujoco import MujocoRobot
     from ._pinocchio import PinocchioRobot
     from ._pybullet import PybulletRobot
@@ -119,7 +119,6 @@ __all__ = [
     "__version__",
     "combine",
     "diff",
-    "diff_report",
     "errors",
     "explain",
     "export",
@@ -144,7 +143,6 @@ _LATER = {
     "Shown": "_show",
     "ShownByViser": "_show",
     "modules": "modules",
-    "diff_report": "diff_report",
     "report": "report",
 }
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from . import _urdd
 
 if TYPE_CHECKING:
-    from .diff_report import DiffReport
+    from .report import DiffReport
 
 __all__ = ["diff"]
 
@@ -45,7 +45,7 @@ def diff(
         OpenError: if one of the robots cannot be read.
         ValueError: if the tolerance is negative, or no number.
     """
-    from .diff_report import read_diff_report
+    from .report import read_diff_report
 
     text = _urdd.diff(
         Path(before),

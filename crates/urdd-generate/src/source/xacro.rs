@@ -183,9 +183,8 @@ impl PackageIndex {
 
     /// A path that outlives this layout.
     pub(super) fn lasting(&self, path: PathBuf) -> PathBuf {
-        let prefix = self.prefix.as_ref();
-        match path.canonicalize() {
-            Ok(real) if prefix.is_some_and(|prefix| path.starts_with(prefix.path())) => real,
+        match &self.prefix {
+            Some(prefix) if path.starts_with(prefix.path()) => path.canonicalize().unwrap_or(path),
             _ => path,
         }
     }

@@ -8,6 +8,18 @@ use super::linted;
 use urdd_format::report::Severity::{self, Error, Info, Warning};
 use urdd_lint::LintSettings;
 
+const HUGE: &str = "huge.stl";
+
+/// A binary STL of one triangle more than MuJoCo reads.
+fn huge() -> Vec<u8> {
+    const COUNT: u32 = 200_001;
+    let corners: [f32; 12] = [0., 0., 1., 0., 0., 0., 1., 0., 0., 0., 1., 0.];
+    let mut triangle = corners.map(f32::to_le_bytes).concat();
+    triangle.extend([0, 0]);
+    let head = [&[0; 80][..], &COUNT.to_le_bytes()].concat();
+    [head, triangle.repeat(COUNT as usize)].concat()
+}
+
 /// The finding of a case's rule, its only one, after a text was replaced by another.
 fn severity(case: &str, old: &str, new: &str) -> Severity {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
@@ -15,18 +27,9 @@ fn severity(case: &str, old: &str, new: &str) -> Severity {
     let text = fs::read_to_string(&file).expect("a case");
     assert!(text.contains(old), "{case}: {old}");
     fs::write(&file, text.replace(old, new)).expect("written");
-    // A binary STL of one triangle more than MuJoCo reads.
-    let mut stl = vec![0; 80];
-    stl.extend(200_001_u32.to_le_bytes());
-    let triangle: Vec<u8> = [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0]
-        .into_iter()
-        .flat_map(|number| (number as f32).to_le_bytes())
-        .chain([0, 0])
-        .collect();
-    for _ in 0..200_001 {
-        stl.extend(&triangle);
+    if new == HUGE {
+        fs::write(copy.path().join(HUGE), huge()).expect("written");
     }
-    fs::write(copy.path().join("huge.stl"), stl).expect("written");
     let found = linted(&file, &LintSettings::default())
         .report
         .urdds
@@ -53,7 +56,7 @@ fn what_a_program_refuses_whole_is_an_error() {
         ("LNT023/invalid.urdf", "", "", Warning),
         ("LNT023/invalid.urdf", "1 -1 1", "1 0 1", Error),
         ("LNT024/invalid.urdf", "", "", Info),
-        ("LNT024/invalid.urdf", "heavy.obj", "huge.stl", Error),
+        ("LNT024/invalid.urdf", "heavy.obj", HUGE, Error),
         ("LNT034/invalid.urdf", "", "", Error),
         ("LNT034/invalid.urdf", "collision>", "visual>", Warning),
     ] {
