@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::Isometry3;
 use urdd_export::{Export, Format, Note, Options, SphereBudget, export};
 use urdd_format::rate::interval;
 use urdd_robot::{Robot, ShapeKind};
@@ -68,26 +68,44 @@ fn read(text: &str, robot: &Robot) -> Model {
 }
 
 impl Model {
+    /// In plain numbers: 26,000 configurations are judged, and this is compiled without optimisation.
     fn touches(&self, poses: &[Isometry3<f64>]) -> bool {
         let placed = |link: usize| {
-            let own = self.spheres[link].iter();
-            let place = |(centre, radius): &([f64; 3], f64)| {
-                (
-                    poses[link] * Point3::from(*centre),
+            let rotation = poses[link].rotation.to_rotation_matrix().into_inner();
+            let rows = [0, 1, 2].map(|k| {
+                let [x, y, z] = [0, 1, 2].map(|column| rotation[(k, column)]);
+                [x, y, z, poses[link].translation.vector[k]]
+            });
+            let mut placed = Vec::new();
+            for ([x, y, z], radius) in &self.spheres[link] {
+                let [a, b, c] = &rows;
+                placed.push([
+                    a[0] * x + a[1] * y + a[2] * z + a[3],
+                    b[0] * x + b[1] * y + b[2] * z + b[3],
+                    c[0] * x + c[1] * y + c[2] * z + c[3],
                     radius + self.buffers[link],
-                )
-            };
-            own.map(place).collect::<Vec<_>>()
+                ]);
+            }
+            placed
         };
         let placed: Vec<_> = (0..self.links.len()).map(placed).collect();
-        (0..placed.len()).any(|a| {
-            (a + 1..placed.len()).any(|b| {
-                let apart = |(p, r): &(Point3<f64>, f64)| {
-                    placed[b].iter().any(|(q, s)| (p - q).norm() <= r + s)
-                };
-                !self.ignored.contains(&[a, b]) && placed[a].iter().any(apart)
-            })
-        })
+        for a in 0..placed.len() {
+            for b in a + 1..placed.len() {
+                if self.ignored.contains(&[a, b]) {
+                    continue;
+                }
+                for p in &placed[a] {
+                    for q in &placed[b] {
+                        let [x, y, z] = [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+                        let reach = p[3] + q[3];
+                        if x * x + y * y + z * z <= reach * reach {
+                            return true;
+                        }
+                    }
+                }
+            }
+        }
+        false
     }
 
     /// Collisions missed, collisions, false contacts, free configurations.

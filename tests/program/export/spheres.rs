@@ -98,15 +98,24 @@ fn filled(spheres: &[(Vector3<f64>, f64)]) -> (f64, f64) {
         .fold(0.0, f64::max)
         / 60.0;
     let count = |axis: usize| ((high(axis) - low(axis)) / step).ceil() as usize;
+    let of_numbers: Vec<[f64; 4]> = spheres.iter().map(|(c, r)| [c.x, c.y, c.z, *r]).collect();
+    // In plain numbers: there are a million points, and this is compiled without optimisation.
+    let lows = [0, 1, 2].map(low);
+    let counts = [0, 1, 2].map(count);
     let mut inside = 0;
-    for x in 0..count(0) {
-        for y in 0..count(1) {
-            for z in 0..count(2) {
-                let place = |k: usize, axis: usize| low(axis) + (k as f64 + 0.5) * step;
-                let point = Vector3::new(place(x, 0), place(y, 1), place(z, 2));
-                let held =
-                    |(centre, radius): &(Vector3<f64>, f64)| (point - centre).norm() <= *radius;
-                inside += usize::from(spheres.iter().any(held));
+    for i in 0..counts[0] {
+        let x = lows[0] + (i as f64 + 0.5) * step;
+        for j in 0..counts[1] {
+            let y = lows[1] + (j as f64 + 0.5) * step;
+            for k in 0..counts[2] {
+                let z = lows[2] + (k as f64 + 0.5) * step;
+                for [a, b, c, radius] in &of_numbers {
+                    let [a, b, c] = [x - a, y - b, z - c];
+                    if a * a + b * b + c * c <= radius * radius {
+                        inside += 1;
+                        break;
+                    }
+                }
             }
         }
     }
