@@ -47,13 +47,18 @@ pub enum NoteKind {
     TooLarge,
     /// A selected module that would be of no use.
     OfNoUse,
+    /// Files of the user's in the folder of a module that is not made any more.
+    LeftBehind,
 }
 
 impl NoteKind {
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
-        use NoteKind::{Encoding, OfNoUse, Outside, TooLarge, Xml};
-        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse)
+        use NoteKind::{Encoding, LeftBehind, OfNoUse, Outside, TooLarge, Xml};
+        !matches!(
+            self,
+            Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind
+        )
     }
 
     /// The machine-readable name.
@@ -79,6 +84,7 @@ impl NoteKind {
             NoteKind::LeftOut => "left-out",
             NoteKind::TooLarge => "too-large",
             NoteKind::OfNoUse => "of-no-use",
+            NoteKind::LeftBehind => "left-behind",
         }
     }
 }

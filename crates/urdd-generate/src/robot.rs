@@ -11,7 +11,7 @@ use super::error::GenerateError;
 use super::meshes::MeshCount;
 use super::metadata;
 use super::modules::{MadeModule, Modules, check_assumptions};
-use super::note::Note;
+use super::note::{Note, NoteKind};
 use super::progress::Progress;
 use super::settings::Settings;
 use super::source::{self, Source};
@@ -147,7 +147,7 @@ fn make(
     let Modules {
         entries,
         made,
-        notes,
+        mut notes,
         ..
     } = modules;
 
@@ -159,6 +159,20 @@ fn make(
         .map(|bytes| writer.file(&found_name, bytes));
     if target.is_dir() {
         others::carry_over(target, replaced, staging.content())?;
+        let kinds: Vec<_> = made.iter().map(|module| module.kind).collect();
+        for kind in others::left_behind(staging.content(), &kinds) {
+            notes.push(Note {
+                kind: NoteKind::LeftBehind,
+                file: target.join(kind.folder()).display().to_string(),
+                line: 0,
+                column: 0,
+                problem: format!(
+                    "files of yours are here, and `{}` is not made any more",
+                    kind.name()
+                ),
+                assumed: "they stay, and `urdd validate` reports the folder (DIR003) until you move them away".to_owned(),
+            });
+        }
     }
     if !staging.content().join(GIT_ATTRIBUTES_FILE).exists() {
         writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;

@@ -78,17 +78,19 @@ pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError
     Ok(run_of(&files, linted, excluded, settings))
 }
 
-/// Lints a URDF or xacro file. Returns also the text that lines refer to, which is the expanded one of a xacro file;
-/// `None` if the file cannot be read.
+/// Lints a URDF or xacro file. Patterns of the settings match its path from the folder `seen_from`, or its name. Returns
+/// also the text that lines refer to, which is the expanded one of a xacro file; `None` if the file cannot be read.
 ///
 /// # Errors
 /// If the run is cancelled.
 pub fn lint_with_text(
     path: &Path,
+    seen_from: Option<&Path>,
     settings: &LintSettings,
 ) -> Result<(Run, Option<String>), Cancelled> {
     let paths = [path.to_owned()];
-    let mut linted = lint_file(path, &paths, settings);
+    let from = seen_from.map_or_else(|| paths.to_vec(), |folder| vec![folder.to_owned()]);
+    let mut linted = lint_file(path, &from, settings);
     settings.report.cancellation.check()?;
     let text = linted.text.take();
     Ok((run_of(&paths, vec![linted], 0, settings), text))

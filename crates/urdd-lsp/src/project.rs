@@ -1,6 +1,6 @@
 //! The settings that count for a document: those of the editor, of the nearest `urdd.toml`, and a baseline.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use lsp_types::DiagnosticSeverity;
 
@@ -9,7 +9,7 @@ use crate::document::Snapshot;
 use urdd_directory::cancellation::Cancellation;
 use urdd_lint::{Baseline, LintSettings, seen_from};
 use urdd_validate::Examined;
-use urdd_validate::settings_file::{SETTINGS_FILE, SettingsFile, SettingsFileError};
+use urdd_validate::settings_file::{SettingsFile, SettingsFileError, nearest};
 
 /// The settings that count for a document.
 pub struct Project {
@@ -26,6 +26,7 @@ impl Project {
     pub fn of(snapshot: &Snapshot, cancellation: &Cancellation) -> Self {
         let mut settings = snapshot.options.lint_settings(cancellation);
         let mut faults = Vec::new();
+        // `None` for a text that is not saved, without an open folder.
         let nearest = nearest(&snapshot.folder);
         let read = nearest.as_deref().map(SettingsFile::read).transpose();
         let file = read.unwrap_or_else(|error| {
@@ -67,16 +68,6 @@ impl Project {
         let path = snapshot.path.as_deref();
         self.settings.apply(path, self.seen.clone(), examined)
     }
-}
-
-/// The settings file in a folder, or in the nearest one above it.
-fn nearest(folder: &Path) -> Option<PathBuf> {
-    // A text that is not saved, and no open folder.
-    if !folder.is_absolute() {
-        return None;
-    }
-    let mut files = folder.ancestors().map(|above| above.join(SETTINGS_FILE));
-    files.find(|file| file.is_file())
 }
 
 fn broken(snapshot: &Snapshot, error: &SettingsFileError) -> Found {

@@ -16,6 +16,15 @@ pub const SETTINGS_FILE: &str = "urdd.toml";
 /// Maximum size of a settings file, in bytes.
 const MAX_SETTINGS_BYTES: u64 = 1 << 20;
 
+/// The settings file in a folder, or in the nearest one above it. `None` for a relative folder.
+pub fn nearest(folder: &Path) -> Option<PathBuf> {
+    if !folder.is_absolute() {
+        return None;
+    }
+    let mut files = folder.ancestors().map(|above| above.join(SETTINGS_FILE));
+    files.find(|file| file.is_file())
+}
+
 /// The content of a settings file.
 #[derive(Debug, Clone, Default)]
 pub struct SettingsFile {

@@ -1,7 +1,7 @@
 //! The temporary folder of what is dropped on the page.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Maximum size of all drops, bytes.
@@ -30,6 +30,11 @@ impl Drops {
             with_xacro,
             taken: Mutex::default(),
         }
+    }
+
+    /// Whether a file is in what was dropped.
+    pub(super) fn holds(&self, file: &Path) -> bool {
+        file.starts_with(&self.folder)
     }
 
     /// A new folder for so many bytes.

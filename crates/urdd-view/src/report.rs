@@ -1,14 +1,18 @@
 //! The reports that the page shows.
 
+use std::path::{Path, PathBuf};
+
 use serde_json::{Value, json};
 
 use crate::collection::{Collection, Shown, Source};
+use crate::drop_folder::Drops;
 use crate::meanings::meanings;
 use crate::revision;
 use urdd_directory::root::Root;
-use urdd_lint::LintSettings;
+use urdd_lint::{Baseline, LintSettings};
 use urdd_validate::report;
 use urdd_validate::settings::Settings;
+use urdd_validate::settings_file::{SettingsFile, nearest};
 use urdd_validate::{Run, validate, validate_source};
 
 /// Maximum size of a URDF that is sent with its report, in bytes.
@@ -28,8 +32,19 @@ pub fn report_of(collection: &Collection, robot: &Shown) -> String {
         // The URDD is made again when a file changes, and stays when the URDF cannot be read any more.
         Some(source) => {
             let of_urdd = robot.is_ready().then(|| revision::of(&path));
-            let of_file = revision::of_file(&source.file);
-            Some(format!("{} {of_file}", of_urdd.unwrap_or_default()))
+            let project = Project::of(collection, source);
+            let files = [
+                Some(&source.file),
+                project.file.as_ref(),
+                project.baseline.as_ref(),
+            ];
+            let files =
+                files.map(|file| file.map(|file| revision::of_file(file)).unwrap_or_default());
+            Some(format!(
+                "{} {}",
+                of_urdd.unwrap_or_default(),
+                files.join(" ")
+            ))
         }
         None => robot.open().ok().map(|(revision, _)| revision),
     };
@@ -39,7 +54,7 @@ pub fn report_of(collection: &Collection, robot: &Shown) -> String {
         return report.clone();
     }
     let made = match source {
-        Some(source) => report_on_source(source, &collection.settings),
+        Some(source) => report_on_source(collection, source),
         None => match robot.open() {
             Ok((_, opened)) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -57,21 +72,65 @@ pub fn report_of(collection: &Collection, robot: &Shown) -> String {
     made.unwrap_or_else(failed)
 }
 
-/// The report on a URDF, with its text.
-fn report_on_source(source: &Source, all: &urdd_generate::Settings) -> Result<String, String> {
+/// The settings for a URDF: those of the nearest `urdd.toml`, unless it was dropped on the page.
+#[derive(Default)]
+struct Project {
+    file: Option<PathBuf>,
+    report: Settings,
+    baseline: Option<PathBuf>,
+    /// What is wrong with the file; the defaults count then.
+    fault: Option<String>,
+}
+
+impl Project {
+    fn of(collection: &Collection, source: &Source) -> Self {
+        let is_dropped = |drops: &Drops| drops.holds(&source.file);
+        if collection.drops.as_ref().is_some_and(is_dropped) {
+            return Project::default();
+        }
+        let file = std::path::absolute(&source.file).ok();
+        let Some(file) = file.and_then(|file| nearest(file.parent()?)) else {
+            return Project::default();
+        };
+        let (read, fault) = match SettingsFile::read(&file) {
+            Ok(read) => (read, None),
+            Err(error) => (SettingsFile::default(), Some(error.to_string())),
+        };
+        Project {
+            file: Some(file),
+            report: read.settings,
+            baseline: read.baseline,
+            fault,
+        }
+    }
+}
+
+/// The report on a URDF, with its text and the settings file that counts for it.
+fn report_on_source(collection: &Collection, source: &Source) -> Result<String, String> {
+    let all = &collection.settings;
+    let mut project = Project::of(collection, source);
+    let baseline = project.baseline.as_deref().map(Baseline::read).transpose();
+    let baseline = baseline.unwrap_or_else(|error| {
+        project.fault = Some(error.to_string());
+        None
+    });
     let settings = LintSettings {
         report: Settings {
             cancellation: all.cancellation.clone(),
-            ..Settings::default()
+            ..project.report
         },
         source: source.settings(all),
+        baseline,
         ..LintSettings::default()
     };
-    let linted = urdd_lint::lint_with_text(&source.file, &settings);
+    let folder = project.file.as_deref().and_then(Path::parent);
+    let linted = urdd_lint::lint_with_text(&source.file, folder, &settings);
     let (run, text) = linted.map_err(|error| error.to_string())?;
     let report: Result<Value, _> = serde_json::from_str(&as_json(&run)?);
     let mut report = report.map_err(|error| error.to_string())?;
     report["rules"] = meanings(&report);
+    let shown = project.file.map(|file| file.display().to_string());
+    report["settings"] = json!({ "file": shown, "fault": project.fault });
     report["text"] = json!(text.filter(|text| text.len() <= MAX_TEXT_BYTES));
     Ok(report.to_string())
 }

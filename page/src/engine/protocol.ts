@@ -283,6 +283,8 @@ export interface Report {
   totals: Record<string, number>;
   /** For a URDF by itself: its text, expanded if it is xacro, unless it is too large; and the rules of its findings. */
   text?: string | null;
+  /** For a URDF by itself: the `urdd.toml` that counts, and what is wrong with it. */
+  settings?: { file: string | null; fault: string | null };
   rules?: Explanation[];
 }
 

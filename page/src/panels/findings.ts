@@ -63,7 +63,14 @@ export function findings(app: App): HTMLElement {
       fill(list);
       return;
     }
+    const settings = state.report?.settings;
     fill(verdict, words(urdd, counts));
+    if (settings?.file) {
+      const said = settings.fault
+        ? `Without your settings: ${settings.fault}`
+        : `With the settings of ${settings.file}.`;
+      verdict.append(h("span", { class: "hint" }, ` ${name(said)}`));
+    }
     const wanted = search.value.trim().toLowerCase();
     const shown = toMend(urdd.findings).filter(
       (finding) =>

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use urdd_format::registry::ModuleKind;
-use urdd_generate::{Generated, Settings, generate};
+use urdd_generate::note::NoteKind;
+use urdd_generate::{Generated, Selection, Settings, generate};
 
 use testkit::trials::sample;
 
@@ -226,6 +227,32 @@ fn files_of_the_users_outlive_a_new_run() {
     fs::write(&other, changed).unwrap();
     make(&other, &target);
     assert!(target.join("other.urdf").exists() && !target.join("robot.urdf").exists());
+}
+
+#[test]
+fn files_of_the_users_in_a_module_that_is_not_made_any_more_are_named() {
+    let (folder, source) = workshop();
+    let target = folder.path().join("out");
+    let notes = |made: Generated| {
+        let kinds = made.notes.into_iter();
+        let found = kinds.filter(|note| note.kind == NoteKind::LeftBehind);
+        found.map(|note| note.file).collect::<Vec<_>>()
+    };
+    let core = Settings {
+        selection: Selection::parse(["core"]).unwrap(),
+        ..Settings::default()
+    };
+    let hulls = ModuleKind::ConvexHullMeshes.folder();
+    let mine = target.join(hulls).join("notes.txt");
+    make(&source, &target);
+    fs::write(&mine, "mine").unwrap();
+    // While the module is made, there is nothing to say.
+    assert_eq!(notes(make(&source, &target)), [""; 0]);
+    let made = generate(&source, &target, &core, &()).unwrap();
+    assert_eq!(notes(made), [target.join(hulls).display().to_string()]);
+    assert_eq!(fs::read_to_string(&mine).unwrap(), "mine");
+    let codes = findings_of(&target);
+    assert!(codes.iter().any(|found| found.0 == "DIR003"), "{codes:?}");
 }
 
 #[test]

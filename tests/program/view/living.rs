@@ -207,6 +207,25 @@ fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
         fs::write(&urdf, robot(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
         assert!(!has(&report(), "LNT017", "findings"));
 
+        // The nearest urdd.toml counts, as for an editor; one that is broken is said.
+        let settings = folder.path().join("urdd.toml");
+        let ignore = "[[ignore]]\ncode = \"LNT017\"\npath = \"arm.urdf\"\nreason = \"known\"\n";
+        fs::write(&urdf, &text).expect("written");
+        fs::write(&settings, ignore).expect("written");
+        let without = report();
+        assert!(!has(&without, "LNT017", "findings"), "{without}");
+        let read = without["settings"]["file"].as_str().expect("a path");
+        assert_eq!(Path::new(read), settings);
+        assert_eq!(without["settings"]["fault"], Value::Null);
+        fs::write(&settings, "[[ignore").expect("written");
+        let with = report();
+        assert!(has(&with, "LNT017", "findings"), "{with}");
+        let fault = with["settings"]["fault"].as_str().expect("a fault");
+        assert!(fault.contains("urdd.toml:1"), "{fault}");
+        fs::remove_file(&settings).expect("removed");
+        assert_eq!(report()["settings"]["file"], Value::Null);
+        fs::write(&urdf, robot(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
+
         // A robot that is saved is a URDD.
         until(server, "arm", is_whole);
         let wish = serde_json::json!({ "folder": folder.path().join("saved").to_str() });

@@ -33,6 +33,14 @@ pub(crate) fn carry_over(
     merge(folder, root, "", &listed)
 }
 
+/// The modules that were not made, but whose folders have files that were carried over.
+pub(crate) fn left_behind(root: &Path, made: &[ModuleKind]) -> Vec<ModuleKind> {
+    let kinds = ModuleKind::ALL.iter().copied();
+    kinds
+        .filter(|kind| !made.contains(kind) && root.join(kind.folder()).exists())
+        .collect()
+}
+
 /// Every path that the replaced URDD lists, except those of extension modules.
 fn listed(replaced: &Donor) -> BTreeSet<String> {
     let source = &replaced.value["source"];
