@@ -15,6 +15,10 @@ const MAX_SENT = 256 * 2 ** 20;
 const OF_URDF =
   /\.(?:urdf|xacro|xml|ya?ml|stl|dae|obj|mtl|ply|glb|gltf|bin|png|jpe?g|tga|bmp|dds|gif|tiff?|webp|hdr|exr|ktx2|ppm|pgm)$/i;
 const IS_URDF = /\.(?:urdf|xacro)$/i;
+/** Maximum size of the list of files in a .zip that is looked at. */
+const MAX_LIST = 8 * 2 ** 20;
+/** Maximum length of the comment at the end of a .zip, with the record before it. */
+const ZIP_END = 22 + 0xffff;
 
 /** What a page without the program says. */
 export const NEEDS_PROGRAM =
@@ -123,5 +127,22 @@ async function ofFile(files: File[]): Promise<Taken> {
   if (!/\.zip$/i.test(file.name)) return ofUrdf(files.map((file) => ({ path: file.name, file })));
   if (file.size > MAX_BYTES)
     throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
+  const names = await namesOfZip(file);
+  if (/\.(?:urdf|xacro)\b/i.test(names) && !/(?:urdd|module)\.json/.test(names)) {
+    if (file.size > MAX_SENT) throw new Error("This archive has more than 256 MB. Give its path to `urdd view` instead.");
+    return { kind: "urdf", files: [{ path: file.name, file }] };
+  }
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };
+}
+
+/**
+ * The list of files at the end of a .zip, as bytes in which names are found. Empty if there is none. Only what the archive
+ * is, a URDD or a URDF with its meshes, follows from it.
+ */
+async function namesOfZip(file: File): Promise<string> {
+  const text = async (part: Blob): Promise<string> => new TextDecoder("latin1").decode(await part.arrayBuffer());
+  const from = Math.max(0, file.size - ZIP_END);
+  const end = await text(file.slice(from));
+  const at = end.lastIndexOf("PK\x05\x06");
+  return at < 0 ? "" : text(file.slice(Math.max(0, from + at - MAX_LIST), from + at));
 }

@@ -278,8 +278,8 @@ def names_of(types: Types, more: list[str]) -> str:
     return "\n".join(f'    "{name}",' for name in sorted(names))
 
 
-def read_schema(name: str) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads((SCHEMAS / name / f"{VERSION}.json").read_text(encoding="utf-8"))
+def read_schema(name: str, version: str = VERSION) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads((SCHEMAS / name / f"{version}.json").read_text(encoding="utf-8"))
     return found
 
 
@@ -321,8 +321,8 @@ def report_file() -> str:
     types = Types()
     readers = ""
     names = []
-    for schema, command in [("report", "validate"), ("diff_report", "diff")]:
-        root = types.add(read_schema(schema))
+    for schema, version, command in [("report", "1.0.0", "validate"), ("diff_report", "1.1.0", "diff")]:
+        root = types.add(read_schema(schema, version))
         readers += REPORT_READER.format(schema=schema, type=root, command=command, root=f"_{snake(root)}")
         names.append(f"read_{schema}")
     imports = "import json\nfrom dataclasses import dataclass\nfrom typing import Any, Literal, TypeAlias"

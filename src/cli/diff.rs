@@ -51,7 +51,7 @@ pub struct DiffArguments {
 enum Format {
     /// Text for people.
     Text,
-    /// JSON; its schema is `urdd schema show diff_report@1.0.0`.
+    /// JSON; its schema is `urdd schema show diff_report@1.1.0`.
     Json,
     /// Markdown, for a comment on a pull request.
     Markdown,

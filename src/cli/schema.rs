@@ -109,6 +109,7 @@ fn table() -> String {
         let (profile, class, folder) = match subject {
             Subject::Report
             | Subject::DiffReport
+            | Subject::FirstDiffReport
             | Subject::ProducerResult
             | Subject::ValidatorResult => (Profile::V1, None, "-"),
             Subject::RootMetadata => (Profile::V1, None, "."),

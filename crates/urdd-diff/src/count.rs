@@ -13,6 +13,7 @@ pub(super) fn count(report: &DiffReport) -> usize {
         usize::from(report.poses.is_some()),
         report.dofs.len(),
         report.pairs.as_ref().map_or(0, Vec::len),
+        report.configurations.as_ref().map_or(0, Vec::len),
         report.modules.as_ref().map_or(0, Vec::len),
         report.findings.as_ref().map_or(0, Vec::len),
     ];

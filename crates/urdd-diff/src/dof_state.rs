@@ -17,6 +17,16 @@ pub(super) struct DofState {
     pub derived: Fields,
 }
 
+impl DofState {
+    /// The unit of its position: rad or m.
+    pub fn unit(&self) -> &'static str {
+        match self.stated.shown("quantity") {
+            Some(quantity) if quantity == Quantity::Length.as_str() => "m",
+            _ => "rad",
+        }
+    }
+}
+
 /// The DOFs of a robot, as they follow from its joints.
 pub(super) fn of_robot(robot: &Robot) -> Vec<DofState> {
     let layout = DofLayout::new(robot, false);

@@ -6,6 +6,7 @@
 //! values with URDF's defaults filled in (`fields`), so that formatting, the order of attributes, and how a number is
 //! written make no difference.
 
+mod configurations;
 mod count;
 mod dof_state;
 mod dofs;
@@ -45,10 +46,17 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
         parts::differences(&parts(before), &parts(after), tolerance)
     };
     let mut notes = notes(before, after);
+    if tolerance > 0.0 {
+        notes.push(format!(
+            "numbers that differ by at most {tolerance:?} are taken as equal"
+        ));
+    }
     let joints = parts(&|side| joints::parts(&side.robot.joints, side.has_quaternions()));
     let dofs = dofs::differences(before, after, tolerance);
     let pairs = pairs::differences(before, after, &mut notes);
+    let configurations = configurations::differences(before, after, tolerance);
     let in_detail = InDetail {
+        configurations: configurations.as_ref().is_some_and(|it| !it.is_empty()),
         dofs: !dofs.is_empty() || !joints.is_empty(),
         pairs: pairs.as_ref().is_some_and(|pairs| !pairs.is_empty()),
     };
@@ -66,6 +74,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
         poses: poses::difference(before, after, tolerance),
         dofs,
         pairs,
+        configurations,
         modules,
         findings: findings::differences(before, after),
         notes,

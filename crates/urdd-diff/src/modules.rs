@@ -16,6 +16,8 @@ pub(super) struct InDetail {
     pub dofs: bool,
     /// Whether there are differences of pairs.
     pub pairs: bool,
+    /// Whether there are differences of named configurations.
+    pub configurations: bool,
 }
 
 /// The modules that differ; `None` unless both are URDDs.
@@ -78,6 +80,7 @@ fn is_in_detail(kind: Option<ModuleKind>, in_detail: &InDetail) -> bool {
         Some(ModuleKind::Urdf | ModuleKind::OriginalMeshes) => true,
         Some(ModuleKind::Dof | ModuleKind::Bounds) => in_detail.dofs,
         Some(ModuleKind::LinkShapesSkips) => in_detail.pairs,
+        Some(ModuleKind::NamedConfigurations) => in_detail.configurations,
         _ => false,
     }
 }

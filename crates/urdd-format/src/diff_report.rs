@@ -6,7 +6,7 @@ use super::object::{module, object, string_enum};
 use super::report::{Kind, Severity, Tool, Verdict};
 
 /// Version of the format.
-pub const DIFF_REPORT_VERSION: &str = "1.0.0";
+pub const DIFF_REPORT_VERSION: &str = "1.1.0";
 
 module! {
     /// How two robots differ in meaning. Values are texts, as a URDF would have them; numbers are in
@@ -37,6 +37,9 @@ module! {
         pub dofs: Vec<DofDifference>,
         /// Pairs of links that collision checks gain or lose; null where one robot states no skips.
         pub pairs: Option<Vec<PairDifference>>,
+        /// Named configurations that are new or gone, or have other positions (fields named as their DOFs); null where
+        /// one of the two is a URDF. Since 1.1.0.
+        pub configurations: Option<Vec<PartDifference>>,
         /// Modules that are new or gone, of another version, or with other content. What other lists of this
         /// report compare in detail is not repeated here. Null where one of the two is a URDF.
         pub modules: Option<Vec<ModuleDifference>>,

@@ -25,6 +25,8 @@ pub enum Subject {
     Report,
     /// Output of `urdd diff --format json`.
     DiffReport,
+    /// The same in its first version, without named configurations.
+    FirstDiffReport,
     /// Output of `urdd conformance producer --format json`.
     ProducerResult,
     /// Output of `urdd conformance validator --format json`.
@@ -105,6 +107,7 @@ impl Subject {
             .chain(MODULES.iter().map(Subject::Module))
             .chain([
                 Subject::Report,
+                Subject::FirstDiffReport,
                 Subject::DiffReport,
                 Subject::ProducerResult,
                 Subject::ValidatorResult,
@@ -134,7 +137,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => "root_metadata",
             Subject::Report => "report",
-            Subject::DiffReport => "diff_report",
+            Subject::DiffReport | Subject::FirstDiffReport => "diff_report",
             Subject::ProducerResult => "producer_result",
             Subject::ValidatorResult => "validator_result",
             Subject::Module(spec) => spec.kind.name(),
@@ -144,7 +147,7 @@ impl Subject {
     /// Version of its format; `unversioned` for a legacy module without one.
     pub fn version(self) -> &'static str {
         match self {
-            Subject::RootMetadata => "1.0.0",
+            Subject::RootMetadata | Subject::FirstDiffReport => "1.0.0",
             Subject::Report => REPORT_VERSION,
             Subject::DiffReport => DIFF_REPORT_VERSION,
             Subject::ProducerResult | Subject::ValidatorResult => RESULT_VERSION,
@@ -164,6 +167,17 @@ impl Subject {
             Subject::RootMetadata => schemars::schema_for!(RootMetadata),
             Subject::Report => schemars::schema_for!(Report),
             Subject::DiffReport => schemars::schema_for!(DiffReport),
+            Subject::FirstDiffReport => {
+                let mut schema = schemars::schema_for!(DiffReport);
+                let later = "configurations";
+                if let Some(Value::Object(properties)) = schema.get_mut("properties") {
+                    properties.shift_remove(later);
+                }
+                if let Some(Value::Array(required)) = schema.get_mut("required") {
+                    required.retain(|key| key != later);
+                }
+                schema
+            }
             Subject::ProducerResult => schemars::schema_for!(ProducerResult),
             Subject::ValidatorResult => schemars::schema_for!(ValidatorResult),
             Subject::Module(spec) => spec.schema(),
@@ -184,6 +198,7 @@ impl Subject {
             Subject::Module(spec) => spec.profile == Profile::V1,
             Subject::Report
             | Subject::DiffReport
+            | Subject::FirstDiffReport
             | Subject::ProducerResult
             | Subject::ValidatorResult => false,
         }

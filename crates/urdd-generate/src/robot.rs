@@ -167,7 +167,7 @@ fn make(
                 line: 0,
                 column: 0,
                 problem: format!(
-                    "files of yours are here, and `{}` is not made any more",
+                    "files of yours are here, and `{}` is not made",
                     kind.name()
                 ),
                 assumed: "they stay, and `urdd validate` reports the folder (DIR003) until you move them away".to_owned(),

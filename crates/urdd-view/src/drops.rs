@@ -1,15 +1,17 @@
 //! Takes URDFs and their meshes that were dropped on the page into the temporary folder.
 //!
-//! The body is a line of JSON, a list of `path` and `size`, and then the files' bytes one after another. Everything in it
-//! is hostile: no path leaves the folder, no file replaces another, and number, sizes and depth have limits.
+//! The body is a line of JSON, a list of `path` and `size`, and then the files' bytes one after another. A .zip that comes
+//! alone stands for the files in it. Everything is hostile: no path leaves the folder, no file replaces another, and
+//! number, sizes and depth have limits.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
+use std::io::{Cursor, ErrorKind, Read, Write};
 use std::path::Path;
 
 use serde::Deserialize;
 use serde_json::json;
+use zip::ZipArchive;
 
 use crate::collection::{Collection, Source};
 use crate::drop_folder::Drops;
@@ -54,11 +56,19 @@ fn taken(
     body: &[u8],
     is_gone: &dyn Fn() -> bool,
 ) -> Result<Vec<String>, Failure> {
-    let (items, content) = items(body)?;
+    let (mut items, mut content) = items(body)?;
+    let unpacked;
     let wanted = || match is_gone() {
         true => Err((409, "the page does not wait any more".to_owned())),
         false => Ok(()),
     };
+    if let [item] = &*items
+        && item.path.to_ascii_lowercase().ends_with(".zip")
+    {
+        (items, unpacked) = of_zip(content, &wanted)?;
+        content = &unpacked;
+    }
+    check(&items)?;
     let folder = drops.begin(content.len() as u64)?;
     let sources = write(&items, content, &folder, &wanted)
         .and_then(|()| sources(&items, &folder, drops.with_xacro, &wanted));
@@ -78,16 +88,51 @@ fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
     let (list, content) = (&body[..end], &body[end + 1..]);
     let items: Vec<Item> =
         serde_json::from_slice(list).map_err(|error| bad(format!("no list of files: {error}")))?;
-    if items.len() > MAX_FILES {
-        return Err(bad(format!("more than {MAX_FILES} files")));
-    }
     let size = items
         .iter()
         .try_fold(0u64, |sum, item| sum.checked_add(item.size));
     if size != Some(content.len() as u64) {
         return Err(bad("the sizes do not match".to_owned()));
     }
-    for item in &items {
+    Ok((items, content))
+}
+
+/// The files in a .zip, and their bytes.
+fn of_zip(
+    bytes: &[u8],
+    wanted: &dyn Fn() -> Result<(), Failure>,
+) -> Result<(Vec<Item>, Vec<u8>), Failure> {
+    let bad = |error: &dyn std::fmt::Display| (400, format!("this .zip cannot be read: {error}"));
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| bad(&error))?;
+    let (mut items, mut content) = (Vec::new(), Vec::new());
+    for k in 0..archive.len() {
+        wanted()?;
+        let mut file = archive.by_index(k).map_err(|error| bad(&error))?;
+        if file.is_dir() {
+            continue;
+        }
+        let room = MAX_BODY.saturating_sub(content.len() as u64);
+        // The size that the archive states is not believed.
+        let mut limited = (&mut file).take(room + 1);
+        let size = limited.read_to_end(&mut content);
+        let size = size.map_err(|error| bad(&error))? as u64;
+        if size > room {
+            let why = format!("this .zip has more than {} MiB in it", MAX_BODY >> 20);
+            return Err((413, why));
+        }
+        let path = file.name().to_owned();
+        items.push(Item { path, size });
+    }
+    Ok((items, content))
+}
+
+/// Whether number and paths are such that they can be written.
+fn check(items: &[Item]) -> Result<(), Failure> {
+    let bad = |why: String| (400, why);
+    if items.len() > MAX_FILES {
+        return Err(bad(format!("more than {MAX_FILES} files")));
+    }
+    for item in items {
         let name = &item.path;
         let is_long = name.len() > MAX_NAME_BYTES
             || name.split('/').any(|part| part.len() > MAX_PART_BYTES)
@@ -97,7 +142,7 @@ fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
         }
         path::check(name).map_err(|fault| bad(format!("{name:?}: {fault}")))?;
     }
-    Ok((items, content))
+    Ok(())
 }
 
 fn write(

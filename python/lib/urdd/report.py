@@ -734,6 +734,10 @@ class DiffReport:
     pairs: list[PairDifference] | None
     """Pairs of links that collision checks gain or lose; null where one robot states no skips."""
 
+    configurations: list[PartDifference] | None
+    """Named configurations that are new or gone, or have other positions (fields named as their DOFs); null where
+    one of the two is a URDF. Since 1.1.0."""
+
     modules: list[ModuleDifference] | None
     """Modules that are new or gone, of another version, or with other content. What other lists of this report
     compare in detail is not repeated here. Null where one of the two is a URDF."""
@@ -1038,6 +1042,7 @@ def _diff_report(v: Any) -> DiffReport:
         poses=None if v["poses"] is None else _pose_difference(v["poses"]),
         dofs=[_dof_difference(x) for x in v["dofs"]],
         pairs=None if v["pairs"] is None else [_pair_difference(x) for x in v["pairs"]],
+        configurations=None if v["configurations"] is None else [_part_difference(x) for x in v["configurations"]],
         modules=None if v["modules"] is None else [_module_difference(x) for x in v["modules"]],
         findings=None if v["findings"] is None else [_finding_difference(x) for x in v["findings"]],
         notes=v["notes"],

@@ -127,6 +127,15 @@ fn places(report: &DiffReport) -> Vec<String> {
         let kinds = pair.shapes.join(",");
         places.push(format!("pairs/{a}-{b}/{}/{kinds}", pair.change));
     }
+    for configuration in report.configurations.iter().flatten() {
+        let name = format!("configurations/{}", configuration.name);
+        add(
+            &mut places,
+            &name,
+            configuration.presence,
+            &configuration.changes,
+        );
+    }
     for module in report.modules.iter().flatten() {
         places.push(format!("modules/{}/{}", module.name, module.presence));
     }

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::process::Command;
 
 use serde_json::{Value, json};
 
 use super::{few, open, places};
 use testkit::fixture::Fixture;
+use testkit::repository;
 use urdd_diff::{Side, compare};
 use urdd_format::shape_kind::ShapeKind;
 
@@ -240,4 +242,62 @@ fn a_module_that_is_gone_is_named() {
         places(&compare(&after, &bench.before, 0.0)),
         ["modules/kinematics_samples_module/added"]
     );
+}
+
+#[test]
+fn each_named_configuration_is_named_with_the_dofs_that_moved() {
+    let folder = testkit::temporary::folder();
+    let write = |name: &str, named: &[(&str, &str)]| {
+        let path = folder.path().join(name);
+        let urdf = repository().join("conformance/robots/gripper.urdf");
+        let run = |words: &[&str], more: &[&str]| {
+            let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
+                .args(words)
+                .arg(&path)
+                .args(more)
+                .output()
+                .unwrap();
+            assert!(output.status.success(), "{output:?}");
+        };
+        let urdf = urdf.to_str().unwrap();
+        run(&["generate", "--modules", "core", urdf, "-o"], &[]);
+        for (name, position) in named {
+            run(&["configurations", "set"], &[name, position]);
+        }
+        open(&path)
+    };
+    let none = write("none", &[]);
+    let two = write("two", &[("home", "motor=0.1"), ("away", "motor=0")]);
+    let other = write("other", &[("home", "motor=0.2"), ("ready", "motor=0")]);
+    let report = compare(&two, &other, 0.0);
+    let expected = [
+        "configurations/home/motor",
+        "configurations/away/removed",
+        "configurations/ready/added",
+    ];
+    assert_eq!(places(&report), expected);
+    let [home, ..] = report.configurations.as_deref().unwrap() else {
+        panic!("none differ");
+    };
+    let change = &home.changes[0];
+    assert_eq!(
+        (
+            change.before.as_deref(),
+            change.after.as_deref(),
+            &*change.unit
+        ),
+        (Some("0.1"), Some("0.2"), "rad")
+    );
+    assert!(!report.same && compare(&two, &two, 0.0).same);
+    // Within the tolerance they are equal.
+    let near = compare(&two, &other, 0.11);
+    assert_eq!(places(&near), expected[1..]);
+    assert!(near.notes.iter().any(|note| note.contains("at most 0.11")));
+    // The module is new as well where a robot had none.
+    let news = [
+        "configurations/home/added",
+        "configurations/away/added",
+        "modules/named_configurations_module/added",
+    ];
+    assert_eq!(places(&compare(&none, &two, 0.0)), news);
 }

@@ -17,6 +17,7 @@ pub fn tables() -> String {
             Subject::Module(spec) if spec.profile != Profile::V1 => continue,
             Subject::Report
             | Subject::DiffReport
+            | Subject::FirstDiffReport
             | Subject::ProducerResult
             | Subject::ValidatorResult => continue,
             _ => {}

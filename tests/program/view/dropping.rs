@@ -1,7 +1,7 @@
 //! URDFs that are dropped on the page.
 
 use std::fs;
-use std::io::Write;
+use std::io::{Cursor, Write};
 use std::net::TcpStream;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -167,6 +167,70 @@ fn vast() -> Vec<u8> {
     let content = MESH.repeat(list.len()) + &urdf;
     list.push(json!({ "path": "vast/vast.urdf", "size": urdf.len() }));
     format!("{}\n{content}", Value::from(list)).into_bytes()
+}
+
+/// A .zip of these files.
+fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    for (path, bytes) in files {
+        zip.start_file(*path, options).expect("a name");
+        zip.write_all(bytes).expect("written");
+    }
+    zip.finish().expect("an archive").into_inner()
+}
+
+fn drop_zip(server: &Running, zip: &[u8]) -> Answer {
+    let list = json!([{ "path": "arm.ZIP", "size": zip.len() }]);
+    let mut body = format!("{list}\n").into_bytes();
+    body.extend(zip);
+    server.send("/drops", &body)
+}
+
+#[test]
+fn a_zip_stands_for_the_files_in_it() {
+    let folder = testkit::temporary::folder();
+    let collection = Collection::default().with_drops(folder.path().join("in"), false);
+    living(collection, |server| {
+        let zip = zipped(&[
+            ("package/urdf/arm.urdf", URDF.as_bytes()),
+            ("package/meshes/a.obj", MESH.as_bytes()),
+        ]);
+        let answer = drop_zip(server, &zip);
+        assert_eq!(answer.text(), r#"{"robots":["arm"]}"#);
+        let made = until(server, "arm", is_whole);
+        assert_eq!(made["entry"]["notes"], json!([]), "{made}");
+    });
+}
+
+#[test]
+fn a_hostile_zip_is_refused_and_leaves_nothing() {
+    let folder = testkit::temporary::folder();
+    let collection = Collection::default().with_drops(folder.path().join("in"), false);
+    let server = Running::with(collection);
+    let vast = vec![b' '; 257 << 20];
+    let inner = zipped(&[("arm.urdf", URDF.as_bytes())]);
+    let mut cut = inner.clone();
+    cut.truncate(inner.len() - 30);
+    let cases: [(Vec<u8>, u16, &str); 6] = [
+        (
+            zipped(&[("../arm.urdf", URDF.as_bytes())]),
+            400,
+            "../arm.urdf",
+        ),
+        (zipped(&[("/arm.urdf", URDF.as_bytes())]), 400, "/arm.urdf"),
+        (zipped(&[("arm.urdf", &vast)]), 413, "256 MiB"),
+        (zipped(&[("inner.zip", &inner)]), 400, "no .urdf"),
+        (cut, 400, "cannot be read"),
+        (b"PK nothing".to_vec(), 400, "cannot be read"),
+    ];
+    for (zip, status, word) in &cases {
+        let answer = drop_zip(&server, zip);
+        assert_eq!(answer.status, *status, "{}", answer.text());
+        assert!(answer.text().contains(word), "{}", answer.text());
+    }
+    assert_eq!(files(folder.path()), Vec::<String>::new());
+    assert_eq!(server.json("/robots.json"), json!([]));
 }
 
 #[test]

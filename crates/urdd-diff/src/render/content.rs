@@ -112,6 +112,10 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
         pairs(report.pairs.as_deref().unwrap_or_default()),
     );
     add(
+        "Named configurations",
+        parts(report.configurations.as_deref().unwrap_or_default()),
+    );
+    add(
         "Modules",
         modules(report.modules.as_deref().unwrap_or_default()),
     );

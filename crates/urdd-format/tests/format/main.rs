@@ -46,7 +46,7 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
         }
         Subject::Module(spec) => spec.read(value).map(Document::Module),
         Subject::Report => Report::deserialize(value).map(|r| Document::Report(Box::new(r))),
-        Subject::DiffReport => {
+        Subject::DiffReport | Subject::FirstDiffReport => {
             DiffReport::deserialize(value).map(|r| Document::DiffReport(Box::new(r)))
         }
         Subject::ProducerResult => {
@@ -56,6 +56,11 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
             ValidatorResult::deserialize(value).map(|r| Document::ValidatorResult(Box::new(r)))
         }
     }
+}
+
+/// Every document that has a type: all but earlier versions of a report.
+fn subjects() -> impl Iterator<Item = Subject> {
+    Subject::all().filter(|subject| !matches!(subject, Subject::FirstDiffReport))
 }
 
 fn validator(schema: &Value) -> Validator {
@@ -100,7 +105,7 @@ fn verdict(subject: Subject, validator: &Validator, value: &Value) -> Result<boo
 
 #[test]
 fn serde_accepts_exactly_what_the_schema_accepts() {
-    for subject in Subject::all() {
+    for subject in subjects() {
         let schema = subject.schema(Variant::Strict);
         let validator = validator(&schema);
         let seen = [Cell::new(0), Cell::new(0)];
@@ -133,7 +138,7 @@ fn serde_accepts_exactly_what_the_schema_accepts() {
 
 #[test]
 fn what_is_read_comes_back_unchanged() {
-    for subject in Subject::all() {
+    for subject in subjects() {
         let schema = subject.schema(Variant::Strict);
         let validator = validator(&schema);
         run(CASES, |choices, _| {
@@ -150,7 +155,7 @@ fn what_is_read_comes_back_unchanged() {
 
 #[test]
 fn the_open_schema_accepts_what_the_strict_one_does_and_new_keys() {
-    for subject in Subject::all() {
+    for subject in subjects() {
         let schema = subject.schema(Variant::Strict);
         let open = validator(&subject.schema(Variant::Open));
         run(CASES / 4, |choices, _| {
