@@ -129,7 +129,8 @@ async function ofFile(files: File[]): Promise<Taken> {
     throw new Error("This archive has more than 1 GB, too much for a browser. Use `urdd view` on this machine.");
   const names = await namesOfZip(file);
   if (/\.(?:urdf|xacro)\b/i.test(names) && !/(?:urdd|module)\.json/.test(names)) {
-    if (file.size > MAX_SENT) throw new Error("This archive has more than 256 MB. Give its path to `urdd view` instead.");
+    if (file.size > MAX_SENT)
+      throw new Error("This archive has more than 256 MB. Give its path to `urdd view` instead.");
     return { kind: "urdf", files: [{ path: file.name, file }] };
   }
   return { kind: "zip", name: file.name.replace(/\.zip$/i, ""), bytes: await file.arrayBuffer() };

@@ -1,6 +1,7 @@
 // URDFs as their authors work on them: changed on disk, broken and mended, in a folder, dropped on the page.
 
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
