@@ -109,7 +109,7 @@ fn what_is_missing_is_told_by_class_and_module() {
 #[cfg(unix)]
 #[test]
 fn what_a_producer_does_wrong_is_told() {
-    let run = |script: &str| {
+    let run_for = |seconds: &str, script: &str| {
         let arguments = [
             &[
                 "producer",
@@ -118,7 +118,7 @@ fn what_a_producer_does_wrong_is_told() {
                 "--robot",
                 "gripper",
                 "--timeout",
-                "5",
+                seconds,
             ][..],
             &["--", "sh", "-c", script, "sh", "{urdf}", "{out}"],
         ];
@@ -126,6 +126,7 @@ fn what_a_producer_does_wrong_is_told() {
         assert_eq!(status, 1, "{script}");
         result["robots"][0].clone()
     };
+    let run = |script: &str| run_for("60", script);
     let robot = run("echo no idea >&2; exit 7");
     assert_eq!(robot["end"], "exit status 7");
     assert_eq!(robot["stderr"], "no idea\n");
@@ -135,7 +136,7 @@ fn what_a_producer_does_wrong_is_told() {
     assert!(text(&run("mkdir \"$2\"")).contains("no URDD here"));
     let nested = format!("'{URDD}' generate --modules core \"$1\" -o \"$2/inside\"");
     assert!(text(&run(&nested)).contains("itself must be the URDD"));
-    assert_eq!(run("sleep 60")["end"], "stopped at the time limit");
+    assert_eq!(run_for("1", "sleep 60")["end"], "stopped at the time limit");
 }
 
 #[test]

@@ -48,7 +48,7 @@ pub fn living(collection: Collection, act: impl FnOnce(&Running)) {
         folder: folder.path(),
         settings: &settings,
         observer: &Quiet,
-        pause: Duration::from_millis(500),
+        pause: Duration::from_millis(50),
     };
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
