@@ -97,7 +97,9 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
 
 /// Offset of the end record.
 fn end(bytes: &[u8]) -> Result<usize, ArchiveFault> {
-    let last = bytes.len().saturating_sub(END_LENGTH);
+    let Some(last) = bytes.len().checked_sub(END_LENGTH) else {
+        return Err(broken("its end record is missing"));
+    };
     let first = last.saturating_sub(u16::MAX.into());
     let mut found = memchr::memmem::rfind_iter(&bytes[first..], END).map(|at| first + at);
     let Some(end) = found.find(|end| *end <= last) else {
