@@ -83,3 +83,18 @@ inPage(set, "findings follow the text: broken, mended, allowed", async (page) =>
     .waitFor();
   await state(page, "report", ({ report }) => report?.totals.error === 0);
 });
+
+inPage(set, "the urdd.toml that counts is named, and what is wrong with it", async (page) => {
+  const settings = join(folder, "urdd.toml");
+  writeFileSync(settings, '[severity]\nLNT017 = "info"\n');
+  await drawn(page, "arm_with_faults");
+  await page.click("#tab-Findings");
+  const verdict = page.locator("#panel-Findings .verdict");
+  await verdict.getByText(`With the settings of ${settings}.`).waitFor();
+  await card(page, "LNT017").locator(".dot.info").waitFor();
+  writeFileSync(settings, "[severity");
+  write(text.replace("</robot>", "</robot>\n"));
+  await verdict.getByText(/Without your settings: .*urdd\.toml:1/).waitFor();
+  await card(page, "LNT017").locator(".dot.error").waitFor();
+  rmSync(settings);
+});
