@@ -87,6 +87,7 @@ inPage(set, "findings follow the text: broken, mended, allowed", async (page) =>
 inPage(set, "the urdd.toml that counts is named, and what is wrong with it", async (page) => {
   const settings = join(folder, "urdd.toml");
   writeFileSync(settings, '[severity]\nLNT017 = "info"\n');
+  write(text);
   await drawn(page, "arm_with_faults");
   await page.click("#tab-Findings");
   const verdict = page.locator("#panel-Findings .verdict");
