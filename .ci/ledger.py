@@ -5,9 +5,9 @@
 
 By crate: lines of Rust (with blanks and comments; files in `tests` folders apart), seconds of its test programs, summed
 as `cargo test` prints them in LOG, and bytes of functions and data in FILE, a program with symbols (`nm`), by the first
-crate of ours that a symbol names: a generic function counts for the crate whose types it is compiled for. What a crate weighs is compared with the
-last entry of `benches/ledger.json`; `--keep` adds an entry. A growth by more than a tenth is marked: the landing
-says why. Needs python3, git, and `nm` of binutils for FILE.
+crate of ours that a symbol names: a generic function counts for the crate whose types it is compiled for. What a crate
+weighs is compared with the last entry of `benches/ledger.json`; `--keep` adds an entry. A growth by more than a tenth is
+marked: the landing says why. Needs python3, git, and `nm` of binutils for FILE.
 """
 
 from __future__ import annotations
@@ -68,10 +68,8 @@ def seconds(weights: Weights, log: pathlib.Path) -> None:
             owner[name] = room.name
     running = "urdd"
     for line in log.read_text(errors="replace").splitlines():
-        if found := re.search(r"Running .* \(\S*/([a-z0-9_]+)-[0-9a-f]{16}", line):
-            running = owner.get(found[1], "urdd")
-        elif found := re.search(r"Doc-tests (\S+)", line):
-            running = owner.get(found[1], "urdd")
+        if found := re.search(r"(?:Running .* \(\S*/([a-z0-9_]+)-[0-9a-f]{16}|Doc-tests (\S+))", line):
+            running = owner.get(found[1] or found[2], "urdd")
         elif found := re.search(r"^test result: .* finished in ([0-9.]+)s", line):
             weights[running]["test_seconds"] += float(found[1])
 

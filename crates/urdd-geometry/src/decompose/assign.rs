@@ -21,8 +21,15 @@ struct Corner {
 
 const NEW: u32 = u32::MAX;
 
-/// The points of each group, in metres: surface points and points inside. New points on cuts are rounded to f32, the
-/// precision of written meshes.
+/// The points of a group, metres.
+pub(super) struct Hand {
+    /// Points of the surface, then points inside.
+    pub points: Vec<[f64; 3]>,
+    /// Whether any is of the surface.
+    pub has_surface: bool,
+}
+
+/// The points of each group. New points on cuts are rounded to f32, the precision of written meshes.
 pub(super) fn assign(
     surface: &Surface,
     inside: &Inside,
@@ -30,7 +37,7 @@ pub(super) fn assign(
     group_of_leaf: &[usize],
     groups: usize,
     eps: f64,
-) -> Vec<Vec<[f64; 3]>> {
+) -> Vec<Hand> {
     let mut out = Hands {
         points: vec![Vec::new(); groups],
         most: vec![MOST_POINTS; groups],
@@ -49,10 +56,16 @@ pub(super) fn assign(
             dot(surface.normal(t), direction) > 0.0
         });
     }
+    let has_surface: Vec<bool> = out.points.iter().map(|points| !points.is_empty()).collect();
     for &p in inside.points {
         out.drop_in(0, p, inside, surface);
     }
-    out.points
+    let hands = out.points.into_iter().zip(has_surface);
+    let hand = |(points, has_surface)| Hand {
+        points,
+        has_surface,
+    };
+    hands.map(hand).collect()
 }
 
 /// Points inside the body, in unit coordinates.
@@ -247,7 +260,10 @@ mod tests {
         let given = |reach: f64| {
             let inside = Inside::new(&point, reach, &surface.unit);
             let parts = assign(&surface, &inside, &nodes, &[0, 1, 2, 3], 4, 1e-9);
-            parts.into_iter().flatten().collect::<Vec<_>>()
+            parts
+                .into_iter()
+                .flat_map(|hand| hand.points)
+                .collect::<Vec<_>>()
         };
         let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
         assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));

@@ -1,6 +1,7 @@
 //! Removal of redundant flat and thin pieces. Triangles in a cut go to one side of it. If their group has nothing else
 //! of that side, the piece of the other side may already contain them. A cut near a corner may also leave a group with a
-//! splinter of one triangle only, thinner than what binary32 holds: its piece would have no face with an area.
+//! splinter of one triangle only, thinner than what binary32 holds: its piece would have no face with an area. It joins
+//! the piece beside it, or is widened where there is none.
 
 use super::vector::{cross, dot, norm, sub};
 use crate::Mesh;
@@ -10,8 +11,11 @@ use crate::hull::ConvexHull;
 /// binary32. Validators may take 8 steps as equal (SPEC 7.6).
 const THIN: f64 = 16.0 * 1.1920929e-7;
 
+/// How wide a splinter becomes, as a fraction of the same.
+const WIDE: f64 = 4.0 * THIN;
+
 /// The pieces, without flat ones that another piece contains within `contained`, metres. Thin ones whose distance from
-/// another piece is at most `near`, metres, become part of that piece.
+/// another piece is at most `near`, metres, become part of that piece; others become flat triangles.
 pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -> Vec<Mesh> {
     let (splinters, mut pieces): (Vec<_>, Vec<_>) =
         pieces.into_iter().partition(|piece| is_thin(piece.mesh()));
@@ -24,7 +28,7 @@ pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -
         });
         match host {
             Some((piece, grown)) => *piece = grown,
-            None => pieces.push(splinter),
+            None => pieces.push(widened(splinter)),
         }
     }
     let is_held = |flat: &ConvexHull| {
@@ -36,10 +40,47 @@ pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -
     kept.map(|(piece, _)| piece.into_mesh()).collect()
 }
 
-/// Whether each triangle of a mesh is thin.
-fn is_thin(mesh: &Mesh) -> bool {
+/// The largest coordinate of a mesh, metres.
+fn extent(mesh: &Mesh) -> f64 {
     let coordinates = mesh.vertices.iter().flatten();
-    let height = THIN * coordinates.fold(0.0, |most: f64, x| most.max(x.abs()));
+    coordinates.fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// A flat triangle along a splinter, just wide enough to have an area in binary32.
+fn widened(splinter: ConvexHull) -> ConvexHull {
+    let points = &splinter.mesh().vertices;
+    let Some(&p) = points.first() else {
+        return splinter;
+    };
+    let far = |from: [f64; 3]| {
+        let length = |q: &&[f64; 3]| norm(sub(**q, from));
+        let longest = points.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+        longest.map_or(from, |q| *q)
+    };
+    let (p, q) = (far(p), far(far(p)));
+    let along = sub(q, p);
+    let along = along.map(|x| x / norm(along));
+    // Across it: at a right angle to the axis that it is least along.
+    let least = (0..3).min_by(|a, b| along[*a].abs().total_cmp(&along[*b].abs()));
+    let axis = [0, 1, 2].map(|k| if Some(k) == least { 1.0 } else { 0.0 });
+    let across = cross(along, axis);
+    let across = across.map(|x| x / norm(across));
+    let width = WIDE * extent(splinter.mesh());
+    let corner = |base: [f64; 3], a: f64, b: f64| {
+        [0, 1, 2].map(|k| base[k] + width * (a * along[k] + b * across[k]))
+    };
+    let middle = [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
+    let corners = [
+        corner(p, -1.0, 0.0),
+        corner(q, 1.0, 0.0),
+        corner(middle, 0.0, 1.0),
+    ];
+    ConvexHull::new(&corners).unwrap_or(splinter)
+}
+
+/// Whether each triangle of a mesh is thin.
+pub(super) fn is_thin(mesh: &Mesh) -> bool {
+    let height = THIN * extent(mesh);
     mesh.triangles.iter().all(|triangle| {
         let [a, b, c] = triangle.map(|corner| mesh.vertices[corner as usize]);
         let sides = [sub(b, a), sub(c, b), sub(a, c)];
@@ -109,6 +150,20 @@ mod tests {
         };
         let highest = joined.vertices.iter().map(|v| v[2]);
         assert_eq!(highest.fold(0.0, f64::max), 0.1 + 1e-5);
-        assert_eq!(splintered(1e-3).len(), 2, "too far away");
+        let [_, widened] = &splintered(1e-3)[..] else {
+            panic!("too far away");
+        };
+        let rounded = widened
+            .vertices
+            .iter()
+            .map(|v| v.map(|x| f64::from(x as f32)));
+        let rounded = Mesh {
+            vertices: rounded.collect(),
+            triangles: widened.triangles.clone(),
+        };
+        assert!(!is_thin(&rounded), "{rounded:?}");
+        let x = rounded.vertices.iter().map(|v| v[0]);
+        assert!((x.clone().fold(f64::MAX, f64::min) - 5.04).abs() < 1e-4);
+        assert!((x.fold(f64::MIN, f64::max) - 5.041).abs() < 1e-4);
     }
 }

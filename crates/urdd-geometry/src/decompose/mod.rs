@@ -186,9 +186,14 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     );
     let pieces: Vec<ConvexHull> = parts
         .par_iter()
-        .filter(|points| !points.is_empty())
+        .filter(|hand| !hand.points.is_empty())
         // A group of collinear points has no hull: its triangles have no area.
-        .filter_map(|points| ConvexHull::new(&choose::choose(points, tolerance)).ok())
+        .filter_map(|hand| {
+            let hull = ConvexHull::new(&choose::choose(&hand.points, tolerance)).ok()?;
+            // Points inside alone that enclose nothing are not a piece of the body.
+            let is_body = !hull.is_flat() && !held::is_thin(hull.mesh());
+            (hand.has_surface || is_body).then_some(hull)
+        })
         .collect();
     Decomposition {
         pieces: held::without_held(pieces, HELD * tolerance, tolerance),
