@@ -6,8 +6,8 @@
 By crate: lines of Rust (with blanks and comments; files in `tests` folders apart), seconds of its test programs, summed
 as `cargo test` prints them in LOG, and bytes of functions and data in FILE, a program with symbols (`nm`), by the first
 crate of ours that a symbol names: a generic function counts for the crate whose types it is compiled for. What a crate
-weighs is compared with the last entry of `benches/ledger.json`; `--keep` adds an entry. A growth by more than a tenth is
-marked: the landing says why. Needs python3, git, and `nm` of binutils for FILE.
+weighs is compared with the last entry of `benches/ledger.json`; `--keep` adds an entry. A growth by more than a tenth
+is marked: the landing says why. Needs python3, git, and `nm` of binutils for FILE.
 """
 
 from __future__ import annotations
@@ -127,9 +127,9 @@ def main() -> int:
     now = {crate: {column: round(x, 1) for column, x in row.items() if x} for crate, row in sorted(weights.items())}
 
     entries = json.loads(FILE.read_text()) if FILE.exists() else []
-    last = entries[-1] if entries else {"name": "no landing", "weights": {}}
-    print(f"beside {last['name']}:")
-    table(now, last["weights"])
+    name, weights_then = (entries[-1]["name"], entries[-1]["weights"]) if entries else ("no landing", {})
+    print(f"beside {name}:")
+    table(now, weights_then)
     if words.keep:
         entries.append({"name": words.keep, "weights": now})
         FILE.write_text(json.dumps(entries, indent=1) + "\n")
