@@ -96,6 +96,11 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
             "\n    {} {file} {pointer}\n        {}",
             finding.code, finding.message
         );
+        let expected = finding.expected.iter().map(|text| ("expected", text));
+        let actual = finding.actual.iter().map(|text| ("actual", text));
+        for (what, words) in expected.chain(actual) {
+            let _ = write!(text, "\n        {what}: {words}");
+        }
     }
     // Why the rule found nothing: it may not have run.
     let mut checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
