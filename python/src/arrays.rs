@@ -1,6 +1,6 @@
 //! NumPy arrays as inputs and outputs.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::Isometry3;
 use numpy::ndarray::{Dimension, IntoDimension};
 use numpy::{
     Element, IntoPyArray, PyArray, PyArrayMethods, PyReadonlyArray, PyReadonlyArray2,
@@ -10,6 +10,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::pose_matrix::write_matrix;
 use urdd_robot::RobotError;
 
 use crate::errors::of_robot;
@@ -141,32 +142,9 @@ pub fn shaped<'py, T: Element, S: IntoDimension>(
     values.into_pyarray(py).reshape(shape)
 }
 
-/// Writes a pose as the 16 numbers of its matrix, in row-major order.
-pub fn write_matrix(pose: &Isometry3<f64>, out: &mut [f64]) {
-    let rotation = pose.rotation.to_rotation_matrix();
-    let translation = &pose.translation.vector;
-    for row in 0..3 {
-        for column in 0..3 {
-            out[4 * row + column] = rotation[(row, column)];
-        }
-        out[4 * row + 3] = translation[row];
-    }
-    out[12..16].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
-}
-
 /// The matrix of a pose.
 pub fn matrix(pose: &Isometry3<f64>) -> [f64; 16] {
     let mut out = [0.0; 16];
     write_matrix(pose, &mut out);
     out
-}
-
-/// The pose of a 4 × 4 matrix of a rotation and a translation, in row-major order.
-pub fn pose(matrix: &[f64]) -> Isometry3<f64> {
-    let rotation = nalgebra::Matrix3::from_fn(|row, column| matrix[4 * row + column]);
-    let rotation = Rotation3::from_matrix_unchecked(rotation);
-    Isometry3::from_parts(
-        Translation3::new(matrix[3], matrix[7], matrix[11]),
-        UnitQuaternion::from_rotation_matrix(&rotation),
-    )
 }

@@ -14,9 +14,10 @@ use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_directory::source::is_urdd;
+use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
 use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, fill};
 
-use crate::arrays::{Batch, answers, copy, pose, shaped, write_matrix};
+use crate::arrays::{Batch, answers, copy, shaped};
 use crate::collision_model::CollisionModel;
 use crate::errors::{of_robot, raise};
 use crate::proximity::Proximity;
@@ -271,7 +272,7 @@ impl Robot {
         let (robot, point) = (&self.robot, options.point);
         let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
             let target = match is_pose {
-                true => Target::pose(link, pose(&targets[16 * k..16 * k + 16])),
+                true => Target::pose(link, unchecked_pose(&targets[16 * k..16 * k + 16])),
                 false => {
                     let position = &targets[3 * k..3 * k + 3];
                     Target::position(link, [position[0], position[1], position[2]])

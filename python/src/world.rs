@@ -8,9 +8,10 @@ use numpy::{
 };
 use pyo3::prelude::*;
 use urdd_geometry::Mesh;
+use urdd_kinematics::pose_matrix::unchecked_pose;
 use urdd_robot::{ObstacleDistance, RobotError, World, fill};
 
-use crate::arrays::{Batch, answers, check_memory, copy, pose, zeros};
+use crate::arrays::{Batch, answers, check_memory, copy, zeros};
 use crate::errors::of_robot;
 use crate::proximity::Proximity;
 use crate::threads::num_threads;
@@ -35,7 +36,7 @@ fn obstacle(
     at: &PyReadonlyArray2<'_, f64>,
     make: impl FnOnce(nalgebra::Isometry3<f64>) -> Result<urdd_robot::Obstacle, RobotError>,
 ) -> PyResult<Obstacle> {
-    let made = make(pose(&copy(at)?));
+    let made = make(unchecked_pose(&copy(at)?));
     made.map(Obstacle).map_err(|error| of_robot(py, &error))
 }
 
@@ -119,7 +120,7 @@ impl Obstacle {
             vertices,
             triangles: faces.as_chunks().0.to_vec(),
         };
-        let pose = crate::arrays::pose(&copy(&pose)?);
+        let pose = unchecked_pose(&copy(&pose)?);
         let made = work::run(py, |_| urdd_robot::Obstacle::mesh(&name, pose, &mesh))?;
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }

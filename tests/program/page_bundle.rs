@@ -20,6 +20,7 @@ const FILES: &[&str] = &[
 ];
 /// Crates that the module does not depend on.
 const WITHOUT: &[&str] = &[
+    "crates/urdd-c/",
     "crates/urdd-conformance/",
     "crates/urdd-diff/",
     "crates/urdd-export/",

@@ -21,16 +21,31 @@ impl ForwardKinematics {
         point: &Point3<f64>,
     ) -> Matrix6xX<f64> {
         let mut jacobian = Matrix6xX::zeros(self.num_dofs());
-        let all = jacobian.as_mut_slice();
+        self.jacobian_into(configuration, poses, link, point, jacobian.as_mut_slice());
+        jacobian
+    }
+
+    /// As [`ForwardKinematics::jacobian`], into `out`: column-major, 6 numbers for each DOF.
+    ///
+    /// # Panics
+    /// If `out` has fewer than 6 numbers for each DOF.
+    pub fn jacobian_into(
+        &self,
+        configuration: &[f64],
+        poses: &[Isometry3<f64>],
+        link: usize,
+        point: &Point3<f64>,
+        out: &mut [f64],
+    ) {
+        out.fill(0.0);
         let mut add = |dof: usize, linear, angular| {
-            add_to(&mut all[6 * dof..6 * dof + 6], linear, angular);
+            add_to(&mut out[6 * dof..6 * dof + 6], linear, angular);
         };
         for step in self.path(link) {
             let frame = poses[step.parent].rotation * step.origin.rotation;
             let child = &poses[step.child].translation.vector;
             columns(step, &frame, child, point, configuration, &mut add);
         }
-        jacobian
     }
 }
 

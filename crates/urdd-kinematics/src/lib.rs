@@ -14,6 +14,7 @@ mod jacobian;
 mod joint;
 pub mod learn;
 pub mod pose;
+pub mod pose_matrix;
 pub mod rotation;
 
 pub use branch::{Branch, Place};

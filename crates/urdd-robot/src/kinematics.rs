@@ -84,8 +84,28 @@ impl Robot {
         link: usize,
         point: [f64; 3],
     ) -> Result<Jacobian, RobotError> {
+        let mut jacobian = Jacobian::zeros(self.motion()?.kinematics.num_dofs());
+        let out = jacobian.as_mut_slice();
+        self.jacobian_into(configuration, link, point, &mut Vec::new(), out)?;
+        Ok(jacobian)
+    }
+
+    /// As [`Robot::jacobian_at`], into `out`: column-major, 6 values for each DOF. `poses` is reusable, and becomes
+    /// the poses of all links.
+    ///
+    /// # Errors
+    /// As [`Robot::jacobian`]; [`RobotError::Room`] if the length of `out` differs from 6 for each DOF.
+    pub fn jacobian_into(
+        &self,
+        configuration: &[f64],
+        link: usize,
+        point: [f64; 3],
+        poses: &mut Vec<Isometry3<f64>>,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
         let kinematics = &self.motion()?.kinematics;
-        let poses = kinematics.link_poses(configuration)?;
+        check_room(out.len(), kinematics.num_dofs(), 6)?;
+        kinematics.link_poses_into(configuration, poses)?;
         let count = poses.len();
         let pose = poses.get(link).ok_or(RobotError::OutOfRange {
             what: "link",
@@ -93,7 +113,8 @@ impl Robot {
             count,
         })?;
         let point = pose * Point3::from(point);
-        Ok(kinematics.jacobian(configuration, &poses, link, &point))
+        kinematics.jacobian_into(configuration, poses, link, &point, out);
+        Ok(())
     }
 
     /// The Jacobians of a link's frame for a batch of configurations, stored one after another in `configurations`: as

@@ -57,7 +57,7 @@ pub use inverse::Target;
 pub use kinematics::Jacobian;
 pub use mesh::LinkVisual;
 pub use named_configurations::EditedConfigurations;
-pub use proximity::{Cancellable, PairDistance, Proximity};
+pub use proximity::{Cancellable, PairDistance, Proximity, Workspace};
 pub use robot::Robot;
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Group, Placed, Proximity};
+use super::{Group, Placed, Proximity, Workspace};
 use crate::batch::{check_room, fill, room};
 use crate::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
@@ -125,8 +125,8 @@ impl Cancellable<'_> {
         configurations: &[f64],
         out: &mut [bool],
     ) -> Result<(), RobotError> {
-        self.fill(configurations, 1, out, |q, placed, out| {
-            out[0] = self.proximity.collides(q, placed)?;
+        self.fill(configurations, 1, out, |q, workspace, out| {
+            out[0] = self.proximity.in_collision_with(q, workspace)?;
             Ok(())
         })
     }
@@ -150,11 +150,9 @@ impl Cancellable<'_> {
         configurations: &[f64],
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        self.fill(configurations, 1, out, |q, placed, out| {
-            let least = self.proximity.least(q, 1, placed)?;
-            out[0] = least
-                .first()
-                .map_or(f64::INFINITY, |(distance, _)| *distance);
+        self.fill(configurations, 1, out, |q, workspace, out| {
+            let least = self.proximity.self_distance_with(q, workspace)?;
+            out[0] = least.unwrap_or(f64::INFINITY);
             Ok(())
         })
     }
@@ -179,8 +177,8 @@ impl Cancellable<'_> {
         out: &mut [f64],
     ) -> Result<(), RobotError> {
         let pairs = self.proximity.pairs.len();
-        self.fill(configurations, pairs, out, |q, placed, out| {
-            self.proximity.values_into(q, placed, out)
+        self.fill(configurations, pairs, out, |q, workspace, out| {
+            self.proximity.distances_with(q, workspace, out)
         })
     }
 
@@ -189,14 +187,20 @@ impl Cancellable<'_> {
         configurations: &[f64],
         width: usize,
         out: &mut [T],
-        ask: impl Fn(&[f64], &mut Placed, &mut [T]) -> Result<(), RobotError> + Sync,
+        ask: impl Fn(&[f64], &mut Workspace, &mut [T]) -> Result<(), RobotError> + Sync,
     ) -> Result<(), RobotError> {
         check_room(out.len(), self.count(configurations)?, width)?;
         let dofs = self.proximity.num_dofs();
-        fill(out, width, BLOCK, Placed::default, |placed, k, out| {
-            self.cancellation.check()?;
-            ask(&configurations[k * dofs..(k + 1) * dofs], placed, out)
-        })
+        fill(
+            out,
+            width,
+            BLOCK,
+            Workspace::default,
+            |workspace, k, out| {
+                self.cancellation.check()?;
+                ask(&configurations[k * dofs..(k + 1) * dofs], workspace, out)
+            },
+        )
     }
 
     /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.

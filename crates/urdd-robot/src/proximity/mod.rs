@@ -3,7 +3,8 @@
 //! [`Robot::proximity`] prepares the shapes of one kind and their pairs that are not skipped. Then
 //! [`Proximity::distances`] returns the distance of each pair, [`Proximity::closest_points`] the closest points too,
 //! [`Proximity::nearest`] the nearest pairs, [`Proximity::self_distance`] the minimum distance, and
-//! [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run on rayon's thread pool.
+//! [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run on rayon's thread pool; those
+//! that take a [`Workspace`] do not allocate.
 //! Results do not depend on the number of threads or on the batch.
 //!
 //! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
@@ -15,11 +16,10 @@ mod body;
 mod bound;
 mod query;
 mod vector;
+mod workspace;
 
 use std::collections::HashMap;
 use std::sync::Arc;
-
-use nalgebra::Isometry3;
 
 use self::body::{Shape, body};
 use super::Robot;
@@ -35,8 +35,9 @@ use urdd_geometry::vector::{dot, sub};
 
 pub use batch::Cancellable;
 pub(super) use body::Body;
-pub(super) use query::least_of;
 pub(super) use vector::to_root;
+pub use workspace::Workspace;
+pub(super) use workspace::{Least, Placed};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -227,16 +228,6 @@ impl Proximity {
     pub fn link_name(&self, link: usize) -> Option<&str> {
         self.names.get(link).map(|name| &**name)
     }
-}
-
-/// The placement of all links in one configuration. Reusable for the next configuration.
-#[derive(Default)]
-pub(super) struct Placed {
-    poses: Vec<Isometry3<f64>>,
-    /// For each link, the columns of its rotation matrix, then its translation.
-    pub links: Vec<[[f64; 3]; 4]>,
-    /// The centre of each shape's bounding sphere.
-    pub centres: Vec<[f64; 3]>,
 }
 
 impl Proximity {

@@ -1,42 +1,15 @@
 //! Queries on one configuration.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use arrayvec::ArrayVec;
 
 use super::body::Body;
 use super::vector::to_root;
-use super::{Group, PairDistance, Placed, Proximity};
+use super::workspace::{Placed, Workspace};
+use super::{Group, PairDistance, Proximity};
+use crate::batch::check_room;
 use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use urdd_geometry::vector::{norm, sub};
-
-/// The `k` nearest pairs, nearest first, from lower bounds of their distances. Ties are in the order of the pairs.
-/// `values` computes the distances of some pairs, at most [`AT_ONCE`].
-pub(crate) fn least_of<P: Ord + Copy>(
-    bounds: impl Iterator<Item = (f64, P)>,
-    k: usize,
-    values: impl Fn(&[P], &mut [f64]),
-) -> Vec<(f64, P)> {
-    // A heap, as a few of the pairs are enough. The bits of numbers that are not negative have their order.
-    let bounds = bounds.map(|(bound, pair)| Reverse(((bound.max(0.0) + 0.0).to_bits(), pair)));
-    let mut bounds: BinaryHeap<_> = bounds.collect();
-    let mut best: Vec<(f64, P)> = Vec::new();
-    while let Some(Reverse((least, _))) = bounds.peek() {
-        // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
-        let least = f64::from_bits(*least);
-        if best.len() >= k && best.last().is_none_or(|worst| least > worst.0) {
-            break;
-        }
-        let next = std::iter::from_fn(|| bounds.pop()).take(AT_ONCE);
-        let pairs: Vec<P> = next.map(|Reverse((_, pair))| pair).collect();
-        let mut found = [0.0; AT_ONCE];
-        values(&pairs, &mut found[..pairs.len()]);
-        best.extend(found.into_iter().zip(pairs));
-        best.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        best.truncate(k);
-    }
-    best
-}
 
 impl Proximity {
     /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
@@ -58,8 +31,32 @@ impl Proximity {
     /// As [`Proximity::closest_points`].
     pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         let mut values = vec![0.0; self.pairs.len()];
-        self.values_into(configuration, &mut Placed::default(), &mut values)?;
+        self.distances_with(configuration, &mut Workspace::default(), &mut values)?;
         Ok(values)
+    }
+
+    /// As [`Proximity::distances`], into `out`, with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Room`] if the length of `out` differs from the number of pairs.
+    pub fn distances_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        check_room(out.len(), 1, self.pairs.len())?;
+        let placed = &mut workspace.placed;
+        self.place(configuration, placed)?;
+        self.place_centres(placed);
+        let mut pairs = [0; AT_ONCE];
+        for (chunk, out) in out.chunks_mut(AT_ONCE).enumerate() {
+            for (k, pair) in pairs.iter_mut().enumerate() {
+                *pair = chunk * AT_ONCE + k;
+            }
+            self.values(placed, &pairs[..out.len()], out);
+        }
+        Ok(())
     }
 
     /// The `k` nearest pairs, nearest first; all pairs if there are fewer. Ties are in the order of
@@ -72,10 +69,10 @@ impl Proximity {
         configuration: &[f64],
         k: usize,
     ) -> Result<Vec<PairDistance>, RobotError> {
-        let mut placed = Placed::default();
-        let nearest = self.least(configuration, k, &mut placed)?;
-        let pairs: Vec<usize> = nearest.into_iter().map(|(_, pair)| pair).collect();
-        Ok(self.witnesses(&placed, &pairs))
+        let mut workspace = Workspace::default();
+        let nearest = self.least(configuration, k, &mut workspace)?;
+        let pairs: Vec<usize> = nearest.iter().map(|(_, pair)| *pair).collect();
+        Ok(self.witnesses(&workspace.placed, &pairs))
     }
 
     /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
@@ -83,7 +80,19 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn self_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
-        let least = self.least(configuration, 1, &mut Placed::default())?;
+        self.self_distance_with(configuration, &mut Workspace::default())
+    }
+
+    /// As [`Proximity::self_distance`], with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn self_distance_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+    ) -> Result<Option<f64>, RobotError> {
+        let least = self.least(configuration, 1, workspace)?;
         Ok(least.first().map(|(distance, _)| *distance))
     }
 
@@ -92,7 +101,22 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
-        self.collides(configuration, &mut Placed::default())
+        self.in_collision_with(configuration, &mut Workspace::default())
+    }
+
+    /// As [`Proximity::in_collision`], with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn in_collision_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+    ) -> Result<bool, RobotError> {
+        let placed = &mut workspace.placed;
+        self.place(configuration, placed)?;
+        self.place_centres(placed);
+        Ok(self.any_touches(placed, &self.groups))
     }
 
     /// The pairs that touch or overlap, in the order of [`Proximity::pairs`].
@@ -118,19 +142,9 @@ impl Proximity {
         Ok(self.witnesses(&placed, &touching))
     }
 
-    pub(super) fn collides(
-        &self,
-        configuration: &[f64],
-        placed: &mut Placed,
-    ) -> Result<bool, RobotError> {
-        self.place(configuration, placed)?;
-        self.place_centres(placed);
-        Ok(self.any_touches(placed, &self.groups))
-    }
-
     /// Whether any pair in these groups touches, for the given placement of the links.
     pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
-        let mut near: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
+        let mut near: ArrayVec<PlacedPair, AT_ONCE> = ArrayVec::new();
         for group in groups {
             if self.are_apart(placed, group.links) {
                 continue;
@@ -156,42 +170,24 @@ impl Proximity {
     }
 
     /// The distances and indices of the `k` nearest pairs, nearest first.
-    pub(super) fn least(
+    pub(super) fn least<'a>(
         &self,
         configuration: &[f64],
         k: usize,
-        placed: &mut Placed,
-    ) -> Result<Vec<(f64, usize)>, RobotError> {
+        workspace: &'a mut Workspace,
+    ) -> Result<&'a [(f64, usize)], RobotError> {
+        let Workspace { placed, least, .. } = workspace;
         self.place(configuration, placed)?;
         self.place_centres(placed);
-        let placed = &*placed;
         let bounds = (0..self.pairs.len()).map(|pair| (self.bound(placed, pair), pair));
-        Ok(least_of(bounds, k, |pairs, values| {
+        Ok(least.of(bounds, k, |pairs, values| {
             self.values(placed, pairs, values);
         }))
     }
 
-    pub(super) fn values_into(
-        &self,
-        configuration: &[f64],
-        placed: &mut Placed,
-        values: &mut [f64],
-    ) -> Result<(), RobotError> {
-        self.place(configuration, placed)?;
-        self.place_centres(placed);
-        let mut pairs = [0; AT_ONCE];
-        for (chunk, out) in values.chunks_mut(AT_ONCE).enumerate() {
-            for (k, pair) in pairs.iter_mut().enumerate() {
-                *pair = chunk * AT_ONCE + k;
-            }
-            self.values(placed, &pairs[..out.len()], out);
-        }
-        Ok(())
-    }
-
     /// The distances of some pairs, at most [`AT_ONCE`].
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
-        let mut convex: Vec<PlacedPair> = Vec::with_capacity(AT_ONCE);
+        let mut convex: ArrayVec<PlacedPair, AT_ONCE> = ArrayVec::new();
         for pair in pairs {
             convex.extend(self.convex(*pair, self.pose(placed, *pair)));
         }

@@ -3,10 +3,12 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use arrayvec::ArrayVec;
+
 use super::obstacle::{Obstacle, Part, World};
 use crate::error::RobotError;
 use crate::names::index;
-use crate::proximity::{Body, Placed, Proximity, least_of, to_root};
+use crate::proximity::{Body, Least, Placed, Proximity, Workspace, to_root};
 use urdd_geometry::convex::Witness;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
 use urdd_geometry::vector::{dot, norm, sub};
@@ -95,7 +97,11 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
         let placed = self.place(configuration)?;
         let tested: Vec<Pair> = self.tested().collect();
-        let values = self.values(&placed, &tested).into_iter().zip(&tested);
+        let mut values = vec![0.0; tested.len()];
+        for (pairs, out) in tested.chunks(AT_ONCE).zip(values.chunks_mut(AT_ONCE)) {
+            self.values(&placed, pairs, out);
+        }
+        let values = values.into_iter().zip(&tested);
         let mut found: Vec<f64> = Vec::new();
         let mut last = None;
         // The parts of an obstacle are contiguous.
@@ -115,8 +121,25 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn min_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
-        let placed = self.place(configuration)?;
-        let nearest = self.least_pairs(&placed, self.tested(), 1);
+        self.min_distance_with(configuration, &mut Workspace::default())
+    }
+
+    /// As [`WorldProximity::min_distance`], with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn min_distance_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+    ) -> Result<Option<f64>, RobotError> {
+        let Workspace {
+            placed,
+            least_of_parts,
+            ..
+        } = workspace;
+        self.place_into(configuration, placed)?;
+        let nearest = self.least_pairs(placed, self.tested(), 1, least_of_parts);
         Ok(nearest.first().map(|(distance, _)| *distance))
     }
 
@@ -159,13 +182,40 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
-        let placed = self.place(configuration)?;
-        let near = self
+        self.in_collision_with(configuration, &mut Workspace::default())
+    }
+
+    /// As [`WorldProximity::in_collision`], with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn in_collision_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+    ) -> Result<bool, RobotError> {
+        let placed = &mut workspace.placed;
+        self.place_into(configuration, placed)?;
+        let mut near = self
             .tested()
-            .filter(|pair| self.bound(&placed, *pair) <= 0.0);
-        let near: Vec<Pair> = near.collect();
-        let touches = |pairs: &[Pair]| self.values(&placed, pairs).contains(&0.0);
-        Ok(near.chunks(AT_ONCE).any(touches))
+            .filter(|pair| self.bound(placed, *pair) <= 0.0);
+        loop {
+            let pairs: ArrayVec<Pair, AT_ONCE> = near.by_ref().take(AT_ONCE).collect();
+            let mut values = [f64::INFINITY; AT_ONCE];
+            self.values(placed, &pairs, &mut values[..pairs.len()]);
+            if values.contains(&0.0) {
+                return Ok(true);
+            }
+            if !pairs.is_full() {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// Number of pairs of a shape of the robot and a part of an obstacle: the most that [`WorldProximity::nearest`]
+    /// returns.
+    pub fn num_pairs_of_parts(&self) -> usize {
+        self.tested().count()
     }
 
     fn tested(&self) -> impl Iterator<Item = Pair> {
@@ -183,9 +233,14 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
 
     fn place(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
         let mut placed = Placed::default();
-        self.proximity.place(configuration, &mut placed)?;
-        self.proximity.place_centres(&mut placed);
+        self.place_into(configuration, &mut placed)?;
         Ok(placed)
+    }
+
+    fn place_into(&self, configuration: &[f64], placed: &mut Placed) -> Result<(), RobotError> {
+        self.proximity.place(configuration, placed)?;
+        self.proximity.place_centres(placed);
+        Ok(())
     }
 
     /// A lower bound of the distance of a pair, in metres; not positive if it may touch.
@@ -203,21 +258,23 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         pairs: impl Iterator<Item = Pair>,
         k: usize,
     ) -> Vec<ObstacleDistance> {
-        let best = self.least_pairs(placed, pairs, k).into_iter();
-        let pairs: Vec<Pair> = best.map(|(_, pair)| pair).collect();
+        let mut least = Least::default();
+        let best = self.least_pairs(placed, pairs, k, &mut least).iter();
+        let pairs: Vec<Pair> = best.map(|(_, pair)| *pair).collect();
         self.witnesses(placed, &pairs)
     }
 
     /// The `k` nearest of these pairs, with their distances.
-    fn least_pairs(
+    fn least_pairs<'a>(
         &self,
         placed: &Placed,
         pairs: impl Iterator<Item = Pair>,
         k: usize,
-    ) -> Vec<(f64, Pair)> {
+        least: &'a mut Least<Pair>,
+    ) -> &'a [(f64, Pair)] {
         let bounds = pairs.map(|pair| (self.bound(placed, pair), pair));
-        least_of(bounds, k, |pairs, values| {
-            values.copy_from_slice(&self.values(placed, pairs));
+        least.of(bounds, k, |pairs, values| {
+            self.values(placed, pairs, values);
         })
     }
 
@@ -247,17 +304,15 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         [own, self.parts[part].1.radius]
     }
 
-    /// The distances of these pairs.
-    fn values(&self, placed: &Placed, pairs: &[Pair]) -> Vec<f64> {
+    /// The distances of some pairs, at most [`AT_ONCE`].
+    fn values(&self, placed: &Placed, pairs: &[Pair], values: &mut [f64]) {
         let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
-        let both: Vec<PlacedPair> = both.collect();
-        let mut values = vec![0.0; both.len()];
-        across::distances(self.proximity.level, &both, &mut values);
+        let both: ArrayVec<PlacedPair, AT_ONCE> = both.collect();
+        across::distances(self.proximity.level, &both, values);
         for (value, pair) in values.iter_mut().zip(pairs) {
             let radii = self.radii(*pair);
             *value = (*value - radii[0] - radii[1]).max(0.0);
         }
-        values
     }
 
     fn witnesses(&self, placed: &Placed, pairs: &[Pair]) -> Vec<ObstacleDistance> {

@@ -1,0 +1,208 @@
+//! What the C interface costs: the same questions through it and in Rust, in one run.
+//!
+//!     cargo bench -p urdd-c --bench border [URDD]
+//!
+//! Without a URDD, one is generated of the welding arm.
+
+// A bench may stop anywhere.
+#![allow(clippy::restriction)]
+
+use std::ffi::CString;
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::ptr::null_mut;
+use std::time::Instant;
+
+use urdd_c::*;
+use urdd_robot::{ShapeKind, Workspace};
+
+/// Seconds of a call: the least of several rounds, each long enough for the clock.
+fn seconds(mut act: impl FnMut(usize)) -> f64 {
+    let mut calls = 1;
+    let mut least = f64::INFINITY;
+    for _ in 0..7 {
+        let spent = loop {
+            let began = Instant::now();
+            (0..calls).for_each(&mut act);
+            let spent = began.elapsed().as_secs_f64();
+            if spent > 0.1 {
+                break spent;
+            }
+            calls *= 2;
+        };
+        least = least.min(spent / calls as f64);
+    }
+    least
+}
+
+fn row(what: &str, mut c: impl FnMut(usize), mut rust: impl FnMut(usize)) {
+    // In turns, so that both see the same machine.
+    let (mut through, mut plain) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..3 {
+        plain = plain.min(seconds(&mut rust));
+        through = through.min(seconds(&mut c));
+    }
+    println!(
+        "{what:28} {:12.1} ns in Rust {:12.1} ns in C {:+8.1} ns {:+6.1} %",
+        plain * 1e9,
+        through * 1e9,
+        (through - plain) * 1e9,
+        (through / plain - 1.0) * 100.0
+    );
+}
+
+fn main() {
+    let word = std::env::args()
+        .skip(1)
+        .find(|word| !word.starts_with("--"));
+    let arm = testkit::repository().join("conformance/robots/welding_arm.urdf");
+    let (_guard, path) = match word {
+        Some(path) => (None, PathBuf::from(path)),
+        None => {
+            let (guard, path) = testkit::robots::made(&arm);
+            (Some(guard), path)
+        }
+    };
+    let robot = urdd_robot::Robot::open(&path).unwrap();
+    let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
+    let name = CString::new(path.to_str().unwrap()).unwrap();
+    let (mut handle, mut shapes) = (null_mut(), null_mut());
+    // SAFETY: as the header says.
+    unsafe {
+        assert_eq!(urdd_robot_open(name.as_ptr(), &mut handle), Status::Ok);
+        let made = urdd_robot_proximity(handle, c"pieces".as_ptr(), &mut shapes);
+        assert_eq!(made, Status::Ok);
+    }
+    let (dofs, links, pairs) = (
+        robot.dof_names().unwrap().len(),
+        robot.link_names().unwrap().len(),
+        proximity.num_pairs(),
+    );
+    const ROWS: usize = 1000;
+    let space = robot.configurations().unwrap();
+    let all: Vec<f64> = (0..ROWS as u64).flat_map(|k| space.random(k)).collect();
+    let q = |k: usize| &all[dofs * (k % ROWS)..dofs * (k % ROWS + 1)];
+    let ok = |status| assert_eq!(status, Status::Ok);
+
+    println!("{links} links, {dofs} DOFs, {pairs} pairs");
+    let (mut poses, mut out) = (Vec::new(), vec![0.0; 16 * links]);
+    row(
+        "poses",
+        // SAFETY: as the header says.
+        |k| unsafe {
+            let at = q(k).as_ptr();
+            ok(urdd_robot_link_poses(
+                handle,
+                at,
+                1,
+                dofs,
+                out.as_mut_ptr(),
+                16 * links,
+            ));
+        },
+        |k| {
+            robot.link_poses_into(q(k), &mut poses).unwrap();
+            black_box(&poses);
+        },
+    );
+    let (mut workspace, mut touches) = (Workspace::default(), false);
+    row(
+        "in collision",
+        // SAFETY: as the header says.
+        |k| unsafe {
+            ok(urdd_proximity_in_collision(
+                shapes,
+                q(k).as_ptr(),
+                1,
+                dofs,
+                &mut touches,
+            ))
+        },
+        |k| {
+            black_box(proximity.in_collision_with(q(k), &mut workspace).unwrap());
+        },
+    );
+    let (mut workspace, mut distances, mut c) =
+        (Workspace::default(), vec![0.0; pairs], vec![0.0; pairs]);
+    row(
+        "distances",
+        // SAFETY: as the header says.
+        |k| unsafe {
+            let at = q(k).as_ptr();
+            ok(urdd_proximity_distances(
+                shapes,
+                at,
+                1,
+                dofs,
+                c.as_mut_ptr(),
+                pairs,
+            ));
+        },
+        |k| {
+            proximity
+                .distances_with(q(k), &mut workspace, &mut distances)
+                .unwrap()
+        },
+    );
+    let mut out = vec![0.0; 16 * links * ROWS];
+    row(
+        "1,000 poses",
+        // SAFETY: as the header says.
+        |_| unsafe {
+            let (at, length) = (out.as_mut_ptr(), out.len());
+            ok(urdd_robot_link_poses(
+                handle,
+                all.as_ptr(),
+                ROWS,
+                dofs,
+                at,
+                length,
+            ));
+        },
+        |_| {
+            black_box(robot.link_poses_batch(&all).unwrap());
+        },
+    );
+    let mut answers = vec![false; ROWS];
+    row(
+        "1,000 in collision",
+        // SAFETY: as the header says.
+        |_| unsafe {
+            let at = answers.as_mut_ptr();
+            ok(urdd_proximity_in_collision(
+                shapes,
+                all.as_ptr(),
+                ROWS,
+                dofs,
+                at,
+            ));
+        },
+        |_| {
+            black_box(proximity.in_collision_batch(&all).unwrap());
+        },
+    );
+    let mut out = vec![0.0; pairs * ROWS];
+    row(
+        "1,000 distances",
+        // SAFETY: as the header says.
+        |_| unsafe {
+            let (at, length) = (out.as_mut_ptr(), out.len());
+            ok(urdd_proximity_distances(
+                shapes,
+                all.as_ptr(),
+                ROWS,
+                dofs,
+                at,
+                length,
+            ));
+        },
+        |_| {
+            black_box(proximity.distances_batch(&all).unwrap());
+        },
+    );
+    // SAFETY: as the header says.
+    unsafe {
+        ok(urdd_proximity_free(shapes));
+        ok(urdd_robot_free(handle));
+    }
+}

@@ -1,0 +1,1488 @@
+// The C interface of urdd: a robot to ask about itself, from a URDD. docs/cpp.md has examples; urdd.hpp is the same for
+// C++. Written by cbindgen from crates/urdd-c; do not edit.
+//
+// Status. Every function that can fail returns a `urdd_status`; `URDD_STATUS_OK` is 0. After another one,
+// `urdd_error_message` has the text, which names what is wrong and what to do. "Errors" below names statuses without
+// their prefix; those of every function (POINTER, HANDLE, UTF8, MEMORY, INTERNAL) are not repeated. After an error,
+// outputs are zeros or incomplete. Nothing unwinds out of a function, and no function calls back.
+//
+// Ownership. A function whose last argument is a pointer to a handle makes one; after an error it is null. The caller
+// frees it with the `..._free` of its type, once. Handles are independent: they can be freed in any order. Arrays belong
+// to the caller, and nothing keeps them after the call. A `urdd_text` that a function writes lives as long as its handle.
+//
+// Threads. A handle never changes after it is made: any number of threads can use it at once. It must not be freed while
+// another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches
+// run on one pool of threads, as many as processors, or as the environment variable RAYON_NUM_THREADS says. Results do
+// not depend on their number. After `fork` without `exec`, the child must not run batches.
+//
+// Numbers. Metres, radians, kilograms. Poses are in the root link's frame unless stated otherwise. A configuration has one
+// value for each DOF, in the order of `urdd_robot_dof_name`; links are in the order of `urdd_robot_link_name`. Arrays are
+// row-major. Functions on configurations take rows: one configuration is one row. Null is allowed for an array without
+// values.
+//
+// Debug builds of the library check that a handle is open and of its type. Release builds do not: using a freed handle, or
+// an array that is shorter than stated, is undefined behaviour, as everywhere in C.
+
+
+#ifndef URDD_H
+#define URDD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// The ABI number of this header. A library with another one must not be used with it: `urdd_abi_version` gives that of
+// the library.
+#define URDD_ABI_VERSION 1
+
+// What a function returns. After any other than `URDD_STATUS_OK`, `urdd_error_message` says what is wrong.
+typedef enum urdd_status {
+    // The call succeeded.
+    URDD_STATUS_OK = 0,
+    // A pointer is null or not aligned, or an output overlaps an input.
+    URDD_STATUS_POINTER = 1,
+    // A handle is not open, or of another type. Only debug builds of the library check this.
+    URDD_STATUS_HANDLE = 2,
+    // An array does not have the expected length, or it is longer than any memory.
+    URDD_STATUS_LENGTH = 3,
+    // A number is NaN or infinite, or a value is not allowed.
+    URDD_STATUS_VALUE = 4,
+    // An index is out of range.
+    URDD_STATUS_OUT_OF_RANGE = 5,
+    // A text is not UTF-8.
+    URDD_STATUS_UTF8 = 6,
+    // A name is unknown: of a link, joint, DOF, configuration or kind of shapes.
+    URDD_STATUS_UNKNOWN_NAME = 7,
+    // A folder, archive or file cannot be opened or read.
+    URDD_STATUS_OPEN = 8,
+    // The URDD lacks a module that the call needs.
+    URDD_STATUS_MISSING_MODULE = 9,
+    // A module or mesh of the URDD is unusable.
+    URDD_STATUS_UNUSABLE = 10,
+    // There is not enough memory for the results.
+    URDD_STATUS_MEMORY = 11,
+    // The library is at fault: please report it.
+    URDD_STATUS_INTERNAL = 12,
+} urdd_status;
+
+// The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
+typedef struct urdd_collision_model urdd_collision_model;
+
+// A body that a robot must not touch, in the root link's frame.
+typedef struct urdd_obstacle urdd_obstacle;
+
+// The shapes of one kind of a robot, prepared for distances.
+typedef struct urdd_proximity urdd_proximity;
+
+// What validation found.
+typedef struct urdd_report urdd_report;
+
+// A robot, as its URDD describes it.
+typedef struct urdd_robot urdd_robot;
+
+// The skips between the shapes of one kind.
+typedef struct urdd_skips urdd_skips;
+
+// The shapes of a robot and obstacles, prepared for distances.
+typedef struct urdd_world_proximity urdd_world_proximity;
+
+// A text in UTF-8: `length` bytes at `data`, and a zero byte after them. A name can contain zero bytes itself.
+typedef struct urdd_text {
+    // Its first byte; never null.
+    const char *data;
+    // Number of bytes, without the zero byte.
+    size_t length;
+} urdd_text;
+
+// Two links.
+typedef struct urdd_link_pair {
+    // Their indices.
+    size_t links[2];
+} urdd_link_pair;
+
+// Tolerances and limits of inverse kinematics. `urdd_inverse_settings_default` sets them.
+typedef struct urdd_inverse_settings {
+    // Position tolerance, metres.
+    double position_tolerance;
+    // Rotation tolerance, radians.
+    double rotation_tolerance;
+    // Maximum number of iterations per descent.
+    size_t iterations;
+    // Maximum number of descents from random configurations after the first one.
+    size_t restarts;
+    // Seed of the random configurations. The search is deterministic.
+    uint64_t seed;
+    // Bounds in place of those of bounds_module, rad or m: a lower and an upper value for each DOF; or null.
+    const double *bounds;
+    // Number of values at `bounds`: dofs x 2, or 0.
+    size_t bounds_length;
+} urdd_inverse_settings;
+
+// A target of inverse kinematics, in the root link's frame.
+typedef struct urdd_target {
+    // The index of the link.
+    size_t link;
+    // The pose: a homogeneous 4 x 4 matrix in row-major order, metres. Its rotation is that of the link's frame, its
+    // translation where `point` should be.
+    double pose[16];
+    // A point of the link, such as a tool tip, in the link's frame, metres.
+    double point[3];
+    // True if only the position counts: the link's rotation is free.
+    bool is_position;
+} urdd_target;
+
+// How near a configuration comes to its target.
+typedef struct urdd_inverse_solution {
+    // Distance of the point from the target, metres.
+    double position_error;
+    // Angle between the link's rotation and the target, radians; 0 for a position.
+    double rotation_error;
+    // Number of descents from random configurations.
+    size_t restarts;
+    // Number of iterations of all descents.
+    size_t iterations;
+    // True if the target is reached within the tolerances.
+    bool is_reached;
+} urdd_inverse_solution;
+
+// Two shapes that are checked against each other.
+typedef struct urdd_pair {
+    // The indices of their links.
+    size_t links[2];
+    // The indices of the pieces of these links; 0 for hulls and their bounding volumes.
+    size_t pieces[2];
+} urdd_pair;
+
+// Two shapes, their distance, and their closest points.
+typedef struct urdd_pair_distance {
+    // The two shapes.
+    struct urdd_pair pair;
+    // Metres; 0 if they touch or overlap.
+    double distance;
+    // The distance divided by the pair's mean distance in link_shapes_distance_statistics_module; NaN without.
+    double relative;
+    // The closest points, of the first shape and of the second, in the root link's frame, metres. If the shapes
+    // overlap, both are the same point, which is in both.
+    double points[2][3];
+} urdd_pair_distance;
+
+// A shape: the index of its link, and of the link's piece; 0 for hulls and their bounding volumes.
+typedef struct urdd_shape_place {
+    // The index of the link.
+    size_t link;
+    // The index of the piece.
+    size_t piece;
+} urdd_shape_place;
+
+// A shape of the robot and an obstacle, their distance, and their closest points.
+typedef struct urdd_obstacle_distance {
+    // The index of the link.
+    size_t link;
+    // The index of the link's piece; 0 for a hull and its bounding volumes.
+    size_t piece;
+    // The index of the obstacle.
+    size_t obstacle;
+    // Metres; 0 if they touch or overlap.
+    double distance;
+    // The closest points, of the link's shape and of the obstacle, in the root link's frame, metres. If the two
+    // overlap, both are the same point, which is in both.
+    double points[2][3];
+} urdd_obstacle_distance;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The ABI number of the library.
+uint32_t urdd_abi_version(void);
+
+// The version of the library, such as "1.2.0". It lives as long as the library.
+struct urdd_text urdd_version(void);
+
+// Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
+// rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
+//
+// Errors: `MISSING_MODULE`, `UNUSABLE`: self_collision_model_module, chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_collision_model(const struct urdd_robot *handle, struct urdd_collision_model **out);
+
+// Frees a model. Null is ignored.
+//
+// Contract:
+// `model` is null, or open and not used again.
+enum urdd_status urdd_collision_model_free(struct urdd_collision_model *model);
+
+// Writes the error rates that the module states, measured on configurations that were not used to make the model: the
+// JSON of `evaluation` in self_collision_model_module. It lives as long as the model.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_collision_model_evaluation(const struct urdd_collision_model *handle, struct urdd_text *out);
+
+// Writes the number of link pairs and of DOFs. Each of the two can be null.
+//
+// Contract:
+// `handle` is null or open; each of the two is null or has room for a number.
+enum urdd_status urdd_collision_model_sizes(const struct urdd_collision_model *handle, size_t *pairs, size_t *dofs);
+
+// Writes the link pairs, in the order of `urdd_collision_model_clearances`.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` pairs at `pairs`.
+enum urdd_status urdd_collision_model_pairs(const struct urdd_collision_model *handle,
+                                            struct urdd_link_pair *pairs,
+                                            size_t length);
+
+// Writes the estimated clearance of each link pair for each configuration, metres. 0 or less: the pair may be in
+// contact.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `clearances` has room for `length` values: rows x pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_collision_model_clearances(const struct urdd_collision_model *handle,
+                                                 const double *configurations,
+                                                 size_t rows,
+                                                 size_t dofs,
+                                                 double *clearances,
+                                                 size_t length);
+
+// Writes whether any pair may be in contact, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_model *handle,
+                                                  const double *configurations,
+                                                  size_t rows,
+                                                  size_t dofs,
+                                                  bool *colliding);
+
+// The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
+// that fails.
+struct urdd_text urdd_error_message(void);
+
+// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds.
+//
+// Contract:
+// `out` is null or has room for settings.
+enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
+
+// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
+// start, then from random configurations. Does not check for collisions.
+//
+// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
+// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a target is not reached,
+// the nearest configuration is written, and its solution says so.
+//
+// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
+// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_inverse_kinematics(const struct urdd_robot *handle,
+                                               const struct urdd_target *targets,
+                                               size_t count,
+                                               const double *starts,
+                                               size_t starts_rows,
+                                               size_t dofs,
+                                               const struct urdd_inverse_settings *settings,
+                                               double *configurations,
+                                               struct urdd_inverse_solution *solutions);
+
+// Writes the pose of each link in the root link's frame for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `poses` has room for `length` values: rows x links x 4
+// x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
+// is computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
+                                       const double *configurations,
+                                       size_t rows,
+                                       size_t dofs,
+                                       double *poses,
+                                       size_t length);
+
+// Writes the geometric Jacobian of a link for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
+// values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
+// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
+// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+//
+// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
+// chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
+                                      const double *configurations,
+                                      size_t rows,
+                                      size_t dofs,
+                                      size_t link,
+                                      const double *point,
+                                      double *jacobians,
+                                      size_t length);
+
+// Writes the number of configurations that a person named; 0 without named_configurations_module.
+//
+// Errors: `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a number.
+enum urdd_status urdd_robot_num_named_configurations(const struct urdd_robot *handle, size_t *out);
+
+// Writes the name of a named configuration. It lives as long as the robot.
+//
+// Errors: `OUT_OF_RANGE`; `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_robot_configuration_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
+
+// Writes a named configuration: `dofs` values, rad or m.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `LENGTH`; `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `name` is null or ends with a zero byte; there is room for `dofs` values at
+// `configuration`.
+enum urdd_status urdd_robot_named_configuration(const struct urdd_robot *handle,
+                                                const char *name,
+                                                double *configuration,
+                                                size_t dofs);
+
+// Writes the number of links, joints and DOFs. Each of the three can be null.
+//
+// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; each of the three is null or has room for a number.
+enum urdd_status urdd_robot_sizes(const struct urdd_robot *handle, size_t *links, size_t *joints, size_t *dofs);
+
+// Writes the name of a link. It lives as long as the robot.
+//
+// Errors: `OUT_OF_RANGE`; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_robot_link_name(const struct urdd_robot *handle, size_t link, struct urdd_text *out);
+
+// Writes the name of a joint. It lives as long as the robot.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_joint_name(const struct urdd_robot *handle, size_t joint, struct urdd_text *out);
+
+// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
+// robot.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_dof_name(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
+
+// Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
+
+// Writes the index of a link.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `MISSING_MODULE`, `UNUSABLE`: chain_module or
+// dof_module.
+//
+// Contract:
+// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
+enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Writes the index of a DOF.
+//
+// Errors: as `urdd_robot_link`.
+//
+// Contract:
+// As `urdd_robot_link`.
+enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
+//
+// `pose` is a homogeneous 4 x 4 matrix in row-major order; null is the identity.
+//
+// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
+// and a translation.
+//
+// Contract:
+// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
+// room for a pointer.
+enum urdd_status urdd_obstacle_cuboid(const char *name,
+                                      const double *pose,
+                                      const double *half_extents,
+                                      struct urdd_obstacle **out);
+
+// Makes a sphere: its centre (3 values) and radius, metres.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; `centre` has 3 values.
+enum urdd_status urdd_obstacle_sphere(const char *name,
+                                      const double *centre,
+                                      double radius,
+                                      struct urdd_obstacle **out);
+
+// Makes a capsule: all points within `radius` of a segment along the z axis of its frame, from -`half_length` to
+// `half_length`, metres.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`.
+enum urdd_status urdd_obstacle_capsule(const char *name,
+                                       const double *pose,
+                                       double radius,
+                                       double half_length,
+                                       struct urdd_obstacle **out);
+
+// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
+// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`.
+enum urdd_status urdd_obstacle_cylinder(const char *name,
+                                        const double *pose,
+                                        double radius,
+                                        double half_length,
+                                        struct urdd_obstacle **out);
+
+// Makes the convex hull of `count` points (count x 3), metres.
+//
+// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
+enum urdd_status urdd_obstacle_hull(const char *name,
+                                    const double *pose,
+                                    const double *points,
+                                    size_t count,
+                                    struct urdd_obstacle **out);
+
+// Makes a mesh of `num_vertices` vertices (x 3), metres, and `num_triangles` triangles (x 3 indices), decomposed into
+// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
+//
+// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; the arrays have their lengths.
+enum urdd_status urdd_obstacle_mesh(const char *name,
+                                    const double *pose,
+                                    const double *vertices,
+                                    size_t num_vertices,
+                                    const uint32_t *triangles,
+                                    size_t num_triangles,
+                                    struct urdd_obstacle **out);
+
+// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
+// stays as it is.
+//
+// Contract:
+// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
+                                        const char *link,
+                                        struct urdd_obstacle **out);
+
+// Frees an obstacle. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `obstacle` is null, or open and not used again.
+enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
+
+// Prepares the shapes of a kind, without the pairs that the URDD skips. It reads the meshes.
+//
+// `kind` is "hulls", "boxes", "spheres", "pieces", "piece-boxes" or "piece-spheres".
+//
+// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the module of the shapes, a skips module,
+// chain_module or dof_module, or a mesh.
+//
+// Contract:
+// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_proximity(const struct urdd_robot *handle, const char *kind, struct urdd_proximity **out);
+
+// Frees a proximity. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `proximity` is null, or open and not used again.
+enum urdd_status urdd_proximity_free(struct urdd_proximity *proximity);
+
+// Writes the number of shapes, of pairs that are checked, and of DOFs. Each of the three can be null.
+//
+// Contract:
+// `handle` is null or open; each of the three is null or has room for a number.
+enum urdd_status urdd_proximity_sizes(const struct urdd_proximity *handle, size_t *shapes, size_t *pairs, size_t *dofs);
+
+// Writes the pairs that are checked, in the order of `urdd_proximity_distances`.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` pairs at `pairs`.
+enum urdd_status urdd_proximity_pairs(const struct urdd_proximity *handle, struct urdd_pair *pairs, size_t length);
+
+// Writes whether any pair touches or overlaps, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
+// computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_in_collision(const struct urdd_proximity *handle,
+                                             const double *configurations,
+                                             size_t rows,
+                                             size_t dofs,
+                                             bool *colliding);
+
+// Writes the minimum distance over all pairs for each configuration, metres: 0 in a collision, infinite without pairs.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_self_distance(const struct urdd_proximity *handle,
+                                              const double *configurations,
+                                              size_t rows,
+                                              size_t dofs,
+                                              double *distances);
+
+// Writes the distance of each pair for each configuration, metres: 0 for pairs that touch or overlap.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
+// in the order of `urdd_proximity_pairs`. One row is computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
+                                          const double *configurations,
+                                          size_t rows,
+                                          size_t dofs,
+                                          double *distances,
+                                          size_t length);
+
+// Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
+// that is written of each row: the lesser of `k` and the number of pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
+enum urdd_status urdd_proximity_nearest(const struct urdd_proximity *handle,
+                                        const double *configurations,
+                                        size_t rows,
+                                        size_t dofs,
+                                        size_t k,
+                                        struct urdd_pair_distance *nearest,
+                                        size_t *found);
+
+// Writes the distance and the closest points of each pair for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `closest` has room for `length`: rows x pairs, in the
+// order of `urdd_proximity_pairs`.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *handle,
+                                               const double *configurations,
+                                               size_t rows,
+                                               size_t dofs,
+                                               struct urdd_pair_distance *closest,
+                                               size_t length);
+
+// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
+// kinematics needs.
+//
+// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
+//
+// Contract:
+// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_open(const char *path, struct urdd_robot **out);
+
+// Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
+//
+// Errors: `OPEN` if the bytes are not a zip archive.
+//
+// Contract:
+// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
+// pointer.
+enum urdd_status urdd_robot_of_archive(const char *name, const uint8_t *bytes, size_t length, struct urdd_robot **out);
+
+// Frees a robot. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `robot` is null, or open and not used again.
+enum urdd_status urdd_robot_free(struct urdd_robot *robot);
+
+// Reads the skips between the shapes of a kind. `kind` is as for `urdd_robot_proximity`.
+//
+// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the skips modules.
+//
+// Contract:
+// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_skips(const struct urdd_robot *handle, const char *kind, struct urdd_skips **out);
+
+// Frees skips. Null is ignored.
+//
+// Contract:
+// `skips` is null, or open and not used again.
+enum urdd_status urdd_skips_free(struct urdd_skips *skips);
+
+// Writes the number of shapes.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a number.
+enum urdd_status urdd_skips_len(const struct urdd_skips *handle, size_t *out);
+
+// Writes the link and the piece of each shape.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` places at `places`.
+enum urdd_status urdd_skips_places(const struct urdd_skips *handle, struct urdd_shape_place *places, size_t length);
+
+// Writes whether a pair of shapes is skipped, by their indices. A shape with itself is.
+//
+// Errors: `OUT_OF_RANGE`.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a value.
+enum urdd_status urdd_skips_is_skipped(const struct urdd_skips *handle, size_t i, size_t j, bool *out);
+
+// Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
+// rotations.
+//
+// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` values at `bounds`.
+enum urdd_status urdd_robot_bounds(const struct urdd_robot *handle, double *bounds, size_t length);
+
+// Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there is room for `dofs` values at `configuration`.
+enum urdd_status urdd_robot_zero(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Writes the configuration with every DOF half-way between its bounds.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// As `urdd_robot_zero`.
+enum urdd_status urdd_robot_middle(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and
+// the same in every implementation. rows x dofs values, rad or m.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
+enum urdd_status urdd_robot_random(const struct urdd_robot *handle,
+                                   uint64_t first,
+                                   double *configurations,
+                                   size_t rows,
+                                   size_t dofs);
+
+// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
+// are.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there are `dofs` values at `configuration`.
+enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Validates every URDD at or below a path, as `urdd validate` does: a folder, a zip archive, or a folder of them.
+//
+// `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
+//
+// Errors: `OPEN` if there is no URDD; `VALUE` for the settings. Findings are no error: the report has them.
+//
+// Contract:
+// `path` is null or ends with a zero byte; `settings` too; `out` is null or has room for a pointer.
+enum urdd_status urdd_validate(const char *path, const char *settings, struct urdd_report **out);
+
+// Validates the URDD in a zip archive in memory. `name` is its name in the report.
+//
+// Errors: `OPEN` if the bytes are not a zip archive; `VALUE` for the settings.
+//
+// Contract:
+// As `urdd_validate`; there are `length` bytes at `bytes`.
+enum urdd_status urdd_validate_archive(const char *name,
+                                       const uint8_t *bytes,
+                                       size_t length,
+                                       const char *settings,
+                                       struct urdd_report **out);
+
+// Writes the report: the JSON of `urdd validate --format json` (schema/report). It lives as long as the report.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_report_json(const struct urdd_report *handle, struct urdd_text *out);
+
+// Writes whether every URDD passes.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a value.
+enum urdd_status urdd_report_passes(const struct urdd_report *handle, bool *out);
+
+// Frees a report. Null is ignored.
+//
+// Contract:
+// `report` is null, or open and not used again.
+enum urdd_status urdd_report_free(struct urdd_report *report);
+
+// Prepares the shapes of a robot and `count` obstacles. Skips do not apply: every shape of the robot is checked
+// against every obstacle, without the links that the obstacle ignores. What it needs of the obstacles is copied.
+//
+// Errors: `UNKNOWN_NAME` if an obstacle ignores an unknown link.
+//
+// Contract:
+// `proximity` is null or open; there are `count` handles at `obstacles`, null or open; `out` is null or has room for a
+// pointer.
+enum urdd_status urdd_proximity_world_proximity(const struct urdd_proximity *proximity,
+                                                const struct urdd_obstacle *const *obstacles,
+                                                size_t count,
+                                                struct urdd_world_proximity **out);
+
+// Frees a robot's shapes and obstacles. Null is ignored.
+//
+// Contract:
+// `world` is null, or open and not used again.
+enum urdd_status urdd_world_proximity_free(struct urdd_world_proximity *world);
+
+// Writes whether any shape of the robot touches or overlaps an obstacle, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
+// computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_world_proximity_in_collision(const struct urdd_world_proximity *handle,
+                                                   const double *configurations,
+                                                   size_t rows,
+                                                   size_t dofs,
+                                                   bool *colliding);
+
+// Writes the minimum distance between the robot and the obstacles for each configuration, metres: 0 in a collision,
+// infinite without pairs.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_world_proximity_min_distance(const struct urdd_world_proximity *handle,
+                                                   const double *configurations,
+                                                   size_t rows,
+                                                   size_t dofs,
+                                                   double *distances);
+
+// Writes the `k` nearest pairs of a shape of the robot and a convex part of an obstacle for each configuration,
+// nearest first, with their closest points.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
+// that is written of each row: less than `k` if there are fewer pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
+enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity *handle,
+                                              const double *configurations,
+                                              size_t rows,
+                                              size_t dofs,
+                                              size_t k,
+                                              struct urdd_obstacle_distance *nearest,
+                                              size_t *found);
+
+// Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
+// rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
+//
+// Errors: `MISSING_MODULE`, `UNUSABLE`: self_collision_model_module, chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_collision_model(const struct urdd_robot *handle, struct urdd_collision_model **out);
+
+// Frees a model. Null is ignored.
+//
+// Contract:
+// `model` is null, or open and not used again.
+enum urdd_status urdd_collision_model_free(struct urdd_collision_model *model);
+
+// Writes the error rates that the module states, measured on configurations that were not used to make the model: the
+// JSON of `evaluation` in self_collision_model_module. It lives as long as the model.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_collision_model_evaluation(const struct urdd_collision_model *handle, struct urdd_text *out);
+
+// Writes the number of link pairs and of DOFs. Each of the two can be null.
+//
+// Contract:
+// `handle` is null or open; each of the two is null or has room for a number.
+enum urdd_status urdd_collision_model_sizes(const struct urdd_collision_model *handle, size_t *pairs, size_t *dofs);
+
+// Writes the link pairs, in the order of `urdd_collision_model_clearances`.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` pairs at `pairs`.
+enum urdd_status urdd_collision_model_pairs(const struct urdd_collision_model *handle,
+                                            struct urdd_link_pair *pairs,
+                                            size_t length);
+
+// Writes the estimated clearance of each link pair for each configuration, metres. 0 or less: the pair may be in
+// contact.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `clearances` has room for `length` values: rows x pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_collision_model_clearances(const struct urdd_collision_model *handle,
+                                                 const double *configurations,
+                                                 size_t rows,
+                                                 size_t dofs,
+                                                 double *clearances,
+                                                 size_t length);
+
+// Writes whether any pair may be in contact, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_model *handle,
+                                                  const double *configurations,
+                                                  size_t rows,
+                                                  size_t dofs,
+                                                  bool *colliding);
+
+// The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
+// that fails.
+struct urdd_text urdd_error_message(void);
+
+// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds.
+//
+// Contract:
+// `out` is null or has room for settings.
+enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
+
+// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
+// start, then from random configurations. Does not check for collisions.
+//
+// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
+// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a target is not reached,
+// the nearest configuration is written, and its solution says so.
+//
+// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
+// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_inverse_kinematics(const struct urdd_robot *handle,
+                                               const struct urdd_target *targets,
+                                               size_t count,
+                                               const double *starts,
+                                               size_t starts_rows,
+                                               size_t dofs,
+                                               const struct urdd_inverse_settings *settings,
+                                               double *configurations,
+                                               struct urdd_inverse_solution *solutions);
+
+// Writes the pose of each link in the root link's frame for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `poses` has room for `length` values: rows x links x 4
+// x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
+// is computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
+                                       const double *configurations,
+                                       size_t rows,
+                                       size_t dofs,
+                                       double *poses,
+                                       size_t length);
+
+// Writes the geometric Jacobian of a link for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
+// values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
+// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
+// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+//
+// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
+// chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
+                                      const double *configurations,
+                                      size_t rows,
+                                      size_t dofs,
+                                      size_t link,
+                                      const double *point,
+                                      double *jacobians,
+                                      size_t length);
+
+// Writes the number of configurations that a person named; 0 without named_configurations_module.
+//
+// Errors: `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a number.
+enum urdd_status urdd_robot_num_named_configurations(const struct urdd_robot *handle, size_t *out);
+
+// Writes the name of a named configuration. It lives as long as the robot.
+//
+// Errors: `OUT_OF_RANGE`; `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_robot_configuration_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
+
+// Writes a named configuration: `dofs` values, rad or m.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `LENGTH`; `UNUSABLE`: named_configurations_module.
+//
+// Contract:
+// `handle` is null or open; `name` is null or ends with a zero byte; there is room for `dofs` values at
+// `configuration`.
+enum urdd_status urdd_robot_named_configuration(const struct urdd_robot *handle,
+                                                const char *name,
+                                                double *configuration,
+                                                size_t dofs);
+
+// Writes the number of links, joints and DOFs. Each of the three can be null.
+//
+// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; each of the three is null or has room for a number.
+enum urdd_status urdd_robot_sizes(const struct urdd_robot *handle, size_t *links, size_t *joints, size_t *dofs);
+
+// Writes the name of a link. It lives as long as the robot.
+//
+// Errors: `OUT_OF_RANGE`; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_robot_link_name(const struct urdd_robot *handle, size_t link, struct urdd_text *out);
+
+// Writes the name of a joint. It lives as long as the robot.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_joint_name(const struct urdd_robot *handle, size_t joint, struct urdd_text *out);
+
+// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
+// robot.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_dof_name(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
+
+// Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
+//
+// Errors: as `urdd_robot_link_name`.
+//
+// Contract:
+// As `urdd_robot_link_name`.
+enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
+
+// Writes the index of a link.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `MISSING_MODULE`, `UNUSABLE`: chain_module or
+// dof_module.
+//
+// Contract:
+// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
+enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Writes the index of a DOF.
+//
+// Errors: as `urdd_robot_link`.
+//
+// Contract:
+// As `urdd_robot_link`.
+enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
+//
+// `pose` is a homogeneous 4 x 4 matrix in row-major order; null is the identity.
+//
+// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
+// and a translation.
+//
+// Contract:
+// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
+// room for a pointer.
+enum urdd_status urdd_obstacle_cuboid(const char *name,
+                                      const double *pose,
+                                      const double *half_extents,
+                                      struct urdd_obstacle **out);
+
+// Makes a sphere: its centre (3 values) and radius, metres.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; `centre` has 3 values.
+enum urdd_status urdd_obstacle_sphere(const char *name,
+                                      const double *centre,
+                                      double radius,
+                                      struct urdd_obstacle **out);
+
+// Makes a capsule: all points within `radius` of a segment along the z axis of its frame, from -`half_length` to
+// `half_length`, metres.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`.
+enum urdd_status urdd_obstacle_capsule(const char *name,
+                                       const double *pose,
+                                       double radius,
+                                       double half_length,
+                                       struct urdd_obstacle **out);
+
+// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
+// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
+//
+// Errors: as `urdd_obstacle_cuboid`.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`.
+enum urdd_status urdd_obstacle_cylinder(const char *name,
+                                        const double *pose,
+                                        double radius,
+                                        double half_length,
+                                        struct urdd_obstacle **out);
+
+// Makes the convex hull of `count` points (count x 3), metres.
+//
+// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
+enum urdd_status urdd_obstacle_hull(const char *name,
+                                    const double *pose,
+                                    const double *points,
+                                    size_t count,
+                                    struct urdd_obstacle **out);
+
+// Makes a mesh of `num_vertices` vertices (x 3), metres, and `num_triangles` triangles (x 3 indices), decomposed into
+// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
+//
+// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
+//
+// Contract:
+// As `urdd_obstacle_cuboid`; the arrays have their lengths.
+enum urdd_status urdd_obstacle_mesh(const char *name,
+                                    const double *pose,
+                                    const double *vertices,
+                                    size_t num_vertices,
+                                    const uint32_t *triangles,
+                                    size_t num_triangles,
+                                    struct urdd_obstacle **out);
+
+// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
+// stays as it is.
+//
+// Contract:
+// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
+                                        const char *link,
+                                        struct urdd_obstacle **out);
+
+// Frees an obstacle. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `obstacle` is null, or open and not used again.
+enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
+
+// Prepares the shapes of a kind, without the pairs that the URDD skips. It reads the meshes.
+//
+// `kind` is "hulls", "boxes", "spheres", "pieces", "piece-boxes" or "piece-spheres".
+//
+// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the module of the shapes, a skips module,
+// chain_module or dof_module, or a mesh.
+//
+// Contract:
+// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_proximity(const struct urdd_robot *handle, const char *kind, struct urdd_proximity **out);
+
+// Frees a proximity. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `proximity` is null, or open and not used again.
+enum urdd_status urdd_proximity_free(struct urdd_proximity *proximity);
+
+// Writes the number of shapes, of pairs that are checked, and of DOFs. Each of the three can be null.
+//
+// Contract:
+// `handle` is null or open; each of the three is null or has room for a number.
+enum urdd_status urdd_proximity_sizes(const struct urdd_proximity *handle, size_t *shapes, size_t *pairs, size_t *dofs);
+
+// Writes the pairs that are checked, in the order of `urdd_proximity_distances`.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` pairs at `pairs`.
+enum urdd_status urdd_proximity_pairs(const struct urdd_proximity *handle, struct urdd_pair *pairs, size_t length);
+
+// Writes whether any pair touches or overlaps, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
+// computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_in_collision(const struct urdd_proximity *handle,
+                                             const double *configurations,
+                                             size_t rows,
+                                             size_t dofs,
+                                             bool *colliding);
+
+// Writes the minimum distance over all pairs for each configuration, metres: 0 in a collision, infinite without pairs.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_self_distance(const struct urdd_proximity *handle,
+                                              const double *configurations,
+                                              size_t rows,
+                                              size_t dofs,
+                                              double *distances);
+
+// Writes the distance of each pair for each configuration, metres: 0 for pairs that touch or overlap.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
+// in the order of `urdd_proximity_pairs`. One row is computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
+                                          const double *configurations,
+                                          size_t rows,
+                                          size_t dofs,
+                                          double *distances,
+                                          size_t length);
+
+// Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
+// that is written of each row: the lesser of `k` and the number of pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
+enum urdd_status urdd_proximity_nearest(const struct urdd_proximity *handle,
+                                        const double *configurations,
+                                        size_t rows,
+                                        size_t dofs,
+                                        size_t k,
+                                        struct urdd_pair_distance *nearest,
+                                        size_t *found);
+
+// Writes the distance and the closest points of each pair for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `closest` has room for `length`: rows x pairs, in the
+// order of `urdd_proximity_pairs`.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *handle,
+                                               const double *configurations,
+                                               size_t rows,
+                                               size_t dofs,
+                                               struct urdd_pair_distance *closest,
+                                               size_t length);
+
+// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
+// kinematics needs.
+//
+// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
+//
+// Contract:
+// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_open(const char *path, struct urdd_robot **out);
+
+// Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
+//
+// Errors: `OPEN` if the bytes are not a zip archive.
+//
+// Contract:
+// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
+// pointer.
+enum urdd_status urdd_robot_of_archive(const char *name, const uint8_t *bytes, size_t length, struct urdd_robot **out);
+
+// Frees a robot. What was made of it stays. Null is ignored.
+//
+// Contract:
+// `robot` is null, or open and not used again.
+enum urdd_status urdd_robot_free(struct urdd_robot *robot);
+
+// Reads the skips between the shapes of a kind. `kind` is as for `urdd_robot_proximity`.
+//
+// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the skips modules.
+//
+// Contract:
+// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
+enum urdd_status urdd_robot_skips(const struct urdd_robot *handle, const char *kind, struct urdd_skips **out);
+
+// Frees skips. Null is ignored.
+//
+// Contract:
+// `skips` is null, or open and not used again.
+enum urdd_status urdd_skips_free(struct urdd_skips *skips);
+
+// Writes the number of shapes.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a number.
+enum urdd_status urdd_skips_len(const struct urdd_skips *handle, size_t *out);
+
+// Writes the link and the piece of each shape.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` places at `places`.
+enum urdd_status urdd_skips_places(const struct urdd_skips *handle, struct urdd_shape_place *places, size_t length);
+
+// Writes whether a pair of shapes is skipped, by their indices. A shape with itself is.
+//
+// Errors: `OUT_OF_RANGE`.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a value.
+enum urdd_status urdd_skips_is_skipped(const struct urdd_skips *handle, size_t i, size_t j, bool *out);
+
+// Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
+// rotations.
+//
+// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` values at `bounds`.
+enum urdd_status urdd_robot_bounds(const struct urdd_robot *handle, double *bounds, size_t length);
+
+// Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there is room for `dofs` values at `configuration`.
+enum urdd_status urdd_robot_zero(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Writes the configuration with every DOF half-way between its bounds.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// As `urdd_robot_zero`.
+enum urdd_status urdd_robot_middle(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and
+// the same in every implementation. rows x dofs values, rad or m.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
+enum urdd_status urdd_robot_random(const struct urdd_robot *handle,
+                                   uint64_t first,
+                                   double *configurations,
+                                   size_t rows,
+                                   size_t dofs);
+
+// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
+// are.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there are `dofs` values at `configuration`.
+enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *configuration, size_t dofs);
+
+// Validates every URDD at or below a path, as `urdd validate` does: a folder, a zip archive, or a folder of them.
+//
+// `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
+//
+// Errors: `OPEN` if there is no URDD; `VALUE` for the settings. Findings are no error: the report has them.
+//
+// Contract:
+// `path` is null or ends with a zero byte; `settings` too; `out` is null or has room for a pointer.
+enum urdd_status urdd_validate(const char *path, const char *settings, struct urdd_report **out);
+
+// Validates the URDD in a zip archive in memory. `name` is its name in the report.
+//
+// Errors: `OPEN` if the bytes are not a zip archive; `VALUE` for the settings.
+//
+// Contract:
+// As `urdd_validate`; there are `length` bytes at `bytes`.
+enum urdd_status urdd_validate_archive(const char *name,
+                                       const uint8_t *bytes,
+                                       size_t length,
+                                       const char *settings,
+                                       struct urdd_report **out);
+
+// Writes the report: the JSON of `urdd validate --format json` (schema/report). It lives as long as the report.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_report_json(const struct urdd_report *handle, struct urdd_text *out);
+
+// Writes whether every URDD passes.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a value.
+enum urdd_status urdd_report_passes(const struct urdd_report *handle, bool *out);
+
+// Frees a report. Null is ignored.
+//
+// Contract:
+// `report` is null, or open and not used again.
+enum urdd_status urdd_report_free(struct urdd_report *report);
+
+// Prepares the shapes of a robot and `count` obstacles. Skips do not apply: every shape of the robot is checked
+// against every obstacle, without the links that the obstacle ignores. What it needs of the obstacles is copied.
+//
+// Errors: `UNKNOWN_NAME` if an obstacle ignores an unknown link.
+//
+// Contract:
+// `proximity` is null or open; there are `count` handles at `obstacles`, null or open; `out` is null or has room for a
+// pointer.
+enum urdd_status urdd_proximity_world_proximity(const struct urdd_proximity *proximity,
+                                                const struct urdd_obstacle *const *obstacles,
+                                                size_t count,
+                                                struct urdd_world_proximity **out);
+
+// Frees a robot's shapes and obstacles. Null is ignored.
+//
+// Contract:
+// `world` is null, or open and not used again.
+enum urdd_status urdd_world_proximity_free(struct urdd_world_proximity *world);
+
+// Writes whether any shape of the robot touches or overlaps an obstacle, for each configuration.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
+// computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_world_proximity_in_collision(const struct urdd_world_proximity *handle,
+                                                   const double *configurations,
+                                                   size_t rows,
+                                                   size_t dofs,
+                                                   bool *colliding);
+
+// Writes the minimum distance between the robot and the obstacles for each configuration, metres: 0 in a collision,
+// infinite without pairs.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_world_proximity_min_distance(const struct urdd_world_proximity *handle,
+                                                   const double *configurations,
+                                                   size_t rows,
+                                                   size_t dofs,
+                                                   double *distances);
+
+// Writes the `k` nearest pairs of a shape of the robot and a convex part of an obstacle for each configuration,
+// nearest first, with their closest points.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
+// that is written of each row: less than `k` if there are fewer pairs.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
+enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity *handle,
+                                              const double *configurations,
+                                              size_t rows,
+                                              size_t dofs,
+                                              size_t k,
+                                              struct urdd_obstacle_distance *nearest,
+                                              size_t *found);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* URDD_H */

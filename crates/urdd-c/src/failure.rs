@@ -1,0 +1,120 @@
+//! Status codes, and the text of the last error.
+
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use urdd_kinematics::ConfigurationError;
+use urdd_robot::RobotError;
+use urdd_validate::ValidateError;
+
+use crate::text::{Owned, Text};
+
+/// What a function returns. After any other than `URDD_STATUS_OK`, `urdd_error_message` says what is wrong.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// The call succeeded.
+    Ok = 0,
+    /// A pointer is null or not aligned, or an output overlaps an input.
+    Pointer = 1,
+    /// A handle is not open, or of another type. Only debug builds of the library check this.
+    Handle = 2,
+    /// An array does not have the expected length, or it is longer than any memory.
+    Length = 3,
+    /// A number is NaN or infinite, or a value is not allowed.
+    Value = 4,
+    /// An index is out of range.
+    OutOfRange = 5,
+    /// A text is not UTF-8.
+    Utf8 = 6,
+    /// A name is unknown: of a link, joint, DOF, configuration or kind of shapes.
+    UnknownName = 7,
+    /// A folder, archive or file cannot be opened or read.
+    Open = 8,
+    /// The URDD lacks a module that the call needs.
+    MissingModule = 9,
+    /// A module or mesh of the URDD is unusable.
+    Unusable = 10,
+    /// There is not enough memory for the results.
+    Memory = 11,
+    /// The library is at fault: please report it.
+    Internal = 12,
+}
+
+/// A status, and what the message says.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub status: Status,
+    pub message: String,
+}
+
+impl Failure {
+    pub fn new(status: Status, message: impl Into<String>) -> Self {
+        Failure {
+            status,
+            message: message.into(),
+        }
+    }
+}
+
+impl From<RobotError> for Failure {
+    fn from(error: RobotError) -> Self {
+        let status = match &error {
+            RobotError::Open { .. } | RobotError::List(_) => Status::Open,
+            RobotError::Missing(_) => Status::MissingModule,
+            RobotError::Unusable { .. }
+            | RobotError::MotionOpen
+            | RobotError::Metadata(_)
+            | RobotError::Kinematics(_)
+            | RobotError::Mesh { .. } => Status::Unusable,
+            RobotError::Configuration(error) => return error.clone().into(),
+            RobotError::Batch { .. } | RobotError::Room { .. } => Status::Length,
+            RobotError::Memory { .. } => Status::Memory,
+            RobotError::Unknown { .. } => Status::UnknownName,
+            RobotError::OutOfRange { .. } => Status::OutOfRange,
+            RobotError::OutOfBounds { .. }
+            | RobotError::Target(_)
+            | RobotError::Obstacle { .. } => Status::Value,
+            _ => Status::Internal,
+        };
+        Failure::new(status, error.to_string())
+    }
+}
+
+impl From<ConfigurationError> for Failure {
+    fn from(error: ConfigurationError) -> Self {
+        Failure::new(Status::Value, error.to_string())
+    }
+}
+
+impl From<ValidateError> for Failure {
+    fn from(error: ValidateError) -> Self {
+        Failure::new(Status::Open, error.to_string())
+    }
+}
+
+thread_local! {
+    static LAST: RefCell<Owned> = RefCell::default();
+}
+
+/// The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
+/// that fails.
+#[unsafe(no_mangle)]
+pub extern "C" fn urdd_error_message() -> Text {
+    LAST.with_borrow(Owned::text)
+}
+
+/// Runs a call. Nothing unwinds out of it.
+pub(crate) fn run(act: impl FnOnce() -> Result<(), Failure>) -> Status {
+    let failure = match catch_unwind(AssertUnwindSafe(act)) {
+        Ok(Ok(())) => return Status::Ok,
+        Ok(Err(failure)) => failure,
+        Err(_) => Failure::new(
+            Status::Internal,
+            "the library is at fault: please report what you called, with the URDD",
+        ),
+    };
+    // A thread that ends has no text any more, and the status still tells what it can.
+    let _ = LAST.try_with(|last| last.replace(Owned::new(&failure.message)));
+    failure.status
+}

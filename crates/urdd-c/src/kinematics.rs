@@ -1,0 +1,101 @@
+//! Forward kinematics.
+
+use urdd_directory::cancellation::Cancellation;
+use urdd_kinematics::pose_matrix::write_matrix;
+use urdd_robot::{RobotError, fill};
+
+use crate::failure::{Status, run};
+use crate::memory::{exact_room, values};
+use crate::robot::{Robot, robot};
+use crate::workspace::with_poses;
+
+/// Configurations in one block of work.
+const BLOCK: usize = 64;
+/// Numbers of a pose.
+const MATRIX: usize = 16;
+
+/// Writes the pose of each link in the root link's frame for each configuration.
+///
+/// `configurations` has `rows` rows of `dofs` values, rad or m. `poses` has room for `length` values: rows x links x 4
+/// x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
+/// is computed on this thread, without an allocation.
+///
+/// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+///
+/// # Safety
+/// `handle` is null or open; the arrays have their lengths.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_link_poses(
+    handle: *const Robot,
+    configurations: *const f64,
+    rows: usize,
+    dofs: usize,
+    poses: *mut f64,
+    length: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let robot = robot(handle)?;
+        let width = MATRIX * robot.robot.link_names()?.len();
+        let q = robot.rows("configurations", configurations, (rows, dofs))?;
+        let out = exact_room("poses", poses, length, (rows, width), &[q.values])?;
+        let write = |(): &mut (), k: usize, out: &mut [f64]| {
+            with_poses(|poses| {
+                robot.robot.link_poses_into(q.row(k), poses)?;
+                for (pose, out) in poses.iter().zip(out.chunks_exact_mut(MATRIX)) {
+                    write_matrix(pose, out);
+                }
+                Ok::<(), RobotError>(())
+            })
+        };
+        Ok(fill(out, width, BLOCK, || (), write)?)
+    })
+}
+
+/// Writes the geometric Jacobian of a link for each configuration.
+///
+/// `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
+/// values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
+/// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
+/// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+///
+/// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
+/// chain_module or dof_module.
+///
+/// # Safety
+/// `handle` is null or open; the arrays have their lengths.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_jacobians(
+    handle: *const Robot,
+    configurations: *const f64,
+    rows: usize,
+    dofs: usize,
+    link: usize,
+    point: *const f64,
+    jacobians: *mut f64,
+    length: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let robot = robot(handle)?;
+        let q = robot.rows("configurations", configurations, (rows, dofs))?;
+        let point = match point.is_null() {
+            true => [0.0; 3],
+            false => {
+                let point = values("point", point, 3)?;
+                [point[0], point[1], point[2]]
+            }
+        };
+        let shape = (rows, 6 * dofs);
+        let out = exact_room("jacobians", jacobians, length, shape, &[q.values])?;
+        if rows == 1 {
+            let one =
+                |poses: &mut Vec<_>| robot.robot.jacobian_into(q.values, link, point, poses, out);
+            return Ok(with_poses(one)?);
+        }
+        let on = Cancellation::default();
+        Ok(robot
+            .robot
+            .jacobian_batch_into(q.values, link, point, &on, out)?)
+    })
+}

@@ -1,0 +1,61 @@
+//! Internal to urdd; no stability promise. What is promised is the header, `include/urdd.h`, by its ABI number.
+//!
+//! The C interface of `urdd-robot` and `urdd-validate`: opaque handles, a status from every function, and arrays that
+//! the caller owns. A function is named as the Rust method, with `urdd_` and the type in front. The head of the header
+//! has the rules for ownership, threads and errors.
+
+mod collision_model;
+mod failure;
+mod handle;
+mod inverse;
+mod kinematics;
+mod memory;
+mod named_configurations;
+mod names;
+mod obstacle;
+mod proximity;
+mod robot;
+mod rows;
+mod skips;
+mod space;
+mod text;
+mod validate;
+mod workspace;
+mod world;
+
+use std::sync::LazyLock;
+
+use urdd_format::registry::PROGRAM_VERSION;
+
+pub use collision_model::*;
+pub use failure::*;
+pub use inverse::*;
+pub use kinematics::*;
+pub use named_configurations::*;
+pub use names::*;
+pub use obstacle::*;
+pub use proximity::*;
+pub use robot::*;
+pub use skips::*;
+pub use space::*;
+pub use text::*;
+pub use validate::*;
+pub use world::*;
+
+/// The ABI number of this header. A library with another one must not be used with it: `urdd_abi_version` gives that of
+/// the library.
+pub const URDD_ABI_VERSION: u32 = 1;
+
+/// The ABI number of the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn urdd_abi_version() -> u32 {
+    URDD_ABI_VERSION
+}
+
+/// The version of the library, such as "1.2.0". It lives as long as the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn urdd_version() -> Text {
+    VERSION.text()
+}
+
+static VERSION: LazyLock<text::Owned> = LazyLock::new(|| text::Owned::new(PROGRAM_VERSION));

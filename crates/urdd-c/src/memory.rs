@@ -1,0 +1,152 @@
+//! Arrays of the caller's.
+
+use std::slice;
+
+use crate::failure::{Failure, Status};
+
+/// Types for which any memory full of zeros is a value.
+///
+/// # Safety
+/// As stated.
+pub(crate) unsafe trait Plain: Copy {}
+
+// SAFETY: zero bytes are the number 0, and false.
+unsafe impl Plain for f64 {}
+// SAFETY: as above.
+unsafe impl Plain for bool {}
+// SAFETY: as above.
+unsafe impl Plain for usize {}
+// SAFETY: as above.
+unsafe impl Plain for u32 {}
+// SAFETY: as above.
+unsafe impl Plain for u8 {}
+
+/// Where an array of the caller's is.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    what: &'static str,
+    address: usize,
+    bytes: usize,
+}
+
+impl Span {
+    fn of<T>(what: &'static str, data: *const T, length: usize) -> Result<Self, Failure> {
+        let longest = isize::MAX as usize / size_of::<T>().max(1);
+        if length > longest {
+            let message = format!("`{what}` has {length} values, which is more than any memory");
+            return Err(Failure::new(Status::Length, message));
+        }
+        if length > 0 && data.is_null() {
+            return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
+        }
+        if length > 0 && !data.is_aligned() {
+            let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
+            return Err(Failure::new(Status::Pointer, message));
+        }
+        Ok(Span {
+            what,
+            address: data.addr(),
+            bytes: length * size_of::<T>(),
+        })
+    }
+
+    fn apart(self, other: Span) -> Result<(), Failure> {
+        let (a, b) = (self, other);
+        let overlap = a.bytes > 0
+            && b.bytes > 0
+            && a.address < b.address.saturating_add(b.bytes)
+            && b.address < a.address.saturating_add(a.bytes);
+        match overlap {
+            false => Ok(()),
+            true => Err(Failure::new(
+                Status::Pointer,
+                format!("`{}` and `{}` overlap", a.what, b.what),
+            )),
+        }
+    }
+}
+
+/// The caller's values.
+///
+/// # Safety
+/// `data` is null, or there are `length` values at it, which nobody changes during the call.
+pub(crate) unsafe fn values<'a, T: Plain>(
+    what: &'static str,
+    data: *const T,
+    length: usize,
+) -> Result<&'a [T], Failure> {
+    Span::of(what, data, length)?;
+    if length == 0 {
+        return Ok(&[]);
+    }
+    // SAFETY: guaranteed by the caller; it is neither null nor misaligned, nor longer than any memory.
+    Ok(unsafe { slice::from_raw_parts(data, length) })
+}
+
+/// The caller's room for results, full of zeros. `apart` are arrays that it must not overlap.
+///
+/// # Safety
+/// `data` is null, or there is room for `length` values at it, which nobody else uses during the call.
+pub(crate) unsafe fn room<'a, T: Plain>(
+    what: &'static str,
+    data: *mut T,
+    length: usize,
+    inputs: &[&[f64]],
+) -> Result<&'a mut [T], Failure> {
+    let span = Span::of(what, data, length)?;
+    for input in inputs {
+        span.apart(Span::of("an input", input.as_ptr(), input.len())?)?;
+    }
+    if length == 0 {
+        return Ok(&mut []);
+    }
+    // SAFETY: guaranteed by the caller; zeros are a value of the type.
+    unsafe {
+        data.write_bytes(0, length);
+        Ok(slice::from_raw_parts_mut(data, length))
+    }
+}
+
+/// As [`room`], for exactly `count` times `width` results.
+///
+/// # Safety
+/// As for [`room`].
+pub(crate) unsafe fn exact_room<'a, T: Plain>(
+    what: &'static str,
+    data: *mut T,
+    length: usize,
+    (count, width): (usize, usize),
+    inputs: &[&[f64]],
+) -> Result<&'a mut [T], Failure> {
+    if count.checked_mul(width) != Some(length) {
+        let message = match count {
+            1 => format!("`{what}` has room for {length} values: expected {width}"),
+            _ => format!("`{what}` has room for {length} values: expected {count} x {width}"),
+        };
+        return Err(Failure::new(Status::Length, message));
+    }
+    // SAFETY: guaranteed by the caller.
+    unsafe { room(what, data, length, inputs) }
+}
+
+/// Writes one result.
+///
+/// # Safety
+/// `out` is null, or there is room for a value at it.
+pub(crate) unsafe fn put<T>(what: &str, out: *mut T, value: T) -> Result<(), Failure> {
+    check_out(what, out)?;
+    // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
+    unsafe { out.write(value) };
+    Ok(())
+}
+
+pub(crate) fn check_out<T>(what: &str, out: *mut T) -> Result<(), Failure> {
+    match () {
+        () if out.is_null() => Err(Failure::new(Status::Pointer, format!("`{what}` is null"))),
+        () if !out.is_aligned() => {
+            let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
+            Err(Failure::new(Status::Pointer, message))
+        }
+        () => Ok(()),
+    }
+}

@@ -1,0 +1,237 @@
+//! Obstacles around a robot.
+
+use std::ffi::c_char;
+
+use nalgebra::Isometry3;
+use urdd_geometry::Mesh;
+use urdd_kinematics::pose_matrix::pose;
+
+use crate::failure::{Failure, Status};
+use crate::handle::{Handle, at, free, make};
+use crate::memory::values;
+use crate::text::read;
+
+/// A body that a robot must not touch, in the root link's frame.
+pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
+
+impl Handle for Obstacle {
+    const NAME: &'static str = "urdd_obstacle";
+}
+
+/// The pose at `matrix`; null is the identity.
+///
+/// # Safety
+/// `matrix` is null, or there are 16 values at it.
+unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failure> {
+    if matrix.is_null() {
+        return Ok(Isometry3::identity());
+    }
+    // SAFETY: guaranteed by the caller.
+    let matrix = unsafe { values("pose", matrix, 16) }?;
+    pose(matrix).ok_or_else(|| {
+        let message = "the pose is not a rotation and a translation";
+        Failure::new(Status::Value, message)
+    })
+}
+
+/// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
+///
+/// `pose` is a homogeneous 4 x 4 matrix in row-major order; null is the identity.
+///
+/// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
+/// and a translation.
+///
+/// # Safety
+/// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
+/// room for a pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_cuboid(
+    name: *const c_char,
+    pose: *const f64,
+    half_extents: *const f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let half = values("half_extents", half_extents, 3)?;
+            let half = [half[0], half[1], half[2]];
+            let (name, pose) = (read("name", name)?, placed(pose)?);
+            Ok(Obstacle(urdd_robot::Obstacle::cuboid(name, pose, half)?))
+        })
+    }
+}
+
+/// Makes a sphere: its centre (3 values) and radius, metres.
+///
+/// Errors: as `urdd_obstacle_cuboid`.
+///
+/// # Safety
+/// As `urdd_obstacle_cuboid`; `centre` has 3 values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_sphere(
+    name: *const c_char,
+    centre: *const f64,
+    radius: f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let centre = values("centre", centre, 3)?;
+            let centre = [centre[0], centre[1], centre[2]];
+            let name = read("name", name)?;
+            Ok(Obstacle(urdd_robot::Obstacle::sphere(
+                name, centre, radius,
+            )?))
+        })
+    }
+}
+
+/// Makes a capsule: all points within `radius` of a segment along the z axis of its frame, from -`half_length` to
+/// `half_length`, metres.
+///
+/// Errors: as `urdd_obstacle_cuboid`.
+///
+/// # Safety
+/// As `urdd_obstacle_cuboid`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_capsule(
+    name: *const c_char,
+    pose: *const f64,
+    radius: f64,
+    half_length: f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let made = urdd_robot::Obstacle::capsule(name, pose, radius, half_length)?;
+            Ok(Obstacle(made))
+        })
+    }
+}
+
+/// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
+/// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
+///
+/// Errors: as `urdd_obstacle_cuboid`.
+///
+/// # Safety
+/// As `urdd_obstacle_cuboid`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_cylinder(
+    name: *const c_char,
+    pose: *const f64,
+    radius: f64,
+    half_length: f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let made = urdd_robot::Obstacle::cylinder(name, pose, radius, half_length)?;
+            Ok(Obstacle(made))
+        })
+    }
+}
+
+/// Makes the convex hull of `count` points (count x 3), metres.
+///
+/// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
+///
+/// # Safety
+/// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_hull(
+    name: *const c_char,
+    pose: *const f64,
+    points: *const f64,
+    count: usize,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let points = values("points", points, count.saturating_mul(3))?
+                .as_chunks()
+                .0;
+            let (name, pose) = (read("name", name)?, placed(pose)?);
+            Ok(Obstacle(urdd_robot::Obstacle::hull(name, pose, points)?))
+        })
+    }
+}
+
+/// Makes a mesh of `num_vertices` vertices (x 3), metres, and `num_triangles` triangles (x 3 indices), decomposed into
+/// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
+///
+/// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
+///
+/// # Safety
+/// As `urdd_obstacle_cuboid`; the arrays have their lengths.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_mesh(
+    name: *const c_char,
+    pose: *const f64,
+    vertices: *const f64,
+    num_vertices: usize,
+    triangles: *const u32,
+    num_triangles: usize,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let length = num_vertices.saturating_mul(3);
+            let vertices = values("vertices", vertices, length)?.as_chunks().0.to_vec();
+            let length = num_triangles.saturating_mul(3);
+            let triangles = values("triangles", triangles, length)?;
+            if let Some(index) = triangles
+                .iter()
+                .find(|index| **index as usize >= num_vertices)
+            {
+                let index = *index as usize;
+                return Err(crate::names::out_of_range("vertex", index, num_vertices));
+            }
+            let triangles = triangles.as_chunks().0.to_vec();
+            let mesh = Mesh {
+                vertices,
+                triangles,
+            };
+            let (name, pose) = (read("name", name)?, placed(pose)?);
+            Ok(Obstacle(urdd_robot::Obstacle::mesh(name, pose, &mesh)?))
+        })
+    }
+}
+
+/// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
+/// stays as it is.
+///
+/// # Safety
+/// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_ignoring(
+    obstacle: *const Obstacle,
+    link: *const c_char,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let link = read("link", link)?;
+            Ok(Obstacle(at(obstacle)?.0.clone().ignoring(link)))
+        })
+    }
+}
+
+/// Frees an obstacle. What was made of it stays. Null is ignored.
+///
+/// # Safety
+/// `obstacle` is null, or open and not used again.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_free(obstacle: *mut Obstacle) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { free(obstacle) }
+}

@@ -1,0 +1,158 @@
+//! A robot: opened, and freed.
+
+use std::ffi::c_char;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use urdd_directory::source::{Archive, is_urdd};
+use urdd_format::named_configurations::NamedConfiguration;
+use urdd_robot::RobotError;
+
+use crate::failure::{Failure, Status};
+use crate::handle::{Handle, at, free, make};
+use crate::memory::values;
+use crate::rows::Rows;
+use crate::text::{Owned, read};
+
+/// A robot, as its URDD describes it.
+pub struct Robot {
+    pub(crate) robot: urdd_robot::Robot,
+    names: OnceLock<Names>,
+    configurations: OnceLock<Vec<Owned>>,
+}
+
+/// The names of a robot's parts, for C.
+pub(crate) struct Names {
+    pub links: Vec<Owned>,
+    pub joints: Vec<Owned>,
+    pub dofs: Vec<Owned>,
+}
+
+impl Handle for Robot {
+    const NAME: &'static str = "urdd_robot";
+}
+
+impl Robot {
+    fn new(robot: urdd_robot::Robot) -> Self {
+        Robot {
+            robot,
+            names: OnceLock::new(),
+            configurations: OnceLock::new(),
+        }
+    }
+
+    pub(crate) fn names(&self) -> Result<&Names, RobotError> {
+        let robot = &self.robot;
+        let (links, joints) = (robot.link_names()?, robot.joint_names()?);
+        let dofs = robot.dof_names()?;
+        let owned = |names: &[String]| names.iter().map(|name| Owned::new(name)).collect();
+        Ok(self.names.get_or_init(|| Names {
+            links: owned(links),
+            joints: owned(joints),
+            dofs: owned(dofs),
+        }))
+    }
+
+    /// The names of the configurations that a person named.
+    pub(crate) fn configuration_names(&self) -> Result<&[Owned], RobotError> {
+        let named = self.robot.named_configurations()?;
+        let name = |named: &NamedConfiguration| Owned::new(&named.name.to_string());
+        let names = || named.iter().map(name).collect();
+        Ok(self.configurations.get_or_init(names))
+    }
+
+    pub(crate) fn num_dofs(&self) -> Result<usize, RobotError> {
+        Ok(self.robot.dof_names()?.len())
+    }
+
+    /// The caller's configurations.
+    ///
+    /// # Safety
+    /// As for [`Rows::new`].
+    pub(crate) unsafe fn rows<'a>(
+        &self,
+        what: &'static str,
+        data: *const f64,
+        shape: (usize, usize),
+    ) -> Result<Rows<'a>, Failure> {
+        // SAFETY: guaranteed by the caller.
+        unsafe { Rows::new(what, data, shape, self.num_dofs()?) }
+    }
+}
+
+/// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
+/// kinematics needs.
+///
+/// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
+///
+/// # Safety
+/// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_open(path: *const c_char, out: *mut *mut Robot) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let path = Path::new(read("path", path)?);
+            let robot = urdd_robot::Robot::open(path)?;
+            if path.is_dir() && !is_urdd(path) {
+                let shown = path.display().to_string();
+                let message = format!(
+                    "{}: there is no URDD in this folder: neither urdd.json nor the folder of a module",
+                    shown.escape_debug()
+                );
+                return Err(Failure::new(Status::Open, message));
+            }
+            Ok(Robot::new(robot))
+        })
+    }
+}
+
+/// Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
+///
+/// Errors: `OPEN` if the bytes are not a zip archive.
+///
+/// # Safety
+/// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
+/// pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_of_archive(
+    name: *const c_char,
+    bytes: *const u8,
+    length: usize,
+    out: *mut *mut Robot,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe {
+        make(out, || {
+            let archive = archive(read("name", name)?, values("bytes", bytes, length)?)?;
+            Ok(Robot::new(urdd_robot::Robot::of(archive)))
+        })
+    }
+}
+
+/// An archive in memory.
+pub(crate) fn archive(name: &str, bytes: &[u8]) -> Result<Archive, Failure> {
+    Archive::new(name, bytes.to_vec()).map_err(|error| {
+        let message = format!("{}: {error}", name.escape_debug());
+        Failure::new(Status::Open, message)
+    })
+}
+
+/// Frees a robot. What was made of it stays. Null is ignored.
+///
+/// # Safety
+/// `robot` is null, or open and not used again.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_free(robot: *mut Robot) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { free(robot) }
+}
+
+/// The robot behind a handle.
+///
+/// # Safety
+/// As for [`at`].
+pub(crate) unsafe fn robot<'a>(handle: *const Robot) -> Result<&'a Robot, Failure> {
+    // SAFETY: guaranteed by the caller.
+    unsafe { at(handle) }
+}

@@ -1,0 +1,143 @@
+//! Configurations: bounds, named places in them, samples.
+
+use urdd_robot::{Configurations, RobotError, fill};
+
+use crate::failure::{Status, run};
+use crate::memory::{exact_room, room};
+use crate::robot::{Robot, robot};
+
+/// Configurations in one block of work.
+const BLOCK: usize = 64;
+
+/// Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
+/// rotations.
+///
+/// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+///
+/// # Safety
+/// `handle` is null or open; there is room for `length` values at `bounds`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_bounds(
+    handle: *const Robot,
+    bounds: *mut f64,
+    length: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let known = robot(handle)?.robot.configurations()?.bounds();
+        let out = exact_room("bounds", bounds, length, (known.len(), 2), &[])?;
+        out.copy_from_slice(known.as_flattened());
+        Ok(())
+    })
+}
+
+/// # Safety
+/// As for `urdd_robot_zero`.
+unsafe fn one(
+    handle: *const Robot,
+    configuration: *mut f64,
+    dofs: usize,
+    of: impl FnOnce(&Configurations) -> Vec<f64>,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let known = robot(handle)?.robot.configurations()?;
+        let out = exact_room(
+            "configuration",
+            configuration,
+            dofs,
+            (1, known.num_dofs()),
+            &[],
+        )?;
+        out.copy_from_slice(&of(known));
+        Ok(())
+    })
+}
+
+/// Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
+///
+/// Errors: as `urdd_robot_bounds`.
+///
+/// # Safety
+/// `handle` is null or open; there is room for `dofs` values at `configuration`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_zero(
+    handle: *const Robot,
+    configuration: *mut f64,
+    dofs: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { one(handle, configuration, dofs, Configurations::zero) }
+}
+
+/// Writes the configuration with every DOF half-way between its bounds.
+///
+/// Errors: as `urdd_robot_bounds`.
+///
+/// # Safety
+/// As `urdd_robot_zero`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_middle(
+    handle: *const Robot,
+    configuration: *mut f64,
+    dofs: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { one(handle, configuration, dofs, Configurations::middle) }
+}
+
+/// Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and
+/// the same in every implementation. rows x dofs values, rad or m.
+///
+/// Errors: as `urdd_robot_bounds`.
+///
+/// # Safety
+/// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_random(
+    handle: *const Robot,
+    first: u64,
+    configurations: *mut f64,
+    rows: usize,
+    dofs: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let known = robot(handle)?.robot.configurations()?;
+        let shape = (rows, known.num_dofs());
+        let length = rows.saturating_mul(dofs);
+        let out = exact_room("configurations", configurations, length, shape, &[])?;
+        let write = |(): &mut (), k: usize, out: &mut [f64]| {
+            out.copy_from_slice(&known.random(first.wrapping_add(k as u64)));
+            Ok::<(), RobotError>(())
+        };
+        Ok(fill(out, dofs, BLOCK, || (), write)?)
+    })
+}
+
+/// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
+/// are.
+///
+/// Errors: as `urdd_robot_bounds`.
+///
+/// # Safety
+/// `handle` is null or open; there are `dofs` values at `configuration`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_clamp(
+    handle: *const Robot,
+    configuration: *mut f64,
+    dofs: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let robot = robot(handle)?;
+        let known = robot.robot.configurations()?;
+        let mut values = robot
+            .rows("configuration", configuration, (1, dofs))?
+            .values
+            .to_vec();
+        known.clamp(&mut values);
+        room("configuration", configuration, dofs, &[])?.copy_from_slice(&values);
+        Ok(())
+    })
+}

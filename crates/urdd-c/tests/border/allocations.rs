@@ -1,0 +1,119 @@
+//! What a control loop asks does not allocate after its first round.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::ffi::CString;
+use std::ptr::{null, null_mut};
+
+use urdd_c::*;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: the system's allocator, counted.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        // SAFETY: guaranteed by the caller.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: guaranteed by the caller.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_control_loop_does_not_allocate() {
+    let urdf = testkit::repository().join("conformance/robots/welding_arm.urdf");
+    let (_guard, folder) = testkit::robots::made(&urdf);
+    let path = CString::new(folder.to_str().expect("UTF-8")).expect("no zero byte");
+    let (mut robot, mut made, mut world, mut ball) =
+        (null_mut(), null_mut(), null_mut(), null_mut());
+    // SAFETY: as the header says.
+    unsafe {
+        let ok = |status| assert_eq!(status, Status::Ok);
+        ok(urdd_robot_open(path.as_ptr(), &mut robot));
+        ok(urdd_robot_proximity(robot, c"pieces".as_ptr(), &mut made));
+        let centre = [0.6, 0.0, 0.4];
+        ok(urdd_obstacle_sphere(
+            c"ball".as_ptr(),
+            centre.as_ptr(),
+            0.1,
+            &mut ball,
+        ));
+        let obstacles = [ball.cast_const()];
+        ok(urdd_proximity_world_proximity(
+            made,
+            obstacles.as_ptr(),
+            1,
+            &mut world,
+        ));
+        let mut pairs = 0;
+        ok(urdd_proximity_sizes(
+            made,
+            null_mut(),
+            &mut pairs,
+            null_mut(),
+        ));
+        let (mut poses, mut jacobian) = (vec![0.0; 9 * 16], [0.0; 36]);
+        let (mut distances, mut q) = (vec![0.0; pairs], [0.0; 6]);
+        let mut before = 0;
+        for k in 0..1000 {
+            if k == 50 {
+                before = COUNT.get();
+            }
+            q = q.map(|value| value + 0.001);
+            let (at, mut touches, mut d) = (q.as_ptr(), false, 0.0);
+            ok(urdd_robot_link_poses(
+                robot,
+                at,
+                1,
+                6,
+                poses.as_mut_ptr(),
+                144,
+            ));
+            ok(urdd_robot_jacobians(
+                robot,
+                at,
+                1,
+                6,
+                8,
+                null(),
+                jacobian.as_mut_ptr(),
+                36,
+            ));
+            ok(urdd_proximity_in_collision(made, at, 1, 6, &mut touches));
+            ok(urdd_proximity_self_distance(made, at, 1, 6, &mut d));
+            ok(urdd_proximity_distances(
+                made,
+                at,
+                1,
+                6,
+                distances.as_mut_ptr(),
+                pairs,
+            ));
+            ok(urdd_world_proximity_in_collision(
+                world,
+                at,
+                1,
+                6,
+                &mut touches,
+            ));
+            ok(urdd_world_proximity_min_distance(world, at, 1, 6, &mut d));
+        }
+        assert!(before > 0);
+        assert_eq!(COUNT.get() - before, 0);
+        ok(urdd_robot_free(robot));
+        ok(urdd_proximity_free(made));
+        ok(urdd_obstacle_free(ball));
+        ok(urdd_world_proximity_free(world));
+    }
+}

@@ -1,0 +1,9 @@
+//! The C interface, as a caller in Rust.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod allocations;
+mod calls;
+mod fuzz_findings;
+mod interface;
