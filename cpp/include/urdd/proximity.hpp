@@ -1,0 +1,138 @@
+// Distances and collisions, of a robot with itself and with obstacles.
+
+#ifndef URDD_PROXIMITY_HPP
+#define URDD_PROXIMITY_HPP
+
+#include "obstacle.hpp"
+
+namespace urdd {
+
+/// The shapes of a robot and obstacles, prepared for distances. Made by `Proximity::world_proximity`.
+class WorldProximity {
+public:
+    /// Whether any shape of the robot touches or overlaps an obstacle.
+    bool in_collision(Span<const double> q) const {
+        bool found = false;
+        detail::check(urdd_world_proximity_in_collision(handle_.get(), q.data(), 1, q.size(), &found));
+        return found;
+    }
+    std::vector<bool> in_collision_batch(Rows q) const {
+        auto found = std::make_unique<bool[]>(q.rows);
+        detail::check(urdd_world_proximity_in_collision(handle_.get(), q.data, q.rows, q.columns, found.get()));
+        return detail::answers(found, q.rows);
+    }
+    /// The minimum distance, metres: 0 in a collision, infinite without pairs.
+    double min_distance(Span<const double> q) const {
+        double found = 0;
+        detail::check(urdd_world_proximity_min_distance(handle_.get(), q.data(), 1, q.size(), &found));
+        return found;
+    }
+    std::vector<double> min_distance_batch(Rows q) const {
+        std::vector<double> found(q.rows);
+        detail::check(urdd_world_proximity_min_distance(handle_.get(), q.data, q.rows, q.columns, found.data()));
+        return found;
+    }
+    /// The `k` nearest pairs of a shape of the robot and a convex part of an obstacle, nearest first.
+    std::vector<urdd_obstacle_distance> nearest(Span<const double> q, std::size_t k) const {
+        std::vector<urdd_obstacle_distance> found(k);
+        std::size_t count = 0;
+        detail::check(urdd_world_proximity_nearest(handle_.get(), q.data(), 1, q.size(), k, found.data(), &count));
+        found.resize(count);
+        return found;
+    }
+
+    const urdd_world_proximity *handle() const noexcept { return handle_.get(); }
+
+private:
+    friend class Proximity;
+    explicit WorldProximity(urdd_world_proximity *handle) : handle_(handle) {}
+    detail::Handle<urdd_world_proximity, urdd_world_proximity_free> handle_;
+};
+
+/// The shapes of one kind of a robot, prepared for distances, without the pairs that the URDD skips.
+class Proximity {
+public:
+    std::size_t num_shapes() const { return sizes()[0]; }
+    std::size_t num_pairs() const { return sizes()[1]; }
+    std::size_t num_dofs() const { return sizes()[2]; }
+
+    /// The pairs that are checked, in the order of `distances`.
+    std::vector<urdd_pair> pairs() const {
+        std::vector<urdd_pair> found(num_pairs());
+        detail::check(urdd_proximity_pairs(handle_.get(), found.data(), found.size()));
+        return found;
+    }
+    /// Whether any pair touches or overlaps.
+    bool in_collision(Span<const double> q) const {
+        bool found = false;
+        detail::check(urdd_proximity_in_collision(handle_.get(), q.data(), 1, q.size(), &found));
+        return found;
+    }
+    std::vector<bool> in_collision_batch(Rows q) const {
+        auto found = std::make_unique<bool[]>(q.rows);
+        detail::check(urdd_proximity_in_collision(handle_.get(), q.data, q.rows, q.columns, found.get()));
+        return detail::answers(found, q.rows);
+    }
+    /// The minimum distance over all pairs, metres: 0 in a collision, infinite without pairs.
+    double self_distance(Span<const double> q) const {
+        double found = 0;
+        detail::check(urdd_proximity_self_distance(handle_.get(), q.data(), 1, q.size(), &found));
+        return found;
+    }
+    std::vector<double> self_distance_batch(Rows q) const {
+        std::vector<double> found(q.rows);
+        detail::check(urdd_proximity_self_distance(handle_.get(), q.data, q.rows, q.columns, found.data()));
+        return found;
+    }
+    /// The distance of each pair, metres.
+    std::vector<double> distances(Span<const double> q) const { return distances_batch({q.data(), 1, q.size()}); }
+    /// As above, into `out`: rows x pairs.
+    void distances(Rows q, Span<double> out) const {
+        detail::check(urdd_proximity_distances(handle_.get(), q.data, q.rows, q.columns, out.data(), out.size()));
+    }
+    std::vector<double> distances_batch(Rows q) const {
+        std::vector<double> found(q.rows * num_pairs());
+        distances(q, found);
+        return found;
+    }
+    /// The `k` nearest pairs, nearest first, with their closest points.
+    std::vector<urdd_pair_distance> nearest(Span<const double> q, std::size_t k) const {
+        std::vector<urdd_pair_distance> found(k);
+        std::size_t count = 0;
+        detail::check(urdd_proximity_nearest(handle_.get(), q.data(), 1, q.size(), k, found.data(), &count));
+        found.resize(count);
+        return found;
+    }
+    /// The distance and the closest points of each pair.
+    std::vector<urdd_pair_distance> closest_points(Span<const double> q) const {
+        std::vector<urdd_pair_distance> found(num_pairs());
+        detail::check(urdd_proximity_closest_points(handle_.get(), q.data(), 1, q.size(), found.data(), found.size()));
+        return found;
+    }
+    /// The same shapes with obstacles, which are copied.
+    WorldProximity world_proximity(Span<const Obstacle> obstacles) const {
+        std::vector<const urdd_obstacle *> handles;
+        handles.reserve(obstacles.size());
+        for (const Obstacle &obstacle : obstacles)
+            handles.push_back(obstacle.handle());
+        return WorldProximity(detail::made<urdd_world_proximity>([&](urdd_world_proximity **out) {
+            return urdd_proximity_world_proximity(handle_.get(), handles.data(), handles.size(), out);
+        }));
+    }
+
+    const urdd_proximity *handle() const noexcept { return handle_.get(); }
+
+private:
+    friend class Robot;
+    explicit Proximity(urdd_proximity *handle) : handle_(handle) {}
+    std::array<std::size_t, 3> sizes() const {
+        std::array<std::size_t, 3> found{};
+        detail::check(urdd_proximity_sizes(handle_.get(), &found[0], &found[1], &found[2]));
+        return found;
+    }
+    detail::Handle<urdd_proximity, urdd_proximity_free> handle_;
+};
+
+} // namespace urdd
+
+#endif

@@ -1,0 +1,142 @@
+/* The header is C, and every function answers a call with nothing right in it. Run under valgrind by .ci/cpp. */
+
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <urdd.h>
+
+#undef NDEBUG
+#include <assert.h>
+
+static void ok(urdd_status status) {
+    if (status != URDD_STATUS_OK) {
+        fprintf(stderr, "%d: %s\n", (int)status, urdd_error_message().data);
+        abort();
+    }
+}
+
+static void fails(urdd_status status, urdd_status expected, const char *words) {
+    const char *said = urdd_error_message().data;
+    if (status != expected || strstr(said, words) == NULL) {
+        fprintf(stderr, "expected %d with \"%s\", found %d: %s\n", (int)expected, words, (int)status, said);
+        abort();
+    }
+}
+
+/* Every function with null wherever a pointer is, and numbers that no memory has. */
+static void nulls(void) {
+    size_t many = (size_t)-1;
+    urdd_status all[] = {
+        urdd_robot_open(NULL, NULL),
+        urdd_robot_of_archive(NULL, NULL, many, NULL),
+        urdd_robot_sizes(NULL, NULL, NULL, NULL),
+        urdd_robot_link_name(NULL, many, NULL),
+        urdd_robot_joint_name(NULL, many, NULL),
+        urdd_robot_dof_name(NULL, many, NULL),
+        urdd_robot_dof_unit(NULL, many, NULL),
+        urdd_robot_link(NULL, NULL, NULL),
+        urdd_robot_dof(NULL, NULL, NULL),
+        urdd_robot_bounds(NULL, NULL, many),
+        urdd_robot_zero(NULL, NULL, many),
+        urdd_robot_middle(NULL, NULL, many),
+        urdd_robot_random(NULL, 0, NULL, many, many),
+        urdd_robot_clamp(NULL, NULL, many),
+        urdd_robot_num_named_configurations(NULL, NULL),
+        urdd_robot_configuration_name(NULL, many, NULL),
+        urdd_robot_named_configuration(NULL, NULL, NULL, many),
+        urdd_robot_link_poses(NULL, NULL, many, many, NULL, many),
+        urdd_robot_jacobians(NULL, NULL, many, many, many, NULL, NULL, many),
+        urdd_inverse_settings_default(NULL),
+        urdd_robot_inverse_kinematics(NULL, NULL, many, NULL, many, many, NULL, NULL, NULL),
+        urdd_robot_proximity(NULL, NULL, NULL),
+        urdd_proximity_sizes(NULL, NULL, NULL, NULL),
+        urdd_proximity_pairs(NULL, NULL, many),
+        urdd_proximity_in_collision(NULL, NULL, many, many, NULL),
+        urdd_proximity_self_distance(NULL, NULL, many, many, NULL),
+        urdd_proximity_distances(NULL, NULL, many, many, NULL, many),
+        urdd_proximity_nearest(NULL, NULL, many, many, many, NULL, NULL),
+        urdd_proximity_closest_points(NULL, NULL, many, many, NULL, many),
+        urdd_obstacle_cuboid(NULL, NULL, NULL, NULL),
+        urdd_obstacle_sphere(NULL, NULL, 1.0, NULL),
+        urdd_obstacle_capsule(NULL, NULL, 1.0, 1.0, NULL),
+        urdd_obstacle_cylinder(NULL, NULL, 1.0, 1.0, NULL),
+        urdd_obstacle_hull(NULL, NULL, NULL, many, NULL),
+        urdd_obstacle_mesh(NULL, NULL, NULL, many, NULL, many, NULL),
+        urdd_obstacle_ignoring(NULL, NULL, NULL),
+        urdd_proximity_world_proximity(NULL, NULL, many, NULL),
+        urdd_world_proximity_in_collision(NULL, NULL, many, many, NULL),
+        urdd_world_proximity_min_distance(NULL, NULL, many, many, NULL),
+        urdd_world_proximity_nearest(NULL, NULL, many, many, many, NULL, NULL),
+        urdd_robot_collision_model(NULL, NULL),
+        urdd_collision_model_evaluation(NULL, NULL),
+        urdd_collision_model_sizes(NULL, NULL, NULL),
+        urdd_collision_model_pairs(NULL, NULL, many),
+        urdd_collision_model_clearances(NULL, NULL, many, many, NULL, many),
+        urdd_collision_model_may_collide(NULL, NULL, many, many, NULL),
+        urdd_robot_skips(NULL, NULL, NULL),
+        urdd_skips_len(NULL, NULL),
+        urdd_skips_places(NULL, NULL, many),
+        urdd_skips_is_skipped(NULL, many, many, NULL),
+        urdd_validate(NULL, NULL, NULL),
+        urdd_validate_archive(NULL, NULL, many, NULL, NULL),
+        urdd_report_json(NULL, NULL),
+        urdd_report_passes(NULL, NULL),
+    };
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k) {
+        assert(all[k] == URDD_STATUS_POINTER || all[k] == URDD_STATUS_LENGTH);
+    }
+    ok(urdd_robot_free(NULL));
+    ok(urdd_proximity_free(NULL));
+    ok(urdd_obstacle_free(NULL));
+    ok(urdd_world_proximity_free(NULL));
+    ok(urdd_collision_model_free(NULL));
+    ok(urdd_skips_free(NULL));
+    ok(urdd_report_free(NULL));
+}
+
+int main(int count, char **words) {
+    assert(count == 2);
+    assert(urdd_abi_version() == URDD_ABI_VERSION);
+    nulls();
+
+    urdd_robot *robot = NULL;
+    size_t links = 0, dofs = 0;
+    ok(urdd_robot_open(words[1], &robot));
+    ok(urdd_robot_sizes(robot, &links, NULL, &dofs));
+    urdd_text name;
+    ok(urdd_robot_link_name(robot, links - 1, &name));
+    assert(strlen(name.data) == name.length);
+    double *q = malloc(dofs * sizeof *q), *poses = malloc(16 * links * sizeof *poses);
+    assert(q != NULL && poses != NULL);
+    ok(urdd_robot_zero(robot, q, dofs));
+    ok(urdd_robot_link_poses(robot, q, 1, dofs, poses, 16 * links));
+    assert(poses[15] == 1.0);
+    fails(urdd_robot_link_poses(robot, q, 1, dofs + 1, poses, 16 * links), URDD_STATUS_LENGTH, "values in a row");
+    fails(urdd_robot_link(robot, "elbow?", &links), URDD_STATUS_UNKNOWN_NAME, "elbow?");
+
+    urdd_proximity *proximity = NULL;
+    ok(urdd_robot_proximity(robot, "hulls", &proximity));
+    ok(urdd_robot_free(robot));
+    bool touches = true;
+    ok(urdd_proximity_in_collision(proximity, q, 1, dofs, &touches));
+    assert(!touches);
+    urdd_pair_distance near[2];
+    size_t found = 0;
+    ok(urdd_proximity_nearest(proximity, q, 1, dofs, 2, near, &found));
+    assert(found == 2 && near[0].distance > 0.0 && near[0].distance <= near[1].distance);
+    ok(urdd_proximity_free(proximity));
+
+    urdd_report *report = NULL;
+    bool passes = false;
+    ok(urdd_validate(words[1], NULL, &report));
+    ok(urdd_report_passes(report, &passes));
+    assert(passes);
+    ok(urdd_report_json(report, &name));
+    assert(name.length > 0 && name.data[0] == '{');
+    ok(urdd_report_free(report));
+    free(q);
+    free(poses);
+    puts("border: ok");
+    return 0;
+}

@@ -1,0 +1,128 @@
+// The classes of urdd.hpp. Built with the address and undefined-behaviour sanitizers by .ci/cpp.
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+#include <urdd.hpp>
+#include <urdd/eigen.hpp>
+
+#define CHECK(condition)                                                                                               \
+    if (!(condition)) {                                                                                                \
+        std::fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                           \
+        std::exit(1);                                                                                                  \
+    }
+
+namespace {
+
+template <typename F> urdd_status thrown(F &&act) {
+    try {
+        act();
+    } catch (const urdd::Error &error) {
+        CHECK(std::string(error.what()).size() > 5);
+        return error.status();
+    }
+    return URDD_STATUS_OK;
+}
+
+void kinematics(const urdd::Robot &robot) {
+    const std::vector<double> q = robot.middle();
+    const std::size_t tip = robot.num_links() - 1;
+    CHECK(robot.link(robot.link_names()[tip]) == tip);
+    CHECK(robot.dof_units()[0] == "rad");
+    const std::vector<urdd::Pose> poses = robot.link_poses(q);
+    CHECK(poses.size() == robot.num_links());
+
+    // The Jacobian is the derivative of the position, by central differences.
+    const std::vector<double> jacobian = robot.jacobian(q, tip);
+    const auto map = urdd::jacobian_map(jacobian);
+    for (std::size_t dof = 0; dof < q.size(); ++dof) {
+        std::vector<double> more = q, less = q;
+        more[dof] += 1e-6;
+        less[dof] -= 1e-6;
+        const urdd::Pose a = robot.link_poses(more)[tip], b = robot.link_poses(less)[tip];
+        const Eigen::Vector3d change =
+            (urdd::pose_map(a).topRightCorner<3, 1>() - urdd::pose_map(b).topRightCorner<3, 1>()) / 2e-6;
+        CHECK((change - map.block<3, 1>(0, static_cast<Eigen::Index>(dof))).norm() < 1e-7);
+    }
+    const urdd::Inverse found = robot.inverse_kinematics(tip, poses[tip], robot.zero());
+    CHECK(found.is_reached());
+    const urdd::Pose there = robot.link_poses(found.configuration)[tip];
+    CHECK((urdd::pose_map(there) - urdd::pose_map(poses[tip])).norm() < 1e-5);
+
+    const Eigen::VectorXd eigen = Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+    CHECK(robot.link_poses(eigen) == poses);
+    std::vector<double> far(q.size(), 100.0);
+    robot.clamp(far);
+    CHECK(far[0] == robot.bounds()[0][1]);
+}
+
+void distances(const urdd::Robot &robot) {
+    const urdd::Proximity proximity = robot.proximity(urdd::ShapeKind::pieces);
+    const std::size_t count = 100;
+    const std::vector<double> all = robot.random(0, count);
+    const urdd::Rows rows{all.data(), count, robot.num_dofs()};
+    const std::vector<bool> touches = proximity.in_collision_batch(rows);
+    const std::vector<double> least = proximity.self_distance_batch(rows);
+    const urdd::WorldProximity world = [&] {
+        std::vector<urdd::Obstacle> obstacles;
+        obstacles.push_back(urdd::Obstacle::sphere("ball", {0.5, 0.0, 0.5}, 0.2));
+        obstacles.push_back(urdd::Obstacle::cuboid("floor", urdd::translation(0, 0, -0.06), {2, 2, 0.05})
+                                .ignoring(robot.link_names()[0]));
+        return proximity.world_proximity(obstacles);
+    }();
+    std::size_t near_ball = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const urdd::Span<const double> q(&all[k * robot.num_dofs()], robot.num_dofs());
+        CHECK(proximity.in_collision(q) == touches[k]);
+        CHECK((least[k] == 0.0) == touches[k]);
+        const std::vector<urdd_pair_distance> near = proximity.nearest(q, 1);
+        CHECK(near.size() == 1 && near[0].distance == least[k]);
+        double squared = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            squared += std::pow(near[0].points[0][axis] - near[0].points[1][axis], 2);
+        CHECK(std::abs(std::sqrt(squared) - least[k]) < 1e-9);
+        CHECK(world.in_collision(q) == (world.min_distance(q) == 0.0));
+        near_ball += world.in_collision(q) ? 1 : 0;
+    }
+    CHECK(near_ball > 0 && near_ball < count);
+    const urdd::Skips skips = robot.skips();
+    CHECK(skips.len() == proximity.num_shapes() && skips.is_skipped(0, 0));
+
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 4; ++k) {
+        threads.emplace_back([&] { CHECK(proximity.self_distance_batch(rows) == least); });
+    }
+    for (std::thread &thread : threads)
+        thread.join();
+}
+
+void mistakes(const urdd::Robot &robot, const std::string &path) {
+    CHECK(thrown([] { urdd::Robot::open("/nowhere"); }) == URDD_STATUS_OPEN);
+    CHECK(thrown([&] { robot.link("nothing"); }) == URDD_STATUS_UNKNOWN_NAME);
+    std::vector<double> q = robot.zero();
+    q.push_back(0.0);
+    CHECK(thrown([&] { robot.link_poses(q); }) == URDD_STATUS_LENGTH);
+    q.pop_back();
+    q[0] = std::numeric_limits<double>::quiet_NaN();
+    CHECK(thrown([&] { robot.link_poses(q); }) == URDD_STATUS_VALUE);
+    CHECK(thrown([&] { robot.jacobian(robot.zero(), 1000); }) == URDD_STATUS_OUT_OF_RANGE);
+    CHECK(thrown([&] { urdd::Obstacle::sphere("ball", {0, 0, 0}, -1); }) == URDD_STATUS_VALUE);
+    CHECK(thrown([&] { urdd::Obstacle::hull("none", urdd::identity(), {}); }) == URDD_STATUS_VALUE);
+    CHECK(thrown([&] { urdd::validate(path, "nonsense"); }) == URDD_STATUS_VALUE);
+    CHECK(urdd::validate(path).passes);
+}
+
+} // namespace
+
+int main(int count, char **words) {
+    CHECK(count == 2);
+    const urdd::Robot robot = urdd::Robot::open(words[1]);
+    kinematics(robot);
+    distances(robot);
+    mistakes(robot, words[1]);
+    std::puts("classes: ok");
+}
