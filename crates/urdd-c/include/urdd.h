@@ -281,8 +281,8 @@ enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out
 // start, then from random configurations. Does not check for collisions.
 //
 // There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a target is not reached,
-// the nearest configuration is written, and its solution says so.
+// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
+// target is not reached, the nearest configuration is written, and its solution says so.
 //
 // Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
 // translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
@@ -320,8 +320,9 @@ enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
 // values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
-// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
-// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+// six rows of each column together (column-major). The first three are the linear velocity of the point, the others the
+// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
+// computed on this thread, without an allocation.
 //
 // Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
 // chain_module or dof_module.
@@ -922,8 +923,8 @@ enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out
 // start, then from random configurations. Does not check for collisions.
 //
 // There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a target is not reached,
-// the nearest configuration is written, and its solution says so.
+// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
+// target is not reached, the nearest configuration is written, and its solution says so.
 //
 // Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
 // translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
@@ -961,8 +962,9 @@ enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
 // values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
-// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
-// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+// six rows of each column together (column-major). The first three are the linear velocity of the point, the others the
+// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
+// computed on this thread, without an allocation.
 //
 // Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
 // chain_module or dof_module.

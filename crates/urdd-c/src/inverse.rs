@@ -125,8 +125,8 @@ unsafe fn settings(settings: *const Settings) -> Result<InverseSettings, Failure
 /// start, then from random configurations. Does not check for collisions.
 ///
 /// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-/// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a target is not reached,
-/// the nearest configuration is written, and its solution says so.
+/// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
+/// target is not reached, the nearest configuration is written, and its solution says so.
 ///
 /// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
 /// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.

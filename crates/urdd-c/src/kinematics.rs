@@ -56,8 +56,9 @@ pub unsafe extern "C" fn urdd_robot_link_poses(
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
 /// values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
-/// six rows of each column together (column-major). One row is computed on this thread, without an allocation. The first three are the linear velocity of the point, the others the
-/// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows.
+/// six rows of each column together (column-major). The first three are the linear velocity of the point, the others the
+/// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
+/// computed on this thread, without an allocation.
 ///
 /// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
 /// chain_module or dof_module.
