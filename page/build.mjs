@@ -71,7 +71,7 @@ export function stamp() {
   ];
   const names = paths.map((path) => relative(repository, path).replaceAll("\\", "/"));
   // What the module is not made of.
-  const without = /^crates\/(urdd-(conformance|diff|export|generate|lint|lsp|view)|[^/]+\/tests)\//;
+  const without = /^crates\/(urdd-(c|conformance|diff|export|generate|lint|lsp|view)|[^/]+\/tests)\//;
   const hash = createHash("sha256");
   for (const name of names.filter((name) => !without.test(name)).sort(byBytes)) {
     const content = createHash("sha256")
