@@ -1,5 +1,6 @@
-//! Arrays of the caller's.
+//! Arrays and texts of the caller's.
 
+use std::ffi::{CStr, c_char};
 use std::slice;
 
 use crate::failure::{Failure, Status};
@@ -149,4 +150,19 @@ pub(crate) fn check_out<T>(what: &str, out: *mut T) -> Result<(), Failure> {
         }
         () => Ok(()),
     }
+}
+
+/// A text of the caller's.
+///
+/// # Safety
+/// `text` is null or ends with a zero byte.
+pub(crate) unsafe fn read_text<'a>(what: &str, text: *const c_char) -> Result<&'a str, Failure> {
+    if text.is_null() {
+        return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
+    }
+    // SAFETY: guaranteed by the caller.
+    let bytes = unsafe { CStr::from_ptr(text) };
+    bytes
+        .to_str()
+        .map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
 }

@@ -3,10 +3,10 @@
 use std::ffi::c_char;
 
 use crate::failure::{Status, run};
-use crate::memory::{exact_room, put};
+use crate::memory::{exact_room, put, read_text};
 use crate::names::out_of_range;
 use crate::robot::{Robot, robot};
-use crate::text::{Text, read};
+use crate::text::Text;
 
 /// Writes the number of configurations that a person named; 0 without named_configurations_module.
 ///
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn urdd_robot_named_configuration(
     run(|| unsafe {
         let known = robot(handle)?
             .robot
-            .named_configuration(read("name", name)?)?;
+            .named_configuration(read_text("name", name)?)?;
         let out = exact_room("configuration", configuration, dofs, (1, known.len()), &[])?;
         out.copy_from_slice(known);
         Ok(())

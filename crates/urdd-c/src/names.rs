@@ -3,9 +3,9 @@
 use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
-use crate::memory::{check_out, put};
+use crate::memory::{check_out, put, read_text};
 use crate::robot::{Names, Robot, robot};
-use crate::text::{Owned, Text, constant, read};
+use crate::text::{Owned, Text, constant};
 
 /// Writes the number of links, joints and DOFs. Each of the three can be null.
 ///
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn urdd_robot_link(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let name = read("name", name)?;
+        let name = read_text("name", name)?;
         put("out", out, robot(handle)?.robot.link(name)?)
     })
 }
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn urdd_robot_dof(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let name = read("name", name)?;
+        let name = read_text("name", name)?;
         put("out", out, robot(handle)?.robot.dof(name)?)
     })
 }

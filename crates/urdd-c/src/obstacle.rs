@@ -8,8 +8,7 @@ use urdd_kinematics::pose_matrix::pose;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::values;
-use crate::text::read;
+use crate::memory::{read_text, values};
 
 /// A body that a robot must not touch, in the root link's frame.
 pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
@@ -56,7 +55,7 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
         make(out, || {
             let half = values("half_extents", half_extents, 3)?;
             let half = [half[0], half[1], half[2]];
-            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let (name, pose) = (read_text("name", name)?, placed(pose)?);
             Ok(Obstacle(urdd_robot::Obstacle::cuboid(name, pose, half)?))
         })
     }
@@ -80,7 +79,7 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
         make(out, || {
             let centre = values("centre", centre, 3)?;
             let centre = [centre[0], centre[1], centre[2]];
-            let name = read("name", name)?;
+            let name = read_text("name", name)?;
             Ok(Obstacle(urdd_robot::Obstacle::sphere(
                 name, centre, radius,
             )?))
@@ -106,7 +105,7 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let (name, pose) = (read_text("name", name)?, placed(pose)?);
             let made = urdd_robot::Obstacle::capsule(name, pose, radius, half_length)?;
             Ok(Obstacle(made))
         })
@@ -131,7 +130,7 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let (name, pose) = (read_text("name", name)?, placed(pose)?);
             let made = urdd_robot::Obstacle::cylinder(name, pose, radius, half_length)?;
             Ok(Obstacle(made))
         })
@@ -158,7 +157,7 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
             let points = values("points", points, count.saturating_mul(3))?
                 .as_chunks()
                 .0;
-            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let (name, pose) = (read_text("name", name)?, placed(pose)?);
             Ok(Obstacle(urdd_robot::Obstacle::hull(name, pose, points)?))
         })
     }
@@ -200,7 +199,7 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
                 vertices,
                 triangles,
             };
-            let (name, pose) = (read("name", name)?, placed(pose)?);
+            let (name, pose) = (read_text("name", name)?, placed(pose)?);
             Ok(Obstacle(urdd_robot::Obstacle::mesh(name, pose, &mesh)?))
         })
     }
@@ -220,7 +219,7 @@ pub unsafe extern "C" fn urdd_obstacle_ignoring(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let link = read("link", link)?;
+            let link = read_text("link", link)?;
             Ok(Obstacle(at(obstacle)?.0.clone().ignoring(link)))
         })
     }

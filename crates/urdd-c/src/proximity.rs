@@ -7,10 +7,9 @@ use urdd_robot::{PairDistance as RobotPair, RobotError, ShapeKind, fill};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put};
+use crate::memory::{Plain, exact_room, put, read_text};
 use crate::robot::{Robot, robot};
 use crate::rows::Rows;
-use crate::text::read;
 use crate::workspace::with_workspace;
 
 /// Configurations in one block of work.
@@ -86,7 +85,9 @@ pub unsafe extern "C" fn urdd_robot_proximity(
     unsafe {
         make(out, || {
             let robot = robot(handle)?;
-            let made = robot.robot.proximity(shape_kind(read("kind", kind)?)?)?;
+            let made = robot
+                .robot
+                .proximity(shape_kind(read_text("kind", kind)?)?)?;
             Ok(Proximity(Arc::new(made)))
         })
     }

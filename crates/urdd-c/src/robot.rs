@@ -10,9 +10,9 @@ use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::values;
+use crate::memory::{read_text, values};
 use crate::rows::Rows;
-use crate::text::{Owned, read};
+use crate::text::Owned;
 
 /// A robot, as its URDD describes it.
 pub struct Robot {
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn urdd_robot_open(path: *const c_char, out: *mut *mut Rob
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let path = Path::new(read("path", path)?);
+            let path = Path::new(read_text("path", path)?);
             let robot = urdd_robot::Robot::open(path)?;
             if path.is_dir() && !is_urdd(path) {
                 let shown = path.display().to_string();
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn urdd_robot_of_archive(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let archive = archive(read("name", name)?, values("bytes", bytes, length)?)?;
+            let archive = archive(read_text("name", name)?, values("bytes", bytes, length)?)?;
             Ok(Robot::new(urdd_robot::Robot::of(archive)))
         })
     }

@@ -4,11 +4,10 @@ use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put};
+use crate::memory::{Plain, exact_room, put, read_text};
 use crate::names::out_of_range;
 use crate::proximity::shape_kind;
 use crate::robot::{Robot, robot};
-use crate::text::read;
 
 /// The skips between the shapes of one kind.
 pub struct Skips(urdd_robot::Skips);
@@ -45,7 +44,7 @@ pub unsafe extern "C" fn urdd_robot_skips(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let kind = shape_kind(read("kind", kind)?)?;
+            let kind = shape_kind(read_text("kind", kind)?)?;
             Ok(Skips(robot(handle)?.robot.skips(kind)?))
         })
     }

@@ -1,8 +1,6 @@
 //! Texts that cross the border.
 
-use std::ffi::{CStr, c_char};
-
-use crate::failure::{Failure, Status};
+use std::ffi::c_char;
 
 /// A text in UTF-8: `length` bytes at `data`, and a zero byte after them. A name can contain zero bytes itself.
 #[repr(C)]
@@ -44,19 +42,4 @@ pub(crate) const fn constant(with_zero: &'static str) -> Text {
         data: with_zero.as_ptr().cast(),
         length: with_zero.len() - 1,
     }
-}
-
-/// A text of the caller's.
-///
-/// # Safety
-/// `text` is null or ends with a zero byte.
-pub(crate) unsafe fn read<'a>(what: &str, text: *const c_char) -> Result<&'a str, Failure> {
-    if text.is_null() {
-        return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
-    }
-    // SAFETY: guaranteed by the caller.
-    let bytes = unsafe { CStr::from_ptr(text) };
-    bytes
-        .to_str()
-        .map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
 }

@@ -9,9 +9,9 @@ use urdd_validate::settings::Settings;
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{put, values};
+use crate::memory::{put, read_text, values};
 use crate::robot::archive;
-use crate::text::{Owned, Text, read};
+use crate::text::{Owned, Text};
 
 /// What validation found.
 pub struct Report {
@@ -42,7 +42,7 @@ unsafe fn settings_of(settings: *const c_char) -> Result<Settings, Failure> {
         return Ok(Settings::default());
     }
     // SAFETY: guaranteed by the caller.
-    let text = unsafe { read("settings", settings) }?;
+    let text = unsafe { read_text("settings", settings) }?;
     Settings::from_toml(text)
         .map_err(|error| Failure::new(Status::Value, format!("settings: {error}")))
 }
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn urdd_validate(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let (path, settings) = (read("path", path)?, settings_of(settings)?);
+            let (path, settings) = (read_text("path", path)?, settings_of(settings)?);
             Report::of(&urdd_validate::validate(&[path], &settings)?)
         })
     }
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn urdd_validate_archive(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let (name, settings) = (read("name", name)?, settings_of(settings)?);
+            let (name, settings) = (read_text("name", name)?, settings_of(settings)?);
             let archive = archive(name, values("bytes", bytes, length)?)?;
             Report::of(&urdd_validate::validate_source(archive, name, &settings)?)
         })
