@@ -57,6 +57,11 @@ static void nulls(void) {
         urdd_proximity_distances(NULL, NULL, many, many, NULL, many),
         urdd_proximity_nearest(NULL, NULL, many, many, many, NULL, NULL),
         urdd_proximity_closest_points(NULL, NULL, many, many, NULL, many),
+        urdd_proximity_is_within(NULL, NULL, many, many, 0.1, NULL),
+        urdd_proximity_blocked_edge(NULL, NULL, NULL, many, many, 0.1, 0.1, NULL),
+        urdd_proximity_gradients(NULL, NULL, many, many, NULL, NULL, NULL),
+        urdd_proximity_penetrations(NULL, NULL, many, NULL, many, NULL),
+        urdd_proximity_attach(NULL, many, NULL, NULL),
         urdd_obstacle_cuboid(NULL, NULL, NULL, NULL),
         urdd_obstacle_sphere(NULL, NULL, 1.0, NULL),
         urdd_obstacle_capsule(NULL, NULL, 1.0, 1.0, NULL),
@@ -64,10 +69,14 @@ static void nulls(void) {
         urdd_obstacle_hull(NULL, NULL, NULL, many, NULL),
         urdd_obstacle_mesh(NULL, NULL, NULL, many, NULL, many, NULL),
         urdd_obstacle_ignoring(NULL, NULL, NULL),
+        urdd_obstacle_at(NULL, NULL, NULL),
         urdd_proximity_world_proximity(NULL, NULL, many, NULL),
         urdd_world_proximity_in_collision(NULL, NULL, many, many, NULL),
         urdd_world_proximity_min_distance(NULL, NULL, many, many, NULL),
         urdd_world_proximity_nearest(NULL, NULL, many, many, many, NULL, NULL),
+        urdd_world_proximity_is_within(NULL, NULL, many, many, 0.1, NULL),
+        urdd_world_proximity_blocked_edge(NULL, NULL, NULL, many, many, 0.1, 0.1, NULL),
+        urdd_world_proximity_gradients(NULL, NULL, many, many, NULL, NULL, NULL),
         urdd_robot_collision_model(NULL, NULL),
         urdd_collision_model_evaluation(NULL, NULL),
         urdd_collision_model_sizes(NULL, NULL, NULL),
@@ -125,6 +134,9 @@ int main(int count, char **words) {
     size_t found = 0;
     ok(urdd_proximity_nearest(proximity, q, 1, dofs, 2, near, &found));
     assert(found == 2 && near[0].distance > 0.0 && near[0].distance <= near[1].distance);
+    fails(urdd_proximity_is_within(proximity, q, 1, dofs, -0.1, &touches), URDD_STATUS_VALUE, "margin");
+    double blocked = 0.0;
+    fails(urdd_proximity_blocked_edge(proximity, q, q, 1, dofs, 0.0, -1.0, &blocked), URDD_STATUS_VALUE, "resolution");
     ok(urdd_proximity_free(proximity));
 
     urdd_report *report = NULL;

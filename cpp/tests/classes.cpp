@@ -60,6 +60,57 @@ void kinematics(const urdd::Robot &robot) {
     CHECK(far[0] == robot.bounds()[0][1]);
 }
 
+/// What planners ask: margins, motions, gradients, objects that links carry.
+void planning(const urdd::Robot &robot, const urdd::Proximity &proximity, const urdd::WorldProximity &world,
+              const std::vector<double> &all) {
+    const std::size_t dofs = robot.num_dofs(), count = all.size() / dofs;
+    const urdd::Rows rows{all.data(), count, dofs}, next{all.data() + dofs, count - 1, dofs};
+    const std::vector<bool> within = proximity.is_within_batch(rows, 0.05);
+    const std::vector<double> blocked = proximity.blocked_edge_batch({all.data(), count - 1, dofs}, next, 0.0, 0.05);
+    const urdd::Obstacle part = urdd::Obstacle::cuboid("part", urdd::translation(0, 0, 0.1), {0.05, 0.1, 0.1});
+    const urdd::Proximity holding = proximity.attach(robot.link(robot.link_names().back()), part);
+    CHECK(holding.num_pairs() > proximity.num_pairs());
+    std::size_t overlapping = 0;
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+        const urdd::Span<const double> q(&all[k * dofs], dofs), end(&all[(k + 1) * dofs], dofs);
+        CHECK(within[k] == (proximity.self_distance(q) <= 0.05) && within[k] == proximity.is_within(q, 0.05));
+        CHECK(world.is_within(q, 0.05) == (world.min_distance(q) <= 0.05));
+        const double part_of_way = proximity.blocked_edge(q, end, 0.0, 0.05);
+        CHECK(part_of_way == blocked[k] || (std::isnan(part_of_way) && std::isnan(blocked[k])));
+        CHECK(std::isnan(world.blocked_edge(q, q)) == !world.in_collision(q));
+        CHECK(holding.self_distance(q) <= proximity.self_distance(q));
+        const auto overlaps = proximity.penetrations(q);
+        CHECK(overlaps.empty() == !proximity.in_collision(q));
+        overlapping += overlaps.size();
+        // The distance after a small step, as its gradient has it.
+        const auto found = world.gradients(q, 1);
+        std::vector<double> moved(q.data(), q.data() + dofs);
+        moved[1] += 1e-7;
+        if (found.pairs[0].distance > 0.01) {
+            const double step = (world.min_distance(moved) - found.pairs[0].distance) / 1e-7;
+            CHECK(std::abs(step - found.values[1]) < 1e-3);
+        }
+        CHECK(proximity.gradients(q, 3).values.size() == 3 * dofs);
+    }
+    CHECK(overlapping > 0);
+    const urdd::Obstacle ball = urdd::Obstacle::sphere("ball", {9, 9, 9}, 0.2);
+    const std::vector<urdd::Obstacle> moved = [&] {
+        std::vector<urdd::Obstacle> obstacles;
+        obstacles.push_back(ball.at(urdd::translation(0.5, 0.0, 0.5)));
+        return obstacles;
+    }();
+    const urdd::Span<const double> first(all.data(), dofs);
+    const std::vector<urdd::Obstacle> made = [&] {
+        std::vector<urdd::Obstacle> obstacles;
+        obstacles.push_back(urdd::Obstacle::sphere("ball", {0.5, 0.0, 0.5}, 0.2));
+        return obstacles;
+    }();
+    CHECK(proximity.world_proximity(moved).min_distance(first) == proximity.world_proximity(made).min_distance(first));
+    CHECK(thrown([&] { proximity.is_within(first, -1.0); }) == URDD_STATUS_VALUE);
+    CHECK(thrown([&] { proximity.blocked_edge_batch(rows, next); }) == URDD_STATUS_LENGTH);
+    CHECK(thrown([&] { holding.attach(0, part); }) == URDD_STATUS_VALUE);
+}
+
 void distances(const urdd::Robot &robot) {
     const urdd::Proximity proximity = robot.proximity(urdd::ShapeKind::pieces);
     const std::size_t count = 100;
@@ -89,6 +140,7 @@ void distances(const urdd::Robot &robot) {
         near_ball += world.in_collision(q) ? 1 : 0;
     }
     CHECK(near_ball > 0 && near_ball < count);
+    planning(robot, proximity, world, all);
     const urdd::Skips skips = robot.skips();
     CHECK(skips.len() == proximity.num_shapes() && skips.is_skipped(0, 0));
 

@@ -86,7 +86,7 @@ impl Original {
         for kind in &known {
             let file = format!("{}/module.json", kind.folder());
             let mirror = format!("{}/module.yaml", kind.folder());
-            let spec = registry::MODULES
+            let spec = registry::modules()
                 .iter()
                 .find(|spec| spec.kind == **kind && spec.profile == Profile::V1);
             let Some(spec) = spec else { continue };

@@ -117,8 +117,10 @@ export class App {
     const { robot, skips } = this.store.now;
     if (robot?.source.kind !== "url") return;
     for (let tries = 1; tries <= MAX_TRIES; tries++) {
-      const source = await this.site.source(entry);
       const turn = this.opening + 1;
+      const source = await this.site.source(entry);
+      // Somebody opened another robot meanwhile.
+      if (this.opening !== turn - 1) return;
       // Its files may be replaced again while they are read.
       if ((await this.open(entry, source, robot)) || this.opening !== turn) break;
       await new Promise((resolve) => setTimeout(resolve, REST));
@@ -156,6 +158,11 @@ export class App {
     to.push(this.store.now.q);
     this.movedAt = -Infinity;
     this.place(q);
+  }
+
+  /** Shows a configuration that a program sent, which no undo step takes back. */
+  follow(q: number[]): void {
+    if (q.every(Number.isFinite)) this.place(q);
   }
 
   private place(q: number[]): void {

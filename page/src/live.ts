@@ -3,6 +3,7 @@
 import type { App } from "./app";
 import { Gone, Refused } from "./site";
 import type { State } from "./state";
+import { States } from "./states";
 import { fill, h } from "./ui/dom";
 import { lines } from "./ui/format";
 
@@ -12,6 +13,7 @@ const PERIOD_OF_URDF = 300;
 const GONE = "gone";
 
 export function follow(app: App): void {
+  const states = new States(app);
   /** The last change that was reported to the user. */
   let told: string | null = null;
   const look = async (): Promise<void> => {
@@ -29,6 +31,7 @@ export function follow(app: App): void {
     app.store.set({ server: "here" });
     if (server !== "here") app.note("`urdd view` is back.");
     if (app.store.now.robot !== robot || app.revision === null) return;
+    if (entry.follows) states.follow(robot);
     const { making, failure } = entry;
     const { failure: before } = app.store.now.making;
     if (!same(app.store.now.making, { making, failure })) app.store.set({ making: { making, failure } });

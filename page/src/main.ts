@@ -19,6 +19,7 @@ import { proximity } from "./panels/proximity";
 import { shapes } from "./panels/shapes";
 import { skips } from "./panels/skips";
 import { said, status } from "./panels/status";
+import { Timeline, trajectoryIn } from "./panels/timeline";
 import { tree } from "./panels/tree";
 import { Site } from "./site";
 import type { Mode } from "./site";
@@ -73,6 +74,7 @@ function start(): void {
     if (loading.of > 0) bar.value = loading.done;
     fill(progress, h("p", {}, said(loading)), bar);
   });
+  const timeline = new Timeline(app);
   const middle = h(
     "main",
     {},
@@ -98,6 +100,7 @@ function start(): void {
     ),
     waiting,
     failure,
+    timeline.element,
   );
   const panels = {
     Joints: joints(app),
@@ -131,7 +134,10 @@ function start(): void {
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
-    if (event.dataTransfer) void address.openFiles(dropped(event.dataTransfer));
+    if (!event.dataTransfer) return;
+    const trajectory = app.store.now.robot?.moves ? trajectoryIn(event.dataTransfer) : null;
+    if (trajectory) void timeline.load(trajectory);
+    else void address.openFiles(dropped(event.dataTransfer));
   });
   // For tests and benches, which compare more digits than the page shows.
   Object.assign(window, { urdd: { app, stage } });

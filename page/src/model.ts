@@ -25,6 +25,8 @@ export interface Entry {
   /** Assumptions during generation for this view. */
   notes: string[];
   picture: string | null;
+  /** Whether a program sends configurations to show. */
+  follows?: boolean;
   /** The paths of its list of files and its report on a site. */
   files?: string;
   report?: string;

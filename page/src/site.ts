@@ -113,6 +113,26 @@ export class Site {
     return ((await this.send("drops", body, signal)) as { robots: string[] }).robots;
   }
 
+  /** The configurations that a program sends, as lines of JSON, from the last one on. */
+  async *states(entry: Entry, signal: AbortSignal): AsyncGenerator<string> {
+    const response = await this.fetch(`robots/${encodeURIComponent(entry.id)}/states`, { signal });
+    if (!response.ok || !response.body) throw new Error(`the server answered ${response.status}`);
+    const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+    try {
+      for (let rest = ""; ;) {
+        const { value, done } = await reader.read();
+        if (done) return;
+        const lines = (rest + value).split("\n");
+        rest = lines.pop() ?? "";
+        // What waited is of the past: the last one counts.
+        const last = lines.filter(Boolean).at(-1);
+        if (last !== undefined) yield last;
+      }
+    } finally {
+      void reader.cancel();
+    }
+  }
+
   async post(path: string, body: unknown): Promise<unknown> {
     return this.send(path, JSON.stringify(body));
   }

@@ -52,7 +52,7 @@ inPage(set, "a robot is drawn in a sandboxed frame, moves, and has its report", 
   const q = () => frame.evaluate(() => globalThis.urdd.app.store.now.q);
   const poses = () => frame.evaluate(() => [...globalThis.urdd.app.store.now.poses]);
   const [before, placed] = [await q(), await poses()];
-  const slider = frame.locator('input[type="range"]').first();
+  const slider = frame.locator('.joints input[type="range"]').first();
   await slider.focus();
   for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowRight");
   await soon(async () => {

@@ -95,6 +95,29 @@ test(
   },
 );
 
+test("a pose is saved as a named configuration, and is a button then", { timeout: 300_000 }, async () => {
+  const here = join(folder, "named");
+  const made = run("generate", join(repository, "conformance/robots/gripper.urdf"), "-o", here);
+  assert.equal(made.status, 0, made.stderr);
+  const server = await view(here);
+  const { page, close } = await tab(set.chrome, server.address);
+  await drawn(page);
+  await page.click("#tab-Joints");
+  await page.getByRole("button", { name: "Middle", exact: true }).click();
+  const q = await state(page, "q", (value) => value.some((position) => position !== 0));
+  await page.fill("#pose-name", "ready");
+  await page.getByRole("button", { name: "Save pose", exact: true }).click();
+  await page.getByRole("button", { name: "ready", exact: true }).waitFor();
+  const module = join(here, "named_configurations_module/module.json");
+  assert.deepEqual(read(module).configurations[0].configuration, q);
+  await page.getByRole("button", { name: "Zero", exact: true }).click();
+  await page.fill("#pose-name", "ready");
+  await page.getByRole("button", { name: "Replace pose", exact: true }).click();
+  await state(page, "robot", (robot) => robot.named[0].q[0] !== q[0]);
+  assert.equal(run("validate", "--fail-on", "info", here).status, 0);
+  await close();
+});
+
 test("skips of a URDD in the current folder are saved, and the folder stays", { timeout: 300_000 }, async () => {
   const here = join(folder, "gripper");
   const made = run("generate", join(repository, "conformance/robots/gripper.urdf"), "-o", here);

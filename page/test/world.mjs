@@ -95,7 +95,7 @@ export async function view(...words) {
     child.on("exit", (code) => reject(new Error(`urdd view ended: ${code} ${errors}`)));
   });
   const said = (pattern) => soon(() => assert.match(errors, pattern), 30);
-  return { address, status, said, end: () => child.kill("SIGINT") };
+  return { address, status, said, input: child.stdin, end: () => child.kill("SIGINT") };
 }
 
 export async function browser() {
@@ -166,14 +166,21 @@ export async function open(page, name) {
 }
 
 export async function drawn(page, name) {
-  await page.waitForFunction(
-    (name) => {
-      const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
-      return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
-    },
-    name,
-    { timeout: 120_000 },
-  );
+  const isDrawn = (name) => {
+    const { robot, loading } = globalThis.urdd?.app.store.now ?? {};
+    return robot && (!name || robot.entry.name === name) && !loading && globalThis.urdd.stage.settledOn === robot;
+  };
+  try {
+    await page.waitForFunction(isDrawn, name, { timeout: 120_000 });
+  } catch (error) {
+    const seen = await page.evaluate(() => {
+      const { robot, loading, failure, server, making } = globalThis.urdd?.app.store.now ?? {};
+      const { href, hash } = globalThis.location;
+      const isSettled = globalThis.urdd?.stage.settledOn === robot;
+      return { robot: robot?.entry.name, isSettled, loading, failure, server, making, hash: hash || href };
+    });
+    throw new Error(`${name ?? "the robot"} is not drawn: ${JSON.stringify(seen)}`, { cause: error });
+  }
 }
 
 /** What this check returns once it holds: the page gets there in its own time, later on a machine that is busy. */

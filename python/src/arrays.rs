@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::write_matrix;
-use urdd_robot::RobotError;
+use urdd_robot::{RobotError, has_room};
 
 use crate::errors::of_robot;
 use crate::work;
@@ -72,10 +72,13 @@ pub fn zeros<'py, T: Element, S: IntoDimension>(
     if bytes.is_some_and(|bytes| bytes <= SMALL) {
         return Ok(PyArray::zeros(py, shape, false));
     }
-    if bytes.is_none() {
+    let Some(bytes) = bytes else {
         let shape = shape.slice();
         let words = format!("an array of the shape {shape:?} is larger than any memory");
         return Err(PyMemoryError::new_err(words));
+    };
+    if !has_room(bytes) {
+        return Err(no_memory(bytes));
     }
     let lengths = PyTuple::new(py, shape.slice())?;
     let made = py
@@ -87,6 +90,9 @@ pub fn zeros<'py, T: Element, S: IntoDimension>(
 
 /// Raises `MemoryError` if `bytes` bytes are not available. Does not reserve them: another thread may take them.
 pub fn check_memory(bytes: usize) -> PyResult<()> {
+    if !has_room(bytes) {
+        return Err(no_memory(bytes));
+    }
     let mut probe: Vec<u8> = Vec::new();
     let room = probe.try_reserve_exact(bytes);
     // Prevents the compiler from removing the unused allocation.
@@ -96,7 +102,7 @@ pub fn check_memory(bytes: usize) -> PyResult<()> {
 
 fn no_memory(bytes: usize) -> PyErr {
     let mebibytes = bytes.div_ceil(1 << 20);
-    let words = format!("cannot allocate {mebibytes} MiB: ask for less at once");
+    let words = format!("there are no {mebibytes} MiB of memory left: ask for less at once");
     PyMemoryError::new_err(words)
 }
 

@@ -36,7 +36,9 @@ fn text<'py>(py: Python<'py>, text: &str) -> Bound<'py, PyAny> {
 pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
     let none = || py.None().into_bound(py);
     match error {
-        RobotError::Open { .. } | RobotError::List(_) => raise(py, "OpenError", error, &[]),
+        RobotError::Open { .. } | RobotError::NoUrdd { .. } | RobotError::List(_) => {
+            raise(py, "OpenError", error, &[])
+        }
         RobotError::Missing(module) => raise(
             py,
             "ModuleMissingError",
@@ -71,7 +73,7 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         ),
         RobotError::OutOfRange { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
         RobotError::Configuration(error) => of_configuration(py, error),
-        RobotError::Batch { .. } | RobotError::Target(_) => {
+        RobotError::Batch { .. } | RobotError::Target(_) | RobotError::Setting(_) => {
             raise(py, "ConfigurationError", error, &[])
         }
         RobotError::Obstacle { name, .. } => {

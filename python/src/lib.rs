@@ -13,6 +13,7 @@ mod errors;
 mod export;
 mod generate;
 mod jobs;
+mod obstacle;
 mod page;
 mod parts;
 mod proximity;
@@ -36,11 +37,13 @@ mod _urdd {
     #[pymodule_export]
     use crate::diff::diff;
     #[pymodule_export]
-    use crate::export::export;
+    use crate::export::{export, joint_groups};
     #[pymodule_export]
     use crate::generate::generate;
     #[pymodule_export]
     use crate::jobs::find_urdfs;
+    #[pymodule_export]
+    use crate::obstacle::Obstacle;
     #[pymodule_export]
     use crate::page::{Page, page_html};
     #[pymodule_export]
@@ -52,7 +55,7 @@ mod _urdd {
     #[pymodule_export]
     use crate::validate::{explain, validate};
     #[pymodule_export]
-    use crate::world::{Obstacle, WorldProximity};
+    use crate::world::WorldProximity;
 
     use pyo3::prelude::*;
 

@@ -1,13 +1,13 @@
 //! The page of `urdd view`.
 
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
-use urdd_view::{Collection, Server};
+use urdd_view::{Collection, Server, Shown};
 
 use crate::errors::raise;
 use crate::work;
@@ -16,6 +16,7 @@ use crate::work;
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Page {
     address: String,
+    robots: Vec<Arc<Shown>>,
     process: u32,
     cancellation: Cancellation,
     thread: Mutex<Option<JoinHandle<()>>>,
@@ -33,7 +34,9 @@ impl Page {
     #[new]
     #[pyo3(signature = (path, port=None))]
     fn new(py: Python<'_>, path: PathBuf, port: Option<u16>) -> PyResult<Self> {
-        let server = Server::bind(collection(py, &path)?, port);
+        let collection = collection(py, &path)?;
+        let robots = collection.robots();
+        let server = Server::bind(collection, port);
         let server = server.map_err(|error| PyOSError::new_err(error.to_string()))?;
         let (address, cancellation) = (server.address(), Cancellation::default());
         let own = cancellation.clone();
@@ -42,6 +45,7 @@ impl Page {
             .spawn(move || server.run(&own))?;
         Ok(Page {
             address,
+            robots,
             process: std::process::id(),
             cancellation,
             thread: Mutex::new(Some(thread)),
@@ -52,6 +56,13 @@ impl Page {
     #[getter]
     fn address(&self) -> &str {
         &self.address
+    }
+
+    /// Shows a configuration, in every open page.
+    fn set(&self, configuration: Vec<f64>) {
+        for robot in &self.robots {
+            robot.states.set(&configuration);
+        }
     }
 
     /// Stops serving.

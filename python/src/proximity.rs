@@ -7,14 +7,25 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd_robot::{Cancellable, PairDistance, RobotError};
+use urdd_robot::{Cancellable, EdgeSettings, Overlap, PairDistance, RobotError};
 
 use crate::arrays::{Batch, answers, shaped};
 use crate::errors::of_robot;
+use crate::obstacle::{Obstacle, objects_of};
 
-/// The indices of the two links and their pieces, the distance, the distance divided by the pair's mean, and the
+/// The names of the two links or attached objects, the indices of their pieces, the distance, the distance divided by the pair's mean, and the
 /// closest points.
-type Near = ([usize; 2], [usize; 2], f64, Option<f64>, [[f64; 3]; 2]);
+type Near = ([String; 2], [usize; 2], f64, Option<f64>, [[f64; 3]; 2]);
+
+/// A pair, its depth, its direction, and the gradient of its depth.
+pub type Overlapping<N> = (N, f64, [f64; 3], Vec<f64>);
+
+pub fn overlapping<P, N>(found: Vec<Overlap<P>>, near: impl Fn(&P) -> N) -> Vec<Overlapping<N>> {
+    let found = found.into_iter();
+    found
+        .map(|one| (near(&one.pair), one.depth, one.direction, one.gradient))
+        .collect()
+}
 
 /// The shapes of one kind, prepared for distances.
 #[pyclass(frozen, module = "urdd._urdd")]
@@ -84,6 +95,26 @@ impl Proximity {
         shaped(py, numbers.collect(), [self.0.num_pairs(), 2, 2])
     }
 
+    /// The names of the links of each pair, or of attached objects.
+    fn pair_names(&self) -> Vec<[&str; 2]> {
+        self.0.pair_names().collect()
+    }
+
+    /// These shapes, and objects on a link, each with the names of those that may touch it.
+    fn attach(
+        &self,
+        py: Python<'_>,
+        link: usize,
+        objects: Vec<(Py<Obstacle>, Vec<String>)>,
+    ) -> PyResult<Proximity> {
+        let mut with = Arc::clone(&self.0);
+        for object in objects_of(&objects) {
+            let more = with.attach(link, &object);
+            with = Arc::new(more.map_err(|error| of_robot(py, &error))?);
+        }
+        Ok(Proximity(with))
+    }
+
     /// (count, pairs).
     fn distances<'py>(
         &self,
@@ -120,6 +151,66 @@ impl Proximity {
         })
     }
 
+    /// (count,): whether any pair is at most `margin` apart.
+    fn is_within<'py>(
+        &self,
+        py: Python<'py>,
+        configurations: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |proximity, all, out| {
+            proximity.is_within_batch_into(all, margin, out)
+        })
+    }
+
+    /// (count,): where each straight motion is blocked, from 0 to 1; NaN where it is free.
+    fn blocked_edge<'py>(
+        &self,
+        py: Python<'py>,
+        starts: PyReadonlyArray2<'py, f64>,
+        ends: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+        resolution: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let count = ends.shape()[0];
+        let from = Batch::new(&starts)?;
+        let settings = EdgeSettings { margin, resolution };
+        self.each(py, &ends, count, |proximity, all, out| {
+            proximity.blocked_edge_batch_into(&from.values, all, &settings, out)
+        })
+    }
+
+    /// The pairs that touch or overlap in one configuration: depth, direction, gradient.
+    fn penetrations(
+        &self,
+        py: Python<'_>,
+        configuration: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Vec<Overlapping<Near>>> {
+        let batch = Batch::new(&configuration)?;
+        let found = py.detach(|| self.0.penetrations(&batch.values));
+        found
+            .map(|found| overlapping(found, near))
+            .map_err(|error| of_robot(py, &error))
+    }
+
+    /// The nearest pairs in one configuration, nearest first, with the gradients of their distances; `None` for pairs
+    /// that touch.
+    fn gradients(
+        &self,
+        py: Python<'_>,
+        configuration: PyReadonlyArray2<'_, f64>,
+        k: usize,
+    ) -> PyResult<Vec<(Near, Option<Vec<f64>>)>> {
+        let batch = Batch::new(&configuration)?;
+        let found = py.detach(|| self.0.gradients(&batch.values, k));
+        let found = found.map_err(|error| of_robot(py, &error))?;
+        let each = found.into_iter();
+        Ok(each
+            .map(|found| (near(&found.pair), found.gradient))
+            .collect())
+    }
+
     /// The nearest pairs in one configuration, nearest first.
     fn nearest(
         &self,
@@ -142,7 +233,7 @@ impl Proximity {
 
 fn near(pair: &PairDistance) -> Near {
     (
-        pair.link_idxs,
+        pair.links.each_ref().map(ToString::to_string),
         pair.pieces,
         pair.distance,
         pair.relative,

@@ -7,21 +7,21 @@ use std::sync::{Arc, Mutex};
 
 use nalgebra::Isometry3;
 use numpy::{
-    PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3,
-    PyUntypedArrayMethods,
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods, PyReadonlyArray2,
+    PyReadonlyArray3, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
-use urdd_directory::source::is_urdd;
 use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
-use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, fill};
+use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, Verdict, fill};
 
 use crate::arrays::{Batch, answers, copy, shaped};
 use crate::collision_model::CollisionModel;
 use crate::errors::{of_robot, raise};
 use crate::proximity::Proximity;
 use crate::work;
+use crate::world::WorldProximity;
 
 /// Number of configurations up to which this thread works alone: waking others takes longer.
 const FEW: usize = 16;
@@ -38,6 +38,27 @@ struct InverseOptions<'py> {
     restarts: usize,
     seed: u64,
     bounds: Option<PyReadonlyArray2<'py, f64>>,
+    weights: Option<[f64; 6]>,
+    locked: Vec<usize>,
+    posture: Option<Vec<f64>>,
+    free_of: Vec<FreeOf>,
+}
+
+/// What solutions of inverse kinematics must not touch.
+#[derive(FromPyObject)]
+enum FreeOf {
+    Itself(Py<Proximity>),
+    World(Py<WorldProximity>),
+}
+
+impl FreeOf {
+    fn is_free(&self, q: &[f64]) -> bool {
+        let touches = match self {
+            FreeOf::Itself(proximity) => proximity.get().shared().in_collision(q),
+            FreeOf::World(world) => world.get().in_collision_of(q),
+        };
+        touches == Ok(false)
+    }
 }
 
 /// A robot, as its URDD describes it.
@@ -93,14 +114,7 @@ impl Robot {
     /// Opens a folder or a zip archive.
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let robot = urdd_robot::Robot::open(&path).map_err(|error| of_robot(py, &error))?;
-        if path.is_dir() && !is_urdd(&path) {
-            let message = format!(
-                "{}: there is no URDD in this folder: neither urdd.json nor the folder of a module",
-                path.display()
-            );
-            return Err(raise(py, "OpenError", message, &[]));
-        }
+        let robot = urdd_robot::Robot::open_urdd(&path).map_err(|error| of_robot(py, &error))?;
         let root = Root::open(&path).map_err(|error| raise(py, "OpenError", error, &[]))?;
         Ok(Robot {
             robot: Arc::new(robot),
@@ -245,8 +259,8 @@ impl Robot {
         columns.permute(Some([0, 2, 1]))
     }
 
-    /// For targets (count, 4, 4) of poses or (count, 1, 3) of positions, a row (dofs + 5) each: the configuration,
-    /// whether it reaches the target (0 or 1), the position error and the rotation error, restarts and iterations.
+    /// For targets (count, 4, 4) of poses or (count, 1, 3) of positions, a row (dofs + 5) each: the configuration, the
+    /// verdict (by its place among `VERDICTS`), the position error and the rotation error, restarts and iterations.
     fn inverse_kinematics<'py>(
         &self,
         py: Python<'py>,
@@ -268,8 +282,12 @@ impl Robot {
             restarts: options.restarts,
             seed: options.seed,
             bounds: options.bounds.as_ref().map(pairs).transpose()?,
+            locked: options.locked,
+            posture: options.posture,
+            explain: true,
         };
-        let (robot, point) = (&self.robot, options.point);
+        let (robot, point, weights) = (&self.robot, options.point, options.weights);
+        let accepts = |q: &[f64]| options.free_of.iter().all(|shapes| shapes.is_free(q));
         let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
             let target = match is_pose {
                 true => Target::pose(link, unchecked_pose(&targets[16 * k..16 * k + 16])),
@@ -279,13 +297,20 @@ impl Robot {
                 }
             };
             let target = target.of_point(point);
+            let target = weights.map_or(target, |weights| target.weighted(weights));
             let start = starts.row(if starts.count == 1 { 0 } else { k });
-            let found = robot.inverse_kinematics_cancellable(&target, start, &settings, on)?;
+            let found = robot.inverse_kinematics_where(&target, start, &settings, &accepts, on)?;
             let nearest = found.nearest();
             let (configuration, rest) = out.split_at_mut(dofs);
             configuration.copy_from_slice(&nearest.configuration);
             rest.copy_from_slice(&[
-                f64::from(u8::from(found.is_reached())),
+                match nearest.verdict {
+                    Verdict::Reached => 0.0,
+                    Verdict::Refused => 1.0,
+                    Verdict::Limits => 2.0,
+                    Verdict::OutOfReach => 3.0,
+                    Verdict::Unknown => 4.0,
+                },
                 nearest.position_error,
                 nearest.rotation_error,
                 nearest.restarts as f64,
@@ -297,6 +322,31 @@ impl Robot {
         answers(py, [count, dofs + 5], 0, false, |on, out| {
             fill(out, dofs + 5, 1, || (), |(), k, out| write(on, k, out))
         })
+    }
+
+    /// (dofs,) each: the largest speeds and efforts.
+    fn limits<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
+        let robot = self.read(py)?;
+        let both = [robot.velocity_limits(), robot.effort_limits()];
+        let [speeds, efforts] = both.map(|limits| limits.map_err(|error| of_robot(py, &error)));
+        Ok([speeds?, efforts?].map(|limits| limits.into_pyarray(py)))
+    }
+
+    /// (links, 4): the mass of each link, and its centre of mass.
+    fn masses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let masses = self.read(py)?.link_masses();
+        let masses = masses.map_err(|error| of_robot(py, &error))?;
+        let rows = masses.iter().flat_map(|link| {
+            let [x, y, z] = link.centre;
+            [link.mass, x, y, z]
+        });
+        shaped(py, rows.collect(), [masses.len(), 4])
+    }
+
+    /// The DOFs that move one of two links against the other.
+    fn dofs_between(&self, py: Python<'_>, base: usize, tip: usize) -> PyResult<Vec<usize>> {
+        let dofs = self.read(py)?.dofs_between(base, tip);
+        dofs.map_err(|error| of_robot(py, &error))
     }
 
     /// The shapes of a kind, prepared for distances.

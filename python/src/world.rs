@@ -1,4 +1,4 @@
-//! Obstacles, and queries on a robot and obstacles.
+//! Queries on a robot and obstacles.
 
 use std::sync::Arc;
 
@@ -7,130 +7,20 @@ use numpy::{
     Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods,
 };
 use pyo3::prelude::*;
-use urdd_geometry::Mesh;
-use urdd_kinematics::pose_matrix::unchecked_pose;
-use urdd_robot::{ObstacleDistance, RobotError, World, fill};
+use urdd_robot::{EdgeSettings, ObstacleDistance, RobotError, World, fill};
 
-use crate::arrays::{Batch, answers, check_memory, copy, zeros};
+use crate::arrays::{Batch, answers, check_memory, zeros};
 use crate::errors::of_robot;
-use crate::proximity::Proximity;
+use crate::obstacle::{Obstacle, objects_of};
+use crate::proximity::{Overlapping, Proximity, overlapping};
 use crate::threads::num_threads;
-use crate::work;
 
-/// Upper bounds of the memory to create an obstacle, as for mesh files (docs/security.md).
-const BYTES_A_VERTEX: usize = 200;
-const BYTES_A_TRIANGLE: usize = 600;
 /// Memory of a configuration for each pair of a shape and a part of an obstacle: four lists, which grow by doubling.
 const BYTES_A_PAIR: usize = 256;
 
-/// The indices of a link and its piece, the index of an obstacle, the distance, and the closest points.
-type Near = ([usize; 2], usize, f64, [[f64; 3]; 2]);
-
-/// A body that a robot should keep away from.
-#[pyclass(frozen, module = "urdd._urdd")]
-pub struct Obstacle(urdd_robot::Obstacle);
-
-/// Creates an obstacle from a pose, a matrix (4, 4).
-fn obstacle(
-    py: Python<'_>,
-    at: &PyReadonlyArray2<'_, f64>,
-    make: impl FnOnce(nalgebra::Isometry3<f64>) -> Result<urdd_robot::Obstacle, RobotError>,
-) -> PyResult<Obstacle> {
-    let made = make(unchecked_pose(&copy(at)?));
-    made.map(Obstacle).map_err(|error| of_robot(py, &error))
-}
-
-/// The rows of an array (n, 3).
-fn rows(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
-    let values = copy(array)?;
-    check_memory(size_of_val(values.as_slice()))?;
-    Ok(values.as_chunks().0.to_vec())
-}
-
-#[pymethods]
-impl Obstacle {
-    #[staticmethod]
-    fn cuboid(
-        py: Python<'_>,
-        name: &str,
-        pose: PyReadonlyArray2<'_, f64>,
-        half_extents: [f64; 3],
-    ) -> PyResult<Self> {
-        let make = |pose| urdd_robot::Obstacle::cuboid(name, pose, half_extents);
-        obstacle(py, &pose, make)
-    }
-
-    #[staticmethod]
-    fn sphere(py: Python<'_>, name: &str, centre: [f64; 3], radius: f64) -> PyResult<Self> {
-        let made = urdd_robot::Obstacle::sphere(name, centre, radius);
-        made.map(Obstacle).map_err(|error| of_robot(py, &error))
-    }
-
-    #[staticmethod]
-    fn capsule(
-        py: Python<'_>,
-        name: &str,
-        pose: PyReadonlyArray2<'_, f64>,
-        radius: f64,
-        half_length: f64,
-    ) -> PyResult<Self> {
-        let make = |pose| urdd_robot::Obstacle::capsule(name, pose, radius, half_length);
-        obstacle(py, &pose, make)
-    }
-
-    #[staticmethod]
-    fn cylinder(
-        py: Python<'_>,
-        name: &str,
-        pose: PyReadonlyArray2<'_, f64>,
-        radius: f64,
-        half_length: f64,
-    ) -> PyResult<Self> {
-        let make = |pose| urdd_robot::Obstacle::cylinder(name, pose, radius, half_length);
-        obstacle(py, &pose, make)
-    }
-
-    /// The convex hull of points (n, 3).
-    #[staticmethod]
-    fn hull(
-        py: Python<'_>,
-        name: &str,
-        pose: PyReadonlyArray2<'_, f64>,
-        points: PyReadonlyArray2<'_, f64>,
-    ) -> PyResult<Self> {
-        let points = rows(&points)?;
-        check_memory(points.len().saturating_mul(BYTES_A_VERTEX))?;
-        let make = |pose| urdd_robot::Obstacle::hull(name, pose, &points);
-        obstacle(py, &pose, make)
-    }
-
-    /// Vertices (n, 3) and triangles (m, 3), to be decomposed into convex pieces.
-    #[staticmethod]
-    fn mesh(
-        py: Python<'_>,
-        name: String,
-        pose: PyReadonlyArray2<'_, f64>,
-        vertices: PyReadonlyArray2<'_, f64>,
-        faces: PyReadonlyArray2<'_, u32>,
-    ) -> PyResult<Self> {
-        let (vertices, faces) = (rows(&vertices)?, copy(&faces)?);
-        let of_vertices = vertices.len().saturating_mul(BYTES_A_VERTEX);
-        check_memory(of_vertices.saturating_add(faces.len() / 3 * BYTES_A_TRIANGLE))?;
-        let mesh = Mesh {
-            vertices,
-            triangles: faces.as_chunks().0.to_vec(),
-        };
-        let pose = unchecked_pose(&copy(&pose)?);
-        let made = work::run(py, |_| urdd_robot::Obstacle::mesh(&name, pose, &mesh))?;
-        made.map(Obstacle).map_err(|error| of_robot(py, &error))
-    }
-
-    /// Number of convex shapes that represent it.
-    #[getter]
-    fn num_parts(&self) -> usize {
-        self.0.num_parts()
-    }
-}
+/// The name of a link or an attached object, the index of its piece, the index of an obstacle, the distance, and the
+/// closest points.
+type Near = (String, usize, usize, f64, [[f64; 3]; 2]);
 
 /// The shapes of a robot, and obstacles.
 #[pyclass(frozen, module = "urdd._urdd")]
@@ -173,6 +63,11 @@ impl WorldProximity {
         })
     }
 
+    /// Whether the robot touches an obstacle in one configuration.
+    pub fn in_collision_of(&self, configuration: &[f64]) -> Result<bool, RobotError> {
+        self.proximity.in_collision(configuration)
+    }
+
     /// Raises `MemoryError` if there is not enough memory for this many configurations at once.
     fn check_memory(&self, configurations: usize) -> PyResult<()> {
         let each = self.num_tested.saturating_mul(BYTES_A_PAIR);
@@ -189,16 +84,11 @@ impl WorldProximity {
         proximity: PyRef<'_, Proximity>,
         obstacles: Vec<(Py<Obstacle>, Vec<String>)>,
     ) -> PyResult<Self> {
-        let each = obstacles.iter().map(|(obstacle, ignored)| {
-            let links = ignored.iter();
-            links.fold(obstacle.get().0.clone(), |one, link| one.ignoring(link))
-        });
-        let parts = obstacles
-            .iter()
-            .map(|(obstacle, _)| obstacle.get().0.num_parts());
+        let world = World::new(objects_of(&obstacles));
+        let parts = world.obstacles().iter().map(|one| one.num_parts());
         let proximity = proximity.shared();
         let num_tested = proximity.num_shapes().saturating_mul(parts.sum());
-        let proximity = Shared::new(proximity, &World::new(each));
+        let proximity = Shared::new(proximity, &world);
         Ok(WorldProximity {
             proximity: proximity.map_err(|error| of_robot(py, &error))?,
             num_tested,
@@ -215,6 +105,11 @@ impl WorldProximity {
         }
         drop(guard);
         Ok(array)
+    }
+
+    /// The name of the link of each pair, or of the attached object.
+    fn pair_names(&self) -> Vec<&str> {
+        self.proximity.pair_names().collect()
     }
 
     /// (count, pairs).
@@ -256,6 +151,39 @@ impl WorldProximity {
         })
     }
 
+    /// (count,): whether any pair is at most `margin` apart.
+    fn is_within<'py>(
+        &self,
+        py: Python<'py>,
+        configurations: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let count = configurations.shape()[0];
+        self.each(py, &configurations, count, |proximity, q, out| {
+            out[0] = proximity.is_within(q, margin)?;
+            Ok(())
+        })
+    }
+
+    /// (count,): where each straight motion is blocked, from 0 to 1; NaN where it is free. A row of `edges` is the
+    /// start, then the end.
+    fn blocked_edge<'py>(
+        &self,
+        py: Python<'py>,
+        edges: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+        resolution: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let count = edges.shape()[0];
+        let settings = EdgeSettings { margin, resolution };
+        self.each(py, &edges, count, |proximity, both, out| {
+            let (start, end) = both.split_at(both.len() / 2);
+            let blocked = proximity.blocked_edge(start, end, &settings)?;
+            out[0] = blocked.unwrap_or(f64::NAN);
+            Ok(())
+        })
+    }
+
     /// The nearest pairs in one configuration, nearest first.
     fn nearest(
         &self,
@@ -266,12 +194,49 @@ impl WorldProximity {
         let batch = Batch::new(&configuration)?;
         self.check_memory(1)?;
         let found = py.detach(|| self.proximity.nearest(&batch.values, k));
-        let near = |pair: &ObstacleDistance| {
-            let shape = [pair.link_idx, pair.piece];
-            (shape, pair.obstacle_idx, pair.distance, pair.points)
-        };
         found
             .map(|pairs| pairs.iter().map(near).collect())
             .map_err(|error| of_robot(py, &error))
     }
+
+    /// The pairs that touch or overlap in one configuration: depth, direction, gradient.
+    fn penetrations(
+        &self,
+        py: Python<'_>,
+        configuration: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Vec<Overlapping<Near>>> {
+        let batch = Batch::new(&configuration)?;
+        let found = py.detach(|| self.proximity.penetrations(&batch.values));
+        found
+            .map(|found| overlapping(found, near))
+            .map_err(|error| of_robot(py, &error))
+    }
+
+    /// The nearest pairs in one configuration, nearest first, with the gradients of their distances; `None` for pairs
+    /// that touch.
+    fn gradients(
+        &self,
+        py: Python<'_>,
+        configuration: PyReadonlyArray2<'_, f64>,
+        k: usize,
+    ) -> PyResult<Vec<(Near, Option<Vec<f64>>)>> {
+        let batch = Batch::new(&configuration)?;
+        self.check_memory(1)?;
+        let found = py.detach(|| self.proximity.gradients(&batch.values, k));
+        let found = found.map_err(|error| of_robot(py, &error))?;
+        let each = found.into_iter();
+        Ok(each
+            .map(|found| (near(&found.pair), found.gradient))
+            .collect())
+    }
+}
+
+fn near(pair: &ObstacleDistance) -> Near {
+    (
+        pair.link.to_string(),
+        pair.piece,
+        pair.obstacle_idx,
+        pair.distance,
+        pair.points,
+    )
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -114,6 +115,92 @@ def test_mujoco_collides_where_we_do(arm: urdd.Robot, mujoco: Any) -> None:
             assert data.ncon == 0
 
 
+def test_mujoco_holds_a_robot_by_its_actuators(arm: urdd.Robot, mujoco: Any) -> None:
+    """Ten seconds under gravity: the mass matrix of MuJoCo is behind the gains, and no joint sags by 0.05 rad."""
+    peer = arm.to_mujoco(actuators="position")
+    model, data = peer.model, mujoco.MjData(peer.model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    mass = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, mass)
+    gains = model.actuator_gainprm[:, 0] / (2 * np.pi * 10) ** 2
+    driven = model.jnt_dofadr[model.actuator_trnid[:, 0]]
+    # The greatest inertia of several configurations is that of this one or more.
+    assert (gains > 0.999 * np.diag(mass)[driven]).all()
+    assert (gains < 20 * np.diag(mass)[driven]).all()
+    start = data.qpos.copy()
+    while data.time < 10:
+        mujoco.mj_step(model, data)
+    assert np.abs(data.qpos - start).max() < 0.05
+    assert np.abs(data.qvel).max() < 0.01
+    assert not any(warning.number for warning in data.warning)
+
+
+def test_mujoco_frees_the_base(arm: urdd.Robot, mujoco: Any) -> None:
+    peer = arm.to_mujoco(floating_base=True)
+    q = arm.random(3, seed=6)
+    qpos = peer.q(q)
+    np.testing.assert_allclose(peer.dofs(qpos), q, atol=1e-12)
+    np.testing.assert_array_equal(qpos[:, :7], np.tile(peer.model.qpos0[:7], (3, 1)))
+    data = mujoco.MjData(peer.model)
+    # Nothing holds it: it falls 1.23 m in half a second.
+    height = data.qpos[2]
+    while data.time < 0.5:
+        mujoco.mj_step(peer.model, data)
+    assert abs(data.qpos[2] - height + 0.5 * 9.81 * data.time**2) < 0.3
+
+
+def test_options_of_mjcf_are_refused_elsewhere(arm: urdd.Robot) -> None:
+    with pytest.raises(ValueError, match="for mjcf"):
+        urdd.export(arm, "urdf", actuators="position")
+    with pytest.raises(ValueError, match="give output"):
+        urdd.export(arm, "mjcf", scene=True)
+    with pytest.raises(ValueError, match="to 100 Hz"):
+        urdd.export(arm, "mjcf", bandwidth=float("nan"))
+    with pytest.raises(ValueError, match="no actuators `x`"):
+        urdd.export(arm, "mjcf", actuators="x")  # type: ignore[arg-type]
+
+
+def test_a_file_beside_the_urdd_says_what_exports_need(arm: urdd.Robot, mujoco: Any, tmp_path: Path) -> None:
+    setup = tmp_path / "arm.export.toml"
+    command = [sys.executable, "-m", "urdd", "export", "init", str(arm.path), "-o", str(setup)]
+    subprocess.run(command, check=True, capture_output=True)
+    setup.write_text(setup.read_text().replace("floating = false", "floating = true"))
+    free = urdd.export(arm, "mjcf", setup=setup)
+    model = mujoco.MjModel.from_xml_string(free.text, free.files)
+    assert model.jnt_type[0] == mujoco.mjtJoint.mjJNT_FREE
+    assert model.nsite == 1
+    setup.write_text('robot = "other"')
+    with pytest.raises(urdd.ExportError, match="this file is for robot `other`"):
+        urdd.export(arm, "mjcf", setup=setup)
+
+
+def test_a_package_of_moveit_is_written_whole(arm: urdd.Robot, tmp_path: Path) -> None:
+    made = urdd.export(arm, "moveit", tmp_path / "arm_config")
+    assert made.path is not None
+    assert (tmp_path / "arm_config" / made.path).read_text() == made.text
+    launch = (tmp_path / "arm_config/launch/demo.launch.py").read_text()
+    compile(launch, "demo.launch.py", "exec")
+    assert 'package = "arm_config"' in launch
+    urdf = next((tmp_path / "arm_config/config").glob("*.urdf")).read_text()
+    assert "package://arm_config/meshes/" in urdf
+    assert made.report["format"] == "MoveIt's configuration"
+    (tmp_path / "arm_config/package.xml").write_text("mine")
+    with pytest.raises(FileExistsError):
+        urdd.export(arm, "moveit", tmp_path / "arm_config")
+
+
+def test_visuals_can_have_fewer_triangles(arm: urdd.Robot) -> None:
+    def size(made: urdd.Export) -> int:
+        return sum(len(data) for path, data in made.files.items() if path.endswith(".obj"))
+
+    full, few = urdd.export(arm, "sdf"), urdd.export(arm, "sdf", visuals=0.5)
+    assert size(few) < size(full)
+    assert any(note.startswith("visual geometry has ") for note in few.notes)
+    with pytest.raises(ValueError, match="a part between 0 and 1"):
+        urdd.export(arm, "sdf", visuals=1.5)
+
+
 @pytest.mark.parametrize("kind", ["plain", "hulls", "pieces"])
 def test_trimesh_has_the_meshes(kind: urdd.MeshKind, arm: urdd.Robot) -> None:
     q = arm.random(seed=5)
@@ -133,7 +220,9 @@ def test_trimesh_has_the_meshes(kind: urdd.MeshKind, arm: urdd.Robot) -> None:
 
 
 def test_the_page_is_served_until_it_is_closed(arm: urdd.Robot) -> None:
+    import socket
     import urllib.error
+    import urllib.parse
     import urllib.request
 
     before = listening() if sys.platform == "linux" else set[tuple[str, int]]()
@@ -145,10 +234,31 @@ def test_the_page_is_served_until_it_is_closed(arm: urdd.Robot) -> None:
         assert "q=0.0," in fragment
         with urllib.request.urlopen(address, timeout=30) as answer:
             assert b"urdd" in answer.read()
-    with pytest.raises(urllib.error.URLError):
+        # A browser holds connections open on which it has asked for nothing yet.
+        idle = socket.create_connection(("127.0.0.1", urllib.parse.urlsplit(address).port), timeout=30)
+    with idle, pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(address, timeout=30)
     with pytest.raises(ValueError, match="unknown backend"):
         arm.show(backend="cheese", open_browser=False)  # type: ignore[call-overload]
+
+
+def test_the_page_gets_what_is_set(arm: urdd.Robot) -> None:
+    import json
+    import urllib.request
+
+    with arm.show(open_browser=False) as shown:
+        address, fragment = shown.address.split("#")
+        token = fragment.split("token=")[1].split("&")[0]
+        for q in arm.random(3):
+            shown.set(q)
+        request = urllib.request.Request(f"{address}robots/{arm.path.name}/states", headers={"x-urdd-token": token})
+        with urllib.request.urlopen(request, timeout=30) as answer:
+            line = next(line for line in answer if line.strip())
+        assert json.loads(line)["q"] == arm.random(3)[2].tolist()
+        with pytest.raises(urdd.ConfigurationError):
+            shown.set([0])
+        with pytest.raises(urdd.ConfigurationError):
+            shown.set([np.nan] * arm.num_dofs)
 
 
 def test_a_notebook_gets_the_page_in_a_frame(arm: urdd.Robot) -> None:

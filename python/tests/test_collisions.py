@@ -36,6 +36,38 @@ def test_the_points_of_a_pair_are_as_far_apart_as_its_distance(arm: urdd.Robot) 
         assert pair.relative is None or pair.relative >= 0
 
 
+def test_margins_edges_and_gradients_agree_with_distances(arm: urdd.Robot) -> None:
+    proximity = arm.proximity("pieces")
+    q = arm.random(60)
+    least = proximity.self_distance(q)
+    np.testing.assert_array_equal(proximity.is_within(q, 0.05), least <= 0.05)
+    assert proximity.is_within(q.reshape(6, 10, -1), 0.0).shape == (6, 10)
+    starts, ends = q[:-1], q[:-1] + 0.2 * (q[1:] - q[:-1])
+    sampled = proximity.blocked_edge(starts, ends)
+    proved = proximity.blocked_edge(starts, ends, resolution=None)
+    assert sampled.shape == (59,)
+    assert 5 < np.isnan(proved).sum() < 55
+    # What is proved free is free where it is sampled.
+    assert np.isnan(sampled[np.isnan(proved)]).all()
+    for start, end, part in zip(starts, ends, proved, strict=True):
+        if not np.isnan(part):
+            assert proximity.self_distance(start + part * (end - start)) <= 1.01e-4
+    # One start for all ends, as numpy has it.
+    np.testing.assert_array_equal(
+        proximity.blocked_edge(starts[0], ends), proximity.blocked_edge(np.tile(starts[0], (59, 1)), ends)
+    )
+    with pytest.raises(urdd.ConfigurationError, match="do not fit"):
+        proximity.blocked_edge(starts[:3], ends[:4])
+    with pytest.raises(ValueError, match="not below 0"):
+        proximity.is_within(q, -1)
+    with pytest.raises(ValueError, match="above 0"):
+        proximity.blocked_edge(q[0], q[1], resolution=0)
+    for pair in proximity.gradients(q[least > 0][0], 5):
+        assert pair.gradient is not None
+        assert pair.gradient.shape == (arm.num_dofs,)
+    assert all(pair.gradient is None for pair in proximity.gradients(q[least == 0][0], 1))
+
+
 def test_spheres_are_where_a_few_lines_of_numpy_put_them(arm: urdd.Robot) -> None:
     q, proximity, spheres = arm.random(20), arm.proximity("spheres"), arm.spheres("hulls")
     poses = arm.link_poses(q)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import urdd
-from conftest import REPOSITORY, ROBOTS
+from conftest import NAMES, REPOSITORY, ROBOTS
 
 EXAMPLES = REPOSITORY / "python" / "examples"
 SCRIPTS = sysconfig.get_path("scripts")
@@ -33,6 +33,17 @@ def test_forward_kinematics(arm: urdd.Robot) -> None:
     np.testing.assert_allclose([float(x) for x in lines[-1].split()[1:4]], poses[-1, :3, 3], atol=1e-4)
 
 
+def test_a_planner_needs_no_other_library(arm: urdd.Robot) -> None:
+    """Its path is checked again at a tenth of the resolution."""
+    found = run("rrt_connect.py", arm.path, "3")
+    path = np.loadtxt(found.stdout.splitlines(), delimiter=",", skiprows=1)
+    assert len(path) >= 2
+    assert "proved free" in found.stderr
+    assert "not proved" not in found.stderr
+    checks = arm.proximity("pieces").blocked_edge(path[:-1], path[1:], resolution=0.002)
+    assert np.isnan(checks).all()
+
+
 @pytest.mark.parametrize("name", sorted(path.stem for path in ROBOTS.glob("*.urdf")))
 def test_forward_kinematics_by_json_and_numpy(name: str, tmp_path: Path) -> None:
     """Joints of every kind: its poses are those in each URDD."""
@@ -41,6 +52,42 @@ def test_forward_kinematics_by_json_and_numpy(name: str, tmp_path: Path) -> None
     command: list[str | Path] = [sys.executable, script, tmp_path / name, "--check"]
     found = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert "differ" in found.stdout
+
+
+def test_a_controller_keeps_its_distance(arm: urdd.Robot) -> None:
+    target = np.array([0.3, 0.4, 0.3])
+    found = run("resolved_rate.py", arm.path, "torch", *map(str, target))
+    path = np.loadtxt(found.stdout.splitlines(), delimiter=",", skiprows=1)
+    assert len(path) > 30
+    assert "0.000 m from the target" in found.stderr
+    world = urdd.World()
+    world.add_sphere("ball", radius=0.1, centre=(arm.link_pose(arm.zero, "torch")[:3, 3] + target) / 2)
+    around = arm.world_proximity(world)
+    # Straight there, the ball is in the way; the path keeps 2 cm, but for what a step of a curved motion takes.
+    least = around.min_distance(path)
+    assert 0.0195 < least.min() < 0.021
+    assert not arm.in_collision(path).any()
+    speeds = np.linalg.norm(np.diff(arm.link_pose(path, "torch")[:, :3, 3], axis=0), axis=1) * 60
+    assert np.median(speeds) < 0.51
+
+
+def test_a_part_is_carried_from_place_to_place(arm: urdd.Robot) -> None:
+    found = run("pick_and_place.py", arm.path, "torch")
+    assert found.stderr.count("; free at 2 mm") == 3
+    path = np.loadtxt(found.stdout.splitlines(), delimiter=",", skiprows=1)
+    assert arm.is_within_bounds(path).all()
+    assert not arm.in_collision(path).any()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_poses_and_spheres_by_arrays(name: str, urdds: Path) -> None:
+    """As PyTorch and JAX compute them (`.ci/full`)."""
+    robot = urdd.load(urdds / name)
+    if {joint.joint_type for joint in robot.modules.chain.joints_in_chain} & {"Floating", "Spherical"}:
+        with pytest.raises(urdd.ExportError, match="its rotation is a vector"):
+            robot.chain_arrays()
+        return
+    assert "numpy: poses within" in run("array_kinematics.py", robot.path).stdout
 
 
 def test_inverse_kinematics(arm: urdd.Robot) -> None:

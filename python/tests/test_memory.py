@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -108,3 +109,11 @@ def test_numbers_of_numbers(arm: urdd.Robot) -> None:
     ):
         with pytest.raises(ValueError, match=words):
             wrong()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux alone tells how much memory is left")
+def test_as_much_as_the_machine_has_is_refused(arm: urdd.Robot) -> None:
+    with Path("/proc/meminfo").open(encoding="ascii") as file:
+        kibibytes = int(file.readline().split()[1])
+    with pytest.raises(MemoryError, match="MiB of memory left"):
+        arm.random(1024 * kibibytes // 8 // arm.num_dofs)

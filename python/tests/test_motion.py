@@ -145,3 +145,100 @@ def test_inverse_kinematics_of_a_place_and_of_a_point(arm: urdd.Robot) -> None:
     far = arm.inverse_kinematics("torch", [100.0, 0, 0], restarts=2)
     assert not far.reached
     assert far.position_error > 90
+
+
+def test_limits_masses_and_groups(arm: urdd.Robot, tmp_path: Path) -> None:
+    bounds = arm.modules.bounds
+    for limits, stated in (
+        (arm.velocity_limits, bounds.dof_velocity_limits),
+        (arm.effort_limits, bounds.dof_effort_limits),
+    ):
+        np.testing.assert_array_equal(limits, [np.inf if limit is None else limit for limit in stated])
+    masses = arm.link_masses
+    links = arm.modules.urdf.links
+    stated_masses = [
+        0 if link.inertial is None or link.inertial.mass is None else link.inertial.mass.value for link in links
+    ]
+    np.testing.assert_array_equal(masses, stated_masses)
+    q = arm.random(5, seed=2)
+    centres = arm.link_centres_of_mass
+    expected = np.zeros((5, 3))
+    for k, link in enumerate(arm.link_names):
+        pose = arm.link_pose(q, link)
+        expected += masses[k] * (pose[:, :3, :3] @ centres[k] + pose[:, :3, 3]) / masses.sum()
+    np.testing.assert_allclose(arm.centre_of_mass(q), expected, atol=1e-14)
+    assert arm.centre_of_mass(q[0]).shape == (3,)
+
+    pose = arm.link_pose(q, "torch", relative_to="wrist")
+    for k in range(5):
+        base, tip = arm.link_pose(q[k], "wrist"), arm.link_pose(q[k], "torch")
+        np.testing.assert_allclose(pose[k], np.linalg.inv(base) @ tip, atol=1e-14)
+    assert arm.dofs_between("torch", arm.root_link).tolist() == list(range(arm.num_dofs))
+    assert arm.dofs_between("torch", "torch").tolist() == []
+
+    guessed = arm.joint_groups()
+    assert any(dofs.tolist() == list(range(arm.num_dofs)) for dofs in guessed.values()), guessed
+    names = arm.joint_names
+    first, last = arm.dof_names[0], arm.dof_names[-1]
+    srdf = tmp_path / "arm.srdf"
+    text = (
+        f'<robot name="{arm.modules.urdf.name}"><group name="one"><joint name="{last}"/></group>'
+        f'<group name="chain"><chain base_link="{arm.root_link}" tip_link="torch"/></group>'
+        f'<group name="both"><group name="one"/><joint name="{first}"/></group></robot>'
+    )
+    srdf.write_text(text)
+    groups = {name: dofs.tolist() for name, dofs in arm.joint_groups(srdf).items()}
+    count = arm.num_dofs
+    assert groups == {"one": [count - 1], "chain": list(range(count)), "both": [0, count - 1]}
+    assert first in names
+    for wrong, message in (
+        (text.replace(last, last + "s"), "line 1: there is no joint"),
+        (text.replace('<joint name="' + last, '<group name="both"/><joint name="' + last), "contains itself"),
+        (text.replace('"torch"', '"torh"'), "did you mean `torch`"),
+        (text.replace("<robot name=", '<robot name="x" nam='), "arm.srdf"),
+    ):
+        srdf.write_text(wrong)
+        with pytest.raises(urdd.ExportError, match=message):
+            arm.joint_groups(srdf)
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.srdf"):
+        arm.joint_groups(tmp_path / "nowhere.srdf")
+
+
+def test_inverse_kinematics_with_conditions(arm: urdd.Robot) -> None:
+    q = arm.random(8, seed=5)
+    targets = arm.link_pose(q, "torch")
+    plain = arm.inverse_kinematics("torch", targets)
+    assert plain.reached.all()
+    assert set(plain.verdict) == {"reached"}
+    turned = arm.inverse_kinematics("torch", targets, weights=[0, 0, 0, 1, 1, 1])
+    assert turned.reached.all()
+    np.testing.assert_allclose(arm.link_pose(turned.q, "torch")[:, :3, :3], targets[:, :3, :3], atol=3e-6)
+    far = targets[0].copy()
+    far[:3, 3] = [9, 0, 0]
+    assert arm.inverse_kinematics("torch", far).verdict == "out of reach"
+    assert arm.inverse_kinematics("torch", far, weights=[0, 0, 0, 1, 1, 1]).reached
+
+    name = arm.dof_names[2]
+    locked = arm.inverse_kinematics("torch", targets, q, locked=[name])
+    np.testing.assert_array_equal(locked.q[:, 2], q[:, 2])
+    near = arm.inverse_kinematics("torch", targets, posture=q[0])
+    assert near.reached.all()
+    away = [np.linalg.norm(solution.q - q[0], axis=1) for solution in (near, plain)]
+    assert (away[0] <= away[1] + 1e-6).all()
+    np.testing.assert_allclose(near.q[0], q[0], atol=1e-4)
+
+    itself = arm.proximity()
+    world = urdd.World()
+    world.add_sphere("ball", radius=0.1, centre=targets[0, :3, 3], ignore=["torch"])
+    around = arm.world_proximity(world)
+    free = arm.inverse_kinematics("torch", targets, free_of=[itself, around])
+    assert (free.reached <= ~(itself.in_collision(free.q) | around.in_collision(free.q))).all()
+    world.add_sphere("all", radius=5)
+    refused = arm.inverse_kinematics("torch", targets[0], free_of=arm.world_proximity(world))
+    assert refused.verdict == "refused"
+    assert not refused.reached
+    for wrong in ({"weights": [1, 1]}, {"weights": [-1] * 6}, {"posture": [0]}, {"free_of": [1]}):
+        with pytest.raises(urdd.ConfigurationError):
+            arm.inverse_kinematics("torch", far, **wrong)  # type: ignore[arg-type]
+    with pytest.raises(urdd.UnknownNameError):
+        arm.inverse_kinematics("torch", far, locked=["nobody"])

@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::Path;
 
+use csv::StringRecord;
 use serde_json::Value;
 
 use urdd_directory::regular;
@@ -28,9 +29,82 @@ impl Listed {
     }
 }
 
-/// Reads configurations. Each line is a JSON list with a value for each DOF, a JSON object of DOF names and values
-/// (other DOFs are 0, or the bound nearest to 0), or comma-separated values. In CSV, the first line may contain the
-/// names of the DOFs, in any order.
+/// Configurations, line by line: each line is a JSON list with a value for each DOF, a JSON object of DOF names and values
+/// (other DOFs are 0, or the bound nearest to 0), or comma-separated values. In CSV, the first line may contain the names
+/// of the DOFs, in any order.
+pub struct Lines<'a> {
+    robot: &'a Robot,
+    dofs: &'a [String],
+    begun: Option<Form>,
+}
+
+/// What the first line is.
+enum Form {
+    Json,
+    /// The DOF of each column.
+    Csv(Option<Vec<usize>>),
+}
+
+impl<'a> Lines<'a> {
+    /// # Errors
+    /// If the robot's DOFs cannot be read.
+    pub fn new(robot: &'a Robot) -> Result<Self, String> {
+        let dofs = robot.dof_names().map_err(|error| error.to_string())?;
+        let begun = None;
+        Ok(Lines { robot, dofs, begun })
+    }
+
+    /// The configuration of a line; `None` for a line without one.
+    ///
+    /// # Errors
+    /// What is wrong with the line.
+    pub fn next(&mut self, line: &str) -> Result<Option<Vec<f64>>, String> {
+        if line.trim().is_empty() {
+            return Ok(None);
+        }
+        let is_json = line.trim_start().starts_with(['[', '{']);
+        if is_json && self.begun.is_none() {
+            self.begun = Some(Form::Json);
+        }
+        match &self.begun {
+            Some(Form::Json) => of_json(self.robot, self.dofs, line).map(Some),
+            _ if line.trim_start().starts_with('#') => Ok(None),
+            Some(Form::Csv(columns)) => {
+                let values = numbers(&fields(line)?)?;
+                of_columns(self.dofs, columns.as_deref(), values).map(Some)
+            }
+            None => {
+                let fields = fields(line)?;
+                let is_head = fields.iter().all(|field| field.parse::<f64>().is_err());
+                let columns = match is_head {
+                    true => Some(self.columns(&fields)?),
+                    false => None,
+                };
+                self.begun = Some(Form::Csv(columns));
+                match is_head {
+                    true => Ok(None),
+                    false => of_columns(self.dofs, None, numbers(&fields)?).map(Some),
+                }
+            }
+        }
+    }
+
+    /// The DOFs that the first line of CSV names.
+    fn columns(&self, names: &StringRecord) -> Result<Vec<usize>, String> {
+        let index = |name: &str| self.robot.dof(name).map_err(|error| error.to_string());
+        let found: Vec<usize> = names.iter().map(index).collect::<Result<_, _>>()?;
+        if let Some(missing) = (0..self.dofs.len()).find(|dof| !found.contains(dof)) {
+            let name = escape::line(&self.dofs[missing]);
+            return Err(format!("the column for the DOF `{name}` is missing"));
+        }
+        match found.len() == self.dofs.len() {
+            true => Ok(found),
+            false => Err("a DOF has two columns".to_owned()),
+        }
+    }
+}
+
+/// Reads configurations: [`Lines`].
 ///
 /// # Errors
 /// A message with the line number.
@@ -40,20 +114,16 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
         _ => escape::line(&file.display().to_string()).into_owned(),
     };
     let text = text(file).map_err(|error| format!("{name}: {error}"))?;
-    let dofs = robot.dof_names().map_err(|error| error.to_string())?;
-    let is_json = text.trim_start().starts_with(['[', '{']);
-    if is_json {
-        let mut found = Listed::default();
-        for (number, line) in text.lines().enumerate() {
-            if !line.trim().is_empty() {
-                let values = of_json(robot, dofs, line);
-                found.push(&values.map_err(|why| format!("{name}:{}: {why}", number + 1))?);
-            }
+    let mut lines = Lines::new(robot)?;
+    let mut found = Listed::default();
+    for (number, line) in text.lines().enumerate() {
+        let values = lines.next(line);
+        let values = values.map_err(|why| format!("{name}:{}: {why}", number + 1))?;
+        if let Some(values) = values {
+            found.push(&values);
         }
-        Ok(found)
-    } else {
-        of_csv(robot, dofs, &text).map_err(|(line, why)| format!("{name}:{line}: {why}"))
     }
+    Ok(found)
 }
 
 fn text(file: &Path) -> Result<String, String> {
@@ -106,51 +176,42 @@ fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, Strin
     }
 }
 
-fn of_csv(robot: &Robot, dofs: &[String], text: &str) -> Result<Listed, (u64, String)> {
+/// The fields of a line of CSV.
+fn fields(line: &str) -> Result<StringRecord, String> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
-        .flexible(true)
         .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let mut columns: Option<Vec<usize>> = None;
-    let mut configurations = Listed::default();
-    for (number, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| {
-            let line = error.position().map_or(0, csv::Position::line);
-            (line, error.to_string())
-        })?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let fail = |why: String| (line, why);
-        if number == 0 && record.iter().all(|field| field.parse::<f64>().is_err()) {
-            let index = |name: &str| robot.dof(name).map_err(|error| fail(error.to_string()));
-            let found: Vec<usize> = record.iter().map(index).collect::<Result<_, _>>()?;
-            if let Some(missing) = (0..dofs.len()).find(|dof| !found.contains(dof)) {
-                let name = escape::line(&dofs[missing]);
-                return Err(fail(format!("the column for the DOF `{name}` is missing")));
-            }
-            if found.len() != dofs.len() {
-                return Err(fail("a DOF has two columns".to_owned()));
-            }
-            columns = Some(found);
-            continue;
-        }
-        let parse = |field: &str| {
-            let why = || fail(format!("`{}` is not a number", escape::line(field)));
-            field.parse::<f64>().map_err(|_| why())
-        };
-        let values: Vec<f64> = record.iter().map(parse).collect::<Result<_, _>>()?;
-        let mut values = check(dofs, values).map_err(fail)?;
-        if let Some(columns) = &columns {
-            let given = values.clone();
-            columns
-                .iter()
-                .zip(given)
-                .for_each(|(dof, value)| values[*dof] = value);
-        }
-        configurations.push(&values);
+        .buffer_capacity(line.len().max(1))
+        .from_reader(line.as_bytes());
+    let mut record = StringRecord::new();
+    let read = reader.read_record(&mut record);
+    read.map_err(|error| error.to_string())?;
+    Ok(record)
+}
+
+fn numbers(fields: &StringRecord) -> Result<Vec<f64>, String> {
+    let parse = |field: &str| {
+        let why = |_| format!("`{}` is not a number", escape::line(field));
+        field.parse::<f64>().map_err(why)
+    };
+    fields.iter().map(parse).collect()
+}
+
+/// The configuration of a line, whose columns are in another order.
+fn of_columns(
+    dofs: &[String],
+    columns: Option<&[usize]>,
+    values: Vec<f64>,
+) -> Result<Vec<f64>, String> {
+    let given = check(dofs, values)?;
+    let Some(columns) = columns else {
+        return Ok(given);
+    };
+    let mut values = given.clone();
+    for (dof, value) in columns.iter().zip(given) {
+        values[*dof] = value;
     }
-    Ok(configurations)
+    Ok(values)
 }
 
 fn check(dofs: &[String], values: Vec<f64>) -> Result<Vec<f64>, String> {

@@ -88,7 +88,7 @@ impl Printer {
                 "meshes": { "named": totals.meshes, "not_found": totals.meshes_not_found },
             }})),
             Format::Human => {
-                let robots = count(total, "robot");
+                let robots = output::counted(total, "robot");
                 let meshes = not_found(totals.meshes_not_found, totals.meshes);
                 format!(
                     "{robots}: {generated} generated, {unchanged} unchanged, {failed} failed{meshes}\n"
@@ -225,11 +225,6 @@ fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-fn count(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {thing}{plural}")
-}
-
 fn line(value: &Value) -> String {
     escape::json(&value.to_string()).into_owned() + "\n"
 }
@@ -248,10 +243,10 @@ fn summary(job: &Job, made: &Generated) -> String {
     let mut text = format!(
         "{}: {}, {}, {}; {}",
         escape::line(&job.name),
-        count(made.num_links, "link"),
-        count(made.num_joints, "joint"),
-        count(made.num_dofs, "DOF"),
-        count(made.modules.len(), "module"),
+        output::counted(made.num_links, "link"),
+        output::counted(made.num_joints, "joint"),
+        output::counted(made.num_dofs, "DOF"),
+        output::counted(made.modules.len(), "module"),
     );
     if !made.changed {
         text += ", unchanged";

@@ -25,6 +25,7 @@ mod schema;
 mod shapes;
 mod signals;
 mod skips;
+mod srdf_file;
 mod validate;
 mod validated_parts;
 mod view;

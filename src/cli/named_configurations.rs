@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::editing::{self, Edited};
-use super::{output, shapes};
+use super::{output, shapes, srdf_file};
+use urdd_export::import_states;
 use urdd_format::escape;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_format::nearest::nearest;
@@ -47,6 +48,24 @@ enum ConfigurationsCommand {
         #[arg(value_name = "DOF=POSITION", allow_hyphen_values = true)]
         positions: Vec<String>,
     },
+    /// Import the group states of an SRDF as named configurations of a URDD.
+    #[command(
+        after_help = "States of several groups with one name become one configuration.\n\n\
+        Exit status: 0 imported; 2 nothing was written."
+    )]
+    Import {
+        /// The SRDF.
+        #[arg(value_name = "FILE.srdf")]
+        srdf: PathBuf,
+
+        /// The URDD: a folder.
+        #[arg(value_name = "DIR")]
+        urdd: PathBuf,
+
+        /// Replaces configurations of the same name that differ.
+        #[arg(long)]
+        force: bool,
+    },
     /// Remove a named configuration from a URDD.
     #[command(after_help = "Exit status: 0 removed; 2 nothing was written.")]
     Remove {
@@ -69,6 +88,7 @@ pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
             name,
             positions,
         } => set(urdd, name, positions),
+        ConfigurationsCommand::Import { srdf, urdd, force } => import(srdf, urdd, *force),
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
     output::printed(text.and_then(|text| output::print(&text)))
@@ -132,6 +152,42 @@ fn remove(urdd: &Path, name: &str) -> Result<String, String> {
     })
 }
 
+fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
+    let text = srdf_file::read(srdf)?;
+    let of_urdd = |error: &dyn std::fmt::Display| {
+        format!("{}: {}", shown(urdd), escape::line(&error.to_string()))
+    };
+    editing::edited(urdd, ModuleKind::NamedConfigurations, |robot: &Robot| {
+        let imported = import_states(robot, &text, force)
+            .map_err(|error| format!("{}: {error}", shown(srdf)))?;
+        let mut told = format!(
+            "{}: {} imported; {} of the SRDF unchanged\n",
+            shown(urdd),
+            output::counted(imported.changed, "configuration"),
+            imported.already
+        );
+        if imported.left_out > 0 {
+            let positions = output::counted(imported.left_out, "position");
+            told += &format!(
+                "  {positions} left out: of joints with no DOF of their own, or with several\n"
+            );
+        }
+        for [state, joint] in &imported.out_of_bounds {
+            told += &format!("  `{state}` left out: `{joint}` is out of its bounds there\n");
+        }
+        let told = escape::lines(&told).into_owned();
+        if imported.changed == 0 {
+            return Ok(Edited::unchanged(told));
+        }
+        let edited = robot.with_named_configurations(&imported.configurations);
+        let edited = edited.map_err(|error| of_urdd(&error))?;
+        Ok(Edited {
+            files: edited.files,
+            told,
+        })
+    })
+}
+
 /// Changes the named configurations. `change` returns what it did.
 fn change(
     urdd: &Path,
@@ -147,10 +203,7 @@ fn change(
         let done = change(&mut edits).map_err(|error| of_urdd(&error))?;
         let edited = robot.with_named_configurations(&edits);
         let edited = edited.map_err(|error| of_urdd(&error))?;
-        let count = match edits.len() {
-            1 => "1 named configuration".to_owned(),
-            count => format!("{count} named configurations"),
-        };
+        let count = output::counted(edits.len(), "named configuration");
         Ok(Edited {
             files: edited.files,
             told: format!("{}: {done}; {count}\n", shown(urdd)),

@@ -6,14 +6,10 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 
 use super::editing::{self, Edited};
-use super::output;
-use urdd_directory::regular;
+use super::{output, srdf_file};
 use urdd_export::{ImportedSkips, import_srdf};
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
-
-/// Maximum size of an SRDF, in bytes.
-const MAX_SRDF_BYTES: u64 = 16 << 20;
 
 /// Arguments of `urdd skips`.
 #[derive(Args)]
@@ -55,8 +51,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
     let shown = |path: &Path| escape::line(&path.display().to_string()).into_owned();
     let of_srdf = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(srdf));
     let of_urdd = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(urdd));
-    let bytes = regular::read(srdf, MAX_SRDF_BYTES).map_err(|error| of_srdf(&error))?;
-    let text = String::from_utf8(bytes).map_err(|_| of_srdf(&"it is not UTF-8"))?;
+    let text = srdf_file::read(srdf)?;
     editing::edited(urdd, ModuleKind::LinkShapesSkips, |robot| {
         let imported = import_srdf(robot, &text, force).map_err(|error| of_srdf(&error))?;
         if imported.added == 0 {
@@ -72,19 +67,15 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
 }
 
 fn told(urdd: &str, imported: &ImportedSkips, model_is_stale: bool) -> String {
-    let count = |number: usize, what: &str| match number {
-        1 => format!("1 {what}"),
-        _ => format!("{number} {what}s"),
-    };
     let mut told = format!(
         "{urdd}: {} added; {} of the SRDF unchanged\n",
-        count(imported.added, "edit"),
-        count(imported.already, "pair")
+        output::counted(imported.added, "edit"),
+        output::counted(imported.already, "pair")
     );
     if imported.unlisted > 0 {
         told += &format!(
             "  {} skipped that the SRDF does not disable\n",
-            count(imported.unlisted, "pair")
+            output::counted(imported.unlisted, "pair")
         );
     }
     if model_is_stale {

@@ -49,7 +49,7 @@ fn validate(arguments: &ValidateArguments, color: Color) -> Result<u8, String> {
     settings.deep |= arguments.deep;
     let mut rules = rules::all();
     if arguments.with_crashing_rule {
-        rules.push(&rules::testing::CRASHING);
+        rules.push(rules::testing::CRASHING);
     }
     // A panic of a rule is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));

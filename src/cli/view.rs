@@ -1,6 +1,6 @@
 //! `urdd view`.
 
-use std::io::{IsTerminal, Write};
+use std::io::{BufRead, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::configurations::Lines;
 use super::generate_output::{Format, Printer};
 use super::output;
 use super::packages::PackageArguments;
@@ -17,6 +18,7 @@ use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
 use urdd_generate::batch::{self, BatchError, Job};
 use urdd_generate::{Settings, process};
+use urdd_robot::Robot;
 use urdd_view::{
     Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
     page_with,
@@ -48,9 +50,14 @@ pub struct ViewArguments {
     #[arg(long)]
     no_open: bool,
 
+    /// Reads configurations from standard input, and shows each as it arrives: lines of CSV or JSON, as those of
+    /// `check-collisions`. For one robot.
+    #[arg(long)]
+    follow: bool,
+
     /// Writes the page and the robots into a folder instead, as a site for any web server. A name that ends in `.html`
     /// writes the page with one robot into a single file that opens without a server.
-    #[arg(long, value_name = "DIR|FILE.html", conflicts_with_all = ["port", "no_open"])]
+    #[arg(long, value_name = "DIR|FILE.html", conflicts_with_all = ["port", "no_open", "follow"])]
     export: Option<PathBuf>,
 
     #[command(flatten)]
@@ -59,6 +66,9 @@ pub struct ViewArguments {
     #[command(flatten)]
     xacro: XacroArguments,
 }
+
+/// Maximum length of a line of standard input, in bytes.
+const MAX_LINE: u64 = 1 << 20;
 
 /// Runs `urdd view`.
 pub fn run(arguments: &ViewArguments) -> ExitCode {
@@ -121,10 +131,28 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     if let [robot] = robots.as_slice() {
         robot.see();
     }
+    let followed = match (arguments.follow, robots.as_slice()) {
+        (false, _) => None,
+        (true, [robot]) => Some(Arc::clone(robot)),
+        (true, several) => {
+            let count = several.len();
+            return Err(usage(format!(
+                "--follow shows one robot, and there are {count}"
+            )));
+        }
+    };
     let collection = Arc::new(collection);
     let server = Server::bind(Arc::clone(&collection), arguments.port).map_err(usage)?;
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
+        if let Some(robot) = followed {
+            // It waits for input when the others end.
+            std::thread::spawn(move || {
+                if let Err(message) = follow(&robot) {
+                    output::error(&escape::line(&message));
+                }
+            });
+        }
         let address = server.address();
         let count = robots.len();
         let robots = if count == 1 { "robot" } else { "robots" };
@@ -144,6 +172,41 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         server.run(&signals.cancellation());
         printed.map(|()| 0)
     })
+}
+
+/// Shows the configurations of standard input. A line that is wrong is said, and left out.
+fn follow(shown: &Shown) -> Result<(), String> {
+    // A URDF is generated first.
+    while !shown.is_ready() {
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let robot = Robot::open(shown.path()).map_err(|error| error.to_string())?;
+    let mut lines = Lines::new(&robot)?;
+    let mut input = std::io::stdin().lock();
+    let mut line = Vec::new();
+    for number in 1u64.. {
+        line.clear();
+        let read = input.by_ref().take(MAX_LINE).read_until(b'\n', &mut line);
+        read.map_err(|error| format!("standard input: {error}"))?;
+        if line.is_empty() {
+            break;
+        }
+        if line.len() as u64 == MAX_LINE {
+            return Err(format!("standard input:{number}: longer than 1 MiB"));
+        }
+        let read = match std::str::from_utf8(&line) {
+            Ok(line) => lines.next(line),
+            Err(_) => Err("it is not UTF-8".to_owned()),
+        };
+        match read {
+            Ok(Some(configuration)) => shown.states.set(&configuration),
+            Ok(None) => {}
+            Err(why) => {
+                output::error(&escape::line(&format!("standard input:{number}: {why}")));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Adds the robots at a path: a URDF or xacro file; the URDDs at or below a folder, or else its URDFs.

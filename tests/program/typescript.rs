@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::Value;
-use urdd_format::annotations;
 use urdd_format::bundle::bundle;
 use urdd_format::schema::Variant;
+
+use crate::schema_comment;
 
 const FILE: &str = "wasm/npm/modules.d.ts";
 
@@ -129,28 +130,15 @@ fn list(schema: &Value) -> String {
 
 /// The description of a schema and its annotations, as a comment.
 fn comment(schema: &Value, indent: &str, text: &mut String) {
-    // The value of a kind of a choice has none: the choice has.
-    let description = schema["description"].as_str().unwrap_or_default();
-    let texts = [description.to_owned(), annotations::sentence(schema)];
-    let words = texts.into_iter().filter(|text| !text.is_empty());
-    let words = words.collect::<Vec<_>>().join("\n\n");
-    if words.is_empty() {
+    let lines = schema_comment::lines(schema, WIDTH);
+    if lines.is_empty() {
         return;
     }
-    let words = words.replace("*/", "*\\/");
     let _ = writeln!(text, "{indent}/**");
-    for line in words.lines() {
-        let mut column = 0;
-        let _ = write!(text, "{indent} *");
-        for word in line.split(' ').filter(|word| !word.is_empty()) {
-            if column > 0 && column + word.chars().count() > WIDTH {
-                let _ = write!(text, "\n{indent} *");
-                column = 0;
-            }
-            let _ = write!(text, " {word}");
-            column += word.chars().count() + 1;
-        }
-        text.push('\n');
+    for line in lines {
+        let line = line.replace("*/", "*\\/");
+        let space = if line.is_empty() { "" } else { " " };
+        let _ = writeln!(text, "{indent} *{space}{line}");
     }
     let _ = writeln!(text, "{indent} */");
 }

@@ -38,7 +38,8 @@ impl InverseQuestion {
         };
         let settings = InverseSettings {
             restarts: self.restarts,
-            bounds: self.bounds(robot)?,
+            locked: self.locked(),
+            explain: false,
             ..InverseSettings::default()
         };
         let found = robot.inverse_kinematics(&target.of_point(self.point), &self.q, &settings);
@@ -52,17 +53,10 @@ impl InverseQuestion {
         }))
     }
 
-    /// The robot's bounds, where a DOF that may not change is fixed to its value in `q`.
-    fn bounds(&self, robot: &Robot) -> Result<Option<Vec<[f64; 2]>>, String> {
-        let Some(free) = &self.dofs else {
-            return Ok(None);
-        };
-        let configurations = robot.configurations().map_err(|error| error.to_string())?;
-        let own = |(dof, bounds): (usize, &[f64; 2])| match self.q.get(dof) {
-            Some(value) if !free.contains(&dof) => [*value, *value],
-            _ => *bounds,
-        };
-        let all = configurations.bounds().iter().enumerate().map(own);
-        Ok(Some(all.collect()))
+    /// The DOFs that may not change: they keep their values in `q`.
+    fn locked(&self) -> Vec<usize> {
+        let all = 0..self.q.len();
+        all.filter(|dof| self.dofs.as_ref().is_some_and(|free| !free.contains(dof)))
+            .collect()
     }
 }

@@ -57,6 +57,7 @@ const TESTS: &[(&str, &str)] = &[
         "annotate the fields in crates/urdd-format/src: SPEC 11.3 has the words; what has none goes into a list in tests/program/annotations.rs, as a list with a length of its own",
     ),
     ("typescript::", UPDATE),
+    ("cpp_types::", UPDATE),
     (
         "support_is_sound::toy_holds",
         "say in that test that the toy does not have the module, or make it in testkit/src/core_modules.rs",

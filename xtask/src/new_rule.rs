@@ -124,8 +124,8 @@ fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
     edits.insert_module(ALL, &format!("pub mod {room};"))?;
     edits.insert_before(
         ALL,
-        "        legacy::RULES,",
-        &format!("        {room}::RULES,\n"),
+        "        legacy::rules(),",
+        &format!("        {room}::rules(),\n"),
     )?;
     edits.create(
         &format!("tests/rules/{room}.rs"),

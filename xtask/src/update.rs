@@ -17,6 +17,7 @@ const GENERATED: &[&str] = &[
     "schema",
     "tests/program",
     "wasm/npm/modules.d.ts",
+    "cpp/include/urdd_types.hpp",
 ];
 
 /// The tests that write what they compare with.
@@ -26,6 +27,7 @@ const WRITERS: &[&str] = &[
     "snapshots::",
     "spec_agrees::the_tables_of_fields",
     "typescript::",
+    "cpp_types::",
 ];
 
 /// Regenerates everything; returns whether that succeeded.

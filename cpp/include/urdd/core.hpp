@@ -3,6 +3,10 @@
 #ifndef URDD_CORE_HPP
 #define URDD_CORE_HPP
 
+#if __cplusplus < 201703L
+#error "urdd needs C++17: -std=c++17, or CMAKE_CXX_STANDARD 17"
+#endif
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -103,6 +107,12 @@ template <typename T, typename Make> T *made(Make &&make) {
 /// `bool` for each row; std::vector<bool> has no array.
 inline std::vector<bool> answers(const std::unique_ptr<bool[]> &found, std::size_t rows) {
     return std::vector<bool>(found.get(), found.get() + rows);
+}
+
+/// Rows that belong together.
+inline void same_shape(Rows a, Rows b) {
+    if (a.rows != b.rows || a.columns != b.columns)
+        throw Error(URDD_STATUS_LENGTH, "starts and ends must have as many rows and columns as each other");
 }
 
 } // namespace detail

@@ -7,7 +7,7 @@
 
 namespace urdd {
 
-/// A body that a robot must not touch, in the root link's frame.
+/// A body that a robot must not touch, in the root link's frame; or that a link carries, in the frame of the link.
 class Obstacle {
 public:
     /// A box: the pose of its centre and axes, and its half extents, metres.
@@ -51,6 +51,11 @@ public:
         }));
     }
 
+    /// The same body with its frame at another pose; the frame of a sphere is at its centre.
+    Obstacle at(const Pose &pose) const {
+        return Obstacle(detail::made<urdd_obstacle>(
+            [&](urdd_obstacle **out) { return urdd_obstacle_at(handle_.get(), pose.data(), out); }));
+    }
     /// The same obstacle with a link that may touch it, such as the base that is mounted on it.
     Obstacle ignoring(const std::string &link) const {
         return Obstacle(detail::made<urdd_obstacle>(

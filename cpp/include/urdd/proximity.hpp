@@ -7,6 +7,12 @@
 
 namespace urdd {
 
+/// The nearest pairs, and the gradients of their distances, m/rad or m/m: a row of `values` for each pair.
+template <typename Pair> struct Gradients {
+    std::vector<Pair> pairs;
+    std::vector<double> values;
+};
+
 /// The shapes of a robot and obstacles, prepared for distances. Made by `Proximity::world_proximity`.
 class WorldProximity {
 public:
@@ -38,6 +44,43 @@ public:
         std::size_t count = 0;
         detail::check(urdd_world_proximity_nearest(handle_.get(), q.data(), 1, q.size(), k, found.data(), &count));
         found.resize(count);
+        return found;
+    }
+    /// Whether any pair is at most `margin` apart, metres. It stops at the first such pair.
+    bool is_within(Span<const double> q, double margin) const {
+        bool found = false;
+        detail::check(urdd_world_proximity_is_within(handle_.get(), q.data(), 1, q.size(), margin, &found));
+        return found;
+    }
+    std::vector<bool> is_within_batch(Rows q, double margin) const {
+        auto found = std::make_unique<bool[]>(q.rows);
+        detail::check(urdd_world_proximity_is_within(handle_.get(), q.data, q.rows, q.columns, margin, found.get()));
+        return detail::answers(found, q.rows);
+    }
+    /// Where the straight motion from `start` to `end` is blocked, as a part of it from 0 to 1; NaN if it is free. With
+    /// a `resolution` above 0, metres, configurations are checked between which no point of the robot travels farther,
+    /// the halves first; with 0, the motion is proved free, which needs 0.1 mm more than the margin.
+    double blocked_edge(Span<const double> start, Span<const double> end, double margin = 0.0,
+                        double resolution = 0.01) const {
+        return blocked_edge_batch({start.data(), 1, start.size()}, {end.data(), 1, end.size()}, margin, resolution)[0];
+    }
+    std::vector<double> blocked_edge_batch(Rows starts, Rows ends, double margin = 0.0,
+                                           double resolution = 0.01) const {
+        detail::same_shape(starts, ends);
+        std::vector<double> found(starts.rows);
+        detail::check(urdd_world_proximity_blocked_edge(handle_.get(), starts.data, ends.data, starts.rows,
+                                                        starts.columns, margin, resolution, found.data()));
+        return found;
+    }
+    /// The `k` nearest pairs, and the gradients of their distances: found x dofs values, NaN for pairs that touch.
+    Gradients<urdd_obstacle_distance> gradients(Span<const double> q, std::size_t k) const {
+        Gradients<urdd_obstacle_distance> found{std::vector<urdd_obstacle_distance>(k),
+                                                std::vector<double>(k * q.size())};
+        std::size_t count = 0;
+        detail::check(urdd_world_proximity_gradients(handle_.get(), q.data(), q.size(), k, found.pairs.data(),
+                                                     found.values.data(), &count));
+        found.pairs.resize(count);
+        found.values.resize(count * q.size());
         return found;
     }
 
@@ -108,6 +151,57 @@ public:
         std::vector<urdd_pair_distance> found(num_pairs());
         detail::check(urdd_proximity_closest_points(handle_.get(), q.data(), 1, q.size(), found.data(), found.size()));
         return found;
+    }
+    /// Whether any pair is at most `margin` apart, metres. It stops at the first such pair.
+    bool is_within(Span<const double> q, double margin) const {
+        bool found = false;
+        detail::check(urdd_proximity_is_within(handle_.get(), q.data(), 1, q.size(), margin, &found));
+        return found;
+    }
+    std::vector<bool> is_within_batch(Rows q, double margin) const {
+        auto found = std::make_unique<bool[]>(q.rows);
+        detail::check(urdd_proximity_is_within(handle_.get(), q.data, q.rows, q.columns, margin, found.get()));
+        return detail::answers(found, q.rows);
+    }
+    /// Where the straight motion from `start` to `end` is blocked, as a part of it from 0 to 1; NaN if it is free. With
+    /// a `resolution` above 0, metres, configurations are checked between which no point of the robot travels farther,
+    /// the halves first; with 0, the motion is proved free, which needs 0.1 mm more than the margin.
+    double blocked_edge(Span<const double> start, Span<const double> end, double margin = 0.0,
+                        double resolution = 0.01) const {
+        return blocked_edge_batch({start.data(), 1, start.size()}, {end.data(), 1, end.size()}, margin, resolution)[0];
+    }
+    std::vector<double> blocked_edge_batch(Rows starts, Rows ends, double margin = 0.0,
+                                           double resolution = 0.01) const {
+        detail::same_shape(starts, ends);
+        std::vector<double> found(starts.rows);
+        detail::check(urdd_proximity_blocked_edge(handle_.get(), starts.data, ends.data, starts.rows, starts.columns,
+                                                  margin, resolution, found.data()));
+        return found;
+    }
+    /// The `k` nearest pairs, and the gradients of their distances: found x dofs values, NaN for pairs that touch.
+    Gradients<urdd_pair_distance> gradients(Span<const double> q, std::size_t k) const {
+        Gradients<urdd_pair_distance> found{std::vector<urdd_pair_distance>(k), std::vector<double>(k * q.size())};
+        std::size_t count = 0;
+        detail::check(urdd_proximity_gradients(handle_.get(), q.data(), q.size(), k, found.pairs.data(),
+                                               found.values.data(), &count));
+        found.pairs.resize(count);
+        found.values.resize(count * q.size());
+        return found;
+    }
+    /// The pairs that touch or overlap, with the least translation that separates them.
+    std::vector<urdd_overlap> penetrations(Span<const double> q) const {
+        std::vector<urdd_overlap> found(num_pairs());
+        std::size_t count = 0;
+        detail::check(
+            urdd_proximity_penetrations(handle_.get(), q.data(), q.size(), found.data(), found.size(), &count));
+        found.resize(count);
+        return found;
+    }
+    /// These shapes and an object that a link carries; its pose is that in the link's frame. It is checked against all
+    /// links that move against it, but those that it ignores.
+    Proximity attach(std::size_t link, const Obstacle &object) const {
+        return Proximity(detail::made<urdd_proximity>(
+            [&](urdd_proximity **out) { return urdd_proximity_attach(handle_.get(), link, object.handle(), out); }));
     }
     /// The same shapes with obstacles, which are copied.
     WorldProximity world_proximity(Span<const Obstacle> obstacles) const {

@@ -14,6 +14,7 @@ use std::ptr::null_mut;
 use std::time::Instant;
 
 use urdd_c::*;
+use urdd_kinematics::pose_matrix::write_matrix;
 use urdd_robot::{ShapeKind, Workspace};
 
 /// Seconds of a call: the least of several rounds, each long enough for the clock.
@@ -85,9 +86,11 @@ fn main() {
     let ok = |status| assert_eq!(status, Status::Ok);
 
     println!("{links} links, {dofs} DOFs, {pairs} pairs");
-    let (mut poses, mut out) = (Vec::new(), vec![0.0; 16 * links]);
+    // Both as matrices; below, Rust's batch has quaternions, half as many bytes.
+    let (mut poses, mut out, mut matrices) =
+        (Vec::new(), vec![0.0; 16 * links], vec![0.0; 16 * links]);
     row(
-        "poses",
+        "poses as matrices",
         // SAFETY: as the header says.
         |k| unsafe {
             let at = q(k).as_ptr();
@@ -102,7 +105,10 @@ fn main() {
         },
         |k| {
             robot.link_poses_into(q(k), &mut poses).unwrap();
-            black_box(&poses);
+            for (pose, out) in poses.iter().zip(matrices.chunks_exact_mut(16)) {
+                write_matrix(pose, out);
+            }
+            black_box(&matrices);
         },
     );
     let (mut workspace, mut touches) = (Workspace::default(), false);

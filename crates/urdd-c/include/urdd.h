@@ -166,14 +166,6 @@ typedef struct urdd_pair_distance {
     double points[2][3];
 } urdd_pair_distance;
 
-// A shape: the index of its link, and of the link's piece; 0 for hulls and their bounding volumes.
-typedef struct urdd_shape_place {
-    // The index of the link.
-    size_t link;
-    // The index of the piece.
-    size_t piece;
-} urdd_shape_place;
-
 // A shape of the robot and an obstacle, their distance, and their closest points.
 typedef struct urdd_obstacle_distance {
     // The index of the link.
@@ -188,6 +180,25 @@ typedef struct urdd_obstacle_distance {
     // overlap, both are the same point, which is in both.
     double points[2][3];
 } urdd_obstacle_distance;
+
+// Two shapes that touch or overlap.
+typedef struct urdd_overlap {
+    // The two shapes. Their distance is 0; the points are those that touch once the second shape has moved, before it
+    // moves.
+    struct urdd_pair_distance pair;
+    // The length of the least translation that separates the two, metres; 0 if they touch.
+    double depth;
+    // The unit vector, in the root link's frame, along which the second shape would move.
+    double direction[3];
+} urdd_overlap;
+
+// A shape: the index of its link, and of the link's piece; 0 for hulls and their bounding volumes.
+typedef struct urdd_shape_place {
+    // The index of the link.
+    size_t link;
+    // The index of the piece.
+    size_t piece;
+} urdd_shape_place;
 
 #ifdef __cplusplus
 extern "C" {
@@ -518,647 +529,137 @@ enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
 // `obstacle` is null, or open and not used again.
 enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
 
-// Prepares the shapes of a kind, without the pairs that the URDD skips. It reads the meshes.
+// Writes whether any pair is at most `margin` apart, metres, for each configuration. With a margin above 0, pairs count
+// whose links can move against each other.
 //
-// `kind` is "hulls", "boxes", "spheres", "pieces", "piece-boxes" or "piece-spheres".
+// `configurations` has `rows` rows of `dofs` values, rad or m; `within` has room for `rows` values. One row is computed
+// on this thread, without an allocation.
 //
-// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the module of the shapes, a skips module,
-// chain_module or dof_module, or a mesh.
-//
-// Contract:
-// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
-enum urdd_status urdd_robot_proximity(const struct urdd_robot *handle, const char *kind, struct urdd_proximity **out);
-
-// Frees a proximity. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `proximity` is null, or open and not used again.
-enum urdd_status urdd_proximity_free(struct urdd_proximity *proximity);
-
-// Writes the number of shapes, of pairs that are checked, and of DOFs. Each of the three can be null.
-//
-// Contract:
-// `handle` is null or open; each of the three is null or has room for a number.
-enum urdd_status urdd_proximity_sizes(const struct urdd_proximity *handle, size_t *shapes, size_t *pairs, size_t *dofs);
-
-// Writes the pairs that are checked, in the order of `urdd_proximity_distances`.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` pairs at `pairs`.
-enum urdd_status urdd_proximity_pairs(const struct urdd_proximity *handle, struct urdd_pair *pairs, size_t length);
-
-// Writes whether any pair touches or overlaps, for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
-// computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+// Errors: `LENGTH`; `VALUE` for NaN or infinity, or a margin below 0.
 //
 // Contract:
 // `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_proximity_in_collision(const struct urdd_proximity *handle,
-                                             const double *configurations,
-                                             size_t rows,
-                                             size_t dofs,
-                                             bool *colliding);
-
-// Writes the minimum distance over all pairs for each configuration, metres: 0 in a collision, infinite without pairs.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_proximity_self_distance(const struct urdd_proximity *handle,
-                                              const double *configurations,
-                                              size_t rows,
-                                              size_t dofs,
-                                              double *distances);
-
-// Writes the distance of each pair for each configuration, metres: 0 for pairs that touch or overlap.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
-// in the order of `urdd_proximity_pairs`. One row is computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
+enum urdd_status urdd_proximity_is_within(const struct urdd_proximity *handle,
                                           const double *configurations,
                                           size_t rows,
                                           size_t dofs,
-                                          double *distances,
-                                          size_t length);
+                                          double margin,
+                                          bool *within);
 
-// Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
+// As `urdd_proximity_is_within`, for the pairs of a shape of the robot and an obstacle.
 //
-// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-// that is written of each row: the lesser of `k` and the number of pairs.
+// Contract:
+// As there.
+enum urdd_status urdd_world_proximity_is_within(const struct urdd_world_proximity *handle,
+                                                const double *configurations,
+                                                size_t rows,
+                                                size_t dofs,
+                                                double margin,
+                                                bool *within);
+
+// Writes where each straight motion is blocked by the robot itself, as a part of it from 0 to 1; NaN where it is free.
+//
+// `starts` and `ends` have `rows` rows of `dofs` values each, rad or m; `blocked` has room for `rows` values. `margin`
+// is the distance that must be kept, metres. With a `resolution` above 0, metres, configurations are checked between
+// which no point of the robot travels farther, the halves first. With 0, the motion is proved free by conservative
+// advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity, a margin or a resolution below 0, or a motion that needs more than a
+// million configurations.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_blocked_edge(const struct urdd_proximity *handle,
+                                             const double *starts,
+                                             const double *ends,
+                                             size_t rows,
+                                             size_t dofs,
+                                             double margin,
+                                             double resolution,
+                                             double *blocked);
+
+// As `urdd_proximity_blocked_edge`, for motions that obstacles block.
+//
+// Contract:
+// As there.
+enum urdd_status urdd_world_proximity_blocked_edge(const struct urdd_world_proximity *handle,
+                                                   const double *starts,
+                                                   const double *ends,
+                                                   size_t rows,
+                                                   size_t dofs,
+                                                   double margin,
+                                                   double resolution,
+                                                   double *blocked);
+
+// Writes the `k` nearest pairs of one configuration, nearest first, and the gradients of their distances.
+//
+// `configuration` has `dofs` values, rad or m; `nearest` has room for `k`; `gradients` for k x dofs values, m/rad or
+// m/m: NaN for pairs that touch or overlap. `found` is the number that is written: the lesser of `k` and the number of
+// pairs. A gradient is that of the closest points as they are.
 //
 // Errors: `LENGTH`; `VALUE` for NaN or infinity.
 //
 // Contract:
 // `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
-enum urdd_status urdd_proximity_nearest(const struct urdd_proximity *handle,
-                                        const double *configurations,
-                                        size_t rows,
-                                        size_t dofs,
-                                        size_t k,
-                                        struct urdd_pair_distance *nearest,
-                                        size_t *found);
+enum urdd_status urdd_proximity_gradients(const struct urdd_proximity *handle,
+                                          const double *configuration,
+                                          size_t dofs,
+                                          size_t k,
+                                          struct urdd_pair_distance *nearest,
+                                          double *gradients,
+                                          size_t *found);
 
-// Writes the distance and the closest points of each pair for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `closest` has room for `length`: rows x pairs, in the
-// order of `urdd_proximity_pairs`.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+// As `urdd_proximity_gradients`, for the pairs of a shape of the robot and a convex part of an obstacle.
 //
 // Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *handle,
-                                               const double *configurations,
-                                               size_t rows,
-                                               size_t dofs,
-                                               struct urdd_pair_distance *closest,
-                                               size_t length);
+// As there.
+enum urdd_status urdd_world_proximity_gradients(const struct urdd_world_proximity *handle,
+                                                const double *configuration,
+                                                size_t dofs,
+                                                size_t k,
+                                                struct urdd_obstacle_distance *nearest,
+                                                double *gradients,
+                                                size_t *found);
 
-// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
-// kinematics needs.
+// Writes the pairs that touch or overlap in one configuration, with the least translation that separates them.
 //
-// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
-//
-// Contract:
-// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
-enum urdd_status urdd_robot_open(const char *path, struct urdd_robot **out);
-
-// Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
-//
-// Errors: `OPEN` if the bytes are not a zip archive.
-//
-// Contract:
-// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
-// pointer.
-enum urdd_status urdd_robot_of_archive(const char *name, const uint8_t *bytes, size_t length, struct urdd_robot **out);
-
-// Frees a robot. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `robot` is null, or open and not used again.
-enum urdd_status urdd_robot_free(struct urdd_robot *robot);
-
-// Reads the skips between the shapes of a kind. `kind` is as for `urdd_robot_proximity`.
-//
-// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the skips modules.
-//
-// Contract:
-// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
-enum urdd_status urdd_robot_skips(const struct urdd_robot *handle, const char *kind, struct urdd_skips **out);
-
-// Frees skips. Null is ignored.
-//
-// Contract:
-// `skips` is null, or open and not used again.
-enum urdd_status urdd_skips_free(struct urdd_skips *skips);
-
-// Writes the number of shapes.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a number.
-enum urdd_status urdd_skips_len(const struct urdd_skips *handle, size_t *out);
-
-// Writes the link and the piece of each shape.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` places at `places`.
-enum urdd_status urdd_skips_places(const struct urdd_skips *handle, struct urdd_shape_place *places, size_t length);
-
-// Writes whether a pair of shapes is skipped, by their indices. A shape with itself is.
-//
-// Errors: `OUT_OF_RANGE`.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a value.
-enum urdd_status urdd_skips_is_skipped(const struct urdd_skips *handle, size_t i, size_t j, bool *out);
-
-// Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
-// rotations.
-//
-// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` values at `bounds`.
-enum urdd_status urdd_robot_bounds(const struct urdd_robot *handle, double *bounds, size_t length);
-
-// Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
-//
-// Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there is room for `dofs` values at `configuration`.
-enum urdd_status urdd_robot_zero(const struct urdd_robot *handle, double *configuration, size_t dofs);
-
-// Writes the configuration with every DOF half-way between its bounds.
-//
-// Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// As `urdd_robot_zero`.
-enum urdd_status urdd_robot_middle(const struct urdd_robot *handle, double *configuration, size_t dofs);
-
-// Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and
-// the same in every implementation. rows x dofs values, rad or m.
-//
-// Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
-enum urdd_status urdd_robot_random(const struct urdd_robot *handle,
-                                   uint64_t first,
-                                   double *configurations,
-                                   size_t rows,
-                                   size_t dofs);
-
-// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
-// are.
-//
-// Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there are `dofs` values at `configuration`.
-enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *configuration, size_t dofs);
-
-// Validates every URDD at or below a path, as `urdd validate` does: a folder, a zip archive, or a folder of them.
-//
-// `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
-//
-// Errors: `OPEN` if there is no URDD; `VALUE` for the settings. Findings are no error: the report has them.
-//
-// Contract:
-// `path` is null or ends with a zero byte; `settings` too; `out` is null or has room for a pointer.
-enum urdd_status urdd_validate(const char *path, const char *settings, struct urdd_report **out);
-
-// Validates the URDD in a zip archive in memory. `name` is its name in the report.
-//
-// Errors: `OPEN` if the bytes are not a zip archive; `VALUE` for the settings.
-//
-// Contract:
-// As `urdd_validate`; there are `length` bytes at `bytes`.
-enum urdd_status urdd_validate_archive(const char *name,
-                                       const uint8_t *bytes,
-                                       size_t length,
-                                       const char *settings,
-                                       struct urdd_report **out);
-
-// Writes the report: the JSON of `urdd validate --format json` (schema/report). It lives as long as the report.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
-enum urdd_status urdd_report_json(const struct urdd_report *handle, struct urdd_text *out);
-
-// Writes whether every URDD passes.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a value.
-enum urdd_status urdd_report_passes(const struct urdd_report *handle, bool *out);
-
-// Frees a report. Null is ignored.
-//
-// Contract:
-// `report` is null, or open and not used again.
-enum urdd_status urdd_report_free(struct urdd_report *report);
-
-// Prepares the shapes of a robot and `count` obstacles. Skips do not apply: every shape of the robot is checked
-// against every obstacle, without the links that the obstacle ignores. What it needs of the obstacles is copied.
-//
-// Errors: `UNKNOWN_NAME` if an obstacle ignores an unknown link.
-//
-// Contract:
-// `proximity` is null or open; there are `count` handles at `obstacles`, null or open; `out` is null or has room for a
-// pointer.
-enum urdd_status urdd_proximity_world_proximity(const struct urdd_proximity *proximity,
-                                                const struct urdd_obstacle *const *obstacles,
-                                                size_t count,
-                                                struct urdd_world_proximity **out);
-
-// Frees a robot's shapes and obstacles. Null is ignored.
-//
-// Contract:
-// `world` is null, or open and not used again.
-enum urdd_status urdd_world_proximity_free(struct urdd_world_proximity *world);
-
-// Writes whether any shape of the robot touches or overlaps an obstacle, for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
-// computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_world_proximity_in_collision(const struct urdd_world_proximity *handle,
-                                                   const double *configurations,
-                                                   size_t rows,
-                                                   size_t dofs,
-                                                   bool *colliding);
-
-// Writes the minimum distance between the robot and the obstacles for each configuration, metres: 0 in a collision,
-// infinite without pairs.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_world_proximity_min_distance(const struct urdd_world_proximity *handle,
-                                                   const double *configurations,
-                                                   size_t rows,
-                                                   size_t dofs,
-                                                   double *distances);
-
-// Writes the `k` nearest pairs of a shape of the robot and a convex part of an obstacle for each configuration,
-// nearest first, with their closest points.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-// that is written of each row: less than `k` if there are fewer pairs.
+// `configuration` has `dofs` values, rad or m; `overlaps` has room for `length`, of which the first `found` are written:
+// `found` may be more than `length`, and is at most the number of pairs.
 //
 // Errors: `LENGTH`; `VALUE` for NaN or infinity.
 //
 // Contract:
 // `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
-enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity *handle,
-                                              const double *configurations,
-                                              size_t rows,
-                                              size_t dofs,
-                                              size_t k,
-                                              struct urdd_obstacle_distance *nearest,
-                                              size_t *found);
+enum urdd_status urdd_proximity_penetrations(const struct urdd_proximity *handle,
+                                             const double *configuration,
+                                             size_t dofs,
+                                             struct urdd_overlap *overlaps,
+                                             size_t length,
+                                             size_t *found);
 
-// Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
-// rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
+// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
+// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
 //
-// Errors: `MISSING_MODULE`, `UNUSABLE`: self_collision_model_module, chain_module or dof_module.
+// In answers, an object has the index of its link, and `pieces` counts its parts.
+//
+// Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
+// attached object has its name.
 //
 // Contract:
-// `handle` is null or open; `out` is null or has room for a pointer.
-enum urdd_status urdd_robot_collision_model(const struct urdd_robot *handle, struct urdd_collision_model **out);
+// `handle` and `object` are null or open; `out` is null or has room for a pointer.
+enum urdd_status urdd_proximity_attach(const struct urdd_proximity *handle,
+                                       size_t link,
+                                       const struct urdd_obstacle *object,
+                                       struct urdd_proximity **out);
 
-// Frees a model. Null is ignored.
+// Makes the same body with its frame at another pose: a matrix, 16 values, row by row. A mesh is not decomposed again.
+// The frame of a sphere is at its centre.
+//
+// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
 //
 // Contract:
-// `model` is null, or open and not used again.
-enum urdd_status urdd_collision_model_free(struct urdd_collision_model *model);
-
-// Writes the error rates that the module states, measured on configurations that were not used to make the model: the
-// JSON of `evaluation` in self_collision_model_module. It lives as long as the model.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
-enum urdd_status urdd_collision_model_evaluation(const struct urdd_collision_model *handle, struct urdd_text *out);
-
-// Writes the number of link pairs and of DOFs. Each of the two can be null.
-//
-// Contract:
-// `handle` is null or open; each of the two is null or has room for a number.
-enum urdd_status urdd_collision_model_sizes(const struct urdd_collision_model *handle, size_t *pairs, size_t *dofs);
-
-// Writes the link pairs, in the order of `urdd_collision_model_clearances`.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` pairs at `pairs`.
-enum urdd_status urdd_collision_model_pairs(const struct urdd_collision_model *handle,
-                                            struct urdd_link_pair *pairs,
-                                            size_t length);
-
-// Writes the estimated clearance of each link pair for each configuration, metres. 0 or less: the pair may be in
-// contact.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `clearances` has room for `length` values: rows x pairs.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_collision_model_clearances(const struct urdd_collision_model *handle,
-                                                 const double *configurations,
-                                                 size_t rows,
-                                                 size_t dofs,
-                                                 double *clearances,
-                                                 size_t length);
-
-// Writes whether any pair may be in contact, for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_model *handle,
-                                                  const double *configurations,
-                                                  size_t rows,
-                                                  size_t dofs,
-                                                  bool *colliding);
-
-// The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
-// that fails.
-struct urdd_text urdd_error_message(void);
-
-// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds.
-//
-// Contract:
-// `out` is null or has room for settings.
-enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
-
-// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
-// start, then from random configurations. Does not check for collisions.
-//
-// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
-// target is not reached, the nearest configuration is written, and its solution says so.
-//
-// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
-// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_robot_inverse_kinematics(const struct urdd_robot *handle,
-                                               const struct urdd_target *targets,
-                                               size_t count,
-                                               const double *starts,
-                                               size_t starts_rows,
-                                               size_t dofs,
-                                               const struct urdd_inverse_settings *settings,
-                                               double *configurations,
-                                               struct urdd_inverse_solution *solutions);
-
-// Writes the pose of each link in the root link's frame for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m. `poses` has room for `length` values: rows x links x 4
-// x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
-// is computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
-                                       const double *configurations,
-                                       size_t rows,
-                                       size_t dofs,
-                                       double *poses,
-                                       size_t length);
-
-// Writes the geometric Jacobian of a link for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m. `point` is a point of the link in the link's frame, 3
-// values in metres; null is the origin of its frame. `jacobians` has room for `length` values: rows x dofs x 6, the
-// six rows of each column together (column-major). The first three are the linear velocity of the point, the others the
-// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
-// computed on this thread, without an allocation.
-//
-// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
-// chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
-enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
-                                      const double *configurations,
-                                      size_t rows,
-                                      size_t dofs,
-                                      size_t link,
-                                      const double *point,
-                                      double *jacobians,
-                                      size_t length);
-
-// Writes the number of configurations that a person named; 0 without named_configurations_module.
-//
-// Errors: `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a number.
-enum urdd_status urdd_robot_num_named_configurations(const struct urdd_robot *handle, size_t *out);
-
-// Writes the name of a named configuration. It lives as long as the robot.
-//
-// Errors: `OUT_OF_RANGE`; `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
-enum urdd_status urdd_robot_configuration_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
-
-// Writes a named configuration: `dofs` values, rad or m.
-//
-// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `LENGTH`; `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `name` is null or ends with a zero byte; there is room for `dofs` values at
-// `configuration`.
-enum urdd_status urdd_robot_named_configuration(const struct urdd_robot *handle,
-                                                const char *name,
-                                                double *configuration,
-                                                size_t dofs);
-
-// Writes the number of links, joints and DOFs. Each of the three can be null.
-//
-// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; each of the three is null or has room for a number.
-enum urdd_status urdd_robot_sizes(const struct urdd_robot *handle, size_t *links, size_t *joints, size_t *dofs);
-
-// Writes the name of a link. It lives as long as the robot.
-//
-// Errors: `OUT_OF_RANGE`; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
-enum urdd_status urdd_robot_link_name(const struct urdd_robot *handle, size_t link, struct urdd_text *out);
-
-// Writes the name of a joint. It lives as long as the robot.
-//
-// Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
-enum urdd_status urdd_robot_joint_name(const struct urdd_robot *handle, size_t joint, struct urdd_text *out);
-
-// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
-// robot.
-//
-// Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
-enum urdd_status urdd_robot_dof_name(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
-
-// Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
-//
-// Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
-enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
-
-// Writes the index of a link.
-//
-// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `MISSING_MODULE`, `UNUSABLE`: chain_module or
-// dof_module.
-//
-// Contract:
-// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
-enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
-
-// Writes the index of a DOF.
-//
-// Errors: as `urdd_robot_link`.
-//
-// Contract:
-// As `urdd_robot_link`.
-enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *name, size_t *out);
-
-// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
-//
-// `pose` is a homogeneous 4 x 4 matrix in row-major order; null is the identity.
-//
-// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
-// and a translation.
-//
-// Contract:
-// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
-// room for a pointer.
-enum urdd_status urdd_obstacle_cuboid(const char *name,
-                                      const double *pose,
-                                      const double *half_extents,
-                                      struct urdd_obstacle **out);
-
-// Makes a sphere: its centre (3 values) and radius, metres.
-//
-// Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; `centre` has 3 values.
-enum urdd_status urdd_obstacle_sphere(const char *name,
-                                      const double *centre,
-                                      double radius,
-                                      struct urdd_obstacle **out);
-
-// Makes a capsule: all points within `radius` of a segment along the z axis of its frame, from -`half_length` to
-// `half_length`, metres.
-//
-// Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`.
-enum urdd_status urdd_obstacle_capsule(const char *name,
-                                       const double *pose,
-                                       double radius,
-                                       double half_length,
-                                       struct urdd_obstacle **out);
-
-// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
-// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
-//
-// Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`.
-enum urdd_status urdd_obstacle_cylinder(const char *name,
-                                        const double *pose,
-                                        double radius,
-                                        double half_length,
-                                        struct urdd_obstacle **out);
-
-// Makes the convex hull of `count` points (count x 3), metres.
-//
-// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
-enum urdd_status urdd_obstacle_hull(const char *name,
-                                    const double *pose,
-                                    const double *points,
-                                    size_t count,
-                                    struct urdd_obstacle **out);
-
-// Makes a mesh of `num_vertices` vertices (x 3), metres, and `num_triangles` triangles (x 3 indices), decomposed into
-// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
-//
-// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; the arrays have their lengths.
-enum urdd_status urdd_obstacle_mesh(const char *name,
-                                    const double *pose,
-                                    const double *vertices,
-                                    size_t num_vertices,
-                                    const uint32_t *triangles,
-                                    size_t num_triangles,
-                                    struct urdd_obstacle **out);
-
-// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
-// stays as it is.
-//
-// Contract:
-// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
-enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
-                                        const char *link,
-                                        struct urdd_obstacle **out);
-
-// Frees an obstacle. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `obstacle` is null, or open and not used again.
-enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
+// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
+enum urdd_status urdd_obstacle_at(const struct urdd_obstacle *obstacle, const double *pose, struct urdd_obstacle **out);
 
 // Prepares the shapes of a kind, without the pairs that the URDD skips. It reads the meshes.
 //

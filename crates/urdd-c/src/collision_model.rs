@@ -5,7 +5,7 @@ use urdd_robot::RobotError;
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
 use crate::memory::{Plain, exact_room, put};
-use crate::robot::{Robot, robot};
+use crate::robot::Robot;
 use crate::rows::Rows;
 use crate::text::{Owned, Text};
 
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn urdd_robot_collision_model(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let model = robot(handle)?.robot.collision_model()?;
+            let model = at(handle)?.robot.collision_model()?;
             let text = serde_json::to_string(model.evaluation())
                 .map_err(|error| Failure::new(Status::Internal, error.to_string()))?;
             Ok(CollisionModel {
@@ -153,8 +153,7 @@ pub unsafe extern "C" fn urdd_collision_model_clearances(
             (rows, dofs),
             model.num_dofs(),
         )?;
-        let shape = (rows, model.pairs().len());
-        let out = exact_room("clearances", clearances, length, shape, &[q.values])?;
+        let out = q.room(("clearances", clearances, length), model.pairs().len())?;
         copy(&model.clearances_batch(q.values)?, out)
     })
 }
@@ -184,7 +183,7 @@ pub unsafe extern "C" fn urdd_collision_model_may_collide(
             (rows, dofs),
             model.num_dofs(),
         )?;
-        let out = exact_room("colliding", colliding, rows, (rows, 1), &[q.values])?;
+        let out = q.room(("colliding", colliding, rows), 1)?;
         copy(&model.may_collide_batch(q.values)?, out)
     })
 }

@@ -60,7 +60,9 @@ impl Failure {
 impl From<RobotError> for Failure {
     fn from(error: RobotError) -> Self {
         let status = match &error {
-            RobotError::Open { .. } | RobotError::List(_) => Status::Open,
+            RobotError::Open { .. } | RobotError::NoUrdd { .. } | RobotError::List(_) => {
+                Status::Open
+            }
             RobotError::Missing(_) => Status::MissingModule,
             RobotError::Unusable { .. }
             | RobotError::MotionOpen
@@ -74,6 +76,7 @@ impl From<RobotError> for Failure {
             RobotError::OutOfRange { .. } => Status::OutOfRange,
             RobotError::OutOfBounds { .. }
             | RobotError::Target(_)
+            | RobotError::Setting(_)
             | RobotError::Obstacle { .. } => Status::Value,
             _ => Status::Internal,
         };

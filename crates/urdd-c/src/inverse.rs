@@ -7,8 +7,9 @@ use urdd_kinematics::pose_matrix::pose;
 use urdd_robot::{InverseSettings, RobotError, Target as RobotTarget, fill};
 
 use crate::failure::{Failure, Status, run};
-use crate::memory::{Plain, exact_room, put, values};
-use crate::robot::{Robot, robot};
+use crate::handle::at;
+use crate::memory::{Plain, check, exact_room, put, values};
+use crate::robot::Robot;
 
 /// A target of inverse kinematics, in the root link's frame.
 #[repr(C)]
@@ -97,10 +98,7 @@ unsafe fn settings(settings: *const Settings) -> Result<InverseSettings, Failure
     if settings.is_null() {
         return Ok(InverseSettings::default());
     }
-    if !settings.is_aligned() {
-        let message = "`settings` is not aligned to 8 bytes";
-        return Err(Failure::new(Status::Pointer, message));
-    }
+    check("settings", settings)?;
     // SAFETY: guaranteed by the caller.
     unsafe {
         let settings = settings.read();
@@ -117,6 +115,8 @@ unsafe fn settings(settings: *const Settings) -> Result<InverseSettings, Failure
             restarts: settings.restarts,
             seed: settings.seed,
             bounds: (!pairs.is_empty()).then(|| pairs.to_vec()),
+            explain: false,
+            ..InverseSettings::default()
         })
     }
 }
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let robot = robot(handle)?;
+        let robot = at(handle)?;
         let targets = targets_of(targets, count)?;
         let q = robot.rows("starts", starts, (starts_rows, dofs))?;
         if starts_rows != 1 && starts_rows != count {

@@ -2,15 +2,13 @@
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::write_matrix;
-use urdd_robot::{RobotError, fill};
 
 use crate::failure::{Status, run};
-use crate::memory::{exact_room, values};
-use crate::robot::{Robot, robot};
+use crate::handle::at;
+use crate::memory::triple;
+use crate::robot::Robot;
 use crate::workspace::with_poses;
 
-/// Configurations in one block of work.
-const BLOCK: usize = 64;
 /// Numbers of a pose.
 const MATRIX: usize = 16;
 
@@ -35,20 +33,18 @@ pub unsafe extern "C" fn urdd_robot_link_poses(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let robot = robot(handle)?;
+        let robot = at(handle)?;
         let width = MATRIX * robot.robot.link_names()?.len();
         let q = robot.rows("configurations", configurations, (rows, dofs))?;
-        let out = exact_room("poses", poses, length, (rows, width), &[q.values])?;
-        let write = |(): &mut (), k: usize, out: &mut [f64]| {
+        q.answer(("poses", poses, length), width, |q, out| {
             with_poses(|poses| {
-                robot.robot.link_poses_into(q.row(k), poses)?;
+                robot.robot.link_poses_into(q, poses)?;
                 for (pose, out) in poses.iter().zip(out.chunks_exact_mut(MATRIX)) {
                     write_matrix(pose, out);
                 }
-                Ok::<(), RobotError>(())
+                Ok(())
             })
-        };
-        Ok(fill(out, width, BLOCK, || (), write)?)
+        })
     })
 }
 
@@ -78,17 +74,13 @@ pub unsafe extern "C" fn urdd_robot_jacobians(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let robot = robot(handle)?;
+        let robot = at(handle)?;
         let q = robot.rows("configurations", configurations, (rows, dofs))?;
         let point = match point.is_null() {
             true => [0.0; 3],
-            false => {
-                let point = values("point", point, 3)?;
-                [point[0], point[1], point[2]]
-            }
+            false => triple("point", point)?,
         };
-        let shape = (rows, 6 * dofs);
-        let out = exact_room("jacobians", jacobians, length, shape, &[q.values])?;
+        let out = q.room(("jacobians", jacobians, length), 6 * dofs)?;
         if rows == 1 {
             let one =
                 |poses: &mut Vec<_>| robot.robot.jacobian_into(q.values, link, point, poses, out);

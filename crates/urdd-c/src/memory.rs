@@ -22,6 +22,16 @@ unsafe impl Plain for u32 {}
 // SAFETY: as above.
 unsafe impl Plain for u8 {}
 
+/// Three values of the caller's.
+///
+/// # Safety
+/// `data` is null, or there are 3 values at it.
+pub(crate) unsafe fn triple(what: &'static str, data: *const f64) -> Result<[f64; 3], Failure> {
+    // SAFETY: guaranteed by the caller.
+    let values = unsafe { values(what, data, 3) }?;
+    Ok([values[0], values[1], values[2]])
+}
+
 /// Where an array of the caller's is.
 #[derive(Clone, Copy)]
 pub(crate) struct Span {
@@ -134,32 +144,27 @@ pub(crate) unsafe fn exact_room<'a, T: Plain>(
 ///
 /// # Safety
 /// `out` is null, or there is room for a value at it.
-pub(crate) unsafe fn put<T>(what: &str, out: *mut T, value: T) -> Result<(), Failure> {
-    check_out(what, out)?;
+pub(crate) unsafe fn put<T>(what: &'static str, out: *mut T, value: T) -> Result<(), Failure> {
+    check(what, out)?;
     // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
     unsafe { out.write(value) };
     Ok(())
 }
 
-pub(crate) fn check_out<T>(what: &str, out: *mut T) -> Result<(), Failure> {
-    match () {
-        () if out.is_null() => Err(Failure::new(Status::Pointer, format!("`{what}` is null"))),
-        () if !out.is_aligned() => {
-            let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
-            Err(Failure::new(Status::Pointer, message))
-        }
-        () => Ok(()),
-    }
+/// Whether there can be a value at a pointer: it is neither null nor misaligned.
+pub(crate) fn check<T>(what: &'static str, at: *const T) -> Result<(), Failure> {
+    Span::of(what, at, 1).map(|_| ())
 }
 
 /// A text of the caller's.
 ///
 /// # Safety
 /// `text` is null or ends with a zero byte.
-pub(crate) unsafe fn read_text<'a>(what: &str, text: *const c_char) -> Result<&'a str, Failure> {
-    if text.is_null() {
-        return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
-    }
+pub(crate) unsafe fn read_text<'a>(
+    what: &'static str,
+    text: *const c_char,
+) -> Result<&'a str, Failure> {
+    check(what, text)?;
     // SAFETY: guaranteed by the caller.
     let bytes = unsafe { CStr::from_ptr(text) };
     bytes

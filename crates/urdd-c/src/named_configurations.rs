@@ -3,9 +3,10 @@
 use std::ffi::c_char;
 
 use crate::failure::{Status, run};
+use crate::handle::at;
 use crate::memory::{exact_room, put, read_text};
 use crate::names::out_of_range;
-use crate::robot::{Robot, robot};
+use crate::robot::Robot;
 use crate::text::Text;
 
 /// Writes the number of configurations that a person named; 0 without named_configurations_module.
@@ -20,7 +21,7 @@ pub unsafe extern "C" fn urdd_robot_num_named_configurations(
     out: *mut usize,
 ) -> Status {
     // SAFETY: guaranteed by the caller.
-    run(|| unsafe { put("out", out, robot(handle)?.configuration_names()?.len()) })
+    run(|| unsafe { put("out", out, at(handle)?.configuration_names()?.len()) })
 }
 
 /// Writes the name of a named configuration. It lives as long as the robot.
@@ -37,7 +38,7 @@ pub unsafe extern "C" fn urdd_robot_configuration_name(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let names = robot(handle)?.configuration_names()?;
+        let names = at(handle)?.configuration_names()?;
         let what = "named configuration";
         let name = names
             .get(index)
@@ -62,7 +63,7 @@ pub unsafe extern "C" fn urdd_robot_named_configuration(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let known = robot(handle)?
+        let known = at(handle)?
             .robot
             .named_configuration(read_text("name", name)?)?;
         let out = exact_room("configuration", configuration, dofs, (1, known.len()), &[])?;

@@ -3,8 +3,9 @@
 use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
-use crate::memory::{check_out, put, read_text};
-use crate::robot::{Names, Robot, robot};
+use crate::handle::at;
+use crate::memory::{check, put, read_text};
+use crate::robot::{Names, Robot};
 use crate::text::{Owned, Text, constant};
 
 /// Writes the number of links, joints and DOFs. Each of the three can be null.
@@ -22,7 +23,7 @@ pub unsafe extern "C" fn urdd_robot_sizes(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let names = robot(handle)?.names()?;
+        let names = at(handle)?.names()?;
         for (what, out, list) in [
             ("links", links, &names.links),
             ("joints", joints, &names.joints),
@@ -99,7 +100,7 @@ pub unsafe extern "C" fn urdd_robot_dof_unit(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let units = robot(handle)?.robot.dof_units()?;
+        let units = at(handle)?.robot.dof_units()?;
         let unit = units
             .get(dof)
             .ok_or_else(|| out_of_range("DOF", dof, units.len()))?;
@@ -127,7 +128,7 @@ pub unsafe extern "C" fn urdd_robot_link(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let name = read_text("name", name)?;
-        put("out", out, robot(handle)?.robot.link(name)?)
+        put("out", out, at(handle)?.robot.link(name)?)
     })
 }
 
@@ -146,7 +147,7 @@ pub unsafe extern "C" fn urdd_robot_dof(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let name = read_text("name", name)?;
-        put("out", out, robot(handle)?.robot.dof(name)?)
+        put("out", out, at(handle)?.robot.dof(name)?)
     })
 }
 
@@ -163,10 +164,10 @@ unsafe fn name(
     index: usize,
     out: *mut Text,
 ) -> Result<(), Failure> {
-    check_out("out", out)?;
+    check("out", out)?;
     // SAFETY: guaranteed by the caller.
     unsafe {
-        let names = of(robot(handle)?.names()?);
+        let names = of(at(handle)?.names()?);
         let name = names
             .get(index)
             .ok_or_else(|| out_of_range(what, index, names.len()))?;

@@ -8,7 +8,7 @@ use urdd_kinematics::pose_matrix::pose;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{read_text, values};
+use crate::memory::{read_text, triple, values};
 
 /// A body that a robot must not touch, in the root link's frame.
 pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
@@ -21,7 +21,7 @@ impl Handle for Obstacle {
 ///
 /// # Safety
 /// `matrix` is null, or there are 16 values at it.
-unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failure> {
+pub(crate) unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failure> {
     if matrix.is_null() {
         return Ok(Isometry3::identity());
     }
@@ -31,6 +31,19 @@ unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failure> {
         let message = "the pose is not a rotation and a translation";
         Failure::new(Status::Value, message)
     })
+}
+
+/// Makes an obstacle with a name.
+///
+/// # Safety
+/// As for [`make`]; `name` is null or ends with a zero byte.
+unsafe fn named(
+    name: *const c_char,
+    out: *mut *mut Obstacle,
+    act: impl FnOnce(&str) -> Result<urdd_robot::Obstacle, Failure>,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?)?))) }
 }
 
 /// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
@@ -52,11 +65,9 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
-            let half = values("half_extents", half_extents, 3)?;
-            let half = [half[0], half[1], half[2]];
-            let (name, pose) = (read_text("name", name)?, placed(pose)?);
-            Ok(Obstacle(urdd_robot::Obstacle::cuboid(name, pose, half)?))
+        named(name, out, |name| {
+            let half = triple("half_extents", half_extents)?;
+            Ok(urdd_robot::Obstacle::cuboid(name, placed(pose)?, half)?)
         })
     }
 }
@@ -76,13 +87,9 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
-            let centre = values("centre", centre, 3)?;
-            let centre = [centre[0], centre[1], centre[2]];
-            let name = read_text("name", name)?;
-            Ok(Obstacle(urdd_robot::Obstacle::sphere(
-                name, centre, radius,
-            )?))
+        named(name, out, |name| {
+            let centre = triple("centre", centre)?;
+            Ok(urdd_robot::Obstacle::sphere(name, centre, radius)?)
         })
     }
 }
@@ -104,10 +111,13 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
-            let (name, pose) = (read_text("name", name)?, placed(pose)?);
-            let made = urdd_robot::Obstacle::capsule(name, pose, radius, half_length)?;
-            Ok(Obstacle(made))
+        named(name, out, |name| {
+            Ok(urdd_robot::Obstacle::capsule(
+                name,
+                placed(pose)?,
+                radius,
+                half_length,
+            )?)
         })
     }
 }
@@ -129,10 +139,13 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
-            let (name, pose) = (read_text("name", name)?, placed(pose)?);
-            let made = urdd_robot::Obstacle::cylinder(name, pose, radius, half_length)?;
-            Ok(Obstacle(made))
+        named(name, out, |name| {
+            Ok(urdd_robot::Obstacle::cylinder(
+                name,
+                placed(pose)?,
+                radius,
+                half_length,
+            )?)
         })
     }
 }
@@ -153,12 +166,11 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
+        named(name, out, |name| {
             let points = values("points", points, count.saturating_mul(3))?
                 .as_chunks()
                 .0;
-            let (name, pose) = (read_text("name", name)?, placed(pose)?);
-            Ok(Obstacle(urdd_robot::Obstacle::hull(name, pose, points)?))
+            Ok(urdd_robot::Obstacle::hull(name, placed(pose)?, points)?)
         })
     }
 }
@@ -182,7 +194,7 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe {
-        make(out, || {
+        named(name, out, |name| {
             let length = num_vertices.saturating_mul(3);
             let vertices = values("vertices", vertices, length)?.as_chunks().0.to_vec();
             let length = num_triangles.saturating_mul(3);
@@ -199,8 +211,7 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
                 vertices,
                 triangles,
             };
-            let (name, pose) = (read_text("name", name)?, placed(pose)?);
-            Ok(Obstacle(urdd_robot::Obstacle::mesh(name, pose, &mesh)?))
+            Ok(urdd_robot::Obstacle::mesh(name, placed(pose)?, &mesh)?)
         })
     }
 }

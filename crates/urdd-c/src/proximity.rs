@@ -3,17 +3,14 @@
 use std::ffi::c_char;
 use std::sync::Arc;
 
-use urdd_robot::{PairDistance as RobotPair, RobotError, ShapeKind, fill};
+use urdd_robot::{PairDistance as RobotPair, RobotError, ShapeKind};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
 use crate::memory::{Plain, exact_room, put, read_text};
-use crate::robot::{Robot, robot};
+use crate::robot::Robot;
 use crate::rows::Rows;
 use crate::workspace::with_workspace;
-
-/// Configurations in one block of work.
-const BLOCK: usize = 32;
 
 /// The shapes of one kind of a robot, prepared for distances.
 pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>);
@@ -84,7 +81,7 @@ pub unsafe extern "C" fn urdd_robot_proximity(
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let robot = robot(handle)?;
+            let robot = at(handle)?;
             let made = robot
                 .robot
                 .proximity(shape_kind(read_text("kind", kind)?)?)?;
@@ -181,24 +178,11 @@ pub unsafe extern "C" fn urdd_proximity_in_collision(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            proximity.num_dofs(),
-        )?;
-        let out = exact_room("colliding", colliding, rows, (rows, 1), &[q.values])?;
-        Ok(fill(
-            out,
-            1,
-            BLOCK,
-            || (),
-            |(), k, out| {
-                out[0] =
-                    with_workspace(|workspace| proximity.in_collision_with(q.row(k), workspace))?;
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        q.answer(("colliding", colliding, rows), 1, |q, out| {
+            out[0] = with_workspace(|workspace| proximity.in_collision_with(q, workspace))?;
+            Ok(())
+        })
     })
 }
 
@@ -221,25 +205,12 @@ pub unsafe extern "C" fn urdd_proximity_self_distance(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            proximity.num_dofs(),
-        )?;
-        let out = exact_room("distances", distances, rows, (rows, 1), &[q.values])?;
-        Ok(fill(
-            out,
-            1,
-            BLOCK,
-            || (),
-            |(), k, out| {
-                let least =
-                    with_workspace(|workspace| proximity.self_distance_with(q.row(k), workspace))?;
-                out[0] = least.unwrap_or(f64::INFINITY);
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        q.answer(("distances", distances, rows), 1, |q, out| {
+            let least = with_workspace(|workspace| proximity.self_distance_with(q, workspace))?;
+            out[0] = least.unwrap_or(f64::INFINITY);
+            Ok(())
+        })
     })
 }
 
@@ -264,23 +235,12 @@ pub unsafe extern "C" fn urdd_proximity_distances(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            proximity.num_dofs(),
-        )?;
-        let width = proximity.num_pairs();
-        let out = exact_room("distances", distances, length, (rows, width), &[q.values])?;
-        Ok(fill(
-            out,
-            width,
-            BLOCK,
-            || (),
-            |(), k, out| {
-                with_workspace(|workspace| proximity.distances_with(q.row(k), workspace, out))
-            },
-        )?)
+        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        q.answer(
+            ("distances", distances, length),
+            proximity.num_pairs(),
+            |q, out| with_workspace(|workspace| proximity.distances_with(q, workspace, out)),
+        )
     })
 }
 
@@ -307,24 +267,11 @@ pub unsafe extern "C" fn urdd_proximity_nearest(
     run(|| unsafe {
         let proximity = &at(handle)?.0;
         put("found", found, k.min(proximity.num_pairs()))?;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            proximity.num_dofs(),
-        )?;
-        let length = rows.saturating_mul(k);
-        let out = exact_room("nearest", nearest, length, (rows, k), &[q.values])?;
-        Ok(fill(
-            out,
-            k,
-            1,
-            || (),
-            |(), row, out| {
-                copy(&proximity.nearest(q.row(row), k)?, out);
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        q.answer(("nearest", nearest, rows.saturating_mul(k)), k, |q, out| {
+            copy(&proximity.nearest(q, k)?, out);
+            Ok(())
+        })
     })
 }
 
@@ -349,25 +296,27 @@ pub unsafe extern "C" fn urdd_proximity_closest_points(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            proximity.num_dofs(),
-        )?;
-        let width = proximity.num_pairs();
-        let out = exact_room("closest", closest, length, (rows, width), &[q.values])?;
-        Ok(fill(
-            out,
-            width,
-            1,
-            || (),
-            |(), row, out| {
-                copy(&proximity.closest_points(q.row(row))?, out);
-                Ok::<(), RobotError>(())
+        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        q.answer(
+            ("closest", closest, length),
+            proximity.num_pairs(),
+            |q, out| {
+                copy(&proximity.closest_points(q)?, out);
+                Ok(())
             },
-        )?)
+        )
     })
+}
+
+/// # Safety
+/// As for [`Rows::new`].
+unsafe fn proximity_rows<'a>(
+    proximity: &urdd_robot::Proximity,
+    data: *const f64,
+    shape: (usize, usize),
+) -> Result<Rows<'a>, Failure> {
+    // SAFETY: guaranteed by the caller.
+    unsafe { Rows::new("configurations", data, shape, proximity.num_dofs()) }
 }
 
 fn copy(pairs: &[RobotPair], out: &mut [PairDistance]) {

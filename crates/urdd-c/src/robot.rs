@@ -1,15 +1,14 @@
 //! A robot: opened, and freed.
 
 use std::ffi::c_char;
-use std::path::Path;
 use std::sync::OnceLock;
 
-use urdd_directory::source::{Archive, is_urdd};
+use urdd_directory::source::Archive;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status};
-use crate::handle::{Handle, at, free, make};
+use crate::handle::{Handle, free, make};
 use crate::memory::{read_text, values};
 use crate::rows::Rows;
 use crate::text::Owned;
@@ -92,16 +91,7 @@ pub unsafe extern "C" fn urdd_robot_open(path: *const c_char, out: *mut *mut Rob
     // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
-            let path = Path::new(read_text("path", path)?);
-            let robot = urdd_robot::Robot::open(path)?;
-            if path.is_dir() && !is_urdd(path) {
-                let shown = path.display().to_string();
-                let message = format!(
-                    "{}: there is no URDD in this folder: neither urdd.json nor the folder of a module",
-                    shown.escape_debug()
-                );
-                return Err(Failure::new(Status::Open, message));
-            }
+            let robot = urdd_robot::Robot::open_urdd(read_text("path", path)?)?;
             Ok(Robot::new(robot))
         })
     }
@@ -146,13 +136,4 @@ pub(crate) fn archive(name: &str, bytes: &[u8]) -> Result<Archive, Failure> {
 pub unsafe extern "C" fn urdd_robot_free(robot: *mut Robot) -> Status {
     // SAFETY: guaranteed by the caller.
     unsafe { free(robot) }
-}
-
-/// The robot behind a handle.
-///
-/// # Safety
-/// As for [`at`].
-pub(crate) unsafe fn robot<'a>(handle: *const Robot) -> Result<&'a Robot, Failure> {
-    // SAFETY: guaranteed by the caller.
-    unsafe { at(handle) }
 }

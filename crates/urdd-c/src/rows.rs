@@ -1,12 +1,20 @@
-//! Configurations of the caller's: rows of one value for each DOF.
+//! Configurations of the caller's: rows of one value for each DOF, and an answer for each row.
+
+use urdd_robot::{RobotError, fill};
 
 use crate::failure::{Failure, Status};
-use crate::memory::values;
+use crate::memory::{Plain, exact_room, values};
+
+/// Configurations in one block of work.
+const BLOCK: usize = 32;
+/// Motions in one block of work.
+const EDGES: usize = 4;
 
 /// Rows of numbers, one after another.
 #[derive(Clone, Copy)]
 pub(crate) struct Rows<'a> {
     pub values: &'a [f64],
+    count: usize,
     columns: usize,
 }
 
@@ -30,11 +38,62 @@ impl<'a> Rows<'a> {
         let length = count.saturating_mul(columns);
         // SAFETY: guaranteed by the caller.
         let values = unsafe { values(what, data, length) }?;
-        Ok(Rows { values, columns })
+        Ok(Rows {
+            values,
+            count,
+            columns,
+        })
     }
 
     /// A row.
     pub fn row(&self, k: usize) -> &'a [f64] {
         &self.values[k * self.columns..(k + 1) * self.columns]
+    }
+
+    /// The caller's room for `width` results of each row.
+    ///
+    /// # Safety
+    /// As for [`exact_room`].
+    pub unsafe fn room<'o, T: Plain>(
+        &self,
+        (what, out, length): (&'static str, *mut T, usize),
+        width: usize,
+    ) -> Result<&'o mut [T], Failure> {
+        // SAFETY: guaranteed by the caller.
+        unsafe { exact_room(what, out, length, (self.count, width), &[self.values]) }
+    }
+
+    /// Writes `width` results of each row, as `ask` does for one. A few rows are answered on this thread.
+    ///
+    /// # Safety
+    /// As for [`exact_room`].
+    pub unsafe fn answer<T: Plain + Send>(
+        &self,
+        out: (&'static str, *mut T, usize),
+        width: usize,
+        ask: impl Fn(&[f64], &mut [T]) -> Result<(), RobotError> + Sync,
+    ) -> Result<(), Failure> {
+        // SAFETY: guaranteed by the caller.
+        let out = unsafe { self.room(out, width) }?;
+        let row = |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), out);
+        Ok(fill(out, width, BLOCK, || (), row)?)
+    }
+
+    /// Writes a result for each row of both.
+    ///
+    /// # Safety
+    /// As for [`exact_room`].
+    pub unsafe fn answer_both<T: Plain + Send>(
+        &self,
+        other: &Rows,
+        (what, out, length): (&'static str, *mut T, usize),
+        ask: impl Fn(&[f64], &[f64], &mut T) -> Result<(), RobotError> + Sync,
+    ) -> Result<(), Failure> {
+        let inputs = [self.values, other.values];
+        // SAFETY: guaranteed by the caller.
+        let out = unsafe { exact_room(what, out, length, (self.count, 1), &inputs) }?;
+        let row =
+            |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), other.row(k), &mut out[0]);
+        Ok(fill(out, 1, EDGES, || (), row)?)
     }
 }

@@ -7,7 +7,7 @@ use crate::handle::{Handle, at, free, make};
 use crate::memory::{Plain, exact_room, put, read_text};
 use crate::names::out_of_range;
 use crate::proximity::shape_kind;
-use crate::robot::{Robot, robot};
+use crate::robot::Robot;
 
 /// The skips between the shapes of one kind.
 pub struct Skips(urdd_robot::Skips);
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn urdd_robot_skips(
     unsafe {
         make(out, || {
             let kind = shape_kind(read_text("kind", kind)?)?;
-            Ok(Skips(robot(handle)?.robot.skips(kind)?))
+            Ok(Skips(at(handle)?.robot.skips(kind)?))
         })
     }
 }

@@ -3,8 +3,9 @@
 use urdd_robot::{Configurations, RobotError, fill};
 
 use crate::failure::{Status, run};
+use crate::handle::at;
 use crate::memory::{exact_room, room};
-use crate::robot::{Robot, robot};
+use crate::robot::Robot;
 
 /// Configurations in one block of work.
 const BLOCK: usize = 64;
@@ -24,7 +25,7 @@ pub unsafe extern "C" fn urdd_robot_bounds(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let known = robot(handle)?.robot.configurations()?.bounds();
+        let known = at(handle)?.robot.configurations()?.bounds();
         let out = exact_room("bounds", bounds, length, (known.len(), 2), &[])?;
         out.copy_from_slice(known.as_flattened());
         Ok(())
@@ -41,7 +42,7 @@ unsafe fn one(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let known = robot(handle)?.robot.configurations()?;
+        let known = at(handle)?.robot.configurations()?;
         let out = exact_room(
             "configuration",
             configuration,
@@ -103,7 +104,7 @@ pub unsafe extern "C" fn urdd_robot_random(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let known = robot(handle)?.robot.configurations()?;
+        let known = at(handle)?.robot.configurations()?;
         let shape = (rows, known.num_dofs());
         let length = rows.saturating_mul(dofs);
         let out = exact_room("configurations", configurations, length, shape, &[])?;
@@ -130,7 +131,7 @@ pub unsafe extern "C" fn urdd_robot_clamp(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let robot = robot(handle)?;
+        let robot = at(handle)?;
         let known = robot.robot.configurations()?;
         let mut values = robot
             .rows("configuration", configuration, (1, dofs))?

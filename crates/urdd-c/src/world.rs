@@ -2,25 +2,20 @@
 
 use std::sync::Arc;
 
-use urdd_robot::{
-    ObstacleDistance as RobotDistance, RobotError, World, WorldProximity as Queries, fill,
-};
+use urdd_robot::{ObstacleDistance as RobotDistance, World, WorldProximity as Queries};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put, values};
+use crate::memory::{Plain, put, values};
 use crate::obstacle::Obstacle;
 use crate::proximity::Proximity;
 use crate::rows::Rows;
 use crate::workspace::with_workspace;
 
-/// Configurations in one block of work.
-const BLOCK: usize = 16;
-
 /// The shapes of a robot and obstacles, prepared for distances.
 pub struct WorldProximity {
-    queries: Queries<Arc<urdd_robot::Proximity>>,
-    dofs: usize,
+    pub(crate) queries: Queries<Arc<urdd_robot::Proximity>>,
+    pub(crate) dofs: usize,
 }
 
 impl Handle for WorldProximity {
@@ -112,19 +107,10 @@ pub unsafe extern "C" fn urdd_world_proximity_in_collision(
     run(|| unsafe {
         let world = at(handle)?;
         let q = Rows::new("configurations", configurations, (rows, dofs), world.dofs)?;
-        let out = exact_room("colliding", colliding, rows, (rows, 1), &[q.values])?;
-        Ok(fill(
-            out,
-            1,
-            BLOCK,
-            || (),
-            |(), k, out| {
-                out[0] = with_workspace(|workspace| {
-                    world.queries.in_collision_with(q.row(k), workspace)
-                })?;
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        q.answer(("colliding", colliding, rows), 1, |q, out| {
+            out[0] = with_workspace(|workspace| world.queries.in_collision_with(q, workspace))?;
+            Ok(())
+        })
     })
 }
 
@@ -149,20 +135,11 @@ pub unsafe extern "C" fn urdd_world_proximity_min_distance(
     run(|| unsafe {
         let world = at(handle)?;
         let q = Rows::new("configurations", configurations, (rows, dofs), world.dofs)?;
-        let out = exact_room("distances", distances, rows, (rows, 1), &[q.values])?;
-        Ok(fill(
-            out,
-            1,
-            BLOCK,
-            || (),
-            |(), k, out| {
-                out[0] = with_workspace(|workspace| {
-                    world.queries.min_distance_with(q.row(k), workspace)
-                })?
-                .unwrap_or(f64::INFINITY);
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        q.answer(("distances", distances, rows), 1, |q, out| {
+            let least = with_workspace(|workspace| world.queries.min_distance_with(q, workspace))?;
+            out[0] = least.unwrap_or(f64::INFINITY);
+            Ok(())
+        })
     })
 }
 
@@ -191,29 +168,23 @@ pub unsafe extern "C" fn urdd_world_proximity_nearest(
         let world = at(handle)?;
         put("found", found, k.min(world.queries.num_pairs_of_parts()))?;
         let q = Rows::new("configurations", configurations, (rows, dofs), world.dofs)?;
-        let length = rows.saturating_mul(k);
-        let out = exact_room("nearest", nearest, length, (rows, k), &[q.values])?;
-        Ok(fill(
-            out,
-            k,
-            1,
-            || (),
-            |(), row, out| {
-                for (out, pair) in out.iter_mut().zip(world.queries.nearest(q.row(row), k)?) {
-                    *out = of_robot(&pair);
-                }
-                Ok::<(), RobotError>(())
-            },
-        )?)
+        q.answer(("nearest", nearest, rows.saturating_mul(k)), k, |q, out| {
+            for (out, pair) in out.iter_mut().zip(world.queries.nearest(q, k)?) {
+                *out = (&pair).into();
+            }
+            Ok(())
+        })
     })
 }
 
-fn of_robot(found: &RobotDistance) -> ObstacleDistance {
-    ObstacleDistance {
-        link: found.link_idx,
-        piece: found.piece,
-        obstacle: found.obstacle_idx,
-        distance: found.distance,
-        points: found.points,
+impl From<&RobotDistance> for ObstacleDistance {
+    fn from(found: &RobotDistance) -> Self {
+        ObstacleDistance {
+            link: found.link_idx,
+            piece: found.piece,
+            obstacle: found.obstacle_idx,
+            distance: found.distance,
+            points: found.points,
+        }
     }
 }

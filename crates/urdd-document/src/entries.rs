@@ -87,7 +87,7 @@ pub fn version_1_kinds() -> impl Iterator<Item = ModuleKind> {
 }
 
 fn has_version_1(kind: ModuleKind) -> bool {
-    registry::MODULES
+    registry::modules()
         .iter()
         .any(|spec| spec.kind == kind && spec.profile == Profile::V1)
 }

@@ -311,7 +311,7 @@ fn find_spec(kind: ModuleKind, version: Option<&str>) -> (Option<&'static Module
     let Ok(version) = semver::Version::parse(text) else {
         return (None, false);
     };
-    let newest = registry::MODULES
+    let newest = registry::modules()
         .iter()
         .filter(|spec| spec.kind == kind && version.major >= 1)
         .filter_map(|spec| semver::Version::parse(spec.version).ok().map(|v| (v, spec)))

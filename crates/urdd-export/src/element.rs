@@ -15,6 +15,8 @@ enum Child {
     Element(Element),
     /// Raw XML text.
     Raw(String),
+    /// Characters.
+    Text(String),
 }
 
 impl Element {
@@ -45,6 +47,12 @@ impl Element {
         self
     }
 
+    /// Adds characters, as the only content.
+    pub fn containing(mut self, text: &str) -> Self {
+        self.children.push(Child::Text(text.to_owned()));
+        self
+    }
+
     pub fn push(&mut self, child: Element) {
         self.children.push(Child::Element(child));
     }
@@ -72,16 +80,21 @@ impl Element {
         let margin = "  ".repeat(depth);
         *text += &format!("{margin}<{}", self.name);
         for (key, value) in &self.attributes {
-            *text += &format!(" {key}=\"{}\"", attribute(value));
+            *text += &format!(" {key}=\"{}\"", escaped(value));
         }
         if self.children.is_empty() {
             *text += "/>\n";
+            return;
+        }
+        if let [Child::Text(own)] = &self.children[..] {
+            *text += &format!(">{}</{}>\n", escaped(own), self.name);
             return;
         }
         *text += ">\n";
         for child in &self.children {
             match child {
                 Child::Element(element) => element.write(text, depth + 1),
+                Child::Text(own) => *text += &format!("{margin}  {}\n", escaped(own)),
                 Child::Raw(raw) => *text += &format!("{margin}  {}\n", raw.trim()),
             }
         }
@@ -103,9 +116,9 @@ pub(super) fn comment(text: &str) -> String {
     format!("<!-- {safe} -->\n")
 }
 
-/// Escapes the value of an attribute. Tabs and line breaks become character references, since XML readers replace them
+/// Escapes characters, in content or as the value of an attribute. Tabs and line breaks become character references, since XML readers replace them
 /// with spaces otherwise.
-fn attribute(value: &str) -> String {
+fn escaped(value: &str) -> String {
     let text = escape(value).replace('\t', "&#9;");
     text.replace('\n', "&#10;").replace('\r', "&#13;")
 }

@@ -18,7 +18,7 @@ pub enum ExportError {
     #[error("the joints do not form a tree with one root: run `urdd validate` for details")]
     NoTree,
     /// A name that the format cannot represent.
-    #[error("{} cannot hold the name `{}` of a {what}: {reason}; give it another name in the URDF, and generate the URDD again", .format.name(), .name.escape_debug())]
+    #[error("{} cannot hold the name `{}` of {} {what}: {reason}; {}", .format.name(), .name.escape_debug(), article(.what), remedy(.what))]
     Name {
         /// The format.
         format: Format,
@@ -34,6 +34,17 @@ pub enum ExportError {
         "a mimic names a joint that does not exist, or mimics form a cycle: run `urdd validate` for details"
     )]
     Mimics,
+    /// The name of a package that ROS does not take.
+    #[error("`{}` is no name of a package: it has small letters, digits and `_`, and a letter first; give one with --package, or another folder", .0.escape_debug())]
+    Package(String),
+    /// What the URDD does not say is that of another robot.
+    #[error("the groups, frames and gains that were given are those of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]
+    OtherSetup {
+        /// The robot that they belong to.
+        found: String,
+        /// The robot that is exported.
+        expected: String,
+    },
     /// The URDD has no shapes of the requested kind, and the format needs them.
     #[error("no link has {0}: choose other shapes, or another format")]
     NoShapes(ShapeKind),
@@ -48,6 +59,19 @@ pub enum ExportError {
         /// Why.
         error: WriteError,
     },
+}
+
+fn article(what: &str) -> &'static str {
+    if what.starts_with('e') { "an" } else { "a" }
+}
+
+/// Where something gets its name.
+fn remedy(what: &str) -> &'static str {
+    match what {
+        "group" | "end effector" => "give it another name in the file of `urdd export init`",
+        "configuration" => "give it another name with `urdd configurations`",
+        _ => "give it another name in the URDF, and generate the URDD again",
+    }
 }
 
 /// What a format cannot express, or expresses differently.
@@ -76,6 +100,14 @@ pub enum Note {
         /// What is exported instead, and why.
         what: &'static str,
     },
+    /// Links that are exported differently.
+    #[error("{} {what}", some(.links))]
+    Links {
+        /// The links; at least one.
+        links: Vec<String>,
+        /// What they have, and what is exported instead.
+        what: &'static str,
+    },
     /// A joint that the format cannot express exactly.
     #[error("joint `{}`: {what}", .joint.escape_debug())]
     Joint {
@@ -84,6 +116,14 @@ pub enum Note {
         /// What is exported instead.
         what: &'static str,
     },
+    /// Groups, end effectors and tool frames were guessed.
+    #[error(
+        "groups, end effectors and tool frames are guessed: `urdd export init` writes the guesses to a file, to be checked"
+    )]
+    Guessed,
+    /// Something about the robot as a whole, or its root link, that is exported in another way than was asked for.
+    #[error("{0}")]
+    Robot(&'static str),
     /// Elements that URDF does not define and that cannot be copied into the file.
     #[error(
         "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, or are not well-formed on their own"
@@ -100,6 +140,14 @@ pub enum Note {
     /// Spheres whose error rates exceed the goals.
     #[error("the spheres are not good enough to plan with: {0}")]
     Spheres(String),
+    /// The configuration to which cuRobo retracts is in contact.
+    #[error("the retract configuration is in contact: spheres of links `{}` and `{}` overlap by {millimetres} mm; cuRobo refuses it. Name another in `[curobo] retract`", .links[0].escape_debug(), .links[1].escape_debug())]
+    Retract {
+        /// The names of the two links.
+        links: [String; 2],
+        /// By how much their spheres overlap, mm.
+        millimetres: String,
+    },
     /// A flat shape, which the format cannot represent without thickness.
     #[error("link `{}`: a flat piece is a box of {thickness} m", .link.escape_debug())]
     Flat {
@@ -107,6 +155,19 @@ pub enum Note {
         link: String,
         /// The assumed thickness, in metres.
         thickness: &'static str,
+    },
+    /// What the format cannot carry: what, and how many.
+    #[error("left out, since the format has no place for them: {0}")]
+    Lost(String),
+    /// Visual geometry with fewer triangles.
+    #[error("visual geometry has {to} of {from} triangles; where it was sampled, it deviates from the original by at most {} mm", *.micrometres as f64 / 1e3)]
+    Simplified {
+        /// Number of triangles of the original.
+        from: usize,
+        /// Number of triangles in the export.
+        to: usize,
+        /// The greatest sampled distance between both surfaces, um.
+        micrometres: u64,
     },
     /// No link has shapes of the requested kind.
     #[error("no link has {0}: the file has no collision geometry")]
@@ -131,6 +192,28 @@ impl Note {
             skipped: mixed.skipped.len(),
             contacts: mixed.contacts,
         })
+    }
+}
+
+/// Number of names in a note.
+const SHOWN: usize = 5;
+
+/// Names of links, the first few of many, and a verb.
+fn some(links: &[String]) -> String {
+    let shown = if links.len() > SHOWN {
+        SHOWN - 1
+    } else {
+        SHOWN
+    };
+    let names = links.iter().take(shown);
+    let names: Vec<String> = names
+        .map(|name| format!("`{}`", name.escape_debug()))
+        .collect();
+    let names = names.join(", ");
+    match links.len() {
+        1 => format!("link {names} has"),
+        count if count > SHOWN => format!("links {names} and {} others have", count - shown),
+        _ => format!("links {names} have"),
     }
 }
 

@@ -15,6 +15,12 @@ pub enum Format {
     Curobo,
     /// Foam's spheres, JSON.
     Foam,
+    /// URDF with spheres as collision geometry, as Foam writes them.
+    Spherized,
+    /// A configuration package of MoveIt 2.
+    Moveit,
+    /// SDF, for Gazebo and Drake.
+    Sdf,
 }
 
 impl Format {
@@ -26,6 +32,9 @@ impl Format {
         Format::Mjcf,
         Format::Curobo,
         Format::Foam,
+        Format::Spherized,
+        Format::Moveit,
+        Format::Sdf,
     ];
 
     /// Its name in messages and comments.
@@ -37,6 +46,9 @@ impl Format {
             Format::Mjcf => "MJCF",
             Format::Curobo => "cuRobo's YAML",
             Format::Foam => "Foam's JSON",
+            Format::Spherized => "URDF with spheres",
+            Format::Moveit => "MoveIt's configuration",
+            Format::Sdf => "SDF",
         }
     }
 }

@@ -11,6 +11,9 @@
 //! | [`Format::Mjcf`] | MuJoCo | bodies, joints, our shapes as geoms, `<exclude>` and `<pair>` for pairs |
 //! | [`Format::Curobo`] | cuRobo | spheres by link, and pairs of links that are ignored, as YAML |
 //! | [`Format::Foam`] | readers of Foam's JSON | spheres by link |
+//! | [`Format::Spherized`] | any reader of URDF | the robot, with these spheres as collision geometry |
+//! | [`Format::Moveit`] | MoveIt 2 | a package: groups, limits, solvers, planners, controllers, a launch file, our URDF |
+//! | [`Format::Sdf`] | Gazebo, Drake | links, joints, our shapes as collisions, collision filters for Drake |
 //!
 //! ```
 //! use urdd_export::{Format, Options, export};
@@ -26,38 +29,52 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod carried;
 mod contacts;
 mod drake;
 mod element;
 mod error;
 mod format;
+mod groups;
 mod joints;
 mod meshes;
 mod mjcf;
+mod moveit;
 mod names;
+mod nested;
 mod numbers;
 mod options;
 mod output;
 mod pairs;
+mod sdf;
+mod setup;
+mod simplify;
 mod spheres;
 mod srdf;
 mod srdf_import;
 mod srdf_merge;
+mod states_import;
+mod structure;
 mod subject;
 mod urdf;
 mod urdf_elements;
+mod yaml;
 
 use urdd_robot::Robot;
 
+pub use carried::carried_table;
 pub use contacts::link_pairs;
 pub use error::{ExportError, Note};
 pub use format::Format;
-pub use options::{Options, SphereBudget};
+pub use groups::{GroupFault, JointGroup, SrdfGroupsError, joint_groups_of_srdf};
+pub use options::{ActuatorKind, Detail, MjcfOptions, Options, SphereBudget};
 pub use output::Export;
 pub use pairs::{Contacts, LinkPair, MixedPair};
+pub use setup::{Setup, SetupError, SetupFault};
 pub use spheres::SphereRates;
 pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
 pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
+pub use states_import::{ImportedStates, StateFault, StatesError, import_states};
 
 use subject::Subject;
 
@@ -66,13 +83,20 @@ use subject::Subject;
 /// # Errors
 /// If a required module is missing or unusable, and in the other cases of [`ExportError`].
 pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
-    let subject = Subject::new(robot, format, options)?;
-    match format {
+    let mut subject = Subject::new(robot, format, options)?;
+    subject.lost = carried::lost(&subject);
+    let mut made = match format {
         Format::Srdf => srdf::export(&subject),
         Format::Urdf => urdf::export(&subject),
         Format::Drake => drake::export(&subject),
         Format::Mjcf => mjcf::export(&subject),
         Format::Curobo => spheres::curobo::export(&subject),
         Format::Foam => spheres::foam::export(&subject),
-    }
+        Format::Spherized => spheres::urdf::export(&subject),
+        Format::Moveit => moveit::export(&subject),
+        Format::Sdf => sdf::export(&subject),
+    }?;
+    made.notes.extend(subject.lost.clone());
+    made.report = carried::report(&subject, &made);
+    Ok(made)
 }

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::error::ExportError;
+use super::error::{ExportError, Note};
 use super::names::FileNames;
+use super::simplify::simplify_all;
 use super::subject::Subject;
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
@@ -89,8 +90,11 @@ pub(super) struct Look {
     pub rgba: Option<[f64; 4]>,
 }
 
-/// The visual geometry of all links, by link.
-pub(super) fn looks(subject: &Subject) -> Result<Vec<Vec<Look>>, ExportError> {
+/// The visual geometry of all links, by link, simplified where that is asked for.
+pub(super) fn looks(
+    subject: &Subject,
+    notes: &mut Vec<Note>,
+) -> Result<Vec<Vec<Look>>, ExportError> {
     let mut looks: Vec<Vec<Look>> = subject.links.iter().map(|_| Vec::new()).collect();
     if !subject.options.visuals {
         return Ok(looks);
@@ -109,5 +113,7 @@ pub(super) fn looks(subject: &Subject) -> Result<Vec<Vec<Look>>, ExportError> {
             }
         }
     }
+    let meshes = looks.iter_mut().flatten().map(|look| &mut look.mesh);
+    notes.extend(simplify_all(meshes.collect(), subject.options.detail));
     Ok(looks)
 }

@@ -27,6 +27,9 @@ pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), Ex
             Format::Mjcf if is_inner_world => {
                 "MuJoCo has a body of that name, which only the root can use"
             }
+            Format::Sdf if is_inner_world => {
+                "SDF has a frame of that name, which only the root can use"
+            }
             Format::Drake if is_inner_world => {
                 "Drake has a body of that name, which only the root can use"
             }
@@ -57,12 +60,48 @@ pub(super) fn check_unique<'n>(
     }
 }
 
+/// An error if the format cannot represent names that a person chose, or two are the same.
+pub(super) fn check_names<'n>(
+    format: Format,
+    what: &'static str,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Result<(), ExportError> {
+    let mut seen = HashSet::new();
+    for name in names {
+        one(format, what, name)?;
+        if !seen.insert(name) {
+            return Err(error(format, what, name, "another one has it"));
+        }
+    }
+    Ok(())
+}
+
+/// An error if ROS does not take the name of a package (REP 144): small letters, digits and `_`, a letter first.
+pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
+    let is_first = |byte: &u8| byte.is_ascii_lowercase();
+    let is_inside = |byte: &u8| is_first(byte) || byte.is_ascii_digit() || *byte == b'_';
+    match name.as_bytes() {
+        [first, rest @ ..] if is_first(first) && rest.iter().all(is_inside) => Ok(()),
+        _ => Err(ExportError::Package(name.to_owned())),
+    }
+}
+
 const TWICE: &str = "the format needs it for a part of a joint of several DOFs too, or for a frame";
 
 fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
+        Format::Moveit if name.contains("${") || name.contains("$(") => {
+            "MoveIt reads files by xacro, which would evaluate it"
+        }
+        Format::Sdf if name.contains("::") => {
+            "SDF reads the part before `::` as the name of a model"
+        }
+        Format::Sdf if name.starts_with("__") && name.ends_with("__") => {
+            "SDF keeps such names for itself"
+        }
+        Format::Sdf if name.trim() != name => "SDF drops white space at the ends of a name",
         Format::Drake if name.is_empty() => "Drake refuses a robot without a name",
         Format::Drake if what == "link" && name.contains("::") => {
             "Drake reads the part before `::` as the name of a model"

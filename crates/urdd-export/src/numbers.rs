@@ -2,6 +2,9 @@
 
 use nalgebra::Matrix3;
 
+/// Half the thickness of a flat box for programs that reject flat boxes, in metres.
+pub(super) const HALF_THICKNESS: f64 = 1e-6;
+
 /// A number.
 pub(super) fn number(value: f64) -> String {
     // Turns -0 into 0.

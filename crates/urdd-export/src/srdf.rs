@@ -10,15 +10,17 @@ use urdd_robot::RobotError;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut robot = Element::new("robot").with("name", subject.urdf.name.as_str());
+    push_pairs(subject, &mut robot);
+    let notes = subject.notes();
+    let text = robot.document(&subject.comments(basis(subject)?, &notes)?);
+    Ok(Export::of(text, Vec::new(), notes))
+}
+
+/// Adds the pairs that need no check.
+pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
     for pair in subject.disabled() {
         robot.push(disabled(subject, pair));
     }
-    let notes = subject.notes();
-    Ok(Export {
-        text: robot.document(&subject.comments(basis(subject)?, &notes)?),
-        files: Vec::new(),
-        notes,
-    })
 }
 
 fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
@@ -48,7 +50,7 @@ fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
 }
 
 /// The basis of the reasons: the shapes and the number of samples.
-fn basis(subject: &Subject) -> Result<String, RobotError> {
+pub(super) fn basis(subject: &Subject) -> Result<String, RobotError> {
     let shapes = subject.options.shapes;
     Ok(match subject.robot.num_samples()? {
         Some(samples) => {

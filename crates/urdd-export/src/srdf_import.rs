@@ -6,7 +6,7 @@ use roxmltree::Node;
 use thiserror::Error;
 
 use super::pairs::{ascending, last_edits};
-use super::srdf_merge::{SrdfError, elements, parse};
+use super::srdf_merge::{SrdfError, elements, parse_of};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
 
@@ -75,14 +75,8 @@ pub struct ImportedSkips {
 /// If the text is not an SRDF of the robot, names a link that the robot does not have, or contradicts an edit without
 /// `force`.
 pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, ImportError> {
-    let document = parse(text)?;
+    let document = parse_of(text, &robot.description()?.name)?;
     let root = document.root_element();
-    let found = root.attribute("name").unwrap_or_default();
-    let expected = robot.description()?.name;
-    if found != expected {
-        let found = found.to_owned();
-        return Err(SrdfError::OtherRobot { found, expected }.into());
-    }
     let links = robot.link_names()?;
     let names = links.iter().map(String::as_str).zip(0..);
     let by_name: HashMap<&str, usize> = names.collect();

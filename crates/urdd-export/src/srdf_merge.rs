@@ -61,16 +61,10 @@ pub struct MergedSrdf {
 /// # Errors
 /// If `old` is not an SRDF, or that of another robot.
 pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
-    let old_document = parse(old)?;
     let new_document = parse(new)?;
-    let (robot, source) = (old_document.root_element(), new_document.root_element());
-    let names = [robot, source].map(|robot| robot.attribute("name").unwrap_or_default());
-    if names[0] != names[1] {
-        return Err(SrdfError::OtherRobot {
-            found: names[0].to_owned(),
-            expected: names[1].to_owned(),
-        });
-    }
+    let source = new_document.root_element();
+    let old_document = parse_of(old, source.attribute("name").unwrap_or_default())?;
+    let robot = old_document.root_element();
     let (gone, persons): (Vec<Node>, Vec<Node>) =
         elements(robot, DISABLED).partition(|pair| is_found_by_programs(*pair));
     let kept: HashSet<[&str; 2]> = persons.iter().map(|pair| links(*pair)).collect();
@@ -144,6 +138,25 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
     match document.root_element().tag_name().name() {
         "robot" => Ok(document),
         other => Err(SrdfError::NotSrdf(other.to_owned())),
+    }
+}
+
+/// An SRDF of this robot.
+///
+/// # Errors
+/// If the text is not an SRDF, or that of another robot.
+pub(super) fn parse_of<'t>(text: &'t str, robot: &str) -> Result<Document<'t>, SrdfError> {
+    let document = parse(text)?;
+    match document
+        .root_element()
+        .attribute("name")
+        .unwrap_or_default()
+    {
+        found if found == robot => Ok(document),
+        found => Err(SrdfError::OtherRobot {
+            found: found.to_owned(),
+            expected: robot.to_owned(),
+        }),
     }
 }
 

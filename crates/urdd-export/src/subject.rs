@@ -1,6 +1,9 @@
 //! The input of all exports.
 
+use std::borrow::Cow;
 use std::cmp::Reverse;
+use std::collections::HashMap;
+use std::ops::Deref;
 
 use super::contacts::link_pairs;
 use super::error::{ExportError, Note};
@@ -8,12 +11,19 @@ use super::format::Format;
 use super::names;
 use super::options::Options;
 use super::pairs::{LinkPair, pairs};
-use urdd_document::mimics::Mimics;
-use urdd_document::robot::{Robot as View, of_urdf};
-use urdd_document::tree::Tree;
+use super::setup::Setup;
+use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+
+impl Deref for Subject<'_> {
+    type Target = Structure;
+
+    fn deref(&self) -> &Structure {
+        &self.structure
+    }
+}
 
 /// The data of a robot that every format needs.
 pub(super) struct Subject<'a> {
@@ -21,15 +31,13 @@ pub(super) struct Subject<'a> {
     pub format: Format,
     pub options: &'a Options,
     pub urdf: UrdfModule,
-    /// The same with the defaults of URDF filled in.
-    pub view: View,
-    pub tree: Tree,
-    /// For each joint, the DOF that it follows, with mimic chains resolved.
-    pub mimics: Mimics,
+    pub structure: Structure,
     /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty for formats without pairs.
     pub pairs: Vec<LinkPair>,
+    /// What the format cannot carry of this robot.
+    pub lost: Option<Note>,
 }
 
 impl<'a> Subject<'a> {
@@ -39,14 +47,19 @@ impl<'a> Subject<'a> {
         options: &'a Options,
     ) -> Result<Self, ExportError> {
         let urdf = robot.description()?;
-        let view = of_urdf(&urdf);
-        let tree = Tree::new(&view).ok_or(ExportError::NoTree)?;
-        names::check(format, &view, &tree)?;
-        let mimics = Mimics::resolve(&view).ok_or(ExportError::Mimics)?;
+        let structure = Structure::of(&urdf)?;
+        names::check(format, &structure.view, &structure.tree)?;
+        options
+            .package
+            .as_deref()
+            .map_or(Ok(()), names::check_package)?;
+        if let Some(setup) = &options.setup {
+            structure.check(&setup.of)?;
+        }
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
         let pairs = match format {
             // URDF cannot express pairs; the sphere formats compute their own.
-            Format::Urdf | Format::Curobo | Format::Foam => Vec::new(),
+            Format::Urdf | Format::Curobo | Format::Foam | Format::Spherized => Vec::new(),
             // MJCF handles pairs of pieces exactly.
             Format::Mjcf => pairs(robot, options)?,
             _ => link_pairs(robot, options)?,
@@ -56,11 +69,10 @@ impl<'a> Subject<'a> {
             format,
             options,
             urdf,
-            view,
-            tree,
-            mimics,
+            structure,
             links,
             pairs,
+            lost: None,
         })
     }
 
@@ -73,11 +85,40 @@ impl<'a> Subject<'a> {
             }
         }
         // The sphere formats need shapes.
-        let is_needed = matches!(self.format, Format::Curobo | Format::Foam);
+        let is_needed = matches!(
+            self.format,
+            Format::Curobo | Format::Foam | Format::Spherized
+        );
         match is_needed && shapes.iter().all(Vec::is_empty) {
             true => Err(ExportError::NoShapes(kind)),
             false => Ok(shapes),
         }
+    }
+
+    /// Whether the root link of an MJCF moves freely. One called `world` is MuJoCo's own body, which cannot.
+    pub fn has_free_base(&self) -> bool {
+        self.options.floating() && !self.is_world(self.tree.root)
+    }
+
+    /// What the format needs and the URDD does not say: a person's, or guesses, with a note.
+    pub fn setup(&self, notes: &mut Vec<Note>) -> Result<Cow<'_, Setup>, ExportError> {
+        Ok(match &self.options.setup {
+            Some(setup) => Cow::Borrowed(setup),
+            None => {
+                notes.push(Note::Guessed);
+                Cow::Owned(Setup::guess(self.robot)?)
+            }
+        })
+    }
+
+    /// For each joint of one DOF that follows no other, the index of its DOF.
+    pub fn dofs(&self) -> Result<Vec<Option<usize>>, ExportError> {
+        let dofs = self.robot.dof_names()?.iter().map(String::as_str).zip(0..);
+        let dofs: HashMap<&str, usize> = dofs.collect();
+        let joints = self.view.joints.iter();
+        Ok(joints
+            .map(|joint| dofs.get(joint.name.as_str()).copied())
+            .collect())
     }
 
     /// The pairs that need no collision check.
@@ -119,7 +160,8 @@ impl<'a> Subject<'a> {
     pub fn comments(&self, what: String, notes: &[Note]) -> Result<Vec<String>, RobotError> {
         let mut lines = self.origin()?;
         lines.push(what);
-        lines.extend(notes.iter().map(|note| format!("Note: {note}.")));
+        let notes = notes.iter().chain(&self.lost);
+        lines.extend(notes.map(|note| format!("Note: {note}.")));
         Ok(lines)
     }
 }

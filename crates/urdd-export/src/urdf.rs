@@ -1,24 +1,39 @@
 //! URDF: the robot as in its source, with the URDD's shapes as collision geometry.
 
+use super::element::Element;
 use super::error::{ExportError, Note};
 use super::joints::joints;
-use super::output::Export;
+use super::output::{Export, Files};
 use super::subject::Subject;
 use super::urdf_elements::{
-    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, links, push_unknown, robot, type_name,
+    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, empty_robot, links, push_unknown,
+    type_name,
 };
+use urdd_robot::LinkShape;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
-    let urdf = &subject.urdf;
-    let mut robot = robot(subject);
+    let shapes = subject.options.shapes;
     let mut notes = Vec::new();
-    let (links, files) = links(subject, Geometry::Plain, &mut notes)?;
+    let (robot, files) = robot(subject, subject.shapes_by_link(shapes)?, &mut notes)?;
+    let text = robot.document(&subject.comments(format!("Collision geometry: {shapes}."), &notes)?);
+    Ok(Export::of(text, files, notes))
+}
+
+/// The robot with these shapes of its links as collision geometry, and the files that it references.
+pub(super) fn robot(
+    subject: &Subject,
+    shapes: Vec<Vec<LinkShape>>,
+    notes: &mut Vec<Note>,
+) -> Result<(Element, Files), ExportError> {
+    let urdf = &subject.urdf;
+    let mut robot = empty_robot(subject);
+    let (links, files) = links(subject, Geometry::Plain, shapes, notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
         lost += push_unknown(&mut element, &link.unknown_elements, IN_LINK);
         robot.push(element);
     }
-    for joint in joints(subject, &mut notes) {
+    for joint in joints(subject, notes) {
         let mut element = element_of_joint(&joint, "joint", &type_name(joint.joint_type));
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
@@ -27,10 +42,5 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
-    let shapes = subject.options.shapes;
-    Ok(Export {
-        text: robot.document(&subject.comments(format!("Collision geometry: {shapes}."), &notes)?),
-        files,
-        notes,
-    })
+    Ok((robot, files))
 }

@@ -6,16 +6,14 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::numbers::{number, numbers, rpy};
+use super::numbers::{HALF_THICKNESS, number, numbers, rpy};
+use super::output::Files;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::Kind;
-
-/// Half the thickness of a flat box for programs that reject flat boxes, in metres.
-const HALF_THICKNESS: f64 = 1e-6;
 
 /// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,37 +25,46 @@ pub(super) enum Geometry {
 }
 
 /// The empty `robot` element.
-pub(super) fn robot(subject: &Subject) -> Element {
+pub(super) fn empty_robot(subject: &Subject) -> Element {
     Element::new("robot")
         .with("name", subject.urdf.name.as_str())
         .with_some("version", subject.urdf.version.as_deref())
 }
 
-/// Files by name.
-type Files = Vec<(String, Vec<u8>)>;
-
-/// The links, and the files that they reference.
+/// The links with these shapes, in link order, and the files that they reference.
 pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
+    shapes: Vec<Vec<LinkShape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
     if shapes.iter().all(Vec::is_empty) {
         notes.push(Note::NoShapes(subject.options.shapes));
     }
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
+    let friction = subject
+        .options
+        .friction()
+        .filter(|_| geometry == Geometry::Drake);
     let mut files = MeshFiles::new(subject);
     let mut elements = Vec::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
-    let each = each.zip(shapes.into_iter().zip(looks(subject)?));
+    let each = each.zip(shapes.into_iter().zip(looks(subject, notes)?));
     for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
         let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
         for (look, place) in looks.into_iter().zip(0..) {
             element.push(visual(idx, place, look, &mut files)?);
         }
         for shape in shapes {
-            element.push(collision(idx, shape, geometry, &mut files)?);
+            let mut collision = collision(idx, shape, geometry, &mut files)?;
+            if let Some(friction) = friction.map(number) {
+                let mut properties = Element::new("drake:proximity_properties");
+                for key in ["drake:mu_static", "drake:mu_dynamic"] {
+                    properties.push(Element::new(key).with("value", friction.as_str()));
+                }
+                collision.push(properties);
+            }
+            element.push(collision);
         }
         elements.push(element);
     }

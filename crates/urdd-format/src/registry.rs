@@ -138,13 +138,18 @@ macro_rules! modules {
 
         /// Every (module, version): version 1 in the order of the specification's table, then legacy
         /// versions in that order, newest first.
-        pub static MODULES: &[ModuleSpec] = &[$($(ModuleSpec {
-            kind: ModuleKind::$kind,
-            version: $version,
-            profile: Profile::$profile,
-            schema: || schemars::schema_for!($ty),
-            read: |value| serde::Deserialize::deserialize(value).map(|m| ModuleDocument::$variant(Box::new(m))),
-        },)+)*];
+        // A `static` would be compiled into whatever does not use it, too.
+        pub fn modules() -> &'static [ModuleSpec] {
+            const {
+                &[$($(ModuleSpec {
+                    kind: ModuleKind::$kind,
+                    version: $version,
+                    profile: Profile::$profile,
+                    schema: || schemars::schema_for!($ty),
+                    read: |value| serde::Deserialize::deserialize(value).map(|m| ModuleDocument::$variant(Box::new(m))),
+                },)+)*]
+            }
+        }
     };
 }
 
@@ -241,7 +246,7 @@ impl ModuleSpec {
 
 /// The entry of a (module, version). An empty version selects a published module without one.
 pub fn find(kind: ModuleKind, version: &str) -> Option<&'static ModuleSpec> {
-    MODULES
+    modules()
         .iter()
         .find(|spec| spec.kind == kind && spec.version == version)
 }

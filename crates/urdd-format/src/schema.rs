@@ -10,7 +10,7 @@ use super::annotations::KEYWORDS;
 use super::conformance::{ProducerResult, RESULT_VERSION, ValidatorResult};
 use super::diff_report::{DIFF_REPORT_VERSION, DiffReport};
 use super::hexadecimal::hexadecimal;
-use super::registry::{MODULES, ModuleSpec, Profile};
+use super::registry::{ModuleSpec, Profile, modules};
 use super::report::{REPORT_VERSION, Report};
 use super::root_metadata::RootMetadata;
 
@@ -104,7 +104,7 @@ impl Subject {
     /// reports, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
         std::iter::once(Subject::RootMetadata)
-            .chain(MODULES.iter().map(Subject::Module))
+            .chain(modules().iter().map(Subject::Module))
             .chain([
                 Subject::Report,
                 Subject::FirstDiffReport,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use thiserror::Error;
 
-use urdd_format::registry::{MODULES, ModuleKind, Profile};
+use urdd_format::registry::{ModuleKind, Profile, modules};
 use urdd_format::root_metadata::ConformanceClass;
 
 /// A word that is not the name of a module.
@@ -27,7 +27,7 @@ const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition, ModuleKind::Nam
 
 /// The modules of version 1 that can be selected, in the order of the specification.
 pub(crate) fn kinds() -> Vec<ModuleKind> {
-    let current = MODULES.iter().filter(|spec| spec.profile == Profile::V1);
+    let current = modules().iter().filter(|spec| spec.profile == Profile::V1);
     let kinds = current.map(|spec| spec.kind);
     kinds
         .filter(|kind| !NOT_SELECTABLE.contains(kind))

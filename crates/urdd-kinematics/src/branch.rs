@@ -46,6 +46,34 @@ impl ForwardKinematics {
             steps,
         }
     }
+
+    /// For each link, the link nearest to the root that no DOF moves against it: links with the same one are one body.
+    pub fn rigid_bodies(&self) -> Vec<usize> {
+        let mut body: Vec<usize> = (0..self.num_links()).collect();
+        // Parents come before children.
+        for step in &self.steps {
+            if step.motion.dofs().is_empty() {
+                body[step.child] = body[step.parent];
+            }
+        }
+        body
+    }
+
+    /// The DOFs that move one of two links against the other, ascending: those of the joints between them, and those
+    /// that mimic joints between them follow.
+    pub fn dofs_between(&self, a: usize, b: usize) -> Vec<usize> {
+        let [of_a, of_b] = [a, b].map(|link| self.path(link).collect::<Vec<_>>());
+        let only = |own: &[&Step], other: &[&Step]| -> Vec<usize> {
+            let own = own.iter();
+            let own = own.filter(|step| !other.iter().any(|one| one.child == step.child));
+            own.flat_map(|step| step.motion.dofs()).collect()
+        };
+        let mut dofs = only(&of_a, &of_b);
+        dofs.extend(only(&of_b, &of_a));
+        dofs.sort_unstable();
+        dofs.dedup();
+        dofs
+    }
 }
 
 impl Branch<'_> {

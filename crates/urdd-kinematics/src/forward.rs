@@ -56,7 +56,7 @@ pub struct ForwardKinematics {
     num_dofs: usize,
     root: usize,
     /// One step per joint; parents come before children.
-    steps: Vec<Step>,
+    pub(super) steps: Vec<Step>,
     /// For each link, the index of the step that moves it; `None` for the root.
     step_of: Vec<Option<usize>>,
 }

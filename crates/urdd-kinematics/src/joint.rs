@@ -33,7 +33,7 @@ impl Position {
         }
     }
 
-    fn at(&self, q: &[f64]) -> f64 {
+    pub fn at(&self, q: &[f64]) -> f64 {
         match self.dof {
             Some(dof) => self.multiplier * q[dof] + self.offset,
             None => self.offset,
@@ -68,6 +68,18 @@ pub(super) enum Motion {
 }
 
 impl Motion {
+    /// The DOFs that move the joint.
+    pub fn dofs(&self) -> Vec<usize> {
+        match self {
+            Motion::Fixed => Vec::new(),
+            Motion::Turn { position, .. } | Motion::Slide { position, .. } => {
+                position.dof.into_iter().collect()
+            }
+            Motion::Plane { dofs, .. } | Motion::Ball { dofs } => dofs.to_vec(),
+            Motion::Float { dofs } => dofs.to_vec(),
+        }
+    }
+
     /// The motion of a joint type that is not fixed; `None` without the axis or the DOFs that it needs.
     fn of(
         joint_type: JointType,

@@ -16,9 +16,11 @@ pub mod learn;
 pub mod pose;
 pub mod pose_matrix;
 pub mod rotation;
+mod travel;
 
 pub use branch::{Branch, Place};
 pub use configurations::{ConfigurationSpace, unit};
 pub use error::{ConfigurationError, Fault, KinematicsError};
 pub use forward::ForwardKinematics;
 pub use joint::{has_axis, joint_motion, num_dofs};
+pub use travel::Travel;

@@ -7,14 +7,14 @@ use super::pose::UNIT_TOLERANCE;
 /// Writes a pose as the 16 numbers of its matrix.
 pub fn write_matrix(pose: &Isometry3<f64>, out: &mut [f64]) {
     let rotation = pose.rotation.to_rotation_matrix();
-    let translation = &pose.translation.vector;
-    for row in 0..3 {
-        for column in 0..3 {
-            out[4 * row + column] = rotation[(row, column)];
-        }
-        out[4 * row + 3] = translation[row];
-    }
-    out[12..16].copy_from_slice(&[0.0, 0.0, 0.0, 1.0]);
+    let (r, t) = (rotation.matrix(), &pose.translation.vector);
+    let rows = [
+        [r.m11, r.m12, r.m13, t.x],
+        [r.m21, r.m22, r.m23, t.y],
+        [r.m31, r.m32, r.m33, t.z],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+    out[..16].copy_from_slice(rows.as_flattened());
 }
 
 /// The pose of a matrix of a rotation and a translation, without a check that it is.

@@ -21,7 +21,7 @@ pub(crate) fn error_if(is_refused: bool, mut finding: Finding) -> Finding {
     finding
 }
 
-/// Declares the rule of a file as `RULE`, checked by the file's function `check`. `urdd explain` prints its
+/// Declares the rule of a file as `Declared::RULE`, checked by the file's function `check`. `urdd explain` prints its
 /// documentation.
 macro_rules! declare_lint {
     (
@@ -29,21 +29,26 @@ macro_rules! declare_lint {
         $code:ident $name:literal, $severity:ident, $consequence:ident, since $since:literal
         $(, $default:ident by default)?
     ) => {
-        $(#[doc = $doc])+
-        pub static RULE: $crate::rule::LintRule = $crate::rule::LintRule {
-            description: $crate::rule::Description {
-                code: urdd_validate::code::Code::$code,
-                name: $name,
-                severity: urdd_validate::rule::Severity::$severity,
-                clause: None,
-                since: $since,
-                consequence: urdd_validate::rule::Consequence::$consequence,
-                phase: urdd_validate::rule::Phase::References,
-                doc: &[$($doc),+],
-            },
-            on_by_default: true $(&& $crate::rule::$default)?,
-            check,
-        };
+        /// The rule of this file. A `static` of the module would be compiled into whatever does not use it, too.
+        pub struct Declared;
+
+        impl Declared {
+            $(#[doc = $doc])+
+            pub const RULE: &'static $crate::rule::LintRule = &$crate::rule::LintRule {
+                description: $crate::rule::Description {
+                    code: urdd_validate::code::Code::$code,
+                    name: $name,
+                    severity: urdd_validate::rule::Severity::$severity,
+                    clause: None,
+                    since: $since,
+                    consequence: urdd_validate::rule::Consequence::$consequence,
+                    phase: urdd_validate::rule::Phase::References,
+                    doc: &[$($doc),+],
+                },
+                on_by_default: true $(&& $crate::rule::$default)?,
+                check,
+            };
+        }
     };
 }
 pub(crate) use declare_lint;

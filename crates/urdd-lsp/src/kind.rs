@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::uri;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_format::registry::{self, MODULES, ModuleKind, ModuleSpec};
+use urdd_format::registry::{self, ModuleKind, ModuleSpec, modules};
 
 /// What a document is.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,7 +58,7 @@ impl Kind {
 pub enum Schema {
     /// Of `urdd.json`.
     Root,
-    /// Of a module: its index in [`MODULES`], and whether the document is of a later minor version.
+    /// Of a module: its index in [`modules`], and whether the document is of a later minor version.
     Module(usize, bool),
 }
 
@@ -95,7 +95,7 @@ impl Schema {
         let text = fs::read_to_string(folder.join("VERSION")).unwrap_or_default();
         let text = text.trim_end();
         let of = |spec: &ModuleSpec| {
-            MODULES
+            modules()
                 .iter()
                 .position(|other| other.kind == spec.kind && other.version == spec.version)
         };
@@ -104,11 +104,11 @@ impl Schema {
         }
         if text.is_empty() {
             // A module that somebody begins to write.
-            let newest = MODULES.iter().find(|spec| spec.kind == kind)?;
+            let newest = modules().iter().find(|spec| spec.kind == kind)?;
             return Some(Schema::Module(of(newest)?, false));
         }
         let version = semver::Version::parse(text).ok()?;
-        let known = MODULES.iter().filter(|spec| spec.kind == kind);
+        let known = modules().iter().filter(|spec| spec.kind == kind);
         let known =
             known.filter_map(|spec| Some((semver::Version::parse(spec.version).ok()?, spec)));
         let newest = known

@@ -4,6 +4,7 @@ use rayon::iter::repeat_n;
 use rayon::prelude::*;
 
 use super::error::RobotError;
+use super::memory::has_room;
 
 /// Allocates the results of `count` configurations, `width` values each. The caller determines both numbers.
 ///
@@ -17,6 +18,9 @@ pub(super) fn room<T: Clone + Default + Send>(
     let Some(values) = count.checked_mul(width) else {
         return Err(memory);
     };
+    if !has_room(values.saturating_mul(size_of::<T>())) {
+        return Err(memory);
+    }
     let mut room = Vec::new();
     room.try_reserve_exact(values).map_err(|_| memory)?;
     room.par_extend(repeat_n(T::default(), values));
@@ -109,5 +113,17 @@ mod tests {
             };
             assert_eq!(check_room(found, count, width), Err(expected));
         }
+    }
+
+    /// As many bytes as the machine has are never free. Linux would give them, and end the process that fills them.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn as_much_as_the_machine_has_is_refused() {
+        let text = std::fs::read_to_string("/proc/meminfo").expect("a file");
+        let total = text.split_whitespace().nth(1).expect("a number");
+        let total: usize = total.parse().expect("a number");
+        let refused = room::<f64>(total, 1024 / size_of::<f64>());
+        assert!(matches!(refused, Err(RobotError::Memory { .. })));
+        assert_eq!(room::<f64>(1000, 7).expect("room").len(), 7000);
     }
 }

@@ -20,6 +20,14 @@ pub enum RobotError {
         /// Why.
         error: ReadError,
     },
+    /// The folder has no URDD.
+    #[error(
+        "{path}: there is no URDD in this folder: neither urdd.json nor the folder of a module"
+    )]
+    NoUrdd {
+        /// Its path.
+        path: String,
+    },
     /// The robot's files can no longer be listed.
     #[error("the files of the URDD cannot be listed: {0}")]
     List(ReadError),
@@ -56,7 +64,7 @@ pub enum RobotError {
     },
     /// Not enough memory for the results.
     #[error(
-        "not enough memory for {count} configurations with {width} values each: ask for fewer at once"
+        "not enough memory for {count} configurations with {width} results each: ask for fewer at once"
     )]
     Memory {
         /// Number of configurations.
@@ -106,6 +114,9 @@ pub enum RobotError {
         /// Number of items.
         count: usize,
     },
+    /// A margin or a resolution that makes no sense.
+    #[error("{0}")]
+    Setting(&'static str),
     /// An invalid target or invalid bounds for inverse kinematics.
     #[error("inverse kinematics: {0}")]
     Target(&'static str),

@@ -5,11 +5,12 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion};
 use super::Robot;
 use super::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::inverse::{Goal, Inverse, InverseSettings};
+use urdd_kinematics::inverse::{Conditions, Goal, Inverse, InverseSettings};
 
 /// The target of inverse kinematics, in the root link's frame.
 ///
-/// It is a position for a point of the link and, with [`Target::pose`], a rotation for the link.
+/// It is a position for a point of the link ([`Target::position`]), a rotation for the link ([`Target::rotation`]), or
+/// both ([`Target::pose`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target(Goal);
 
@@ -19,8 +20,9 @@ impl Target {
         Self(Goal {
             link,
             point: Point3::origin(),
-            position: pose.translation.vector.into(),
+            position: Some(pose.translation.vector.into()),
             rotation: Some(pose.rotation),
+            weights: None,
         })
     }
 
@@ -29,9 +31,30 @@ impl Target {
         Self(Goal {
             link,
             point: Point3::origin(),
-            position: position.into(),
+            position: Some(position.into()),
             rotation: None,
+            weights: None,
         })
+    }
+
+    /// A target rotation for the link's frame. The link's position is free.
+    pub fn rotation(link: usize, rotation: UnitQuaternion<f64>) -> Self {
+        Self(Goal {
+            link,
+            point: Point3::origin(),
+            position: None,
+            rotation: Some(rotation),
+            weights: None,
+        })
+    }
+
+    /// Multiplies the errors by factors of at least 0, before they are compared with the tolerances: those of the
+    /// position along x, y, z, then of the rotation about x, y, z, along the axes of the target rotation, or of the root
+    /// link's frame for a position alone. A factor of 0 leaves a direction free, such as the rotation of a tool about its
+    /// own axis.
+    pub fn weighted(mut self, weights: [f64; 6]) -> Self {
+        self.0.weights = Some(weights);
+        self
     }
 
     /// Applies the target position to another point of the link, such as a tool tip, instead of the origin of its
@@ -46,10 +69,17 @@ impl Target {
         self.0.link
     }
 
-    fn is_finite(&self) -> bool {
+    fn check(&self) -> Result<(), RobotError> {
         let rotation = self.0.rotation.unwrap_or_else(UnitQuaternion::identity);
-        let numbers = self.0.point.iter().chain(self.0.position.iter());
-        numbers.chain(rotation.coords.iter()).all(|x| x.is_finite())
+        let position = self.0.position.unwrap_or_else(Point3::origin);
+        let numbers = self.0.point.iter().chain(position.iter());
+        let mut numbers = numbers.chain(rotation.coords.iter());
+        let weights = self.0.weights.unwrap_or_default();
+        match numbers.all(|x| x.is_finite()) {
+            false => Err(RobotError::Target("the target is not finite")),
+            true if weights.iter().all(|x| x.is_finite() && *x >= 0.0) => Ok(()),
+            true => Err(RobotError::Target("a weight is not finite, or below 0")),
+        }
     }
 }
 
@@ -57,8 +87,10 @@ impl Robot {
     /// Searches for a configuration within the bounds that reaches the target: by damped least squares from `start`,
     /// then from random configurations.
     ///
-    /// Supports mimic joints and joints with several DOFs. Does not check for self-collision. Returns the first
-    /// solution within the tolerances; it depends only on the target, `start` and the settings.
+    /// Supports mimic joints and joints with several DOFs. Does not check for collisions:
+    /// [`Robot::inverse_kinematics_where`] does. Returns the first solution within the tolerances, or the one that is
+    /// nearest to a [posture](InverseSettings::posture); it depends only on the target, `start` and the settings. If there
+    /// is none, the [verdict](crate::Verdict) says why.
     ///
     /// ```
     /// use urdd_robot::{Inverse, InverseSettings, Robot, Target};
@@ -109,6 +141,38 @@ impl Robot {
         settings: &InverseSettings,
         cancellation: &Cancellation,
     ) -> Result<Inverse, RobotError> {
+        let accepts = |_: &[f64]| true;
+        self.inverse_kinematics_where(target, start, settings, &accepts, cancellation)
+    }
+
+    /// As [`Robot::inverse_kinematics`], for solutions that `accepts` allows: those without collision, for example. The
+    /// search goes on with other random configurations until one is allowed. If all are refused, the verdict is
+    /// [`Verdict::Refused`](crate::Verdict::Refused), with the first of them.
+    ///
+    /// ```
+    /// use urdd_robot::{InverseSettings, Robot, RobotError, ShapeKind, Target};
+    ///
+    /// # fn ask(robot: &Robot, target: Target) -> Result<(), RobotError> {
+    /// let proximity = robot.proximity(ShapeKind::Pieces)?;
+    /// let start = robot.configurations()?.zero();
+    /// let is_free = |q: &[f64]| proximity.in_collision(q) == Ok(false);
+    /// let settings = InverseSettings::default();
+    /// let found = robot.inverse_kinematics_where(&target, &start, &settings, &is_free, &Default::default())?;
+    /// println!("{:?}", found.nearest().verdict);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Cancelled`].
+    pub fn inverse_kinematics_where(
+        &self,
+        target: &Target,
+        start: &[f64],
+        settings: &InverseSettings,
+        accepts: &dyn Fn(&[f64]) -> bool,
+        cancellation: &Cancellation,
+    ) -> Result<Inverse, RobotError> {
         let kinematics = &self.motion()?.kinematics;
         let space = self.configurations()?;
         let (link, count) = (target.link(), kinematics.num_links());
@@ -116,8 +180,11 @@ impl Robot {
             let (what, index) = ("link", link);
             return Err(RobotError::OutOfRange { what, index, count });
         }
-        if !target.is_finite() {
-            return Err(RobotError::Target("the target is not finite"));
+        target.check()?;
+        if let Some(index) = (settings.locked.iter().copied()).find(|dof| *dof >= space.num_dofs())
+        {
+            let (what, count) = ("DOF", space.num_dofs());
+            return Err(RobotError::OutOfRange { what, index, count });
         }
         let space = match &settings.bounds {
             None => space.space(),
@@ -131,8 +198,11 @@ impl Robot {
                 .with_bounds(bounds)
                 .ok_or(RobotError::Target("a bound is not finite"))?,
         };
-        let stop = || cancellation.is_cancelled();
-        let found = kinematics.reach(&target.0, start, space, settings, &stop)?;
+        let conditions = Conditions {
+            accepts,
+            stops: &|| cancellation.is_cancelled(),
+        };
+        let found = kinematics.reach(&target.0, start, space, settings, &conditions)?;
         cancellation.check()?;
         Ok(found)
     }

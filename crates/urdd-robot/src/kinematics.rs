@@ -37,6 +37,41 @@ impl Robot {
         Ok(kinematics.link_poses_into(configuration, poses)?)
     }
 
+    /// The pose of a link in the frame of another one.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link index that is out of range; and as [`Robot::link_poses`].
+    pub fn relative_pose(
+        &self,
+        configuration: &[f64],
+        link: usize,
+        relative_to: usize,
+    ) -> Result<Isometry3<f64>, RobotError> {
+        let poses = self.link_poses(configuration)?;
+        let [link, base] = [link, relative_to].map(|index| {
+            let (what, count) = ("link", poses.len());
+            let none = RobotError::OutOfRange { what, index, count };
+            poses.get(index).ok_or(none)
+        });
+        Ok(base?.inv_mul(link?))
+    }
+
+    /// The DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link index that is out of range; and as [`Robot::link_names`].
+    pub fn dofs_between(&self, base: usize, tip: usize) -> Result<Vec<usize>, RobotError> {
+        let kinematics = &self.motion()?.kinematics;
+        let count = kinematics.num_links();
+        for index in [base, tip] {
+            if index >= count {
+                let what = "link";
+                return Err(RobotError::OutOfRange { what, index, count });
+            }
+        }
+        Ok(kinematics.dofs_between(base, tip))
+    }
+
     /// The poses of all links for a batch of configurations, stored one after another in `configurations`: pose
     /// `k * links + link` is that of `link` in configuration `k`. Runs on rayon's thread pool, without allocations per
     /// configuration.

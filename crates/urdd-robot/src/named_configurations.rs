@@ -5,7 +5,8 @@ use super::edited_files::Files;
 use super::error::RobotError;
 use super::robot::usable;
 use urdd_format::named_configurations::{
-    ConfigurationEdit, NamedConfiguration, NamedConfigurationsModule, NamedDofs, PositionFault,
+    ConfigurationEdit, DofPosition, NamedConfiguration, NamedConfigurationsModule, NamedDofs,
+    PositionFault,
 };
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
@@ -67,6 +68,23 @@ impl Robot {
         &self,
         edits: &[ConfigurationEdit],
     ) -> Result<EditedConfigurations, RobotError> {
+        let resolved = self.resolved_configurations(edits)?.into_iter();
+        let module = NamedConfigurationsModule {
+            configurations: resolved.collect::<Result<_, RobotError>>()?,
+        };
+        let files = self.edited_files(NAMED, serde_json::to_value(&module))?;
+        Ok(EditedConfigurations { module, files })
+    }
+
+    /// What follows from each of these, as [`Robot::with_named_configurations`] writes it; or why the robot cannot have it:
+    /// [`RobotError::Unknown`] or [`RobotError::OutOfBounds`].
+    ///
+    /// # Errors
+    /// If `dof_module` or `bounds_module` of version 1 is missing or unusable.
+    pub fn resolved_configurations(
+        &self,
+        edits: &[ConfigurationEdit],
+    ) -> Result<Vec<Result<NamedConfiguration, RobotError>>, RobotError> {
         let part = self.part(&[ModuleKind::Dof, ModuleKind::Bounds])?;
         let documents = (
             part.document(ModuleKind::Dof),
@@ -77,27 +95,23 @@ impl Robot {
             return Err(RobotError::Metadata("it is not of version 1".to_owned()));
         };
         let dofs = NamedDofs::new(dof, bounds);
-        for position in edits.iter().flat_map(|edit| &edit.positions) {
-            match dofs.fault(position) {
-                None => {}
-                Some(PositionFault::UnknownDof) => {
-                    let names: Vec<String> = dof.dofs.iter().map(|dof| dof.name.clone()).collect();
-                    super::names::index("DOF", &names, &position.dof_name)?;
-                }
-                Some(PositionFault::OutOfBounds([lower, upper])) => {
-                    return Err(RobotError::OutOfBounds {
-                        dof: position.dof_name.clone(),
-                        position: position.position,
-                        lower,
-                        upper,
-                    });
-                }
+        let check = |position: &DofPosition| match dofs.fault(position) {
+            None => Ok(()),
+            Some(PositionFault::UnknownDof) => {
+                let names: Vec<String> = dof.dofs.iter().map(|dof| dof.name.clone()).collect();
+                super::names::index("DOF", &names, &position.dof_name).map(|_| ())
             }
-        }
-        let module = NamedConfigurationsModule {
-            configurations: edits.iter().map(|edit| dofs.named(edit)).collect(),
+            Some(PositionFault::OutOfBounds([lower, upper])) => Err(RobotError::OutOfBounds {
+                dof: position.dof_name.clone(),
+                position: position.position,
+                lower,
+                upper,
+            }),
         };
-        let files = self.edited_files(NAMED, serde_json::to_value(&module))?;
-        Ok(EditedConfigurations { module, files })
+        let resolve = |edit: &ConfigurationEdit| {
+            edit.positions.iter().try_for_each(check)?;
+            Ok(dofs.named(edit))
+        };
+        Ok(edits.iter().map(resolve).collect())
     }
 }

@@ -13,6 +13,14 @@ impl Robot {
         Ok(&self.motion()?.links)
     }
 
+    /// The index of the root link, whose frame poses are in.
+    ///
+    /// # Errors
+    /// As [`Robot::link_names`].
+    pub fn root_link(&self) -> Result<usize, RobotError> {
+        Ok(self.motion()?.kinematics.root())
+    }
+
     /// The index of a link.
     ///
     /// # Errors
@@ -54,13 +62,17 @@ impl Robot {
     }
 }
 
-pub(super) fn index(what: &'static str, names: &[String], name: &str) -> Result<usize, RobotError> {
+pub(super) fn index(
+    what: &'static str,
+    names: &[impl AsRef<str>],
+    name: &str,
+) -> Result<usize, RobotError> {
     names
         .iter()
-        .position(|known| known == name)
+        .position(|known| known.as_ref() == name)
         .ok_or_else(|| RobotError::Unknown {
             what,
             name: name.to_owned(),
-            nearest: nearest(names.iter().map(String::as_str), name),
+            nearest: nearest(names.iter().map(AsRef::as_ref), name),
         })
 }

@@ -7,7 +7,7 @@ use super::error::RobotError;
 use super::motion::Motion;
 use super::space::Configurations;
 use urdd_directory::root::Root;
-use urdd_directory::source::Source;
+use urdd_directory::source::{Source, is_urdd};
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_format::named_configurations::NamedConfiguration;
@@ -36,6 +36,21 @@ impl Robot {
             error,
         })?;
         Ok(Self::at(opened))
+    }
+
+    /// As [`Robot::open`], for a path that a person gave: a folder without `urdd.json` and without the folder of a module
+    /// is an error now, not when a module is needed.
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::NoUrdd`].
+    pub fn open_urdd(path: impl AsRef<Path>) -> Result<Self, RobotError> {
+        let path = path.as_ref();
+        let robot = Self::open(path)?;
+        if path.is_dir() && !is_urdd(path) {
+            let path = path.display().to_string();
+            return Err(RobotError::NoUrdd { path });
+        }
+        Ok(robot)
     }
 
     /// The robot whose files are in `source`.

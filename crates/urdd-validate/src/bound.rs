@@ -66,7 +66,8 @@ mod tests {
             let findings = (0..100).map(finding).collect();
             Check::new(&rule.description, Outcome::Failed, findings)
         };
-        let mut checks: Vec<Check> = rules::all().iter().take(5).map(flood).collect();
+        // `rules::all` would have every rule compiled once more.
+        let mut checks: Vec<Check> = rules::dof::rules().iter().take(5).map(flood).collect();
         const BYTES: usize = 1 << 20;
         trim(&mut checks, BYTES);
         let all = || checks.iter().flat_map(|check| &check.findings);

@@ -184,7 +184,7 @@ pub const fn of_family(code: &str) -> Consequence {
     }
 }
 
-/// Declares the rule of a file as `RULE`, checked by the file's function `check`. `urdd explain` prints its
+/// Declares the rule of a file as `Declared::RULE`, checked by the file's function `check`. `urdd explain` prints its
 /// documentation.
 macro_rules! declare_rule {
     (
@@ -193,51 +193,58 @@ macro_rules! declare_rule {
         phase $phase:ident, $(judges $judges:ident,)? $(consequence $consequence:ident,)?
         needs [$($need:expr),* $(,)?] $(,)?
     ) => {
-        $(#[doc = $doc])+
-        pub static RULE: $crate::rule::Rule = {
-            #[allow(unused_imports)]
-            use $crate::needs::*;
-            #[allow(unused_imports)]
-            use $crate::rule::Need::*;
-            #[allow(unused_imports)]
-            use urdd_format::registry::ModuleKind as Kind;
-            #[allow(unused_imports)]
-            use $crate::code::Code::*;
-            $crate::rule::Rule {
-                description: $crate::rule::Description {
-                    code: $crate::code::Code::$code,
-                    name: $name,
-                    severity: $crate::rule::Severity::$severity,
-                    clause: Some($clause),
-                    since: $since,
-                    consequence: {
-                        #[allow(unused_variables)]
-                        let consequence = $crate::rule::of_family(stringify!($code));
-                        $(let consequence = $crate::rule::Consequence::$consequence;)?
-                        consequence
+        /// The rule of this file. A `static` of the module would be compiled into whatever does not use it, too.
+        pub struct Declared;
+
+        impl Declared {
+            $(#[doc = $doc])+
+            pub const RULE: &'static $crate::rule::Rule = &{
+                #[allow(unused_imports)]
+                use $crate::needs::*;
+                #[allow(unused_imports)]
+                use $crate::rule::Need::*;
+                #[allow(unused_imports)]
+                use urdd_format::registry::ModuleKind as Kind;
+                #[allow(unused_imports)]
+                use $crate::code::Code::*;
+                $crate::rule::Rule {
+                    description: $crate::rule::Description {
+                        code: $crate::code::Code::$code,
+                        name: $name,
+                        severity: $crate::rule::Severity::$severity,
+                        clause: Some($clause),
+                        since: $since,
+                        consequence: {
+                            #[allow(unused_variables)]
+                            let consequence = $crate::rule::of_family(stringify!($code));
+                            $(let consequence = $crate::rule::Consequence::$consequence;)?
+                            consequence
+                        },
+                        phase: $crate::rule::Phase::$phase,
+                        doc: &[$($doc),+],
                     },
-                    phase: $crate::rule::Phase::$phase,
-                    doc: &[$($doc),+],
-                },
-                judges: [
-                    $($crate::rule::Judges::$judges,)?
-                    $crate::rule::Judges::by_phase(
-                        $crate::rule::Phase::$phase,
-                    ),
-                ][0],
-                needs: &[$($need),*],
-                check,
-            }
-        };
+                    judges: [
+                        $($crate::rule::Judges::$judges,)?
+                        $crate::rule::Judges::by_phase(
+                            $crate::rule::Phase::$phase,
+                        ),
+                    ][0],
+                    needs: &[$($need),*],
+                    check,
+                }
+            };
+        }
     };
 }
 pub(crate) use declare_rule;
 
-/// Lists the rules of a family, one file each, as `RULES`.
+/// Lists the rules of a family, one file each, as `rules()`.
 macro_rules! rules {
     ($($file:ident),+ $(,)?) => {
         /// The rules of this family.
-        pub const RULES: &[&$crate::rule::Rule] = &[$(&$file::RULE),+];
+        pub fn rules() -> &'static [&'static $crate::rule::Rule] {
+            &[$($file::Declared::RULE),+]
+        }
     };
 }
 pub(crate) use rules;

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::drop_folder::Drops;
 use crate::revision;
+use crate::states::States;
 use urdd_directory::carried::carried;
 use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use urdd_directory::replacement::Files;
@@ -22,6 +23,8 @@ pub struct Shown {
     pub name: String,
     /// The URDF that it is generated from; `None` for a URDD.
     pub source: Option<Source>,
+    /// The configurations that a program shows.
+    pub states: Arc<States>,
     standing: Mutex<Standing>,
     /// The files, and their revision.
     opened: Mutex<Option<(String, Opened)>>,
@@ -291,6 +294,7 @@ impl Collection {
             id,
             name,
             source,
+            states: Arc::default(),
             standing: Mutex::new(Standing {
                 path,
                 is_ready: is_made,

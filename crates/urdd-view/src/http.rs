@@ -126,7 +126,7 @@ pub fn converse(
             }
         }
     };
-    let seconds = Duration::from_secs(reply.body.size() / BYTES_A_SECOND);
+    let seconds = Duration::from_secs(reply.body.size().unwrap_or_default() / BYTES_A_SECOND);
     reader.get_mut().for_another(MAX_ANSWER_TIME + seconds);
     write(reader.get_mut(), reply, head_only)?;
     reader.get_ref().stream.shutdown(Shutdown::Write)?;
@@ -197,7 +197,7 @@ fn body(reader: &mut impl Read, length: u64, body: &mut Vec<u8>) -> io::Result<R
     })
 }
 
-fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<()> {
+fn write(stream: &mut Timed, reply: Reply, head_only: bool) -> io::Result<()> {
     let mut head = format!("HTTP/1.1 {} {}\r\n", reply.status, word(reply.status));
     let mut add = |name: &str, value: &str| {
         head.push_str(name);
@@ -212,7 +212,9 @@ fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<(
     if reply.brotli {
         add("Content-Encoding", "br");
     }
-    add("Content-Length", &reply.body.size().to_string());
+    if let Some(size) = reply.body.size() {
+        add("Content-Length", &size.to_string());
+    }
     add("Connection", "close");
     head.push_str("\r\n");
     stream.write_all(head.as_bytes())?;
@@ -222,6 +224,13 @@ fn write(stream: &mut impl Write, reply: Reply, head_only: bool) -> io::Result<(
             // If the file is shorter than announced, the connection ends early, so the client detects the truncation.
             Body::File(file, size) => {
                 io::copy(&mut file.take(size), stream)?;
+            }
+            // A client that no longer reads fills its buffers, and is left after a while.
+            Body::Lines(mut next) => {
+                while let Some(line) = next() {
+                    stream.for_another(SILENCE);
+                    stream.write_all(line.as_bytes())?;
+                }
             }
         }
     }

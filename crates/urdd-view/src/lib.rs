@@ -25,6 +25,7 @@ mod route;
 mod save;
 pub mod server;
 mod site_list;
+mod states;
 pub mod temporary;
 
 pub use collection::{Collection, Making, Shown, Source};
@@ -33,4 +34,5 @@ pub use export_error::ExportError;
 pub use live::Live;
 pub use one_file::{may_hold_page, page_with};
 pub use server::{Server, ServerError};
+pub use states::States;
 pub use temporary::Temporary;

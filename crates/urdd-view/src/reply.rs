@@ -1,5 +1,7 @@
 //! Responses of the server.
 
+use std::sync::Arc;
+
 use serde_json::Value;
 
 use urdd_directory::source::OpenFile;
@@ -10,14 +12,17 @@ pub enum Body {
     Bytes(Vec<u8>),
     /// A file of this size, streamed.
     File(OpenFile, u64),
+    /// Lines, each sent when it is there, until there are no more.
+    Lines(Box<dyn FnMut() -> Option<Arc<str>>>),
 }
 
 impl Body {
-    /// Its size in bytes.
-    pub fn size(&self) -> u64 {
+    /// Its size in bytes; `None` if it ends with the connection.
+    pub fn size(&self) -> Option<u64> {
         match self {
-            Body::Bytes(bytes) => bytes.len() as u64,
-            Body::File(_, size) => *size,
+            Body::Bytes(bytes) => Some(bytes.len() as u64),
+            Body::File(_, size) => Some(*size),
+            Body::Lines(_) => None,
         }
     }
 }

@@ -37,8 +37,12 @@ pub enum Route {
     Picture(String),
     /// Saves the skips of a robot.
     Skips(String),
+    /// Saves a named configuration of a robot.
+    Configurations(String),
     /// Saves a generated robot.
     Keep(String),
+    /// The configurations that a program shows of a robot.
+    States(String),
     /// Takes URDFs that were dropped on the page.
     Drops,
     /// No known resource.
@@ -75,6 +79,8 @@ impl Route {
             ["robots", id, "summary.json"] => Route::Summary((*id).to_owned()),
             ["robots", id, "picture.png"] => Route::Picture((*id).to_owned()),
             ["robots", id, "keep"] => Route::Keep((*id).to_owned()),
+            ["robots", id, "configurations"] => Route::Configurations((*id).to_owned()),
+            ["robots", id, "states"] => Route::States((*id).to_owned()),
             ["robots", id, "skips"] => Route::Skips((*id).to_owned()),
             ["robots", id, "files", rest @ ..] if !rest.is_empty() => {
                 Route::File((*id).to_owned(), rest.join("/"))
@@ -88,6 +94,7 @@ impl Route {
     pub fn max_body(&self) -> u64 {
         match self {
             Route::Skips(_) => 64 << 20,
+            Route::Configurations(_) | Route::States(_) => 1 << 20,
             Route::Keep(_) => 64 << 10,
             Route::Drops => drops::MAX_BODY,
             _ => 0,
@@ -122,9 +129,11 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
         Route::Revision(id) => with(id, &|robot| {
             // Whoever asks for this shows the robot, or waits for it: see `live`.
             robot.see();
+            // The entry first: a revision may be newer than what is said of the robot, and never older.
+            let entry = entry(robot);
             let revision = robot.is_ready().then(|| revision::of(&robot.path()));
             Ok(Reply::json(
-                &json!({ "revision": revision, "entry": entry(robot) }),
+                &json!({ "revision": revision, "entry": entry }),
             ))
         }),
         Route::Files(id) => with(id, &|robot| {
@@ -160,9 +169,12 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
                 None => Reply::nothing(),
             })
         }),
-        Route::Skips(_) | Route::Keep(_) | Route::Drops | Route::Unknown => {
-            Reply::failure(404, "there is no such page\n")
-        }
+        Route::Skips(_)
+        | Route::Configurations(_)
+        | Route::Keep(_)
+        | Route::States(_)
+        | Route::Drops
+        | Route::Unknown => Reply::failure(404, "there is no such page\n"),
     }
 }
 
@@ -213,6 +225,7 @@ pub fn entry(robot: &Shown) -> Value {
         "making": making,
         "failure": failure,
         "notes": robot.notes(),
+        "follows": robot.states.are_sent(),
         "links": null,
         "dofs": null,
         "verdict": null,

@@ -1,4 +1,5 @@
-//! Saves the user's skip edits and the resulting matrices, with their sizes and hashes, atomically. Also undoes saves.
+//! Saves what a user decided in the page, with sizes and hashes, atomically: edits of skips and the resulting matrices,
+//! and named configurations. Also undoes saves of skips.
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -10,6 +11,7 @@ use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::replacement::{Files, Replacement};
 use urdd_directory::root::Root;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
+use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::Robot;
 
 /// Maximum number of edits, and of characters in a reason.
@@ -33,11 +35,40 @@ struct Wish {
     undo: bool,
 }
 
+/// What the page sends to name a configuration.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Pose {
+    /// The revision that the page displayed.
+    revision: String,
+    /// Its name.
+    name: String,
+    /// One value for each DOF, rad or m.
+    configuration: Vec<f64>,
+    /// Whether another configuration of this name is replaced.
+    #[serde(default)]
+    replace: bool,
+}
+
 /// Saves skips, or undoes the last save.
 pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
-    let wish: Wish = match serde_json::from_slice(body) {
+    answered(robot, body, "a list of edits", save_skips)
+}
+
+/// Saves a named configuration.
+pub fn configuration(robot: &Shown, body: &[u8]) -> Reply {
+    answered(robot, body, "a named configuration", save_configuration)
+}
+
+fn answered<T: for<'a> Deserialize<'a>>(
+    robot: &Shown,
+    body: &[u8],
+    what: &str,
+    save: impl Fn(&Shown, T) -> Result<Value, Failure>,
+) -> Reply {
+    let wish: T = match serde_json::from_slice(body) {
         Ok(wish) => wish,
-        Err(error) => return Reply::failure(400, format!("not a list of edits: {error}\n")),
+        Err(error) => return Reply::failure(400, format!("not {what}: {error}\n")),
     };
     if !robot.is_writable() {
         let why = "this URDD cannot be written: it is an archive, or was made for this view\n";
@@ -52,48 +83,19 @@ pub fn skips(robot: &Shown, body: &[u8]) -> Reply {
 /// An HTTP status, and the reason.
 pub(super) type Failure = (u16, String);
 
-fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
-    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
-    let path = robot.path();
-    // From here on, no other process of this program writes there.
-    let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
-    let unchanged = |is_same: bool| match is_same {
-        true => Ok(()),
-        false => Err((
-            409,
-            "the files changed on disk since the page read them; nothing was written".to_owned(),
-        )),
-    };
-    unchanged(revision::of(&path) == wish.revision)?;
-    // The new content hard-links the unchanged files, which by itself changes their full revision.
-    let content = revision::of_content(&path);
+fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let mut undo = robot
         .undo
         .lock()
         .unwrap_or_else(std::sync::PoisonError::into_inner);
-    let files = match wish.undo {
+    let (now, before) = write(robot, &wish.revision, || match wish.undo {
         true => {
             let last = undo.last().filter(|(after, _)| *after == wish.revision);
-            let Some((_, files)) = last else {
-                return Err((409, "there is nothing to undo".to_owned()));
-            };
-            files.clone()
+            let last = last.map(|(_, files)| files.clone());
+            last.ok_or_else(|| (409, "there is nothing to undo".to_owned()))
         }
-        false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons)?,
-    };
-    let root = Root::open_folder(&path).map_err(|error| failed(&error))?;
-    let before: Result<Files, Failure> = files
-        .keys()
-        .map(|path| {
-            let bytes = root.read(path, MAX_DOCUMENT_BYTES);
-            Ok((path.clone(), bytes.map_err(|error| failed(&error))?))
-        })
-        .collect();
-    let before = before?;
-    replacement.stage(&files).map_err(|error| failed(&error))?;
-    unchanged(revision::of_content(&path) == content)?;
-    replacement.commit().map_err(|error| failed(&error))?;
-    let now = revision::of(&path);
+        false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons),
+    })?;
     match wish.undo {
         true => {
             undo.pop();
@@ -110,6 +112,89 @@ fn save(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
         }
     }
     Ok(json!({ "revision": now, "undo": undo.len() }))
+}
+
+fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value, Failure> {
+    let mut undo = robot
+        .undo
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (now, _) = write(robot, &wish.revision, || named(robot, &wish))?;
+    // Earlier saves cannot be undone past this one, which may have added a file.
+    undo.clear();
+    Ok(json!({ "revision": now, "undo": 0 }))
+}
+
+/// Writes files atomically, unless those on disk changed since the page read them. Returns the revision after it, and the
+/// files that were there before.
+fn write(
+    robot: &Shown,
+    expected: &str,
+    made: impl FnOnce() -> Result<Files, Failure>,
+) -> Result<(String, Files), Failure> {
+    let failed = |error: &dyn std::fmt::Display| (500, error.to_string());
+    let path = robot.path();
+    // From here on, no other process of this program writes there.
+    let replacement = Replacement::begin(&path).map_err(|error| failed(&error))?;
+    let unchanged = |is_same: bool| match is_same {
+        true => Ok(()),
+        false => Err((
+            409,
+            "the files changed on disk since the page read them; nothing was written".to_owned(),
+        )),
+    };
+    unchanged(revision::of(&path) == expected)?;
+    // The new content hard-links the unchanged files, which by itself changes their full revision.
+    let content = revision::of_content(&path);
+    let files = made()?;
+    let root = Root::open_folder(&path).map_err(|error| failed(&error))?;
+    let mut before = Files::new();
+    for name in files.keys().filter(|name| path.join(name).exists()) {
+        let bytes = root.read(name, MAX_DOCUMENT_BYTES);
+        before.insert(name.clone(), bytes.map_err(|error| failed(&error))?);
+    }
+    replacement.stage(&files).map_err(|error| failed(&error))?;
+    unchanged(revision::of_content(&path) == content)?;
+    replacement.commit().map_err(|error| failed(&error))?;
+    Ok((revision::of(&path), before))
+}
+
+/// The files with one more named configuration.
+fn named(robot: &Shown, wish: &Pose) -> Result<Files, Failure> {
+    let refused = |error: &dyn std::fmt::Display| (400, error.to_string());
+    let opened = Robot::open(robot.path()).map_err(|error| (500, error.to_string()))?;
+    let name = ConfigurationName::new(&wish.name)
+        .filter(|_| wish.name.chars().count() <= MAX_REASON)
+        .ok_or_else(|| refused(&"a configuration needs a name of at most 10,000 characters"))?;
+    let dofs = opened.dof_names().map_err(|error| refused(&error))?;
+    if dofs.len() != wish.configuration.len() {
+        return Err(refused(&"a configuration has one value for each DOF"));
+    }
+    let positions = dofs.iter().zip(&wish.configuration);
+    let positions = positions.map(|(dof, position)| DofPosition {
+        dof_name: dof.clone(),
+        position: *position,
+    });
+    let edit = ConfigurationEdit {
+        name,
+        positions: positions.collect(),
+    };
+    let there = opened
+        .named_configurations()
+        .map_err(|error| refused(&error))?;
+    let mut edits: Vec<ConfigurationEdit> = there.iter().map(Into::into).collect();
+    match edits.iter_mut().find(|other| other.name == edit.name) {
+        Some(_) if !wish.replace => {
+            return Err((
+                409,
+                "there is another configuration of this name".to_owned(),
+            ));
+        }
+        Some(there) => *there = edit,
+        None => edits.push(edit),
+    }
+    let edited = opened.with_named_configurations(&edits);
+    Ok(edited.map_err(|error| refused(&error))?.files)
 }
 
 /// The files that change.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use thiserror::Error;
 
-use crate::collection::Collection;
+use crate::collection::{Collection, Shown};
 use crate::connections::{Connection, Connections};
 use crate::drops;
 use crate::guard::{Caller, Guard};
@@ -44,6 +44,11 @@ pub enum ServerError {
 /// A server.
 pub struct Server {
     listener: TcpListener,
+    answers: Answers,
+}
+
+/// What a request is answered from.
+struct Answers {
     guard: Guard,
     collection: Arc<Collection>,
 }
@@ -76,26 +81,28 @@ impl Server {
         let mut random = [0; 24];
         getrandom::fill(&mut random).map_err(|error| ServerError::Random(error.to_string()))?;
         let token = hexadecimal(&random);
-        Ok(Self {
-            listener,
+        let answers = Answers {
             guard: Guard { port, token },
             collection: collection.into(),
-        })
+        };
+        Ok(Self { listener, answers })
     }
 
     /// The address to open, with the token.
     pub fn address(&self) -> String {
-        let Guard { port, token } = &self.guard;
+        let Guard { port, token } = &self.answers.guard;
         format!("http://127.0.0.1:{port}/#token={token}")
     }
 
-    /// Serves requests until cancelled. Responses in progress may then be cut off.
+    /// Serves requests until cancelled. Responses in progress may then be cut off. When it returns, no connection is
+    /// accepted any more, even if some are still open.
     pub fn run(self, cancellation: &Cancellation) {
-        let server = Arc::new(self);
+        let Self { listener, answers } = self;
+        let answers = Arc::new(answers);
         let connections = Arc::new(Connections::default());
         while !cancellation.is_cancelled() {
             let accepted = match connections.has_room() {
-                true => server.listener.accept().ok(),
+                true => listener.accept().ok(),
                 false => None,
             };
             let Some((stream, _)) = accepted else {
@@ -109,15 +116,19 @@ impl Server {
             else {
                 continue;
             };
-            let server = Arc::clone(&server);
+            let (answers, ended) = (Arc::clone(&answers), cancellation.clone());
             // If no thread can be started, the connection is closed.
             let _ = thread::Builder::new().spawn(move || {
-                let admit = |asked: &Asked| server.admit(asked, &connection);
-                let _ = converse(stream, admit, |asked, is_gone| server.reply(asked, is_gone));
+                let admit = |asked: &Asked| answers.admit(asked, &connection);
+                let _ = converse(stream, admit, |asked, is_gone| {
+                    answers.reply(asked, is_gone, &ended)
+                });
             });
         }
     }
+}
 
+impl Answers {
     /// The maximum size of the request body, or the response that refuses the request.
     fn admit(&self, asked: &Asked, connection: &Connection) -> Result<u64, Reply> {
         let caller = Caller {
@@ -141,19 +152,23 @@ impl Server {
     }
 
     /// The response to an admitted request. `is_gone` says whether the client has closed the connection.
-    fn reply(&self, asked: &Asked, is_gone: &dyn Fn() -> bool) -> Reply {
+    fn reply(&self, asked: &Asked, is_gone: &dyn Fn() -> bool, ended: &Cancellation) -> Reply {
         let route = Route::of(&asked.url);
+        let with = |id: &str, reply: &dyn Fn(&Shown) -> Reply| match self.collection.find(id) {
+            Some(robot) => reply(&robot),
+            None => Reply::failure(404, "there is no such robot\n"),
+        };
+        let body = &asked.body;
         match (&*asked.method, &route) {
+            ("GET", Route::States(id)) => with(id, &|robot| robot.states.stream(ended)),
             ("GET" | "HEAD", _) => answer(&self.collection, &route, takes_brotli(asked)),
-            ("POST", Route::Skips(id)) => match self.collection.find(id) {
-                Some(robot) => save::skips(&robot, &asked.body),
-                None => Reply::failure(404, "there is no such robot\n"),
-            },
-            ("POST", Route::Drops) => drops::take(&self.collection, &asked.body, is_gone),
-            ("POST", Route::Keep(id)) => match self.collection.find(id) {
-                Some(robot) => keep::keep(&robot, &asked.body),
-                None => Reply::failure(404, "there is no such robot\n"),
-            },
+            ("POST", Route::Skips(id)) => with(id, &|robot| save::skips(robot, body)),
+            ("POST", Route::Configurations(id)) => {
+                with(id, &|robot| save::configuration(robot, body))
+            }
+            ("POST", Route::States(id)) => with(id, &|robot| robot.states.take(body)),
+            ("POST", Route::Drops) => drops::take(&self.collection, body, is_gone),
+            ("POST", Route::Keep(id)) => with(id, &|robot| keep::keep(robot, body)),
             _ => Reply::failure(405, "this cannot be done here\n"),
         }
     }

@@ -5,7 +5,7 @@ import type { Inertial } from "../engine/protocol";
 import type { RobotModel } from "../model";
 import { button, fill, h } from "../ui/dom";
 import { bytes, count, dofValue, lengths, name, number } from "../ui/format";
-import { linkMatrix } from "../scene/drag";
+import { placing } from "./placing";
 
 function line(term: string, ...value: (string | Node | null)[]): Node[] {
   return [h("dt", {}, term), h("dd", {}, ...value)];
@@ -18,14 +18,14 @@ function table(...lines: (Node[] | null | false)[]): HTMLElement {
 export function info(app: App): HTMLElement {
   const chosen = h("div", {});
   const whole = h("div", {});
-  app.store.on(["robot", "selected", "q", "poses", "units", "tab"], ({ robot, selected, q, poses, tab }) => {
+  app.store.on(["robot", "selected", "q", "units", "tab"], ({ robot, selected, q, tab }) => {
     if (tab !== "Info") return;
     if (!robot || !selected) fill(chosen);
-    else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index, poses));
+    else if (selected.kind === "link") fill(chosen, ...ofLink(app, robot, selected.index));
     else fill(chosen, ...ofJoint(app, robot, selected.index, q));
   });
   app.store.on(["robot"], ({ robot }) => fill(whole, ...(robot ? ofRobot(robot) : [])));
-  return h("div", { class: "panel" }, chosen, whole);
+  return h("div", { class: "panel" }, chosen, placing(app), whole);
 }
 
 function linkButton(app: App, robot: RobotModel, link: number | null): Node {
@@ -50,10 +50,9 @@ function jointButton(app: App, robot: RobotModel, joint: number | null): Node {
   );
 }
 
-function ofLink(app: App, robot: RobotModel, index: number, poses: Float64Array | null): Node[] {
+function ofLink(app: App, robot: RobotModel, index: number): Node[] {
   const link = robot.links[index];
   if (!link) return [];
-  const place = poses ? linkMatrix(poses, index).elements.slice(12, 15) : null;
   const pieces = robot.about.meshes.pieces?.[index]?.length ?? 0;
   return [
     h("h2", {}, `Link ${name(link.name)}`),
@@ -61,7 +60,6 @@ function ofLink(app: App, robot: RobotModel, index: number, poses: Float64Array 
       line("Index", String(index)),
       line("Joint above", jointButton(app, robot, link.parent_joint)),
       line("Joints below", count(robot.below[index]?.length ?? 0, "joint")),
-      place && line("Position", lengths(place)),
       line("Convex pieces", String(pieces)),
       ...mass(link.inertial),
     ),

@@ -18,6 +18,7 @@ import type { RobotModel } from "../model";
 import type { NamedConfiguration } from "../configurations";
 import { Player } from "../play";
 import { refine } from "../ui/slider";
+import { naming } from "./naming";
 
 interface Control {
   dof: number;
@@ -60,6 +61,9 @@ export function joints(app: App): HTMLElement {
     button("Copy", "Copy the configuration as a list of numbers, rad and m", () => void copy(app)),
     button("Paste", "Paste a list of numbers, rad and m", () => void paste(app)),
     play,
+    button("Trajectory…", "Play configurations from a file: CSV, or JSON lines; or drop it on the picture", () =>
+      dispatchEvent(new Event("urdd-trajectory")),
+    ),
     h("span", { class: "spring" }),
     undo,
     redo,
@@ -71,7 +75,7 @@ export function joints(app: App): HTMLElement {
     "aria-label": "Named configurations",
   });
   const empty = h("p", { class: "empty" });
-  const panel = h("div", { class: "panel" }, actions, named, sample, list, empty);
+  const panel = h("div", { class: "panel" }, actions, named, naming(app), sample, list, empty);
 
   const group = (robot: RobotModel, joint: number): HTMLElement => {
     const found = robot.joints[joint];

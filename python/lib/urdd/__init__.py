@@ -27,9 +27,13 @@ from ._answers import (
     LearnedPair,
     MeshKind,
     ObstacleDistance,
+    ObstacleGradient,
+    ObstacleOverlap,
     ObstaclePair,
     Pair,
     PairDistance,
+    PairGradient,
+    PairOverlap,
     Rate,
     ShapeKind,
     SkipReason,
@@ -46,7 +50,8 @@ from ._proximity import Proximity
 from ._robot import Robot, load
 from ._urdd import __version__, num_threads, set_num_threads
 from ._validate import Rule, explain, validate
-from ._world import World, WorldProximity
+from ._world import World
+from ._world_proximity import WorldProximity
 from .errors import (
     CombineError,
     ConfigurationError,
@@ -94,10 +99,14 @@ __all__ = [
     "Note",
     "ObstacleDistance",
     "ObstacleError",
+    "ObstacleGradient",
+    "ObstacleOverlap",
     "ObstaclePair",
     "OpenError",
     "Pair",
     "PairDistance",
+    "PairGradient",
+    "PairOverlap",
     "PinocchioRobot",
     "Proximity",
     "PybulletRobot",

@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, TypeAlias
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ._arrays import Bools, Floats, Indices
 
 ShapeKind: TypeAlias = Literal["hulls", "boxes", "spheres", "pieces", "piece-boxes", "piece-spheres"]
@@ -27,9 +30,9 @@ class Pair:
     """Two shapes of different links."""
 
     links: tuple[str, str]
-    """The names of the two links."""
+    """The names of the two links, or of attached objects."""
     pieces: tuple[int, int]
-    """The indices of the pieces; 0 for hulls and their bounding volumes."""
+    """The indices of the pieces; 0 for hulls and their bounding volumes. For an attached object, of its parts."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,31 @@ class PairDistance(Pair):
     and small links comparable. None if that module has no mean for the pair, or a mean of 0."""
     points: Floats
     """(2, 3): the closest points of the two shapes, in the root link's frame, metres."""
+
+
+@dataclass(frozen=True)
+class PairGradient(PairDistance):
+    """The distance between two shapes, and how it changes with the configuration."""
+
+    gradient: Floats | None
+    """(dofs,): the derivative of the distance for each DOF, m/rad or m/m. None if the shapes touch or overlap.
+
+    It is that of the closest points as they are. Where other points are as close (parallel faces), the distance is not
+    differentiable, and this is one of its directional derivatives."""
+
+
+@dataclass(frozen=True)
+class PairOverlap(PairDistance):
+    """Two shapes that touch or overlap. The points are those that touch once the second shape has moved, before it
+    moves."""
+
+    depth: float
+    """Metres: the length of the least translation that separates the two; 0 if they touch."""
+    direction: Floats
+    """(3,): the unit vector along which the second shape would move, in the root link's frame."""
+    gradient: Floats
+    """(dofs,): the derivative of the depth for each DOF, m/rad or m/m. Where another translation is as short, the depth
+    is not differentiable, and this is one of its directional derivatives."""
 
 
 @dataclass(frozen=True)
@@ -80,9 +108,9 @@ class ObstaclePair:
     """A shape of a robot, and an obstacle."""
 
     link: str
-    """The name of the shape's link."""
+    """The name of the shape's link, or of the attached object."""
     piece: int
-    """The index of the link's piece; 0 for a hull and its bounding volumes."""
+    """The index of the link's piece; 0 for a hull and its bounding volumes. For an attached object, of its part."""
     obstacle: str
     """The name of the obstacle."""
 
@@ -99,6 +127,28 @@ class ObstacleDistance(ObstaclePair):
 
 
 @dataclass(frozen=True)
+class ObstacleGradient(ObstacleDistance):
+    """The distance between a shape of a robot and an obstacle, and how it changes with the configuration."""
+
+    gradient: Floats | None
+    """(dofs,): the derivative of the distance for each DOF, m/rad or m/m, as in :class:`PairGradient`. None if the two
+    touch or overlap."""
+
+
+@dataclass(frozen=True)
+class ObstacleOverlap(ObstacleDistance):
+    """A shape of a robot and an obstacle that touch or overlap. The points are those that touch once the obstacle has
+    moved, before it moves."""
+
+    depth: float
+    """Metres: the length of the least translation that separates the two; 0 if they touch."""
+    direction: Floats
+    """(3,): the unit vector along which the obstacle would move, in the root link's frame."""
+    gradient: Floats
+    """(dofs,): the derivative of the depth for each DOF, m/rad or m/m, as in :class:`PairOverlap`."""
+
+
+@dataclass(frozen=True)
 class InverseSolution:
     """Configurations, and how near they are to their targets. One target gives scalars, many give arrays that begin
     with the targets' axes."""
@@ -107,6 +157,10 @@ class InverseSolution:
     """(..., dofs), rad or m, within the bounds. DOFs that do not move the link keep their start value."""
     reached: Bools
     """(...): whether both errors are within the tolerances. If false, this is the nearest that was found."""
+    verdict: NDArray[np.str_]
+    """(...): why. ``reached``; ``refused``: every configuration that was found to reach the target is in collision, and
+    this is one; ``limits``: only a configuration beyond the bounds was found to reach it; ``out of reach``: none was
+    found, within the bounds or beyond them. This is a search, not a proof."""
     position_error: Floats
     """(...): the distance of the point from its target, metres."""
     rotation_error: Floats

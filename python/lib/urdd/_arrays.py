@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
+from sys import maxsize
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -55,6 +56,18 @@ def batched(q: ArrayLike, dof_names: tuple[str, ...], ask: Callable[[Floats], _A
     return scalar(found.reshape(batch + found.shape[1:]))
 
 
+def edges(start: ArrayLike, end: ArrayLike, dof_names: tuple[str, ...]) -> tuple[Floats, Floats, tuple[int, ...]]:
+    """Starts and ends of motions as (n, dofs) each, and the axes that they came in together."""
+    both = (configurations(one, dof_names) for one in (start, end))
+    dofs = len(dof_names)
+    try:
+        shaped = np.broadcast_arrays(*(rows.reshape(*batch, dofs) for rows, batch in both))
+    except ValueError as error:
+        raise ConfigurationError(f"starts and ends do not fit: {error}") from None
+    starts, ends = (np.ascontiguousarray(flat(one)) for one in shaped)
+    return starts, ends, shaped[0].shape[:-1]
+
+
 def positions(values: ArrayLike, length: int, whose: str) -> tuple[Floats, tuple[int, ...]]:
     """Configurations of another program as (n, length), and their shape without the last axis."""
     given = numbers(values, f"a configuration of {whose}")
@@ -82,6 +95,19 @@ def scalar(values: _Array) -> _Array:
     return found
 
 
+def optional_array(values: list[float] | None) -> Floats | None:
+    """An array, or None."""
+    return None if values is None else np.array(values, dtype=np.float64)
+
+
+def number_of_pairs(k: int) -> int:
+    """How many pairs are wanted."""
+    if k < 0:
+        raise ValueError(f"the number of pairs must not be negative, but is {k}")
+    # The compiled part cannot read larger numbers.
+    return min(k, maxsize)
+
+
 def three(values: ArrayLike, what: str) -> tuple[float, float, float]:
     """Three finite numbers."""
     given = numbers(values, what)
@@ -89,6 +115,15 @@ def three(values: ArrayLike, what: str) -> tuple[float, float, float]:
         raise ConfigurationError(f"{what} must be 3 finite numbers, not an array of the shape {given.shape}")
     x, y, z = given.tolist()
     return (x, y, z)
+
+
+def six(values: ArrayLike, what: str) -> list[float]:
+    """Six finite numbers, none of them negative."""
+    given = numbers(values, what)
+    if given.shape != (6,) or not (np.isfinite(given).all() and (given >= 0).all()):
+        raise ConfigurationError(f"{what} must be 6 finite numbers of at least 0")
+    found: list[float] = given.tolist()
+    return found
 
 
 def poses(values: ArrayLike, what: str) -> Floats:

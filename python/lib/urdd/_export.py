@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,12 +14,14 @@ from ._answers import ShapeKind
 from ._description import RobotDescription
 from ._options import whole, words
 
-__all__ = ["Export", "Format", "export"]
+__all__ = ["Actuators", "Export", "Format", "export"]
 
-Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam"]
+Format: TypeAlias = Literal["srdf", "urdf", "drake", "mjcf", "curobo", "foam", "spherized", "moveit", "sdf"]
 """A format: SRDF for MoveIt, URDF with our shapes as collision geometry, the same for Drake, MJCF for MuJoCo, spheres
-for cuRobo and Foam."""
+for cuRobo and Foam, URDF with these spheres, a package for MoveIt 2, SDF for Gazebo."""
 
+Actuators: TypeAlias = Literal["position", "velocity", "motor"]
+"""What actuators are told: positions (rad or m), velocities (rad/s or m/s), or torques and forces (N m or N)."""
 
 #: Limits of the arguments of :func:`export`.
 MAX_SPHERES = 10_000
@@ -32,18 +35,23 @@ class Export:
     text: str
     """The text of the file."""
     files: dict[str, bytes]
-    """The mesh files that it references, by path relative to it."""
+    """The files that it references, by path relative to it; for ``moveit``, the other files of the package."""
     notes: list[str]
     """What the format cannot express, or expresses differently."""
+    report: dict[str, object]
+    """What was ``carried``, carried ``otherwise`` and ``lost`` of this robot, each with ``what`` and ``count``."""
+    path: str | None = None
+    """The path of the text in the folder of a package; ``None`` for other formats."""
 
     def write(self, file: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Writes the file, and the mesh files beside it.
+        """Writes the file, and the mesh files beside it; for ``moveit``, the folder of the package.
 
         Raises:
             FileExistsError: if a file exists with other content, unless ``force``.
         """
         target = Path(file)
-        contents = {target: self.text.encode(), **{target.parent / path: data for path, data in self.files.items()}}
+        own, folder = (target, target.parent) if self.path is None else (target / self.path, target)
+        contents = {own: self.text.encode(), **{folder / path: data for path, data in self.files.items()}}
         if not force:
             for path, content in contents.items():
                 if path.exists() and path.read_bytes() != content:
@@ -66,8 +74,16 @@ def export(
     total_spheres: int | None = None,
     cover: bool = False,
     samples: int = 10_000,
-    visuals: bool = True,
+    visuals: bool | float = True,
     mesh_folder: str | None = None,
+    actuators: Actuators | None = None,
+    bandwidth: float | None = None,
+    floating_base: bool = False,
+    sensors: bool = False,
+    scene: bool = False,
+    setup: str | os.PathLike[str] | None = None,
+    package: str | None = None,
+    robot_file: str | None = None,
     force: bool = False,
 ) -> Export:
     """Exports a robot to another format, in memory; with ``output`` to that file too.
@@ -85,22 +101,55 @@ def export(
         total_spheres: maximum number of spheres for all links together, but at least one for each.
         cover: covers each link with spheres. By default spheres are fitted to collide when the shapes do.
         samples: number of configurations in which the spheres are measured; fewer if that is much work.
-        visuals: whether the file has visual geometry.
+        visuals: whether the file has visual geometry; or the largest part of its triangles to keep, such as 0.1, or
+            the most to keep in all.
         mesh_folder: the folder of the mesh files, relative to the file; with ``output``, named after it by default.
+        actuators: MJCF: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
+            from the inertia that each joint moves.
+        bandwidth: MJCF: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100. By default that
+            of ``setup``, or 10.
+        floating_base: MJCF and SDF: the root link moves freely, in MJCF by a free joint ``floating_base``.
+        sensors: MJCF: a gyroscope and an accelerometer at each IMU frame of ``setup``.
+        scene: MJCF: with ``output``, writes a scene with floor and light beside it: ``NAME_scene.xml``.
+        setup: what the URDD does not say, as ``urdd export init`` writes it; by default ``NAME.export.toml`` beside the
+            URDD ``NAME``, if it is there.
+        package: MoveIt: the name of the package, by default ``output``'s. Drake: writes ``package.xml`` and a model
+            directive too.
+        robot_file: cuRobo: the path of the URDF; the text is then the whole robot file.
         force: overwrites existing files.
 
     Raises:
-        ExportError: if the format cannot hold the robot.
+        ValueError: for an option of another format, or a scene without ``output``.
+        ExportError: if the format cannot hold the robot, or ``setup`` is wrong.
         FileExistsError: if a file exists with other content.
     """
     for name, count in (("spheres", spheres), ("total_spheres", total_spheres)):
         if count is not None:
             whole(count, name, 1, MAX_SPHERES)
     whole(samples, "samples", 100, MAX_SAMPLES)
+    if format != "mjcf" and (actuators is not None or sensors or scene):
+        raise ValueError("actuators, sensors and scene are for mjcf")
+    if format not in ("mjcf", "sdf") and floating_base:
+        raise ValueError("floating_base is for mjcf and sdf")
+    if format not in ("moveit", "drake") and package is not None:
+        raise ValueError("package is for moveit and drake")
+    if format != "curobo" and robot_file is not None:
+        raise ValueError("robot_file is for curobo")
+    if scene and output is None:
+        raise ValueError("a scene includes the file that is written: give output")
+    if bandwidth is not None and not 0.01 <= bandwidth <= 100:
+        raise ValueError("bandwidth must be from 0.01 to 100 Hz")
+    detail = None if isinstance(visuals, bool) else float(visuals)
+    if detail is not None and not (0 < detail < 1 or (detail >= 1 and detail.is_integer())):
+        raise ValueError("visuals must be a part between 0 and 1, or a number of triangles")
+    if package is None and format == "moveit" and output is not None:
+        package = Path(output).name.lower().translate(str.maketrans("- .", "___"))
     if mesh_folder is None:
         mesh_folder = "meshes" if output is None else f"{Path(output).stem}_meshes"
+        if format == "moveit" and package is not None:
+            mesh_folder = f"package://{package}/meshes"
     subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
-    text, files, notes = _urdd.export(
+    text, path, files, notes, report = _urdd.export(
         subject.core,
         format,
         shapes,
@@ -111,9 +160,19 @@ def export(
         bool(cover),
         samples,
         bool(visuals),
+        detail,
         mesh_folder,
+        actuators,
+        None if bandwidth is None else float(bandwidth),
+        bool(floating_base),
+        bool(sensors),
+        bool(scene),
+        None if output is None else Path(output).name,
+        None if setup is None else Path(setup),
+        package,
+        robot_file,
     )
-    exported = Export(text, dict(files), notes)
+    exported = Export(text, dict(files), notes, json.loads(report), path)
     if output is not None:
         exported.write(output, force=force)
     return exported

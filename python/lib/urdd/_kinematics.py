@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from operator import index
 from sys import maxsize
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import InverseSolution
-from ._arrays import Bools, Floats, batched, configurations, numbers, poses, scalar, three
+from ._arrays import (
+    Bools,
+    Floats,
+    Indices,
+    batched,
+    configurations,
+    numbers,
+    one_configuration,
+    poses,
+    scalar,
+    six,
+    three,
+)
 from ._description import RobotDescription
-from ._options import InverseOptions, whole
+from ._options import InverseOptions, whole, words
+from ._proximity import Proximity
+from ._world_proximity import WorldProximity
 from .errors import ConfigurationError
 
 #: Period of the sequence of random configurations (SPEC 9.3).
@@ -19,6 +35,11 @@ _CONFIGURATIONS = 2**32
 #: Distance between the first configurations of two seeds: by the golden ratio, so that those of many seeds are far
 #: apart.
 _SEED_STRIDE = 0x9E3779B9
+
+#: As the compiled part numbers them.
+_VERDICTS = np.array(["reached", "refused", "limits", "out of reach", "unknown"])
+
+Shapes: TypeAlias = Proximity | WorldProximity
 
 
 class RobotKinematics(RobotDescription):
@@ -30,6 +51,17 @@ class RobotKinematics(RobotDescription):
     def bounds(self) -> Floats:
         """(dofs, 2): the lower and the upper bound of each DOF; always finite."""
         return self._core.bounds()
+
+    @property
+    def velocity_limits(self) -> Floats:
+        """(dofs,): the largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states
+        none."""
+        return self._core.limits()[0]
+
+    @property
+    def effort_limits(self) -> Floats:
+        """(dofs,): the largest effort of each DOF, N m or N, as the source states it; infinite where it states none."""
+        return self._core.limits()[1]
 
     @property
     def zero(self) -> Floats:
@@ -94,14 +126,61 @@ class RobotKinematics(RobotDescription):
         """
         return batched(q, self.dof_names, self._core.link_poses)
 
-    def link_pose(self, q: ArrayLike, link: str | int) -> Floats:
-        """(..., 4, 4): forward kinematics, the pose of one link.
+    def link_pose(self, q: ArrayLike, link: str | int, *, relative_to: str | int | None = None) -> Floats:
+        """(..., 4, 4): forward kinematics, the pose of one link, in the frame of the root link or of another one.
 
         Raises:
             ConfigurationError: for a wrong shape, or a value that is not finite.
             UnknownNameError: for an unknown link.
         """
-        return batched(q, self.dof_names, lambda rows: self._core.link_poses(rows, self.link(link))[:, 0])
+
+        def pose(rows: Floats, of: str | int) -> Floats:
+            found: Floats = self._core.link_poses(rows, self.link(of))[:, 0]
+            return found
+
+        def relative(rows: Floats) -> Floats:
+            if relative_to is None:
+                return pose(rows, link)
+            base, found = pose(rows, relative_to), pose(rows, link)
+            turn = base[:, :3, :3].swapaxes(1, 2)
+            found[:, :3, 3:] = turn @ (found[:, :3, 3:] - base[:, :3, 3:])
+            found[:, :3, :3] = turn @ found[:, :3, :3]
+            return found
+
+        return batched(q, self.dof_names, relative)
+
+    def dofs_between(self, base: str | int, tip: str | int) -> Indices:
+        """The indices of the DOFs that move one of two links against the other, ascending: those of an arm, from its
+        base and its tip. Joints that mimic others count for the DOF that they follow."""
+        return np.array(self._core.dofs_between(self.link(base), self.link(tip)), dtype=np.uintp)
+
+    # Masses.
+
+    @property
+    def link_masses(self) -> Floats:
+        """(links,): the mass of each link, kg; 0 where the source states none."""
+        found: Floats = self._core.masses()[:, 0].copy()
+        return found
+
+    @property
+    def link_centres_of_mass(self) -> Floats:
+        """(links, 3): the centre of mass of each link, in the link's frame, metres."""
+        found: Floats = self._core.masses()[:, 1:].copy()
+        return found
+
+    def centre_of_mass(self, q: ArrayLike) -> Floats:
+        """(..., 3): the centre of mass of the robot, in the root link's frame, metres; NaN if it has no mass."""
+        masses = self._core.masses()
+        mass, centres = masses[:, :1], masses[:, 1:, None]
+
+        def centre(rows: Floats) -> Floats:
+            poses = self._core.link_poses(rows)
+            places = (poses[:, :, :3, :3] @ centres + poses[:, :, :3, 3:])[..., 0]
+            with np.errstate(invalid="ignore"):
+                found: Floats = (mass * places).sum(axis=1) / mass.sum()
+            return found
+
+        return batched(q, self.dof_names, centre)
 
     def jacobian(self, q: ArrayLike, link: str | int, point: ArrayLike | None = None) -> Floats:
         """(..., 6, dofs): the geometric Jacobian of a link.
@@ -126,11 +205,15 @@ class RobotKinematics(RobotDescription):
         restarts: int = 100,
         seed: int = 0,
         bounds: ArrayLike | None = None,
+        weights: ArrayLike | None = None,
+        locked: Iterable[str] = (),
+        posture: ArrayLike | None = None,
+        free_of: Shapes | Iterable[Shapes] = (),
     ) -> InverseSolution:
         """Inverse kinematics: a configuration within the bounds in which a link reaches a target.
 
-        Searches by damped least squares from ``start``, then from random configurations. Supports mimic joints. Does
-        not check for self-collision. The same arguments give the same result. Many targets run on all threads.
+        Searches by damped least squares from ``start``, then from random configurations. Supports mimic joints. The
+        same arguments give the same result. Many targets run on all threads.
 
         Args:
             link: the link.
@@ -144,6 +227,15 @@ class RobotKinematics(RobotDescription):
             restarts: maximum number of descents from random configurations.
             seed: selects the random configurations.
             bounds: (dofs, 2), instead of :attr:`bounds`.
+            weights: (6,), factors of the errors before they are compared with the tolerances: of the position along x,
+                y, z, then of the rotation about x, y, z, along the axes of the target pose, or of the root link's frame
+                for a position. A factor of 0 leaves a direction free: ``[0, 0, 0, 1, 1, 1]`` is a rotation alone,
+                ``[1, 1, 1, 1, 1, 0]`` leaves a tool free to turn about its own z axis.
+            locked: the names of DOFs that keep their start value.
+            posture: (dofs,): the solution should be near this configuration. All ``restarts`` are used, each solution
+                is moved toward it as far as the target allows, and the nearest one counts.
+            free_of: shapes of this robot, such as ``robot.proximity()`` and ``robot.world_proximity(world)``, that must
+                not collide: the search goes on until a solution is free.
         """
         targets = poses(target, "a target")
         is_pose = targets.shape[-1] == 4
@@ -161,6 +253,12 @@ class RobotKinematics(RobotDescription):
                 raise ConfigurationError(f"bounds must have the shape ({self.num_dofs}, 2), not {limits.shape}")
         if not (position_tolerance >= 0 and rotation_tolerance >= 0):
             raise ConfigurationError("tolerances must be numbers, and not negative")
+        given: list[object] = [free_of] if isinstance(free_of, Proximity | WorldProximity) else [*free_of]
+        shapes = [one for one in given if isinstance(one, Proximity | WorldProximity)]
+        if len(shapes) != len(given):
+            raise ConfigurationError("free_of must be results of robot.proximity() or robot.world_proximity()")
+        if any(one.dof_names != self.dof_names for one in shapes):
+            raise ConfigurationError("free_of has shapes of another robot")
         options = InverseOptions(
             point=three(point, "a point"),
             position_tolerance=float(position_tolerance),
@@ -169,13 +267,18 @@ class RobotKinematics(RobotDescription):
             restarts=whole(restarts, "restarts", 0, maxsize),
             seed=whole(seed, "a seed", 0, 2**64 - 1),
             bounds=limits,
+            weights=None if weights is None else six(weights, "weights"),
+            locked=[self.dof(name) for name in words(locked, "locked")],
+            posture=None if posture is None else one_configuration(posture, self.dof_names)[0].tolist(),
+            free_of=[one.core for one in shapes],
         )
         rows = targets.reshape(-1, *((4, 4) if is_pose else (1, 3)))
         found = self._core.inverse_kinematics(self.link(link), rows, starts, options)
         configuration, rest = found[:, : self.num_dofs], found[:, self.num_dofs :].T.reshape(5, *batch)
         return InverseSolution(
             q=configuration.reshape(*batch, self.num_dofs),
-            reached=scalar(rest[0] > 0),
+            reached=scalar(rest[0] == 0),
+            verdict=_VERDICTS[rest[0].astype(np.intp)],
             position_error=scalar(rest[1].copy()),
             rotation_error=scalar(rest[2].copy()),
             restarts=scalar(rest[3].astype(np.uintp)),

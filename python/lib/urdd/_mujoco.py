@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ._answers import ShapeKind
 from ._arrays import Floats, configurations, positions
-from ._export import export
+from ._export import Actuators, export
 from ._joints import Joint, joints_of, quaternion_of, rotation_vector_of
 from ._kinematics import RobotKinematics
 from ._need import need
@@ -21,7 +21,7 @@ class MujocoRobot:
     """A robot for MuJoCo. Its ``qpos`` is in MuJoCo's own order: :meth:`q` and :meth:`dofs` map configurations.
 
     A floating joint is three slides and a ball, a planar joint two slides and a hinge. Mimic joints are separate joints
-    with equality constraints; :meth:`q` sets them.
+    with equality constraints; :meth:`q` sets them. A free base is none of our DOFs: :meth:`q` leaves it where it is.
     """
 
     model: Any
@@ -35,7 +35,8 @@ class MujocoRobot:
     def q(self, q: ArrayLike) -> Floats:
         """(..., nq): MuJoCo's ``qpos`` of one of our configurations (..., dofs)."""
         rows, batch = configurations(q, self.dof_names)
-        found = np.zeros((len(rows), self.model.nq))
+        # A free base is where the model has it.
+        found = np.tile(self.model.qpos0, (len(rows), 1))
         for joint, at in self._places:
             if joint.mimic is not None or len(joint.dofs) == 1:
                 found[:, at[0]] = joint.position(rows)[:, 0]
@@ -60,10 +61,26 @@ class MujocoRobot:
         return found.reshape(*batch, len(self.dof_names))
 
 
-def to_mujoco(robot: RobotKinematics, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
+def to_mujoco(
+    robot: RobotKinematics,
+    shapes: ShapeKind = "pieces",
+    *,
+    visuals: bool | float = True,
+    actuators: Actuators | None = None,
+    bandwidth: float | None = None,
+    floating_base: bool = False,
+) -> MujocoRobot:
     """As :meth:`urdd.Robot.to_mujoco`."""
     mujoco = need("mujoco", "mujoco", "to_mujoco")
-    exported = export(robot, "mjcf", shapes=shapes, visuals=visuals)
+    exported = export(
+        robot,
+        "mjcf",
+        shapes=shapes,
+        visuals=visuals,
+        actuators=actuators,
+        bandwidth=bandwidth,
+        floating_base=floating_base,
+    )
     model = mujoco.MjModel.from_xml_string(exported.text, exported.files)
 
     def at(name: str) -> int:

@@ -13,6 +13,8 @@ from typing import Literal, SupportsIndex, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _urdd
+
 __all__ = ["GenerateOptions", "InverseOptions", "MakingOptions", "ValidateOptions", "options_of", "whole", "words"]
 
 
@@ -81,6 +83,10 @@ class InverseOptions:
     restarts: int
     seed: int
     bounds: NDArray[np.float64] | None
+    weights: list[float] | None
+    locked: list[int]
+    posture: list[float] | None
+    free_of: list[_urdd.Proximity | _urdd.WorldProximity]
 
 
 @dataclass(frozen=True)

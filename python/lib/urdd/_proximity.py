@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._answers import Pair, PairDistance, ShapeKind
-from ._arrays import Bools, Floats, Indices, batched, one_configuration
+from ._answers import Pair, PairDistance, PairGradient, PairOverlap, ShapeKind
+from ._arrays import (
+    Bools,
+    Floats,
+    Indices,
+    batched,
+    edges,
+    number_of_pairs,
+    one_configuration,
+    optional_array,
+    scalar,
+)
 from ._description import RobotDescription
+from ._world import World
 
 if TYPE_CHECKING:
     from . import _urdd
@@ -19,16 +32,52 @@ if TYPE_CHECKING:
 class Proximity:
     """The shapes of one kind, prepared for distances: ``robot.proximity("pieces")``.
 
-    Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
+    Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: :meth:`penetrations` says how far.
 
-    Pickled as its robot and kind.
+    Pickled as its robot and kind, and what links carry.
     """
 
-    def __init__(self, robot: RobotDescription, kind: ShapeKind) -> None:
+    def __init__(self, robot: RobotDescription, kind: ShapeKind, carried: Sequence[tuple[str, World]] = ()) -> None:
         self._robot = robot
+        # Later changes of the objects have no effect.
+        self._carried = [(link, copy(objects)) for link, objects in carried]
         self._core = robot.core.proximity(kind)
-        self._link_names = robot.link_names
+        for link, objects in self._carried:
+            self._core = self._core.attach(robot.link(link), objects.obstacles())
         self._dof_names = robot.dof_names
+
+    def attach(self, link: str, objects: World) -> Proximity:
+        """These shapes and objects that a link carries, such as a tool or what a gripper holds: every query then
+        includes them. Poses of ``objects`` are in the frame of the link. To release them, use these shapes again.
+
+        The objects are tested against the shapes of all links that move against them, except those that they
+        ``ignore``: the links that may touch them. Skips do not apply. In answers, an object has its name, and stands
+        where links do. ``robot.world_proximity(world, shapes)`` tests them against obstacles too; an obstacle that
+        ignores the link does not thereby ignore an object: it can name the object.
+
+        Raises:
+            UnknownNameError: for an unknown link, with the nearest known name.
+            ObstacleError: if a link or an attached object has the name of an object.
+
+        >>> import urdd
+        >>> robot = urdd.load("welding_arm")
+        >>> tool = urdd.World()
+        >>> tool.add_capsule("brush", radius=0.02, length=0.2, pose=[0, 0, 0.1], ignore=["wrist"])
+        >>> with_brush = robot.proximity().attach("torch", tool)
+        >>> with_brush.self_distance(robot.random(100)).shape
+        (100,)
+        """
+        return Proximity(self._robot, self.kind, [*self._carried, (link, objects)])
+
+    @property
+    def core(self) -> _urdd.Proximity:
+        """The native shapes, for the other files of this package."""
+        return self._core
+
+    @property
+    def dof_names(self) -> tuple[str, ...]:
+        """The names of the DOFs."""
+        return self._dof_names
 
     @property
     def kind(self) -> ShapeKind:
@@ -54,7 +103,10 @@ class Proximity:
     def pairs(self) -> list[Pair]:
         """The pairs that are not skipped, in the order of :meth:`distances`."""
         return [
-            Pair((self._link_names[a], self._link_names[b]), (i, j)) for (a, i), (b, j) in self.pair_indices.tolist()
+            Pair((first, second), (i, j))
+            for (first, second), ((_, i), (_, j)) in zip(
+                self._core.pair_names(), self.pair_indices.tolist(), strict=True
+            )
         ]
 
     def distances(self, q: ArrayLike) -> Floats:
@@ -69,30 +121,63 @@ class Proximity:
         """(...): whether any pair touches or overlaps. The fastest query: it stops at the first collision."""
         return batched(q, self._dof_names, self._core.in_collision)
 
+    def is_within(self, q: ArrayLike, margin: float) -> Bools:
+        """(...): whether any pair is at most ``margin`` metres apart. Stops at the first such pair. With a margin above
+        0, pairs count whose links can move against each other."""
+        return batched(q, self._dof_names, lambda rows: self._core.is_within(rows, margin))
+
+    def blocked_edge(
+        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
+    ) -> Floats:
+        """(...): where the straight motion from ``start`` to ``end`` is blocked, as a part of it from 0 to 1; NaN where
+        it is free. Only collisions of the robot with itself count.
+
+        With a ``resolution`` (metres), configurations are checked between which no point of the robot travels farther,
+        the halves first; the answer need not be the first blocked part. With ``None``, the motion is proved free by
+        conservative advancement: it then needs 0.1 mm more than the ``margin``, and the answer is the first part where
+        it has less.
+
+        Raises:
+            ValueError: for a margin below 0, or a resolution that is not above 0 or asks for more than a million
+                configurations.
+        """
+        starts, ends, batch = edges(start, end, self._dof_names)
+        return scalar(self._core.blocked_edge(starts, ends, margin, resolution).reshape(batch))
+
+    def gradients(self, q: ArrayLike, k: int = 1) -> list[PairGradient]:
+        """The ``k`` nearest pairs in one configuration, nearest first, with the gradients of their distances."""
+        return [
+            PairGradient(*_answer(near), optional_array(gradient))
+            for near, gradient in self._core.gradients(one_configuration(q, self._dof_names), number_of_pairs(k))
+        ]
+
+    def penetrations(self, q: ArrayLike) -> list[PairOverlap]:
+        """The pairs that touch or overlap in one configuration, with the least translation that separates them."""
+        found = self._core.penetrations(one_configuration(q, self._dof_names))
+        return [
+            PairOverlap(*_answer(near), depth, np.array(direction), np.array(gradient, dtype=np.float64))
+            for near, depth, direction, gradient in found
+        ]
+
     def nearest(self, q: ArrayLike, k: int = 1) -> list[PairDistance]:
         """The ``k`` nearest pairs in one configuration, nearest first; all pairs if there are fewer."""
-        if k < 0:
-            raise ValueError(f"the number of pairs must not be negative, but is {k}")
-        return self._answers(self._core.nearest(one_configuration(q, self._dof_names), min(k, self.num_pairs)))
+        found = self._core.nearest(one_configuration(q, self._dof_names), number_of_pairs(k))
+        return [PairDistance(*_answer(near)) for near in found]
 
     def collisions(self, q: ArrayLike) -> list[PairDistance]:
         """The pairs that touch or overlap in one configuration."""
-        return self._answers(self._core.collisions(one_configuration(q, self._dof_names)))
+        found = self._core.collisions(one_configuration(q, self._dof_names))
+        return [PairDistance(*_answer(near)) for near in found]
 
-    def _answers(self, found: list[_urdd._Near]) -> list[PairDistance]:
-        return [
-            PairDistance(
-                links=(self._link_names[links[0]], self._link_names[links[1]]),
-                pieces=(pieces[0], pieces[1]),
-                distance=distance,
-                relative=relative,
-                points=np.array(points, dtype=np.float64),
-            )
-            for links, pieces, distance, relative, points in found
-        ]
-
-    def __reduce__(self) -> tuple[type[Proximity], tuple[RobotDescription, ShapeKind]]:
-        return type(self), (self._robot, self.kind)
+    def __reduce__(self) -> tuple[type[Proximity], tuple[RobotDescription, ShapeKind, list[tuple[str, World]]]]:
+        return type(self), (self._robot, self.kind, self._carried)
 
     def __repr__(self) -> str:
         return f"<urdd.Proximity of {self.kind}: {self.num_shapes} shapes, {self.num_pairs} pairs that are not skipped>"
+
+
+def _answer(
+    near: _urdd._Near,
+) -> tuple[tuple[str, str], tuple[int, int], float, float | None, Floats]:
+    (a, b), (i, j), distance, relative, points = near
+    return (a, b), (i, j), distance, relative, np.array(points, dtype=np.float64)

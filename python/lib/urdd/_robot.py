@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
+import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _urdd
 from ._answers import Box, ConvexMesh, MeshKind, ShapeKind, Skips, Spheres, Visual
-from ._arrays import Bools, Floats
+from ._arrays import Bools, Floats, Indices
 from ._collision_model import CollisionModel
 from ._kinematics import RobotKinematics
 from ._proximity import Proximity
 from ._shapes import boxes, convex, shapes, skips, spheres, visuals
-from ._world import World, WorldProximity
+from ._world import World
+from ._world_proximity import WorldProximity
 from .errors import UrddError
 
 if TYPE_CHECKING:
     # Slow to import, and rarely needed.
     from ._answers import PairDistance
+    from ._chain_arrays import ChainArrays
+    from ._export import Actuators
     from ._mujoco import MujocoRobot
     from ._pinocchio import PinocchioRobot
     from ._pybullet import PybulletRobot
@@ -94,14 +100,27 @@ class Robot(RobotKinematics):
         """
         return CollisionModel(self)
 
-    def world_proximity(self, world: World, kind: ShapeKind = "pieces") -> WorldProximity:
-        """The robot's shapes of a kind and a world's obstacles, prepared for distances. Later changes of the world have
-        no effect.
+    def world_proximity(self, world: World, kind: ShapeKind | Proximity = "pieces") -> WorldProximity:
+        """The robot's shapes of a kind, or with what its links carry (:meth:`Proximity.attach`), and a world's
+        obstacles, prepared for distances. Later changes of the world have no effect: after
+        :meth:`World.move <urdd.World.move>`, call this again, which prepares nothing else.
 
         Raises:
             UnknownNameError: if an obstacle ignores an unknown link, with the nearest known name.
         """
-        return WorldProximity(self, world, kind)
+        return WorldProximity(kind if isinstance(kind, Proximity) else self.proximity(kind), world)
+
+    def joint_groups(self, file: str | os.PathLike[str] | None = None) -> dict[str, Indices]:
+        """Groups of joints that planners move together, by name, as indices of DOFs, ascending.
+
+        Those of an SRDF (its ``<group>``s), or of an ``export.toml`` of ``urdd export init``; by default of
+        ``NAME.export.toml`` beside the URDD, or as that command would guess them.
+
+        Raises:
+            ExportError: if the file names what the robot does not have, with the place.
+        """
+        groups = _urdd.joint_groups(self._core, None if file is None else Path(file))
+        return {name: np.array(dofs, dtype=np.uintp) for name, dofs in groups}
 
     # Shapes.
 
@@ -147,6 +166,17 @@ class Robot(RobotKinematics):
 
         return link_mesh(self, link, kind)
 
+    def chain_arrays(self) -> ChainArrays:
+        """The robot's frames as arrays, for programs that compute poses themselves, such as on GPUs: with PyTorch or
+        JAX, as ``examples/array_kinematics.py`` does.
+
+        Raises:
+            ExportError: for spherical and floating joints, whose rotation is a vector.
+        """
+        from ._chain_arrays import chain_arrays
+
+        return chain_arrays(self.modules)
+
     def to_trimesh(self, q: ArrayLike | None = None, kind: MeshKind = "plain") -> Any:
         """A ``trimesh.Scene`` of the robot in one configuration, :attr:`zero` by default. Each mesh is a node
         ``link/number``."""
@@ -160,11 +190,31 @@ class Robot(RobotKinematics):
 
         return to_pinocchio(self, shapes)
 
-    def to_mujoco(self, shapes: ShapeKind = "pieces", *, visuals: bool = True) -> MujocoRobot:
-        """A MuJoCo model, with shapes of this kind as geoms, and the skips as excluded pairs."""
+    def to_mujoco(
+        self,
+        shapes: ShapeKind = "pieces",
+        *,
+        visuals: bool | float = True,
+        actuators: Actuators | None = None,
+        bandwidth: float | None = None,
+        floating_base: bool = False,
+    ) -> MujocoRobot:
+        """A MuJoCo model, with shapes of this kind as geoms, and the skips as excluded pairs.
+
+        Args:
+            shapes: the kind of shapes.
+            visuals: whether the model has visual geometry; or the largest part of its triangles to keep, or the most.
+            actuators: what the actuators of joints of one DOF are told; by default there are none. Gains are computed
+                from the inertia that each joint moves.
+            bandwidth: the frequency below which a joint follows its actuator, Hz, from 0.01 to 100; by default that of
+                ``NAME.export.toml`` beside the URDD, which is read if it is there, or 10.
+            floating_base: the root link moves freely, by a free joint ``floating_base``.
+        """
         from ._mujoco import to_mujoco
 
-        return to_mujoco(self, shapes, visuals=visuals)
+        return to_mujoco(
+            self, shapes, visuals=visuals, actuators=actuators, bandwidth=bandwidth, floating_base=floating_base
+        )
 
     def to_pybullet(
         self, client: int = 0, shapes: ShapeKind = "pieces", *, visuals: bool = False, keep_pairs: bool = False

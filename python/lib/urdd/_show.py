@@ -15,10 +15,16 @@ from ._need import need
 class Shown:
     """A robot in the browser, until :meth:`close` is called or Python ends."""
 
-    def __init__(self, page: _urdd.Page, address: str) -> None:
+    def __init__(self, robot: RobotKinematics, page: _urdd.Page, address: str) -> None:
+        self._robot = robot
         self._page = page
         self.address = address
         """The address to open. It includes the token that the server requires."""
+
+    def set(self, q: ArrayLike) -> None:
+        """Shows another configuration (dofs,), in every page that is open. Returns at once: a page that is slower than
+        the calls shows the last one."""
+        self._page.set(one_configuration(q, self._robot.dof_names)[0].tolist())
 
     def close(self) -> None:
         """Stops serving."""
@@ -104,7 +110,7 @@ def show(
             address += "&q=" + ",".join(repr(value) for value in row.tolist())
         if open_browser:
             _open(address)
-        return Shown(page, address)
+        return Shown(robot, page, address)
     if backend != "viser":
         raise ValueError(f"unknown backend {backend!r}; expected page or viser")
     viser = need("viser", "viser", "show(backend='viser')")

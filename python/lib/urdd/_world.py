@@ -1,25 +1,20 @@
-"""Obstacles, and a robot's distances to them."""
+"""Bodies that a robot must not touch, or that its links carry."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from copy import copy
 from dataclasses import dataclass
-from functools import cached_property
-from sys import maxsize
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _urdd
-from ._answers import ObstacleDistance, ObstaclePair, ShapeKind
-from ._arrays import Bools, Floats, Indices, batched, numbers, one_configuration, poses, three
-from ._description import RobotDescription
+from ._arrays import Floats, numbers, poses, three
 from ._options import words
 from .errors import ConfigurationError, ObstacleError
 
-__all__ = ["World", "WorldProximity"]
+__all__ = ["World"]
 
 _ORIGIN = (0.0, 0.0, 0.0)
 
@@ -36,7 +31,7 @@ class _Obstacle:
 
 class World:
     """Obstacles around a robot, by name, in the frame of the root link: boxes, spheres, capsules, cylinders, hulls and
-    meshes. Lengths are metres.
+    meshes. Lengths are metres. A world can also be what a link carries: :meth:`Proximity.attach`.
 
     A ``pose`` is a matrix (4, 4), or a position (3,) without a rotation. Links that an obstacle should ``ignore`` may
     touch it, such as the base mounted on it or the gripper that holds it. To move the robot's base, apply the inverse
@@ -110,6 +105,20 @@ class World:
             raise ObstacleError(f"obstacle `{name}`: a face has a vertex index that is out of range", name)
         triangles = np.ascontiguousarray(given, dtype=np.uint32)
         self._add(name, "mesh", (self._pose(name, pose), corners, triangles), ignore)
+
+    def move(self, name: str, pose: ArrayLike) -> None:
+        """Moves an obstacle: ``pose`` is that of its frame, which is at the centre of a sphere. Prepares this obstacle
+        anew, and no other; a mesh is not decomposed again.
+
+        Raises:
+            KeyError: if there is no such obstacle.
+            ObstacleError: as the other methods.
+        """
+        known = self._obstacles[name]
+        placed = self._pose(name, pose)
+        _, *sizes = known.arguments
+        arguments = (three(placed[:3, 3], "centre") if known.shape == "sphere" else placed, *sizes)
+        self._obstacles[name] = _Obstacle(known.core.at(placed), known.shape, arguments, known.ignore)
 
     def remove(self, name: str) -> None:
         """Removes an obstacle.
@@ -199,89 +208,3 @@ class World:
         if given.ndim != 2 or given.shape[1] != 3:
             raise ObstacleError(f"obstacle `{name}`: {what} must have the shape (n, 3), not {given.shape}", name)
         return np.array(given)
-
-
-class WorldProximity:
-    """A robot's shapes of one kind and the obstacles of a world, prepared for distances:
-    ``robot.world_proximity(world)``.
-
-    Skips do not apply: every shape is tested against every obstacle, except for links that the obstacle ignores.
-    Distances are 0 for shapes that touch or overlap: penetration depths are not computed.
-
-    Pickled as its robot, world and kind.
-    """
-
-    def __init__(self, robot: RobotDescription, world: World, kind: ShapeKind) -> None:
-        self._robot = robot
-        # Later changes of the world have no effect.
-        self._world = copy(world)
-        self._kind: ShapeKind = kind
-        self._core = _urdd.WorldProximity(robot.core.proximity(kind), world.obstacles())
-        self._link_names = robot.link_names
-        self._dof_names = robot.dof_names
-
-    @property
-    def kind(self) -> ShapeKind:
-        """The kind of the robot's shapes."""
-        return self._kind
-
-    @property
-    def obstacle_names(self) -> tuple[str, ...]:
-        """The names of the obstacles."""
-        return self._world.names
-
-    @cached_property
-    def pair_indices(self) -> Indices:
-        """(pairs, 3): the link, the piece and the obstacle of each pair."""
-        return self._core.pairs()
-
-    @property
-    def num_pairs(self) -> int:
-        """Number of pairs of a shape and an obstacle."""
-        return len(self.pair_indices)
-
-    @cached_property
-    def pairs(self) -> list[ObstaclePair]:
-        """The pairs of a shape and an obstacle, in the order of :meth:`distances`."""
-        return [
-            ObstaclePair(self._link_names[link], piece, self.obstacle_names[obstacle])
-            for link, piece, obstacle in self.pair_indices.tolist()
-        ]
-
-    def distances(self, q: ArrayLike) -> Floats:
-        """(..., pairs): the distance of each pair of a shape and an obstacle, metres."""
-        return batched(q, self._dof_names, self._core.distances)
-
-    def min_distance(self, q: ArrayLike) -> Floats:
-        """(...): the minimum distance of the robot to any obstacle, metres; infinite if there are no pairs."""
-        return batched(q, self._dof_names, self._core.min_distance)
-
-    def in_collision(self, q: ArrayLike) -> Bools:
-        """(...): whether the robot touches or overlaps any obstacle. Does not check for self-collision."""
-        return batched(q, self._dof_names, self._core.in_collision)
-
-    def nearest(self, q: ArrayLike, k: int = 1) -> list[ObstacleDistance]:
-        """The ``k`` nearest pairs in one configuration, with their closest points, nearest first; all pairs if there
-        are fewer. Each convex piece of a mesh counts as an obstacle."""
-        if k < 0:
-            raise ValueError(f"the number of pairs must not be negative, but is {k}")
-        # The compiled part cannot read larger numbers.
-        k = min(k, maxsize)
-        return [
-            ObstacleDistance(
-                self._link_names[link],
-                piece,
-                self.obstacle_names[obstacle],
-                distance,
-                np.array(points, dtype=np.float64),
-            )
-            for (link, piece), obstacle, distance, points in self._core.nearest(
-                one_configuration(q, self._dof_names), k
-            )
-        ]
-
-    def __reduce__(self) -> tuple[type[WorldProximity], tuple[RobotDescription, World, ShapeKind]]:
-        return type(self), (self._robot, self._world, self._kind)
-
-    def __repr__(self) -> str:
-        return f"<urdd.WorldProximity: {self.kind} and {len(self.obstacle_names)} obstacles, {self.num_pairs} pairs>"

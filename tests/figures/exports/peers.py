@@ -11,7 +11,8 @@ What is compared, for each URDD:
   configurations the pairs of pieces in contact beside `urdd check-collisions`; a simulation at rest.
 - Pinocchio with coal (URDF and SRDF): poses, mass, and the pairs of links in contact among those that the SRDF leaves.
 - yourdfpy (URDF): poses.
-- Drake (its URDF): poses, mass, and the pairs of links in contact.
+- Drake (its URDF, and SDF): poses, mass, and the pairs of links in contact.
+- libsdformat (SDF), where SDF_LOAD names the program of `sdf.cpp`: poses with all joints at 0, mass, collisions.
 
 Exits with 1 where poses differ by more than 1e-9, masses by more than what the file itself names, or answers by more than
 a band of 10 micrometres around contact and the pairs of links that the file names.
@@ -94,6 +95,8 @@ class Urdd:
     def export(self, kind, file, *more):
         command = [self.program, "export", kind, str(self.root), "-o", str(file), "--force", *more]
         done = subprocess.run(command, capture_output=True, text=True)
+        if "cannot hold the name" in done.stderr:
+            raise ValueError(done.stderr)
         assert done.returncode == 0, done.stderr
         return file.read_text()
 
@@ -369,11 +372,38 @@ def by_yourdfpy(urdd, folder):
     return {"poses": difference, "failed": difference > POSE_TOLERANCE}
 
 
-def by_drake(urdd, folder):
+def by_sdf(urdd, folder):
+    said = by_drake(urdd, folder, "sdf")
+    if program := os.environ.get("SDF_LOAD"):
+        done = subprocess.run([program, str(folder / "drake.sdf")], capture_output=True, text=True)
+        links = [json.loads(line) for line in done.stdout.splitlines()]
+        names = [name for name in urdd.names if name != "world"]
+        said["libsdformat"] = {"status": done.returncode, "collisions": sum(link["collisions"] for link in links)}
+        if [link["link"] for link in links][: len(names)] != names or done.returncode:
+            said["failed"] = True
+        # libsdformat 12 knows no mimics: all joints are at 0. Drake's poses are those of all configurations.
+        kept = [mass for name, mass in masses_of(urdd) if name != "world"]
+        light = sum(mass <= 0 for mass in kept) + len(links) - len(names)
+        masses, kept = sum(link["mass"] for link in links) - LEAST * light, sum(mass for mass in kept if mass > 0)
+        said["libsdformat"]["mass"] = masses
+        said["failed"] |= abs(masses - kept) > 1e-9 * max(1.0, kept)
+    return said
+
+
+# Mass that SDF has for a link without one, kg.
+LEAST = 1e-6
+
+
+def masses_of(urdd):
+    for link in urdd.links:
+        yield link["name"], ((link["inertial"] or {}).get("mass") or {}).get("value", 0.0)
+
+
+def by_drake(urdd, folder, form="urdf"):
     from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, Parser
 
-    file = folder / "drake.urdf"
-    text = urdd.export("drake", file)
+    file = folder / f"drake.{form}"
+    text = urdd.export("drake" if form == "urdf" else form, file)
     names = named(text)
     builder = DiagramBuilder()
     plant, scene = AddMultibodyPlantSceneGraph(builder, 0.001)
@@ -399,7 +429,10 @@ def by_drake(urdd, folder):
 
         for joint in urdd.joints:
             kind, value, name = joint["joint_type"], values[joint["name"]], joint["name"]
-            if kind in ("Floating", "Spherical"):
+            if kind == "Planar" and form == "sdf":
+                for part, v in zip(("trans_x", "trans_y", "rot"), value):
+                    put(f"{name}/{part}", [v])
+            elif kind in ("Floating", "Spherical"):
                 for part, v in zip("xyz", value[:-3]):
                     put(f"{name}/trans_{part}", [v])
                 put(name, rpy_of_matrix(matrix_of_vector(value[-3:])))
@@ -447,7 +480,9 @@ def by_drake(urdd, folder):
         "missed": sorted(missed),
         "more": sorted(more),
     }
-    wrong_mass = abs(total - (urdd.mass - kept)) > 1e-9 * max(1.0, urdd.mass)
+    # SDF gives LEAST to links without mass, and to those between the parts of joints.
+    light = LEAST * plant.num_bodies() if form == "sdf" else 0.0
+    wrong_mass = abs(total - (urdd.mass - kept)) > 1e-9 * max(1.0, urdd.mass) + light
     said["failed"] = bool(difference > POSE_TOLERANCE or missed or more or wrong_mass)
     return said
 
@@ -529,6 +564,7 @@ def main():
                 ("pinocchio", by_pinocchio),
                 ("yourdfpy", by_yourdfpy),
                 ("drake", by_drake),
+                ("sdf", by_sdf),
             ):
                 try:
                     said[name] = ask(urdd, folder)

@@ -1,13 +1,20 @@
 //! `urdd_export`: each format is read by a second reader written here, and compared with the URDD.
 //! `tests/figures/exports` tests what the target programs read from the files.
 
+mod carried;
 mod command;
 mod drake;
 mod fitted_spheres;
 mod mjcf;
+mod mjcf_actuators;
+mod moveit;
 mod names;
 mod pairs;
+mod robot_file;
+mod sdf;
+mod setup;
 mod spheres;
 mod srdf;
 mod srdf_import;
+mod states;
 mod urdf;

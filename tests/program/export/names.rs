@@ -81,8 +81,9 @@ struct Names {
 /// A new format takes one line.
 fn read(format: Format, text: &str) -> Names {
     match format {
-        Format::Srdf => srdf(text),
-        Format::Urdf | Format::Drake => urdf(text),
+        Format::Srdf | Format::Moveit => srdf(text),
+        Format::Urdf | Format::Drake | Format::Spherized => urdf(text),
+        Format::Sdf => sdf(text),
         Format::Mjcf => mjcf(text),
         Format::Curobo => keys(
             serde_yaml::from_str(text).expect("YAML"),
@@ -139,6 +140,31 @@ fn urdf(text: &str) -> Names {
     }
 }
 
+/// A root link called `world` is SDF's own: only joints name it.
+fn sdf(text: &str) -> Names {
+    let mut links = of_tag(text, "link", "name");
+    let mut joints = of_tag(text, "joint", "name");
+    let document = parsed(text);
+    let nodes = document
+        .descendants()
+        .filter(|node| node.has_tag_name("joint"));
+    for joint in nodes.filter(|joint| joint.attribute("name") != Some("world_fixed")) {
+        let ends = joint
+            .children()
+            .filter(|node| node.has_tag_name("parent") || node.has_tag_name("child"));
+        links.extend(ends.filter_map(|node| node.text().map(str::to_owned)));
+    }
+    joints.remove("world_fixed");
+    let model = document
+        .descendants()
+        .find(|node| node.has_tag_name("model"));
+    Names {
+        robot: model.and_then(|model| model.attribute("name").map(str::to_owned)),
+        links,
+        joints: Some(joints),
+    }
+}
+
 fn mjcf(text: &str) -> Names {
     let mut links = of_tag(text, "body", "name");
     let excluded = of_tag(text, "exclude", "body1");
@@ -169,7 +195,10 @@ fn may_refuse(format: Format, name: &str) -> bool {
         Format::Curobo if name.len() > 1_000 => true,
         Format::Curobo | Format::Foam => name.is_empty(),
         Format::Drake if name.contains("::") => true,
-        Format::Drake | Format::Mjcf if name == "world" => true,
+        Format::Drake | Format::Mjcf | Format::Sdf if name == "world" => true,
+        // Names in text are trimmed by readers of SDF; xacro evaluates some in MoveIt.
+        Format::Sdf if name.contains("::") || name.trim() != name => true,
+        Format::Moveit if name.contains("${") || name.contains("$(") => true,
         _ => name.is_empty() || name.contains(unheld),
     }
 }
@@ -334,7 +363,9 @@ fn every_name_comes_out_of_every_format_as_it_went_in() {
 /// Mesh files have names that every file system allows, whatever the links are called.
 fn files_are_safe(made: &Export, name: &str) {
     for (path, _) in &made.files {
-        let file = path.strip_prefix("meshes/").expect("in the folder");
+        let folders = ["meshes/", "config/", "launch/", ""].map(|folder| path.strip_prefix(folder));
+        let file = folders.into_iter().flatten().next().expect("in a folder");
+        assert!(path.starts_with("meshes/") || made.path.is_some(), "{path}");
         let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
         assert!(
             file.chars().all(is_plain) && !file.starts_with('.'),
@@ -416,7 +447,7 @@ fn a_name_that_a_part_of_a_joint_needs_is_refused() {
     };
     let (_folder, path) = made_of(&urdf("j/trans_x"));
     let robot = Robot::open(path).expect("a robot");
-    for format in [Format::Mjcf, Format::Drake] {
+    for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
         let error = export(&robot, format, &Options::default()).expect_err("a name");
         assert!(
             matches!(&error, ExportError::Name { name, .. } if name == "j/trans_x"),
@@ -425,7 +456,7 @@ fn a_name_that_a_part_of_a_joint_needs_is_refused() {
     }
     let (_folder, path) = made_of(&urdf("k"));
     let robot = Robot::open(path).expect("a robot");
-    for format in [Format::Mjcf, Format::Drake] {
+    for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
         assert!(export(&robot, format, &Options::default()).is_ok());
     }
 }
@@ -492,5 +523,6 @@ fn every_format_of_the_command_line_is_tried() {
     let count = listed
         .filter(|line| line.trim_start().starts_with("- "))
         .count();
-    assert_eq!(count, Format::ALL.len(), "{help}");
+    // `init` is no format.
+    assert_eq!(count, Format::ALL.len() + 1, "{help}");
 }

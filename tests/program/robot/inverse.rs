@@ -1,7 +1,7 @@
 //! Inverse kinematics, against closed forms and against forward kinematics.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use urdd_robot::{Inverse, InverseSettings, Robot, RobotError, Target};
+use urdd_robot::{Inverse, InverseSettings, Robot, RobotError, Target, Verdict};
 
 use crate::robot::{made, made_of, our_robots};
 
@@ -212,4 +212,224 @@ fn questions_that_are_none() {
             .unwrap()
             .is_reached()
     );
+}
+
+/// Why a target is not reached, where geometry says it: the tip is at 0.2 m to 0.8 m from the base without bounds, and from
+/// 0.3157 m on with an elbow of at most 2.5 rad.
+#[test]
+fn verdicts_are_those_of_geometry() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    let at = |x: f64, y: f64, z: f64| Target::position(tip, [x, y, z]);
+    let turned = |axis: Vector3<f64>| Target::rotation(tip, UnitQuaternion::from_scaled_axis(axis));
+    for (target, expected) in [
+        (at(0.0, 0.79, 0.0), Verdict::Reached),
+        (at(0.0, 0.81, 0.0), Verdict::OutOfReach),
+        (at(-0.32, 0.0, 0.0), Verdict::Reached),
+        (at(0.0, 0.31, 0.0), Verdict::Limits),
+        (at(0.15, 0.15, 0.0), Verdict::Limits),
+        (at(0.1, 0.1, 0.0), Verdict::OutOfReach),
+        (at(0.5, 0.0, 0.01), Verdict::OutOfReach),
+        // The tip turns about z alone.
+        (turned(Vector3::new(0.0, 0.0, 1.0)), Verdict::Reached),
+        (turned(Vector3::new(0.5, 0.0, 0.0)), Verdict::OutOfReach),
+    ] {
+        let found = ask(&robot, target, &[0.3, 0.2, 0.0]);
+        assert_eq!(found.nearest().verdict, expected, "{target:?}");
+        assert_eq!(found.is_reached(), expected == Verdict::Reached);
+        let quick = InverseSettings {
+            explain: false,
+            ..InverseSettings::default()
+        };
+        let quick = robot.inverse_kinematics(&target, &[0.3, 0.2, 0.0], &quick);
+        let quick = quick.unwrap().nearest().verdict;
+        assert!(
+            matches!(quick, Verdict::Reached | Verdict::Unknown),
+            "{quick:?}"
+        );
+    }
+}
+
+#[test]
+fn a_rotation_alone_leaves_the_position_free() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, 2.1);
+    let found = ask(&robot, Target::rotation(tip, turn), &[0.0, 0.5, 0.0]);
+    let q = found.reached().expect("reached").configuration;
+    assert!((q[0] + q[1] - 2.1).abs() < 1e-6, "{q:?}");
+}
+
+#[test]
+fn weights_leave_directions_free() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    // The elbow that the bounds leave reaches this point turned by 1.91 rad.
+    let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, 2.0);
+    let pose = Isometry3::from_parts(Translation3::new(0.4, 0.3, 0.0), turn);
+    let whole = Target::pose(tip, pose);
+    let start = [0.0, 0.5, 0.0];
+    assert!(!ask(&robot, whole, &start).is_reached());
+    let found = ask(
+        &robot,
+        whole.weighted([1.0, 1.0, 1.0, 1.0, 1.0, 0.0]),
+        &start,
+    );
+    let q = found.reached().expect("reached").configuration;
+    let there = robot.link_poses(&q).unwrap()[tip].translation.vector;
+    assert!((there - pose.translation.vector).norm() < 1e-6, "{there}");
+    // Along the target's own y axis the position is free: the tip is on the line through the point along its x axis.
+    let on_line = whole.weighted([0.0, 1.0, 1.0, 1.0, 1.0, 1.0]);
+    let q = ask(&robot, on_line, &start)
+        .reached()
+        .expect("reached")
+        .configuration;
+    let there = robot.link_poses(&q).unwrap()[tip];
+    let off = pose.inverse() * Point3::from(there.translation.vector);
+    assert!(off.y.abs() < 1e-6 && off.x.abs() > 0.01, "{off}");
+    assert!(there.rotation.angle_to(&turn) < 1e-6);
+    let wrong = robot.inverse_kinematics(
+        &whole.weighted([-1.0; 6]),
+        &start,
+        &InverseSettings::default(),
+    );
+    assert!(matches!(wrong, Err(RobotError::Target(_))), "{wrong:?}");
+}
+
+#[test]
+fn locked_dofs_keep_their_values() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let tip = robot.link("tip").unwrap();
+    let there = robot.link_poses(&[0.3, 1.1, 0.0]).unwrap()[tip];
+    let target = Target::position(tip, there.translation.vector.into());
+    let settings = InverseSettings {
+        locked: vec![0],
+        ..InverseSettings::default()
+    };
+    let ask = |shoulder: f64| {
+        let found = robot.inverse_kinematics(&target, &[shoulder, 0.2, 0.0], &settings);
+        found.unwrap()
+    };
+    let found = ask(0.3).reached().expect("reached").configuration;
+    assert!(
+        found[0] == 0.3 && (found[1] - 1.1).abs() < 1e-5,
+        "{found:?}"
+    );
+    let off = ask(0.5);
+    assert!(!off.is_reached() && off.nearest().configuration[0] == 0.5);
+    let none = InverseSettings {
+        locked: vec![3],
+        ..InverseSettings::default()
+    };
+    let none = robot.inverse_kinematics(&target, &[0.0; 3], &none);
+    assert!(matches!(none, Err(RobotError::OutOfRange { index: 3, .. })));
+}
+
+/// Three links of 0.4 m, 0.3 m and 0.2 m in a plane: one DOF more than a position needs.
+fn redundant() -> String {
+    let joint = |k: usize, x: f64| {
+        format!(
+            r#"<link name="l{k}"/><joint name="j{k}" type="revolute"><parent link="{}"/><child link="l{k}"/>
+            <origin xyz="{x} 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>"#,
+            if k == 0 {
+                "base".to_owned()
+            } else {
+                format!("l{}", k - 1)
+            },
+        )
+    };
+    let joints: String = [0.0, 0.4, 0.3]
+        .into_iter()
+        .enumerate()
+        .map(|(k, x)| joint(k, x))
+        .collect();
+    format!(r#"<robot name="r"><link name="base"/>{joints}</robot>"#)
+}
+
+/// Beside every solution: two elbows for each angle of the last link, in steps of a thousandth of a radian.
+#[test]
+fn the_solution_nearest_to_a_posture() {
+    let (_folder, path) = made_of(&redundant());
+    let robot = Robot::open(path).unwrap();
+    let last = robot.link("l2").unwrap();
+    let all = |x: f64, y: f64| {
+        (-3141..3142).flat_map(move |k| {
+            let angle = f64::from(k) / 1000.0;
+            let (wx, wy) = (x - 0.2 * angle.cos(), y - 0.2 * angle.sin());
+            let cos = (wx * wx + wy * wy - 0.25) / 0.24;
+            let elbow = if cos.abs() > 1.0 {
+                f64::NAN
+            } else {
+                cos.acos()
+            };
+            [elbow, -elbow].map(|elbow| {
+                let shoulder = wy.atan2(wx) - (0.3 * elbow.sin()).atan2(0.4 + 0.3 * elbow.cos());
+                let whole = |x: f64| {
+                    (x + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+                        - std::f64::consts::PI
+                };
+                [whole(shoulder), elbow, whole(angle - shoulder - elbow)]
+            })
+        })
+    };
+    let distance = |a: &[f64], b: &[f64]| {
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| (a - b).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    for ([x, y], posture) in [
+        ([0.5, 0.3], [0.0, 0.0, 0.0]),
+        ([0.5, 0.3], [0.5, -1.0, 2.0]),
+        ([-0.3, 0.4], [2.0, 1.0, -1.0]),
+        ([0.1, -0.6], [-2.5, 1.0, 0.3]),
+    ] {
+        let settings = InverseSettings {
+            posture: Some(posture.to_vec()),
+            ..InverseSettings::default()
+        };
+        let target = Target::position(last, [x, y, 0.0]).of_point([0.2, 0.0, 0.0]);
+        let found = robot
+            .inverse_kinematics(&target, &[0.1; 3], &settings)
+            .unwrap();
+        let found = found.reached().expect("reached").configuration;
+        let within = all(x, y).filter(|q| q.iter().all(|value| value.abs() <= 3.0));
+        let least = within
+            .map(|q| distance(&q, &posture))
+            .fold(f64::INFINITY, f64::min);
+        let own = distance(&found, &posture);
+        assert!(own < least + 1e-4 && own > least - 2e-3, "{own} {least}");
+    }
+}
+
+#[test]
+fn solutions_that_are_refused() {
+    let (_folder, path) = made_of(&redundant());
+    let robot = Robot::open(path).unwrap();
+    let last = robot.link("l2").unwrap();
+    let target = Target::position(last, [0.3, 0.3, 0.0]);
+    let ask = |accepts: &dyn Fn(&[f64]) -> bool| {
+        let settings = InverseSettings::default();
+        let found = robot.inverse_kinematics_where(
+            &target,
+            &[0.1; 3],
+            &settings,
+            accepts,
+            &Default::default(),
+        );
+        found.unwrap()
+    };
+    for sign in [1.0, -1.0] {
+        let found = ask(&|q| q[1] * sign > 0.0).reached().expect("reached");
+        assert!(found.configuration[1] * sign > 0.0, "{found:?}");
+    }
+    let refused = ask(&|_| false);
+    let refused = refused.nearest();
+    assert_eq!(refused.verdict, Verdict::Refused);
+    assert!(refused.position_error < 1e-6, "{refused:?}");
 }

@@ -181,3 +181,55 @@ fn configurations_are_within_bounds_where_they_are_said_to_be() {
     assert!((0..100).all(|k| space.is_within_bounds(&space.random(k))));
     assert_ne!(space.random(1), space.random(2));
 }
+
+/// What planners need beside poses, of a robot whose numbers are in the text.
+#[test]
+fn limits_masses_and_the_dofs_between_links() {
+    let text = r#"<robot name="r"><link name="base"><inertial><origin xyz="0 0 1"/><mass value="2"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+    <link name="left"/><link name="right"><inertial><origin xyz="0.5 0 0"/><mass value="6"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link><link name="tip"/><link name="still"/>
+    <joint name="a" type="revolute"><parent link="base"/><child link="left"/><axis xyz="0 0 1"/>
+      <limit lower="-1" upper="1" effort="7" velocity="3"/></joint>
+    <joint name="b" type="continuous"><parent link="base"/><child link="right"/><axis xyz="0 0 1"/></joint>
+    <joint name="c" type="prismatic"><parent link="right"/><child link="tip"/><axis xyz="1 0 0"/>
+      <limit lower="0" upper="1" effort="5" velocity="2"/><mimic joint="a"/></joint>
+    <joint name="d" type="fixed"><parent link="tip"/><child link="still"/><origin xyz="0 2 0"/></joint></robot>"#;
+    let (_folder, path) = made_of(text);
+    let robot = Robot::open(path).unwrap();
+    assert_eq!(robot.dof_names().unwrap(), ["a", "b"]);
+    assert_eq!(robot.velocity_limits().unwrap(), [3.0, f64::INFINITY]);
+    assert_eq!(robot.effort_limits().unwrap(), [7.0, f64::INFINITY]);
+    let masses = robot.link_masses().unwrap();
+    assert_eq!(masses.iter().map(|link| link.mass).sum::<f64>(), 8.0);
+    assert_eq!(masses[robot.link("right").unwrap()].centre, [0.5, 0.0, 0.0]);
+    // (2 (0, 0, 1) + 6 (0, 0.5, 0)) / 8, with the right link turned by a quarter.
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let centre = robot.centre_of_mass(&[0.3, quarter]).unwrap().unwrap();
+    let off = Vector3::from(centre) - Vector3::new(0.0, 0.375, 0.25);
+    assert!(off.norm() < 1e-15, "{centre:?}");
+
+    let link = |name: &str| robot.link(name).unwrap();
+    let between = |a: &str, b: &str| robot.dofs_between(link(a), link(b)).unwrap();
+    assert_eq!(between("base", "left"), [0]);
+    assert_eq!(between("left", "right"), [0, 1]);
+    // The slide follows `a`.
+    assert_eq!(between("right", "still"), [0]);
+    assert_eq!(between("still", "base"), [0, 1]);
+    assert!(between("tip", "still").is_empty() && between("tip", "tip").is_empty());
+    assert!(matches!(
+        robot.dofs_between(0, 9),
+        Err(RobotError::OutOfRange { index: 9, .. })
+    ));
+
+    // The right link and the tip turn together.
+    let pose = robot
+        .relative_pose(&[0.3, 1.2], link("still"), link("right"))
+        .unwrap();
+    let off = pose.translation.vector - Vector3::new(0.3, 2.0, 0.0);
+    assert!(
+        off.norm() < 1e-15 && pose.rotation.angle() < 1e-15,
+        "{pose}"
+    );
+    assert!(robot.relative_pose(&[0.0; 2], 9, 0).is_err());
+}

@@ -41,6 +41,11 @@ impl Drop for Ends {
 
 /// Acts on a server while its robots are generated and followed.
 pub fn living(collection: Collection, act: impl FnOnce(&Running)) {
+    living_after(Duration::from_millis(50), collection, act);
+}
+
+/// As [`living`], with a pause between the picture of a robot and the rest of it.
+fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Running)) {
     let folder = testkit::temporary::folder();
     let settings = Settings::default();
     let collection = Arc::new(collection);
@@ -48,7 +53,7 @@ pub fn living(collection: Collection, act: impl FnOnce(&Running)) {
         folder: folder.path(),
         settings: &settings,
         observer: &Quiet,
-        pause: Duration::from_millis(50),
+        pause,
     };
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
@@ -125,12 +130,17 @@ fn the_picture_comes_first_and_a_change_is_shown() {
     let urdf = folder.join("arm.urdf");
     let sphere = r#"<sphere radius="0.3"/>"#;
     fs::write(&urdf, robot(1.0, sphere)).expect("written");
-    living(of(&[&urdf]), |server| {
+    // Longer than any answer takes.
+    living_after(Duration::from_secs(3), of(&[&urdf]), |server| {
         let first = until(server, "arm", |answer| answer["entry"]["ready"] == true);
         assert_eq!(upper(server), 1.0);
         assert!(has(server, "plain_meshes_module"));
+        assert!(!has(server, "convex_decomposition_meshes_module"));
         let whole = until(server, "arm", is_whole);
         assert_ne!(first["revision"], whole["revision"]);
+    });
+    living(of(&[&urdf]), |server| {
+        let whole = until(server, "arm", is_whole);
         let _ = server.json("/robots/arm/files.json");
         assert!(has(server, "convex_decomposition_meshes_module"));
 

@@ -3,6 +3,7 @@
 mod asking;
 mod dropping;
 mod exporting;
+mod following;
 mod keeping;
 mod living;
 mod refusing;

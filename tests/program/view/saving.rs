@@ -154,3 +154,48 @@ fn what_makes_no_sense_is_refused() {
     );
     assert_eq!(content(&path), before);
 }
+
+/// The pose of the page becomes a named configuration, which the validator takes; nothing of a person's is replaced unasked.
+#[test]
+fn a_pose_is_saved_under_a_name() {
+    let (_folder, path) = made("welding_arm");
+    let server = Running::on(&path);
+    let post = |wish: &Value| server.post("/robots/welding_arm/configurations", wish);
+    let revision = || server.json("/robots/welding_arm/files.json")["revision"].clone();
+    let robot = urdd_robot::Robot::open(&path).expect("a robot");
+    let middle = robot.configurations().expect("bounds").middle();
+    let zero = robot.configurations().expect("bounds").zero();
+    let wish =
+        |name: &str, q: &[f64]| json!({ "revision": revision(), "name": name, "configuration": q });
+    let answer = post(&wish("home <b>", &middle));
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    assert_eq!(findings(&path), 0);
+    let saved = |name: &str| {
+        let robot = urdd_robot::Robot::open(&path).expect("a robot");
+        robot
+            .named_configuration(name)
+            .expect("a configuration")
+            .to_vec()
+    };
+    assert_eq!(saved("home <b>"), middle);
+    let before = content(&path);
+    for (wish, status) in [
+        (wish("home <b>", &zero), 409),
+        (wish("", &zero), 400),
+        (wish("short", &zero[1..]), 400),
+        (wish("far", &vec![1e9; zero.len()]), 400),
+        (
+            json!({ "revision": "gone", "name": "x", "configuration": zero }),
+            409,
+        ),
+        (json!({ "revision": revision(), "name": "x" }), 400),
+    ] {
+        let answer = post(&wish);
+        assert_eq!(answer.status, status, "{wish}: {}", answer.text());
+    }
+    assert_eq!(content(&path), before);
+    let mut replacing = wish("home <b>", &zero);
+    replacing["replace"] = json!(true);
+    assert_eq!(post(&replacing).status, 200);
+    assert_eq!(saved("home <b>"), zero);
+}

@@ -121,7 +121,7 @@ pub fn border(bytes: &[u8]) {
         let mut touches = vec![false; rows_here];
         // SAFETY: arrays have their stated lengths, or are null.
         let status = unsafe {
-            match call % 9 {
+            match call % 11 {
                 0 => urdd_robot_link_poses(robot, data, rows, dofs, room, length),
                 1 => {
                     let (link, point) = (stream.size(5), stream.array(1, 3));
@@ -172,6 +172,32 @@ pub fn border(bytes: &[u8]) {
                     }
                     assert_eq!(urdd_robot_free(made), Status::Ok);
                     status
+                }
+                8 if known => urdd_proximity_is_within(
+                    proximity,
+                    data,
+                    rows_here,
+                    dofs,
+                    stream.number(),
+                    touches.as_mut_ptr(),
+                ),
+                9 if known && rows_here <= 8 => {
+                    let mut blocked = vec![0.0; rows_here];
+                    // No finer than what a fuzzer has time for.
+                    let resolution = match stream.number() {
+                        number if number.abs() < 0.01 => 0.0,
+                        number => number,
+                    };
+                    urdd_world_proximity_blocked_edge(
+                        world,
+                        data,
+                        data,
+                        rows_here,
+                        dofs,
+                        stream.number(),
+                        resolution,
+                        blocked.as_mut_ptr(),
+                    )
                 }
                 _ => urdd_robot_bounds(robot, room, length),
             }

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
 
+use nalgebra::{Isometry3, Vector3};
 use urdd_c::*;
-use urdd_robot::{ShapeKind, World};
+use urdd_robot::{EdgeSettings, ShapeKind, World};
 
 /// A URDD of the welding arm, with every module, for all tests.
 static ARM: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
@@ -674,6 +675,199 @@ fn many_threads_ask_one_handle() {
             }
         });
         ok(urdd_proximity_free(made));
+        ok(urdd_robot_free(handle));
+    }
+}
+
+#[test]
+fn what_planners_ask_is_what_rust_answers() {
+    let robot = arm();
+    let known = robot.proximity(ShapeKind::Pieces).expect("shapes");
+    let dofs = known.num_dofs();
+    let all = samples(80);
+    let (q, ends) = all.split_at(40 * dofs);
+    let torch = robot.link("torch").expect("torch");
+    let object = urdd_robot::Obstacle::sphere("part", [0.0, 0.0, 0.1], 0.05).expect("a sphere");
+    let known = known.attach(torch, &object).expect("attached");
+    let post = urdd_robot::Obstacle::sphere("post", [0.0; 3], 0.1).expect("a sphere");
+    let mut pose = Isometry3::identity();
+    pose.translation.vector = Vector3::new(0.5, 0.2, 0.4);
+    let moved = post.at(pose).expect("moved");
+    let around = known.world_proximity(&World::new([moved]));
+    let around = around.expect("a world");
+    // SAFETY: as the header says.
+    unsafe {
+        let (handle, mut with, mut none) = (open(), null_mut(), null_mut());
+        let alone = proximity(handle, "pieces");
+        let (mut part, mut post, mut moved, mut world) =
+            (null_mut(), null_mut(), null_mut(), null_mut());
+        let centres = [[0.0, 0.0, 0.1], [0.0; 3]];
+        ok(urdd_obstacle_sphere(
+            c"part".as_ptr(),
+            centres[0].as_ptr(),
+            0.05,
+            &mut part,
+        ));
+        ok(urdd_proximity_attach(alone, torch, part, &mut with));
+        ok(urdd_obstacle_sphere(
+            c"post".as_ptr(),
+            centres[1].as_ptr(),
+            0.1,
+            &mut post,
+        ));
+        let matrix = pose.to_homogeneous().transpose();
+        ok(urdd_obstacle_at(post, matrix.as_ptr(), &mut moved));
+        let obstacles = [moved.cast_const()];
+        ok(urdd_proximity_world_proximity(
+            with,
+            obstacles.as_ptr(),
+            1,
+            &mut world,
+        ));
+
+        let mut within = [[false; 40]; 2];
+        let [own, others] = &mut within;
+        ok(urdd_proximity_is_within(
+            with,
+            q.as_ptr(),
+            40,
+            dofs,
+            0.05,
+            own.as_mut_ptr(),
+        ));
+        ok(urdd_world_proximity_is_within(
+            world,
+            q.as_ptr(),
+            40,
+            dofs,
+            0.05,
+            others.as_mut_ptr(),
+        ));
+        let mut blocked = [[0.0; 40]; 2];
+        let [own, others] = &mut blocked;
+        let (from, to) = (q.as_ptr(), ends.as_ptr());
+        ok(urdd_proximity_blocked_edge(
+            with,
+            from,
+            to,
+            40,
+            dofs,
+            0.0,
+            0.05,
+            own.as_mut_ptr(),
+        ));
+        ok(urdd_world_proximity_blocked_edge(
+            world,
+            from,
+            to,
+            40,
+            dofs,
+            0.0,
+            0.0,
+            others.as_mut_ptr(),
+        ));
+        let settings = [Some(0.05), None].map(|resolution| EdgeSettings {
+            margin: 0.0,
+            resolution,
+        });
+        for (k, row) in q.chunks(dofs).enumerate() {
+            assert_eq!(within[0][k], known.is_within(row, 0.05).expect("an answer"));
+            assert_eq!(
+                within[1][k],
+                around.is_within(row, 0.05).expect("an answer")
+            );
+            let end = &ends[k * dofs..(k + 1) * dofs];
+            let expected = [
+                known
+                    .blocked_edge(row, end, &settings[0])
+                    .expect("an answer"),
+                around
+                    .blocked_edge(row, end, &settings[1])
+                    .expect("an answer"),
+            ];
+            for (found, expected) in blocked.iter().zip(expected) {
+                assert!(
+                    found[k] == expected.unwrap_or(f64::NAN)
+                        || expected.is_none() && found[k].is_nan()
+                );
+            }
+
+            let near = PairDistance::from(&known.nearest(row, 1).expect("pairs")[0]);
+            let (mut pairs, mut gradients, mut found) = ([near; 4], vec![0.0; 4 * dofs], 0);
+            ok(urdd_proximity_gradients(
+                with,
+                row.as_ptr(),
+                dofs,
+                4,
+                pairs.as_mut_ptr(),
+                gradients.as_mut_ptr(),
+                &mut found,
+            ));
+            assert_eq!(found, 4);
+            for (place, one) in known.gradients(row, 4).expect("pairs").iter().enumerate() {
+                assert_eq!(pairs[place].distance, one.pair.distance);
+                let own = &gradients[place * dofs..(place + 1) * dofs];
+                match &one.gradient {
+                    Some(gradient) => assert_eq!(own, gradient),
+                    None => assert!(own.iter().all(|value| value.is_nan())),
+                }
+            }
+            let nearest = ObstacleDistance::from(&around.nearest(row, 1).expect("pairs")[0]);
+            let mut pairs = [nearest; 2];
+            ok(urdd_world_proximity_gradients(
+                world,
+                row.as_ptr(),
+                dofs,
+                2,
+                pairs.as_mut_ptr(),
+                gradients[..2 * dofs].as_mut_ptr(),
+                &mut found,
+            ));
+            let expected = &around.gradients(row, 2).expect("pairs")[1];
+            assert_eq!(pairs[1].distance, expected.pair.distance);
+            if let Some(gradient) = &expected.gradient {
+                assert_eq!(&gradients[dofs..2 * dofs], gradient);
+            }
+
+            let expected = known.penetrations(row).expect("overlaps");
+            let empty = Overlap {
+                pair: near,
+                depth: f64::NAN,
+                direction: [0.0; 3],
+            };
+            // Room for one less than there are.
+            let mut overlaps = vec![empty; expected.len().saturating_sub(1)];
+            let (at, length) = (overlaps.as_mut_ptr(), overlaps.len());
+            let at = if length == 0 { null_mut() } else { at };
+            ok(urdd_proximity_penetrations(
+                with,
+                row.as_ptr(),
+                dofs,
+                at,
+                length,
+                &mut found,
+            ));
+            assert_eq!(found, expected.len());
+            for (found, one) in overlaps.iter().zip(&expected) {
+                assert_eq!((found.depth, found.direction), (one.depth, one.direction));
+                assert_eq!(found.pair.points, one.pair.points);
+            }
+        }
+        let wrong =
+            urdd_proximity_is_within(with, q.as_ptr(), 1, dofs, -1.0, within[0].as_mut_ptr());
+        fails(wrong, Status::Value, "margin");
+        fails(
+            urdd_proximity_attach(with, torch, part, &mut none),
+            Status::Value,
+            "has this name",
+        );
+        assert!(none.is_null());
+        for handle in [part, post, moved] {
+            ok(urdd_obstacle_free(handle));
+        }
+        ok(urdd_world_proximity_free(world));
+        ok(urdd_proximity_free(with));
+        ok(urdd_proximity_free(alone));
         ok(urdd_robot_free(handle));
     }
 }

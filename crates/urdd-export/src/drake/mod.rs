@@ -2,21 +2,26 @@
 //! collision filter groups.
 
 mod joints;
+mod package;
 mod transmissions;
 
 use std::collections::BTreeMap;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::format::Format;
 use super::output::Export;
 use super::subject::Subject;
-use super::urdf_elements::{Geometry, IN_JOINT, IN_LINK, IN_ROBOT, links, push_unknown, robot};
+use super::urdf_elements::{
+    Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
+};
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let urdf = &subject.urdf;
-    let mut robot = robot(subject).with("xmlns:drake", "http://drake.mit.edu");
+    let mut robot = empty_robot(subject).with("xmlns:drake", "http://drake.mit.edu");
     let mut notes = Vec::new();
-    let (links, files) = links(subject, Geometry::Drake, &mut notes)?;
+    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    let (links, mut files) = links(subject, Geometry::Drake, shapes, &mut notes)?;
     let joints = joints::joints(subject, &mut notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
@@ -30,8 +35,11 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }
-    let elements = transmissions::taken(&urdf.unknown_elements, &joints.driven, &mut notes);
-    lost += push_unknown(&mut robot, &elements, IN_ROBOT);
+    let mut taken = transmissions::taken(&urdf.unknown_elements, &joints.driven, &mut notes);
+    lost += push_unknown(&mut robot, &taken.texts, IN_ROBOT);
+    for transmission in taken.others(subject) {
+        robot.push(transmission);
+    }
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
@@ -43,15 +51,14 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         "Collision geometry, and pairs that are filtered: {}.",
         subject.options.shapes
     );
-    Ok(Export {
-        text: robot.document(&subject.comments(what, &notes)?),
-        files,
-        notes,
-    })
+    files.extend(package::files(subject)?);
+    let text = robot.document(&subject.comments(what, &notes)?);
+    Ok(Export::of(text, files, notes))
 }
 
-/// One collision filter group for each link in a pair. It ignores the groups of its partners with a higher index.
-fn groups(subject: &Subject) -> Vec<Element> {
+/// One collision filter group for each link in a pair. It ignores the groups of its partners with a higher index. SDF has
+/// names as text, URDF as attributes.
+pub(super) fn groups(subject: &Subject) -> Vec<Element> {
     let mut partners: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for pair in subject.disabled() {
         let [a, b] = pair.links;
@@ -59,13 +66,20 @@ fn groups(subject: &Subject) -> Vec<Element> {
         partners.entry(b).or_default();
     }
     let name = |link: usize| format!("link_{link}");
+    let saying = |tag: &'static str, key: &'static str, name: &str| match subject.format {
+        Format::Sdf => Element::new(tag).containing(name),
+        _ => Element::new(tag).with(key, name),
+    };
     let group = |(link, ignored): (usize, Vec<usize>)| {
-        let member = Element::new("drake:member").with("link", subject.links[link].as_str());
+        let member = saying("drake:member", "link", &subject.links[link]);
         let mut group = Element::new("drake:collision_filter_group").with("name", name(link));
         group.push(member);
         for other in ignored {
-            let ignored = Element::new("drake:ignored_collision_filter_group");
-            group.push(ignored.with("name", name(other)));
+            group.push(saying(
+                "drake:ignored_collision_filter_group",
+                "name",
+                &name(other),
+            ));
         }
         group
     };

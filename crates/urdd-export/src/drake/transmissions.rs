@@ -4,20 +4,61 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
+use super::super::element::Element;
 use super::super::error::Note;
+use super::super::subject::Subject;
 use super::joints::Driven;
 use urdd_xml::Kind;
 
 /// Elements directly under `robot`, without those that Drake rejects.
-pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Vec<String> {
-    let mut actuators = HashSet::new();
+pub(super) struct Taken {
+    pub texts: Vec<String>,
+    /// The joints that have an actuator, and the names of the actuators.
+    actuated: HashSet<String>,
+    actuators: HashSet<String>,
+}
+
+impl Taken {
+    /// Transmissions of the joints that have none: each is driven directly. A joint without effort is not.
+    pub fn others(&mut self, subject: &Subject) -> Vec<Element> {
+        let mut others = Vec::new();
+        for (index, joint) in subject.view.joints.iter().enumerate() {
+            let is_weak = joint.limit.and_then(|limit| limit.effort) == Some(0.0);
+            if is_weak || !subject.is_driven(index) || self.actuated.contains(&joint.name) {
+                continue;
+            }
+            let numbered = (2..).map(|number| format!("{}_{number}", joint.name));
+            let mut names = [joint.name.clone()].into_iter().chain(numbered);
+            let Some(name) = names.find(|name| self.actuators.insert(name.clone())) else {
+                continue;
+            };
+            others.push(
+                Element::new("transmission")
+                    .with("name", format!("{name}_transmission"))
+                    .holding(
+                        Element::new("type")
+                            .containing("transmission_interface/SimpleTransmission"),
+                    )
+                    .holding(Element::new("joint").with("name", joint.name.as_str()))
+                    .holding(Element::new("actuator").with("name", name)),
+            );
+        }
+        others
+    }
+}
+
+pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Taken {
+    let [mut actuators, mut actuated] = [HashSet::new(), HashSet::new()];
     let mut is_taken = |text: &String| {
         let Ok(document) = urdd_xml::parse(text, Kind::Other) else {
             return true;
         };
         let root = document.root_element();
         let (element, reason) = match root.tag_name().name() {
-            "transmission" => ("transmission", refused(root, driven, &mut actuators)),
+            "transmission" => {
+                let refused = refused(root, driven, &mut actuators, &mut actuated);
+                ("transmission", refused)
+            }
             "loop_joint" => ("loop_joint", Some("Drake has no loops in a URDF")),
             "frame" => ("frame", Some("Drake would take it for one of its own")),
             _ => return true,
@@ -25,11 +66,12 @@ pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) ->
         notes.extend(reason.map(|reason| Note::Element { element, reason }));
         reason.is_none()
     };
-    texts
-        .iter()
-        .filter(|text| is_taken(text))
-        .cloned()
-        .collect()
+    let texts = texts.iter().filter(|text| is_taken(text)).cloned();
+    Taken {
+        texts: texts.collect(),
+        actuated,
+        actuators,
+    }
 }
 
 /// Why Drake rejects a transmission.
@@ -37,6 +79,7 @@ fn refused(
     transmission: Node,
     driven: &Driven,
     actuators: &mut HashSet<String>,
+    actuated: &mut HashSet<String>,
 ) -> Option<&'static str> {
     let child = |name: &str| {
         let mut children = transmission.children();
@@ -67,7 +110,10 @@ fn refused(
         return Some("its joint does not exist, or has several DOFs");
     }
     match actuators.insert(actuator.to_owned()) {
-        true => None,
+        true => {
+            actuated.insert(joint.to_owned());
+            None
+        }
         false => Some("another transmission has the same actuator"),
     }
 }

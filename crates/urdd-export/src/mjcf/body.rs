@@ -7,17 +7,18 @@ use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::super::numbers::{number, numbers};
+use super::super::numbers::{HALF_THICKNESS, number, numbers};
 use super::super::subject::Subject;
-use super::{inertia, joint};
+use super::{frames, inertia, joint};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_robot::{LinkShape, ShapeKind, Solid};
 
+/// The name of the free joint of a floating base.
+pub(super) const FLOATING_BASE: &str = "floating_base";
+
 /// Smaller volumes are treated as flat, well above MuJoCo's mjMINVAL of 1e-15 m³.
 const SMALLEST_VOLUME: f64 = 1e-13;
-/// Half the thickness of a flat box, in metres.
-const HALF_THICKNESS: f64 = 1e-6;
 
 /// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
@@ -53,7 +54,7 @@ impl<'a> Bodies<'a> {
         Ok(Bodies {
             subject,
             shapes,
-            looks: looks(subject)?,
+            looks: looks(subject, &mut notes)?,
             boxes,
             files: MeshFiles::new(subject),
             assets: Element::new("asset"),
@@ -64,16 +65,16 @@ impl<'a> Bodies<'a> {
         })
     }
 
-    /// The `worldbody` with all bodies.
-    pub fn world(&mut self) -> Result<Element, ExportError> {
+    /// The `worldbody` with all bodies. A free base starts at `base_height`, m.
+    pub fn world(&mut self, base_height: f64) -> Result<Element, ExportError> {
         let world = Element::new("worldbody");
         let root = self.subject.tree.root;
         let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
         // From the leaves up, to avoid deep recursion for long chains.
         for &link in self.subject.tree.order.iter().rev() {
-            let mut element = match self.is_world(link) {
+            let mut element = match self.subject.is_world(link) {
                 true => world.clone(),
-                false => self.frame(link),
+                false => self.frame(link, base_height),
             };
             self.fill(link, &mut element)?;
             for joint in &self.subject.tree.child_joints[link] {
@@ -85,22 +86,20 @@ impl<'a> Bodies<'a> {
             elements[link] = Some(element);
         }
         Ok(match elements[root].take() {
-            Some(element) if self.is_world(root) => element,
+            Some(element) if self.subject.is_world(root) => element,
             Some(element) => world.holding(element),
             None => world,
         })
     }
 
-    /// Whether a link is MuJoCo's own body `world`.
-    fn is_world(&self, link: usize) -> bool {
-        link == self.subject.tree.root && self.subject.links[link] == "world"
-    }
-
     /// A body at the origin of its joint.
-    fn frame(&self, link: usize) -> Element {
+    fn frame(&self, link: usize, base_height: f64) -> Element {
         let body = Element::new("body").with("name", self.subject.links[link].as_str());
         let Some(joint) = self.subject.tree.parent_joint[link] else {
-            return body;
+            return match self.subject.has_free_base() {
+                true => body.with("pos", numbers(&[0.0, 0.0, base_height])),
+                false => body,
+            };
         };
         let origin = &self.subject.view.joints[joint].origin;
         let rotation = Rotation3::from_matrix_unchecked(origin.rotation());
@@ -112,19 +111,25 @@ impl<'a> Bodies<'a> {
     /// Adds mass, joints and geoms.
     fn fill(&mut self, link: usize, element: &mut Element) -> Result<(), ExportError> {
         let subject = self.subject;
-        let joint = subject.tree.parent_joint[link];
-        let joint = joint.map(|joint| (&subject.view.joints[joint], &subject.urdf.joints[joint]));
         let mut joints = Vec::new();
-        if let Some((view, source)) = joint {
-            joints = joint::joints(view, source, &mut self.notes);
+        if let Some(joint) = subject.tree.parent_joint[link] {
+            let (view, source) = (&subject.view.joints[joint], &subject.urdf.joints[joint]);
+            let armature = subject.options.gains(joint).armature;
+            joints = joint::joints(view, source, armature, &mut self.notes);
         }
         if let Some(inertial) = self.inertials[link].take()
-            && !self.is_world(link)
+            && !self.subject.is_world(link)
         {
             element.push(inertial);
         }
+        if link == subject.tree.root && subject.has_free_base() {
+            element.push(Element::new("freejoint").with("name", FLOATING_BASE));
+        }
         for joint in joints {
             element.push(joint);
+        }
+        if let Some(site) = frames::site(subject, link) {
+            element.push(site);
         }
         for (look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
             let what = format!("visual_{place}");

@@ -66,7 +66,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
         }
     }
     for group in RigidGroups::new(&subject.view, &subject.tree).groups {
-        if group.moved_by.is_none() {
+        if group.moved_by.is_none() && !subject.has_free_base() {
             continue;
         }
         let of_link = |link: &usize| masses[*link].as_ref();

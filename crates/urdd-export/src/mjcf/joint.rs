@@ -1,69 +1,52 @@
 //! Joints of a body.
 
-use nalgebra::Vector3;
-
 use super::super::element::Element;
 use super::super::error::Note;
+use super::super::joints::{Moves, parts};
 use super::super::numbers::{number, numbers};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
-use urdd_kinematics::rotation::{planar_basis, unit_axis};
 
 const CROSSED: &str =
     "its lower limit is not below its upper one, which MuJoCo refuses; it has no range";
 
-/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
-pub(super) fn joints(joint: &Joint, source: &Source, notes: &mut Vec<Note>) -> Vec<Element> {
-    let name = joint.name.as_str();
-    let slide = |coordinate: &str, axis: Vector3<f64>| {
-        Element::new("joint")
-            .with("name", format!("{name}/{coordinate}"))
-            .with("type", "slide")
-            .with("axis", numbers(axis.as_slice()))
-    };
-    let ball = || {
-        Element::new("joint")
-            .with("name", name)
-            .with("type", "ball")
+/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them. `armature` is the
+/// inertia of the motor of a joint of one DOF, kg m² or kg.
+pub(super) fn joints(
+    joint: &Joint,
+    source: &Source,
+    armature: Option<f64>,
+    notes: &mut Vec<Note>,
+) -> Vec<Element> {
+    let of_one = |kind, notes| {
+        let element = of_one(joint, source, kind, notes);
+        vec![element.with_some("armature", armature.map(number))]
     };
     match joint.joint_type {
-        JointType::Fixed => Vec::new(),
-        JointType::Revolute | JointType::Continuous => vec![of_one(joint, source, "hinge", notes)],
-        JointType::Prismatic => vec![of_one(joint, source, "slide", notes)],
-        JointType::Spherical => vec![ball()],
-        JointType::Floating => vec![
-            slide("trans_x", Vector3::x()),
-            slide("trans_y", Vector3::y()),
-            slide("trans_z", Vector3::z()),
-            ball(),
-        ],
-        JointType::Planar => {
-            let axis = unit_axis(joint.axis).unwrap_or(Vector3::x_axis());
-            let [x, y] = planar_basis(&axis);
-            let hinge = Element::new("joint")
-                .with("name", format!("{name}/rot"))
-                .with("type", "hinge")
-                .with("axis", numbers(axis.as_slice()));
-            vec![slide("trans_x", x), slide("trans_y", y), hinge]
-        }
+        JointType::Revolute | JointType::Continuous => of_one("hinge", notes),
+        JointType::Prismatic => of_one("slide", notes),
+        _ => parts(joint).into_iter().map(of_part).collect(),
     }
 }
 
 /// The names of the MJCF joints that represent a URDF joint.
 pub(super) fn names(joint: &Joint) -> Vec<String> {
-    let name = joint.name.as_str();
-    let part = |part: &str| format!("{name}/{part}");
-    match joint.joint_type {
-        JointType::Fixed => Vec::new(),
-        JointType::Floating => vec![
-            part("trans_x"),
-            part("trans_y"),
-            part("trans_z"),
-            name.to_owned(),
-        ],
-        JointType::Planar => vec![part("trans_x"), part("trans_y"), part("rot")],
-        _ => vec![name.to_owned()],
+    match joint.num_dofs() {
+        1 => vec![joint.name.clone()],
+        _ => parts(joint).into_iter().map(|(name, _)| name).collect(),
     }
+}
+
+fn of_part((name, moves): (String, Moves)) -> Element {
+    let (kind, axis) = match &moves {
+        Moves::Slides(axis) => ("slide", Some(axis)),
+        Moves::Turns(axis) => ("hinge", Some(axis)),
+        Moves::Ball => ("ball", None),
+    };
+    Element::new("joint")
+        .with("name", name)
+        .with("type", kind)
+        .with_some("axis", axis.map(|axis| numbers(axis.as_slice())))
 }
 
 fn of_one(joint: &Joint, source: &Source, kind: &'static str, notes: &mut Vec<Note>) -> Element {

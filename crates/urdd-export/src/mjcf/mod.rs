@@ -2,31 +2,43 @@
 //!
 //! A floating joint becomes three slide joints and a ball joint, regardless of its parent, so that its position is
 //! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
-//! world. Mimic joints become equality constraints with chains resolved, which MuJoCo enforces only in simulation: a
-//! caller that sets positions must set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so
-//! that the pairs are those of the URDD. MuJoCo never checks two rigidly connected bodies, those without a joint
-//! between them.
+//! world, unless [`floating_base`](super::options::Options::floating_base) asks for a free joint. Mimic joints become
+//! equality constraints with chains resolved, which MuJoCo enforces only in simulation: a caller that sets positions must
+//! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
+//! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
 
+mod actuators;
 mod body;
+mod frames;
+mod gains;
 mod inertia;
 mod joint;
+mod keyframes;
+mod scene;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::names::check_unique;
-use super::numbers::numbers;
+use super::numbers::{number, numbers};
 use super::output::Export;
 use super::subject::Subject;
-use body::{Bodies, geom_name};
+use body::{Bodies, FLOATING_BASE, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
 
 const SEVERAL: &str =
     "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely";
 
+const WORLD: &str = "the root link is called `world`, which is MuJoCo's own body and never moves; the base is not free";
+
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mjcf = &subject.options.mjcf;
+    let stand = scene::Stand::new(subject)?;
     let mut bodies = Bodies::new(subject)?;
-    let world = bodies.world()?;
+    let world = bodies.world(stand.base_height)?;
     let mut notes = bodies.notes;
+    if subject.options.floating() && !subject.has_free_base() {
+        notes.push(Note::Robot(WORLD));
+    }
     let mut compiler = Element::new("compiler")
         .with("angle", "radian")
         .with("autolimits", "true");
@@ -36,8 +48,13 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut root = Element::new("mujoco").with("model", subject.urdf.name.as_str());
     root.push(compiler);
     let flag = Element::new("flag").with("filterparent", "disable");
-    root.push(Element::new("option").holding(flag));
-    root.push(classes());
+    let mut option = Element::new("option").holding(flag);
+    if mjcf.actuators.is_some() {
+        // The damping of actuators is integrated implicitly: it is stable for light links too.
+        option = option.with("integrator", "implicitfast");
+    }
+    root.push(option);
+    root.push(classes(subject));
     if !bodies.assets.is_empty() {
         root.push(bodies.assets);
     }
@@ -50,22 +67,39 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if !contact.is_empty() {
         root.push(contact);
     }
+    let mut what = format!("Geoms for collision: {}.", subject.options.shapes);
+    if let Some(kind) = mjcf.actuators {
+        let actuators = actuators::actuators(subject, kind, &mut notes)?;
+        what += &actuators.said;
+        if !actuators.element.is_empty() {
+            root.push(actuators.element);
+        }
+    }
+    let sensors = frames::sensors(subject);
+    if !sensors.is_empty() {
+        root.push(sensors);
+    }
+    let keyframes = keyframes::keyframes(subject, &stand)?;
+    if !keyframes.is_empty() {
+        root.push(keyframes);
+    }
     check_joints(subject)?;
-    let what = format!("Geoms for collision: {}.", subject.options.shapes);
-    Ok(Export {
-        text: root.document(&subject.comments(what, &notes)?),
-        files: bodies.files.into_files(),
-        notes,
-    })
+    let mut files = bodies.files.into_files();
+    files.extend(scene::scene(subject, &stand)?);
+    let text = root.document(&subject.comments(what, &notes)?);
+    Ok(Export::of(text, files, notes))
 }
 
 /// Masses come from the URDF, so geoms have no density.
-fn classes() -> Element {
+fn classes(subject: &Subject) -> Element {
     let geom = |class: &'static str, geom: Element| {
         let geom = geom.with("density", "0");
         Element::new("default").with("class", class).holding(geom)
     };
-    let collision = Element::new("geom").with("group", "3");
+    let friction = subject.options.friction().map(number);
+    let collision = Element::new("geom")
+        .with("group", "3")
+        .with_some("friction", friction);
     let visual = Element::new("geom")
         .with("group", "2")
         .with("contype", "0")
@@ -109,7 +143,8 @@ fn contact(subject: &Subject) -> Element {
 /// Joints with several DOFs become several joints, whose names can collide with others.
 fn check_joints(subject: &Subject) -> Result<(), ExportError> {
     let names = subject.view.joints.iter().flat_map(joint::names);
-    let names: Vec<String> = names.collect();
+    let base = subject.has_free_base().then(|| FLOATING_BASE.to_owned());
+    let names: Vec<String> = names.chain(base).collect();
     check_unique(subject.format, "joint", names.iter().map(String::as_str))
 }
 

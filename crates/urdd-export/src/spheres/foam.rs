@@ -37,9 +37,10 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
         "links": links,
     });
     let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
-    Ok(Export {
-        text: escape::json(&text).into_owned(),
-        files: Vec::new(),
-        notes: said::note(&model, subject).into_iter().collect(),
-    })
+    let text = escape::json(&text).into_owned();
+    Ok(Export::of(
+        text,
+        Vec::new(),
+        said::note(&model, subject).into_iter().collect(),
+    ))
 }

@@ -17,6 +17,7 @@ mod pairs;
 mod said;
 mod samples;
 mod surface;
+pub(super) mod urdf;
 
 use rayon::prelude::*;
 

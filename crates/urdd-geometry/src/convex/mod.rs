@@ -14,6 +14,7 @@ mod gjk;
 mod kernel;
 mod lanes;
 mod motion;
+mod penetration;
 mod shape;
 mod simplex;
 mod statistics;
@@ -26,6 +27,7 @@ pub use fearless_simd::Level;
 pub use gjk::TOLERANCE;
 pub use kernel::{Shape, distance};
 pub use motion::{Motion, MotionError};
+pub use penetration::{Penetration, penetration};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
 pub use statistics::{
     PairStatistics, PlacedShape, ShapeList, pair_distances, pair_ranges, pair_statistics,

@@ -80,6 +80,13 @@ impl ConvexShape {
         Ok(Self { centre, table })
     }
 
+    /// The vertex that is farthest in a direction, in the body frame, metres.
+    pub(crate) fn farthest(&self, direction: Vector3<f64>) -> Vector3<f64> {
+        let points = self.table.points().map(Vector3::from);
+        let by = |a: &Vector3<f64>, b: &Vector3<f64>| direction.dot(a).total_cmp(&direction.dot(b));
+        points.max_by(by).unwrap_or_default() + Vector3::from(self.centre)
+    }
+
     /// Centre of the axis-aligned bounds, in the body frame, metres.
     pub fn centre(&self) -> [f64; 3] {
         self.centre

@@ -78,6 +78,13 @@ impl SupportTable {
         }
     }
 
+    /// The vertices that are farthest in some direction, some of them several times.
+    pub fn points(&self) -> impl Iterator<Item = [f64; 3]> {
+        let point = |block: &Block, k: usize| [block.x[k], block.y[k], block.z[k]];
+        let blocks = self.blocks.iter();
+        blocks.flat_map(move |block| (0..WIDTH).map(move |k| point(block, k)))
+    }
+
     /// Cells along one side of the map.
     #[inline(always)]
     pub fn side(&self) -> usize {

@@ -57,7 +57,8 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
         let longest = points.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
         longest.map_or(from, |q| *q)
     };
-    let (p, q) = (far(p), far(far(p)));
+    let p = far(p);
+    let q = far(p);
     let along = sub(q, p);
     let along = along.map(|x| x / norm(along));
     // Across it: at a right angle to the axis that it is least along.

@@ -191,8 +191,8 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         .filter_map(|hand| {
             let hull = ConvexHull::new(&choose::choose(&hand.points, tolerance)).ok()?;
             // Points inside alone that enclose nothing are not a piece of the body.
-            let is_body = !hull.is_flat() && !held::is_thin(hull.mesh());
-            (hand.has_surface || is_body).then_some(hull)
+            let is_body = || !hull.is_flat() && !held::is_thin(hull.mesh());
+            (hand.has_surface || is_body()).then_some(hull)
         })
         .collect();
     Decomposition {

@@ -23,5 +23,6 @@ mod mesh_write;
 mod often;
 mod oriented_box;
 mod parry;
+mod penetration;
 mod solids;
 mod statistics;

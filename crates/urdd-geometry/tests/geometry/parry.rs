@@ -18,12 +18,12 @@ fn vector([x, y, z]: [f64; 3]) -> Vector {
     Vector::new(x, y, z)
 }
 
-fn theirs(points: &[[f64; 3]]) -> ConvexPolyhedron {
+pub fn theirs(points: &[[f64; 3]]) -> ConvexPolyhedron {
     let points: Vec<Vector> = points.iter().copied().map(vector).collect();
     ConvexPolyhedron::from_convex_hull(&points).expect("a hull")
 }
 
-fn their_pose(pose: &Isometry3<f64>) -> Pose {
+pub fn their_pose(pose: &Isometry3<f64>) -> Pose {
     Pose::new(
         vector(pose.translation.vector.into()),
         vector(pose.rotation.scaled_axis().into()),

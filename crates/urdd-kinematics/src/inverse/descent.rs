@@ -20,7 +20,12 @@ const DAMPING: [f64; 2] = [0.1, 1e-3];
 /// Consecutive rejected steps before a descent gives up.
 const REFUSED: usize = 8;
 
+/// A solution is as near to a posture as it gets when this part of the way there does not bring it nearer by this fraction.
+const SMALLEST_PART: f64 = 0.01;
+const LEAST_GAIN: f64 = 1e-6;
+
 /// The result of a descent.
+#[derive(Clone)]
 pub(super) struct Found {
     pub configuration: Vec<f64>,
     pub cost: f64,
@@ -78,16 +83,7 @@ impl<'a> Descent<'a> {
             }
             self.iterations += 1;
             if !fresh {
-                self.path.jacobian(&q, &self.place, &mut self.jacobian);
-                for column in &mut self.jacobian {
-                    for row in 3..6 {
-                        column[row] *= if self.goal.rotation.is_some() {
-                            self.length
-                        } else {
-                            0.0
-                        };
-                    }
-                }
+                self.linearise(&q);
                 fresh = true;
             }
             self.step(&q, &left.vector, damping * left.cost, &mut next);
@@ -122,9 +118,28 @@ impl<'a> Descent<'a> {
             && left.rotation <= self.settings.rotation_tolerance
     }
 
+    /// Computes the Jacobian of the error, in the units of its vector, at a configuration whose error is known.
+    fn linearise(&mut self, q: &[f64]) {
+        self.path.jacobian(q, &self.place, &mut self.jacobian);
+        let linear = f64::from(u8::from(self.goal.position.is_some()));
+        let angular = match self.goal.rotation.is_some() {
+            true => self.length,
+            false => 0.0,
+        };
+        for column in &mut self.jacobian {
+            for row in 0..6 {
+                column[row] *= if row < 3 { linear } else { angular };
+            }
+            *column = self.goal.weighted(column);
+        }
+    }
+
     fn left(&mut self, q: &[f64]) -> Left {
         let point = self.path.place(q, &mut self.place);
-        let shift = self.goal.position - point;
+        let shift = match self.goal.position {
+            Some(position) => position - point,
+            None => Vector3::zeros(),
+        };
         let turn = match &self.goal.rotation {
             Some(rotation) => Vector3::from(to_rotation_vector(
                 &(rotation * self.place.pose.rotation.inverse()),
@@ -133,12 +148,65 @@ impl<'a> Descent<'a> {
         };
         let scaled = turn * self.length;
         let vector = Vector6::new(shift.x, shift.y, shift.z, scaled.x, scaled.y, scaled.z);
+        let vector = self.goal.weighted(&vector);
+        let (position, rotation) = match self.goal.weights {
+            None => (shift.norm(), turn.norm()),
+            Some(_) => {
+                let part = |first: usize| vector.fixed_rows::<3>(first).norm();
+                (part(0), part(3) / self.length)
+            }
+        };
         Left {
             vector,
             cost: vector.norm_squared(),
-            position: shift.norm(),
-            rotation: turn.norm(),
+            position,
+            rotation,
         }
+    }
+
+    /// Moves a solution toward a posture, along the motions that the goal leaves free.
+    pub fn toward(&mut self, posture: &[f64], mut found: Found) -> Found {
+        let path = self.path;
+        let away = |q: &[f64]| path.distance(q, posture);
+        let mut part = 1.0;
+        while part > SMALLEST_PART {
+            let q = &found.configuration;
+            self.left(q);
+            self.linearise(q);
+            let mut free: Vec<f64> = path
+                .dofs
+                .iter()
+                .map(|dof| posture[*dof] - q[*dof])
+                .collect();
+            let mut matrix = Matrix6::from_diagonal_element(f64::MIN_POSITIVE);
+            let mut moved = Vector6::zeros();
+            for (column, change) in self.jacobian.iter().zip(&free) {
+                matrix.ger(1.0, column, column, 1.0);
+                moved += column * *change;
+            }
+            // A pseudo-inverse: free motions of the goal, and singular ones, have no part in it.
+            let scale = matrix.norm();
+            let Ok(inverse) = matrix.pseudo_inverse(1e-9 * scale.max(f64::MIN_POSITIVE)) else {
+                return found;
+            };
+            let needed = inverse * moved;
+            for (change, column) in free.iter_mut().zip(&self.jacobian) {
+                *change -= column.dot(&needed);
+            }
+            let before = away(q);
+            let mut next = q.clone();
+            for (dof, change) in path.dofs.iter().zip(&free) {
+                next[*dof] += part * change;
+            }
+            path.confine(&mut next);
+            let next = self.from(next);
+            if next.reached && away(&next.configuration) < before * (1.0 - LEAST_GAIN) {
+                found = next;
+            } else {
+                part *= 0.5;
+            }
+        }
+        found
     }
 
     /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the

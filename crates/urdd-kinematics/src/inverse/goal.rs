@@ -1,18 +1,41 @@
 //! What is searched for, and how exactly.
 
-use nalgebra::{Point3, UnitQuaternion};
+use nalgebra::{Point3, UnitQuaternion, Vector6};
 
-/// The desired position of a point of a link, and optionally the desired rotation of the link.
+/// The desired position of a point of a link, the desired rotation of the link, or both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
     /// Index of the link.
     pub link: usize,
     /// The point, in the link's frame, metres.
     pub point: Point3<f64>,
-    /// The desired position, in the root link's frame, metres.
-    pub position: Point3<f64>,
+    /// The desired position, in the root link's frame, metres; `None` for any.
+    pub position: Option<Point3<f64>>,
     /// The desired rotation of the link's frame in the root link's frame; `None` for any.
     pub rotation: Option<UnitQuaternion<f64>>,
+    /// Factors of the errors along the axes of the desired rotation, or of the root link's frame without one: of the
+    /// position along x, y, z, then of the rotation about x, y, z. An error whose factor is 0 is free. `None` for 1.
+    pub weights: Option<[f64; 6]>,
+}
+
+impl Goal {
+    /// An error, or a column of its Jacobian, times the weights.
+    pub(super) fn weighted(&self, vector: &Vector6<f64>) -> Vector6<f64> {
+        let Some(weights) = &self.weights else {
+            return *vector;
+        };
+        let axes = self.rotation.unwrap_or_else(UnitQuaternion::identity);
+        let part =
+            |first: usize| axes.inverse_transform_vector(&vector.fixed_rows::<3>(first).into());
+        let (linear, angular) = (part(0), part(3));
+        Vector6::from_fn(|row, _| {
+            weights[row]
+                * match row {
+                    0..3 => linear[row],
+                    _ => angular[row - 3],
+                }
+        })
+    }
 }
 
 /// Tolerances and limits of [`ForwardKinematics::reach`](crate::ForwardKinematics::reach).
@@ -32,6 +55,13 @@ pub struct InverseSettings {
     /// Bounds of each DOF, in place of those of `bounds_module`: for an unlimited base, which otherwise stays within
     /// one metre, or to restrict the robot further.
     pub bounds: Option<Vec<[f64; 2]>>,
+    /// DOFs that keep the value that they have in the start configuration.
+    pub locked: Vec<usize>,
+    /// A configuration that the solution should be near: every descent is used, each solution is moved toward the posture
+    /// as far as the goal allows, and the nearest one counts, by the Euclidean distance of the DOFs that move the link.
+    pub posture: Option<Vec<f64>>,
+    /// Whether to find out why a goal is not reached, which takes as long as the search; default true.
+    pub explain: bool,
 }
 
 impl Default for InverseSettings {
@@ -43,6 +73,9 @@ impl Default for InverseSettings {
             restarts: 100,
             seed: 0,
             bounds: None,
+            locked: Vec::new(),
+            posture: None,
+            explain: true,
         }
     }
 }

@@ -10,7 +10,7 @@ mod path;
 
 pub use goal::{Goal, InverseSettings};
 
-use self::descent::Descent;
+use self::descent::{Descent, Found};
 use self::path::Path;
 use super::configurations::ConfigurationSpace;
 use super::error::ConfigurationError;
@@ -38,6 +38,25 @@ pub struct InverseSolution {
     pub restarts: usize,
     /// Number of iterations of all descents.
     pub iterations: usize,
+    /// Whether the goal is reached; if not, why.
+    pub verdict: Verdict,
+}
+
+/// Whether a goal is reached; if not, why.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is reached within the tolerances.
+    Reached,
+    /// Every configuration that was found to reach it was refused, such as one in collision.
+    Refused,
+    /// None within the bounds was found, but one beyond them.
+    Limits,
+    /// None was found, within the bounds or beyond them: as a rule, the goal is farther than the robot reaches, or turned
+    /// in a way that its joints cannot turn. This is a search, not a proof.
+    OutOfReach,
+    /// None within the bounds was found; why was not searched for, as [`InverseSettings::explain`] is false, or the search
+    /// was stopped.
+    Unknown,
 }
 
 impl Inverse {
@@ -62,60 +81,159 @@ impl Inverse {
     }
 }
 
+/// What a search is told besides its settings.
+pub struct Conditions<'a> {
+    /// Whether a configuration that reaches the goal counts as a solution, such as one without collision.
+    pub accepts: &'a (dyn Fn(&[f64]) -> bool + 'a),
+    /// If it returns true, the search ends before the next restart.
+    pub stops: &'a (dyn Fn() -> bool + 'a),
+}
+
 impl ForwardKinematics {
     /// Searches for a configuration that reaches a goal: damped least squares from `start`, then from random
     /// configurations.
     ///
     /// Values of `start` out of bounds are first moved into bounds: angles that move the link by whole turns if
-    /// possible, others to the nearest bound. DOFs that do not move the link then keep their value. The bounds of
-    /// rotation vectors are ignored. A goal for a link that does not exist is not reached. If `stop` returns true, the
-    /// search ends before the next restart.
+    /// possible, others to the nearest bound. DOFs that do not move the link, and locked ones, then keep their value.
+    /// The bounds of rotation vectors are ignored. A goal for a link that does not exist is not reached.
     ///
     /// # Errors
-    /// If `start` has the wrong length, or a value that is not finite.
+    /// If `start` or the posture has the wrong length, or a value that is not finite.
     pub fn reach(
         &self,
         goal: &Goal,
         start: &[f64],
         space: &ConfigurationSpace,
         settings: &InverseSettings,
-        stop: &dyn Fn() -> bool,
+        conditions: &Conditions,
     ) -> Result<Inverse, ConfigurationError> {
         self.check(start)?;
-        let path = Path::new(self, goal, space.bounds());
-        let mut descent = Descent::new(&path, goal, settings);
-        let mut first = start.to_vec();
-        path.confine(&mut first);
-        let mut best = descent.from(first.clone());
-        let mut restarts = 0;
-        let most = if path.dofs.is_empty() {
-            0
-        } else {
-            settings.restarts
-        };
-        while !best.reached && restarts < most && !stop() {
-            restarts += 1;
-            let mut begin = first.clone();
-            let other = space.sampled(settings.seed.wrapping_add(restarts as u64));
-            for &dof in &path.dofs {
-                begin[dof] = other[dof];
-            }
-            path.confine(&mut begin);
-            let found = descent.from(begin);
-            if found.reached || found.cost < best.cost {
-                best = found;
+        if let Some(posture) = &settings.posture {
+            self.check(posture)?;
+        }
+        let mut bounds = space.bounds().to_vec();
+        for dof in &settings.locked {
+            if let Some(bounds) = bounds.get_mut(*dof) {
+                *bounds = [start[*dof]; 2];
             }
         }
+        let path = Path::new(self, goal, &bounds);
+        let mut search = Search {
+            path: &path,
+            space,
+            settings,
+            conditions,
+            descent: Descent::new(&path, goal, settings),
+            restarts: 0,
+            refused: None,
+        };
+        let mut first = start.to_vec();
+        path.confine(&mut first);
+        let (best, mut iterations) = (search.best(&first), search.descent.iterations);
+        let verdict = match (best.reached, search.refused.is_some()) {
+            (true, _) => Verdict::Reached,
+            (false, true) => Verdict::Refused,
+            _ if !settings.explain || (conditions.stops)() => Verdict::Unknown,
+            _ => {
+                let wide = path.unlimited(&bounds, path.reach() + best.position_error);
+                let path = Path::new(self, goal, &wide);
+                let mut descent = Descent::new(&path, goal, settings);
+                let others = space.with_bounds(&wide).into_iter().flat_map(|space| {
+                    let seeds =
+                        (1..=settings.restarts as u64).map(|k| settings.seed.wrapping_add(k));
+                    let (path, first) = (&path, &first);
+                    seeds.map(move |seed| path.restarted(first, &space.sampled(seed)))
+                });
+                let mut begins = std::iter::once(best.configuration.clone()).chain(others);
+                let reaches =
+                    begins.any(|begin| !(conditions.stops)() && descent.from(begin).reached);
+                iterations += descent.iterations;
+                match (reaches, (conditions.stops)()) {
+                    (true, _) => Verdict::Limits,
+                    (false, true) => Verdict::Unknown,
+                    (false, false) => Verdict::OutOfReach,
+                }
+            }
+        };
+        let restarts = search.restarts;
+        let best = search.refused.filter(|_| !best.reached).unwrap_or(best);
         let solution = InverseSolution {
             configuration: best.configuration,
             position_error: best.position_error,
             rotation_error: best.rotation_error,
             restarts,
-            iterations: descent.iterations,
+            iterations,
+            verdict,
         };
-        Ok(match best.reached {
-            true => Inverse::Reached(solution),
-            false => Inverse::Nearest(solution),
+        Ok(match verdict {
+            Verdict::Reached => Inverse::Reached(solution),
+            _ => Inverse::Nearest(solution),
         })
+    }
+}
+
+/// A search within bounds.
+struct Search<'a> {
+    path: &'a Path<'a>,
+    space: &'a ConfigurationSpace,
+    settings: &'a InverseSettings,
+    conditions: &'a Conditions<'a>,
+    descent: Descent<'a>,
+    restarts: usize,
+    /// The first configuration that reaches the goal and was refused.
+    refused: Option<Found>,
+}
+
+impl Search<'_> {
+    /// The best configuration; the nearest one, if none reaches the goal and is accepted.
+    fn best(&mut self, first: &[f64]) -> Found {
+        let mut best = self.from(first.to_vec());
+        let most = match self.path.dofs.is_empty() {
+            true => 0,
+            false => self.settings.restarts,
+        };
+        let wants_all = self.settings.posture.is_some();
+        while (wants_all || !best.reached) && self.restarts < most && !(self.conditions.stops)() {
+            self.restarts += 1;
+            let seed = self.settings.seed.wrapping_add(self.restarts as u64);
+            let found = self.from(self.path.restarted(first, &self.space.sampled(seed)));
+            if self.is_better(&found, &best) {
+                best = found;
+            }
+        }
+        best
+    }
+
+    fn is_better(&self, found: &Found, best: &Found) -> bool {
+        match (found.reached, best.reached, &self.settings.posture) {
+            (true, true, Some(posture)) => {
+                let [found, best] = [found, best].map(|one| &one.configuration);
+                self.path.distance(found, posture) < self.path.distance(best, posture)
+            }
+            (true, _, _) => true,
+            (false, reached, _) => !reached && found.cost < best.cost,
+        }
+    }
+
+    /// A descent whose result is reached only if it is accepted.
+    fn from(&mut self, begin: Vec<f64>) -> Found {
+        let mut found = self.descent.from(begin);
+        if !found.reached {
+            return found;
+        }
+        if let Some(posture) = &self.settings.posture {
+            let nearer = self.descent.toward(posture, found.clone());
+            // What is nearest may be refused, and what it began with not.
+            if (self.conditions.accepts)(&nearer.configuration) {
+                return nearer;
+            }
+        }
+        if !(self.conditions.accepts)(&found.configuration) {
+            self.refused.get_or_insert_with(|| found.clone());
+            found.reached = false;
+            // Worse than any that is only near.
+            found.cost = f64::INFINITY;
+        }
+        found
     }
 }

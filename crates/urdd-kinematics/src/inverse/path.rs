@@ -101,6 +101,37 @@ impl<'a> Path<'a> {
         path
     }
 
+    /// The beginning of another descent: with other values of the DOFs that move the link.
+    pub fn restarted(&self, first: &[f64], other: &[f64]) -> Vec<f64> {
+        let mut begin = first.to_vec();
+        for &dof in &self.dofs {
+            begin[dof] = other[dof];
+        }
+        self.confine(&mut begin);
+        begin
+    }
+
+    /// The Euclidean distance of two configurations in the DOFs that move the link.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let squares = self.dofs.iter().map(|dof| (a[*dof] - b[*dof]).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// Bounds within which every pose of the link is that without any limit: whole turns, and slides that are longer
+    /// than the way to the goal.
+    pub fn unlimited(&self, bounds: &[[f64; 2]], way: f64) -> Vec<[f64; 2]> {
+        let mut wide = bounds.to_vec();
+        for (dof, kind) in self.dofs.iter().zip(&self.kinds) {
+            let [lower, upper] = bounds[*dof];
+            wide[*dof] = match kind {
+                Kind::Turning if upper - lower < TAU => [-PI, PI],
+                Kind::Bounded => [lower - way.max(TAU), upper + way.max(TAU)],
+                _ => [lower, upper],
+            };
+        }
+        wide
+    }
+
     /// Bounds of one of `dofs`.
     pub fn bounds(&self, k: usize) -> [f64; 2] {
         self.bounds[self.dofs[k]]

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::kind::Schema;
 use urdd_document::schema_check::{self, SchemaViolation};
-use urdd_format::registry::{self, MODULES};
+use urdd_format::registry::{self, modules};
 use urdd_format::root_metadata::RootMetadata;
 use urdd_format::schema::{Subject, Variant};
 
@@ -14,7 +14,7 @@ impl Schema {
     pub(super) fn subject(self) -> Subject {
         match self {
             Schema::Root => Subject::RootMetadata,
-            Schema::Module(index, _) => MODULES
+            Schema::Module(index, _) => modules()
                 .get(index)
                 .map_or(Subject::RootMetadata, Subject::Module),
         }

@@ -4,11 +4,15 @@ use rayon::prelude::*;
 
 use super::{Group, Placed, Proximity, Workspace};
 use crate::batch::{check_room, fill, room};
+use crate::edge::EdgeSettings;
 use crate::error::RobotError;
 use urdd_directory::cancellation::Cancellation;
 
 /// Configurations in one block of work.
 const BLOCK: usize = 32;
+
+/// Motions in one block of work.
+const EDGES: usize = 4;
 
 /// Batch queries with cancellation: [`Proximity::cancellable`].
 #[derive(Debug, Clone, Copy)]
@@ -179,6 +183,49 @@ impl Cancellable<'_> {
         let pairs = self.proximity.pairs.len();
         self.fill(configurations, pairs, out, |q, workspace, out| {
             self.proximity.distances_with(q, workspace, out)
+        })
+    }
+
+    /// As [`Proximity::is_within`] of each configuration, into `out`.
+    ///
+    /// # Errors
+    /// As [`Cancellable::in_collision_batch_into`], and [`RobotError::Setting`].
+    pub fn is_within_batch_into(
+        &self,
+        configurations: &[f64],
+        margin: f64,
+        out: &mut [bool],
+    ) -> Result<(), RobotError> {
+        self.fill(configurations, 1, out, |q, workspace, out| {
+            out[0] = self.proximity.is_within_with(q, margin, workspace)?;
+            Ok(())
+        })
+    }
+
+    /// As [`Proximity::blocked_edge`] from each configuration of `starts` to that of `ends`, into `out`: NaN where the
+    /// motion is free.
+    ///
+    /// # Errors
+    /// As [`Cancellable::in_collision_batch_into`], and [`RobotError::Setting`].
+    pub fn blocked_edge_batch_into(
+        &self,
+        starts: &[f64],
+        ends: &[f64],
+        settings: &EdgeSettings,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        let count = self.count(ends)?;
+        check_room(starts.len(), count, self.proximity.num_dofs())?;
+        check_room(out.len(), count, 1)?;
+        let dofs = self.proximity.num_dofs();
+        fill(out, 1, EDGES, Workspace::default, |workspace, k, out| {
+            self.cancellation.check()?;
+            let [start, end] = [starts, ends].map(|all| &all[k * dofs..(k + 1) * dofs]);
+            let blocked = self
+                .proximity
+                .blocked_edge_with(start, end, settings, workspace)?;
+            out[0] = blocked.unwrap_or(f64::NAN);
+            Ok(())
         })
     }
 

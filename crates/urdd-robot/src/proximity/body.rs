@@ -1,47 +1,58 @@
 //! Shapes prepared for distance queries, and their bounding spheres.
 
+use std::sync::Arc;
+
 use crate::shapes::Solid;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about, about_spheres};
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::oriented_box::corners;
 
-/// A shape prepared for distance queries.
-#[derive(Debug)]
-pub(crate) enum Body {
-    /// A hull, a piece, or the corners of a box.
-    Convex(ConvexShape),
-    /// A sphere, as its centre. Its bounding sphere has the radius.
-    Round(ConvexShape),
-}
-
-/// A shape with its bounding sphere.
-#[derive(Debug)]
+/// A shape prepared for distance queries, with its bounding sphere.
+#[derive(Debug, Clone)]
 pub(crate) struct Shape {
     pub link: usize,
+    /// Whose it is: the link, or, from the number of links on, an attached object.
+    pub owner: usize,
     pub piece: usize,
-    pub body: Body,
+    /// A hull, a piece, the corners of a box, or the centre of a ball. Shared with those who attach objects.
+    pub core: Arc<ConvexShape>,
+    /// The shape is all points that are at most this far from `core`, m.
+    pub radius: f64,
     pub sphere: BoundingSphere,
+    /// Whether its bounding sphere is the shape itself.
+    pub is_ball: bool,
 }
 
-/// Prepares a shape, and computes its bounding sphere.
-pub(super) fn body(solid: &Solid) -> Result<(Body, BoundingSphere), ShapeError> {
-    let of_points = |points: &[[f64; 3]]| {
-        let shape = ConvexShape::of_points(points)?;
-        let sphere = about(shape.centre(), points);
-        Ok((Body::Convex(shape), sphere))
-    };
-    match solid {
-        Solid::Mesh(mesh) => of_points(&mesh.vertices),
-        Solid::Box { pose, half_extents } => {
-            let placed = |p: [f64; 3]| (pose * nalgebra::Point3::from(p)).coords.into();
-            of_points(&corners(*half_extents).map(placed))
-        }
-        Solid::Sphere { centre, radius } => {
-            let (centre, radius) = (*centre, *radius);
-            // The same limits as for points.
-            ConvexShape::of_points(&[centre, centre.map(|x| x + radius)])?;
-            let core = ConvexShape::of_points(&[centre])?;
-            Ok((Body::Round(core), BoundingSphere { centre, radius }))
+impl Shape {
+    /// A shape of a link.
+    pub fn of(link: usize, piece: usize, solid: &Solid) -> Result<Self, ShapeError> {
+        let shape = |core, sphere: BoundingSphere, is_ball| Shape {
+            link,
+            owner: link,
+            piece,
+            core: Arc::new(core),
+            radius: if is_ball { sphere.radius } else { 0.0 },
+            sphere,
+            is_ball,
+        };
+        let of_points = |points: &[[f64; 3]]| {
+            let core = ConvexShape::of_points(points)?;
+            let sphere = about(core.centre(), points);
+            Ok(shape(core, sphere, false))
+        };
+        match solid {
+            Solid::Mesh(mesh) => of_points(&mesh.vertices),
+            Solid::Box { pose, half_extents } => {
+                let placed = |p: [f64; 3]| (pose * nalgebra::Point3::from(p)).coords.into();
+                of_points(&corners(*half_extents).map(placed))
+            }
+            Solid::Sphere { centre, radius } => {
+                let (centre, radius) = (*centre, *radius);
+                // The same limits as for points.
+                ConvexShape::of_points(&[centre, centre.map(|x| x + radius)])?;
+                let core = ConvexShape::of_points(&[centre])?;
+                Ok(shape(core, BoundingSphere { centre, radius }, true))
+            }
         }
     }
 }

@@ -7,21 +7,29 @@
 //! that take a [`Workspace`] do not allocate.
 //! Results do not depend on the number of threads or on the batch.
 //!
-//! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: penetration depths are not computed.
+//! [`Proximity::attach`] adds an object that a link carries. [`Proximity::is_within`] answers for a margin, [`Proximity::gradients`] has the derivatives of distances, and
+//! [`Proximity::blocked_edge`] checks a straight motion.
+//!
+//! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: [`Proximity::penetrations`] says how far.
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
 //! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
+mod attach;
 mod batch;
 mod body;
 mod bound;
+mod edges;
+mod gradient;
+mod margin;
 mod query;
+mod swept;
 mod vector;
 mod workspace;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use self::body::{Shape, body};
+use self::body::Shape;
 use super::Robot;
 use super::error::RobotError;
 use super::motion::Motion;
@@ -34,7 +42,9 @@ use urdd_geometry::convex::across::columns;
 use urdd_geometry::vector::{dot, sub};
 
 pub use batch::Cancellable;
-pub(super) use body::Body;
+pub use gradient::{Overlap, PairGradient};
+pub(super) use gradient::{in_root, toward};
+pub(super) use swept::{SweptPair, Waiting, penetration_of, witnesses};
 pub(super) use vector::to_root;
 pub use workspace::Workspace;
 pub(super) use workspace::{Least, Placed};
@@ -42,11 +52,11 @@ pub(super) use workspace::{Least, Placed};
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairDistance {
-    /// The names of the two links.
+    /// The names of the two links, or of attached objects.
     pub links: [Arc<str>; 2],
-    /// The indices of the two links.
+    /// The indices of the two links; for an attached object, of the link that it is attached to.
     pub link_idxs: [usize; 2],
-    /// The indices of the pieces; 0 for hulls and their bounding volumes.
+    /// The indices of the pieces; 0 for hulls and their bounding volumes. For an attached object, of its parts.
     pub pieces: [usize; 2],
     /// In metres; 0 if they touch or overlap.
     pub distance: f64,
@@ -59,17 +69,28 @@ pub struct PairDistance {
 }
 
 /// The shapes of one kind, prepared for distances.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Proximity {
     motion: Arc<Motion>,
     pub(super) kind: ShapeKind,
+    /// Of the links, then of the attached objects.
     pub(super) names: Vec<Arc<str>>,
     pub(super) shapes: Vec<Shape>,
     /// For each link, the bounding sphere of all its shapes.
     spheres: Vec<Option<BoundingSphere>>,
     pairs: Vec<Pair>,
     groups: Vec<Group>,
+    rounding: Rounding,
     pub(super) level: Level,
+}
+
+/// Which of the shapes have radii.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rounding {
+    None,
+    Some,
+    /// All of them are balls.
+    Balls,
 }
 
 /// Two shapes that are not skipped.
@@ -83,6 +104,8 @@ struct Pair {
 #[derive(Debug, Clone, Copy)]
 struct Group {
     links: [usize; 2],
+    /// Whether a DOF moves one link against the other.
+    moves: bool,
     first: usize,
     end: usize,
 }
@@ -136,16 +159,11 @@ impl Robot {
                 let (what, index) = ("link", shape.link);
                 return Err(RobotError::OutOfRange { what, index, count });
             }
-            let (body, sphere) = body(&shape.solid).map_err(|error| RobotError::Unusable {
+            let own = Shape::of(shape.link, shape.piece, &shape.solid);
+            shapes.push(own.map_err(|error| RobotError::Unusable {
                 module: kind.module(),
                 reason: format!("piece {} of link {}: {error}", shape.piece, shape.link),
-            })?;
-            shapes.push(Shape {
-                link: shape.link,
-                piece: shape.piece,
-                body,
-                sphere,
-            });
+            })?);
         }
         let of_shape = |shape: &Shape| index.get(&(shape.link, shape.piece)).copied();
         let indices: Vec<Option<usize>> = shapes.iter().map(of_shape).collect();
@@ -164,35 +182,22 @@ impl Robot {
                 });
             }
         }
-        let links = |pair: &Pair| pair.shapes.map(|shape| shapes[shape].link);
-        pairs.sort_by_key(|pair| (links(pair), pair.shapes));
-        let mut groups: Vec<Group> = Vec::new();
-        for (at, pair) in pairs.iter().enumerate() {
-            match groups.last_mut() {
-                Some(group) if group.links == links(pair) => group.end = at + 1,
-                _ => groups.push(Group {
-                    links: links(pair),
-                    first: at,
-                    end: at + 1,
-                }),
-            }
-        }
         Ok(Proximity {
             names: motion
                 .links
                 .iter()
                 .map(|name| Arc::from(name.as_str()))
                 .collect(),
-            spheres: (0..count)
-                .map(|link| body::about_link(&shapes, link))
-                .collect(),
+            spheres: Vec::new(),
             kind,
             shapes,
             pairs,
-            groups,
+            groups: Vec::new(),
+            rounding: Rounding::None,
             level: Level::new(),
             motion,
-        })
+        }
+        .arranged())
     }
 }
 
@@ -224,13 +229,71 @@ impl Proximity {
         self.pairs.iter().map(move |pair| pair.shapes.map(place))
     }
 
+    /// The names of the links of [`Proximity::pairs`], or of attached objects.
+    pub fn pair_names(&self) -> impl ExactSizeIterator<Item = [&str; 2]> {
+        let name = |shape: usize| &**self.owner(&self.shapes[shape]);
+        self.pairs.iter().map(move |pair| pair.shapes.map(name))
+    }
+
+    /// The root link.
+    pub(super) fn root(&self) -> usize {
+        self.motion.kinematics.root()
+    }
+
     /// The name of a link.
     pub fn link_name(&self, link: usize) -> Option<&str> {
-        self.names.get(link).map(|name| &**name)
+        let names = &self.names[..self.motion.links.len()];
+        names.get(link).map(|name| &**name)
     }
 }
 
 impl Proximity {
+    /// With the pairs in order, their groups, and the spheres of links.
+    fn arranged(mut self) -> Self {
+        let shapes = &self.shapes;
+        self.rounding = match shapes.iter().all(|shape| shape.is_ball) {
+            true if !shapes.is_empty() => Rounding::Balls,
+            _ if shapes.iter().all(|shape| shape.radius == 0.0) => Rounding::None,
+            _ => Rounding::Some,
+        };
+        let links = |pair: &Pair| pair.shapes.map(|shape| shapes[shape].link);
+        self.pairs.sort_by_key(|pair| (links(pair), pair.shapes));
+        self.groups.clear();
+        let bodies = self.motion.kinematics.rigid_bodies();
+        for (at, pair) in self.pairs.iter().enumerate() {
+            match self.groups.last_mut() {
+                Some(group) if group.links == links(pair) => group.end = at + 1,
+                _ => self.groups.push(Group {
+                    links: links(pair),
+                    moves: {
+                        let [a, b] = links(pair);
+                        bodies[a] != bodies[b]
+                    },
+                    first: at,
+                    end: at + 1,
+                }),
+            }
+        }
+        let count = self.motion.links.len();
+        self.spheres = (0..count)
+            .map(|link| body::about_link(shapes, link))
+            .collect();
+        self
+    }
+
+    /// The name of a shape's link, or of the attached object.
+    pub(super) fn owner(&self, shape: &Shape) -> &Arc<str> {
+        &self.names[shape.owner]
+    }
+
+    /// The links and the centres of the shapes, placed.
+    fn placed(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
+        let mut placed = Placed::default();
+        self.place(configuration, &mut placed)?;
+        self.place_centres(&mut placed);
+        Ok(placed)
+    }
+
     pub(super) fn place(
         &self,
         configuration: &[f64],

@@ -1,15 +1,16 @@
 //! Queries on one configuration.
 
+use std::sync::Arc;
+
 use arrayvec::ArrayVec;
 
-use super::body::Body;
+use super::swept::{self, SweptPair, Waiting};
 use super::vector::to_root;
 use super::workspace::{Placed, Workspace};
-use super::{Group, PairDistance, Proximity};
+use super::{Group, PairDistance, Proximity, Rounding};
 use crate::batch::check_room;
 use crate::error::RobotError;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
-use urdd_geometry::vector::{norm, sub};
 
 impl Proximity {
     /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
@@ -18,9 +19,7 @@ impl Proximity {
     /// # Errors
     /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite.
     pub fn closest_points(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
-        let mut placed = Placed::default();
-        self.place(configuration, &mut placed)?;
-        self.place_centres(&mut placed);
+        let placed = self.placed(configuration)?;
         let all: Vec<usize> = (0..self.pairs.len()).collect();
         Ok(self.witnesses(&placed, &all))
     }
@@ -124,9 +123,7 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn collisions(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
-        let mut placed = Placed::default();
-        self.place(configuration, &mut placed)?;
-        self.place_centres(&mut placed);
+        let placed = self.placed(configuration)?;
         let near = (0..self.pairs.len()).filter(|pair| self.bound(&placed, *pair) <= 0.0);
         let near: Vec<usize> = near.collect();
         let mut touching = Vec::new();
@@ -144,7 +141,7 @@ impl Proximity {
 
     /// Whether any pair in these groups touches, for the given placement of the links.
     pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
-        let mut near: ArrayVec<PlacedPair, AT_ONCE> = ArrayVec::new();
+        let mut waiting = Waiting::new(self.level);
         for group in groups {
             if self.are_apart(placed, group.links) {
                 continue;
@@ -154,19 +151,16 @@ impl Proximity {
                 if self.bound(placed, pair) > 0.0 {
                     continue;
                 }
-                let Some(pair) = self.convex(pair, pose) else {
+                // The bound of balls is their distance.
+                if self.rounding != Rounding::None && self.are_balls(pair) {
                     return true;
-                };
-                near.push(pair);
-                if near.len() == AT_ONCE {
-                    if across::any_touches(self.level, &near) {
-                        return true;
-                    }
-                    near.clear();
+                }
+                if waiting.touches_with(self.cores(pair, pose), self.radii(pair)) {
+                    return true;
                 }
             }
         }
-        across::any_touches(self.level, &near)
+        waiting.any_touches()
     }
 
     /// The distances and indices of the `k` nearest pairs, nearest first.
@@ -186,95 +180,96 @@ impl Proximity {
     }
 
     /// The distances of some pairs, at most [`AT_ONCE`].
-    fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
-        let mut convex: ArrayVec<PlacedPair, AT_ONCE> = ArrayVec::new();
-        for pair in pairs {
-            convex.extend(self.convex(*pair, self.pose(placed, *pair)));
+    pub(super) fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
+        if self.rounding != Rounding::Balls {
+            let cores = pairs.iter();
+            let cores = cores.map(|pair| self.cores(*pair, self.pose(placed, *pair)));
+            let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
+            across::distances(self.level, &cores, values);
         }
-        if convex.len() == pairs.len() {
-            across::distances(self.level, &convex, values);
-        } else {
-            // For spheres, the bound is the distance.
-            for (value, pair) in values.iter_mut().zip(pairs) {
-                *value = self.bound(placed, *pair).max(0.0);
-            }
+        if self.rounding == Rounding::None {
+            return;
+        }
+        for (value, pair) in values.iter_mut().zip(pairs) {
+            *value = self.rounded(placed, *pair, *value);
         }
     }
 
-    fn pose(&self, placed: &Placed, pair: usize) -> [[f64; 3]; 4] {
+    /// The distance of a pair, from that of its cores.
+    fn rounded(&self, placed: &Placed, pair: usize, cores: f64) -> f64 {
+        match self.are_balls(pair) {
+            true => self.bound(placed, pair).max(0.0),
+            false => (cores - self.radii(pair)).max(0.0),
+        }
+    }
+
+    pub(super) fn pose(&self, placed: &Placed, pair: usize) -> [[f64; 3]; 4] {
         let [a, b] = self.pairs[pair].shapes.map(|shape| self.shapes[shape].link);
         Self::relative(placed, a, b)
     }
 
-    /// The two shapes of a pair; `None` for spheres.
-    fn convex(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> Option<PlacedPair<'_>> {
-        let [a, b] = self.pairs[pair]
-            .shapes
-            .map(|shape| &self.shapes[shape].body);
-        match (a, b) {
-            (Body::Convex(a), Body::Convex(b)) => Some(PlacedPair { a, b, b_in_a }),
-            _ => None,
+    /// Whether a pair is two balls: the bound of their distance is the distance.
+    fn are_balls(&self, pair: usize) -> bool {
+        let [a, b] = self.pairs[pair].shapes;
+        self.shapes[a].is_ball && self.shapes[b].is_ball
+    }
+
+    /// The cores of a pair.
+    fn cores(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> PlacedPair<'_> {
+        let [a, b] = self.pairs[pair].shapes;
+        PlacedPair {
+            a: &self.shapes[a].core,
+            b: &self.shapes[b].core,
+            b_in_a,
         }
     }
 
-    fn witnesses(&self, placed: &Placed, pairs: &[usize]) -> Vec<PairDistance> {
-        let convex: Vec<PlacedPair> = pairs
-            .iter()
-            .filter_map(|pair| self.convex(*pair, self.pose(placed, *pair)))
-            .collect();
-        let found: Vec<(f64, [[f64; 3]; 2])> = if convex.len() == pairs.len() {
-            let witnesses = across::witnesses(self.level, &convex);
-            let both = pairs.iter().zip(witnesses);
-            both.map(|(pair, found)| {
-                let link = self.shapes[self.pairs[*pair].shapes[0]].link;
-                let root = |p| to_root(&placed.links[link], p);
-                (found.distance, found.points.map(root))
-            })
-            .collect()
-        } else {
-            pairs
-                .iter()
-                .map(|pair| self.of_spheres(placed, *pair))
-                .collect()
-        };
-        let both = pairs.iter().zip(found);
-        both.map(|(pair, (distance, points))| self.pair_distance(*pair, distance, points))
-            .collect()
+    /// The sum of the radii of a pair.
+    fn radii(&self, pair: usize) -> f64 {
+        let [a, b] = self.pairs[pair].shapes;
+        self.shapes[a].radius + self.shapes[b].radius
     }
 
-    fn pair_distance(&self, pair: usize, distance: f64, points: [[f64; 3]; 2]) -> PairDistance {
-        let pair = &self.pairs[pair];
-        let shapes = pair.shapes.map(|shape| &self.shapes[shape]);
+    /// The two shapes of a pair.
+    pub(super) fn swept(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> SweptPair<'_> {
+        let [a, b] = self.pairs[pair].shapes;
+        SweptPair {
+            cores: self.cores(pair, b_in_a),
+            radii: [self.shapes[a].radius, self.shapes[b].radius],
+        }
+    }
+
+    pub(super) fn witnesses(&self, placed: &Placed, pairs: &[usize]) -> Vec<PairDistance> {
+        let both = pairs.iter();
+        let swept = both.map(|pair| self.swept(*pair, self.pose(placed, *pair)));
+        let found = swept::witnesses(self.level, &swept.collect::<Vec<_>>());
+        let both = pairs.iter().zip(found);
+        both.map(|(pair, (distance, points))| {
+            let link = self.shapes[self.pairs[*pair].shapes[0]].link;
+            let points = points.map(|p| to_root(&placed.links[link], p));
+            let distance = match self.are_balls(*pair) {
+                true => self.bound(placed, *pair).max(0.0),
+                false => distance,
+            };
+            self.pair_distance(*pair, distance, points)
+        })
+        .collect()
+    }
+
+    pub(super) fn pair_distance(
+        &self,
+        pair: usize,
+        distance: f64,
+        points: [[f64; 3]; 2],
+    ) -> PairDistance {
+        let shapes = self.pairs[pair].shapes.map(|shape| &self.shapes[shape]);
         PairDistance {
-            links: shapes.map(|shape| self.names[shape.link].clone()),
+            links: shapes.map(|shape| Arc::clone(self.owner(shape))),
             link_idxs: shapes.map(|shape| shape.link),
             pieces: shapes.map(|shape| shape.piece),
             distance,
-            relative: pair.mean.map(|mean| distance / mean),
+            relative: self.pairs[pair].mean.map(|mean| distance / mean),
             points,
         }
-    }
-
-    /// The distance of two spheres, and their closest points.
-    fn of_spheres(&self, placed: &Placed, pair: usize) -> (f64, [[f64; 3]; 2]) {
-        let [a, b] = self.pairs[pair].shapes;
-        let (p, q) = (placed.centres[a], placed.centres[b]);
-        let radii = [a, b].map(|shape| self.shapes[shape].sphere.radius);
-        let between = sub(q, p);
-        let length = norm(between);
-        let distance = (length - radii[0] - radii[1]).max(0.0);
-        let toward = match length > 0.0 {
-            true => between.map(|x| x / length),
-            false => [1.0, 0.0, 0.0],
-        };
-        // If the spheres overlap: a point on the line between the centres that is in both.
-        let along = match distance > 0.0 {
-            true => [radii[0], length - radii[1]],
-            false => [radii[0].min(0.5 * (length + radii[0] - radii[1]).max(0.0)); 2],
-        };
-        (
-            distance,
-            along.map(|t| [0, 1, 2].map(|k| p[k] + t * toward[k])),
-        )
     }
 }

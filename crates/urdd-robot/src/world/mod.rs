@@ -27,11 +27,12 @@
 //!
 //! Positions are in the root link's frame, in metres. To move the robot's base, apply the inverse motion to the world.
 
-mod obstacle;
+mod edges;
+mod gradient;
 mod proximity;
 
-pub use obstacle::{Obstacle, World};
+pub use gradient::ObstacleGradient;
 pub use proximity::{ObstacleDistance, WorldProximity};
 
 #[cfg(doc)]
-use super::Proximity;
+use super::{Obstacle, Proximity, World};

@@ -5,22 +5,24 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
-use super::obstacle::{Obstacle, Part, World};
 use crate::error::RobotError;
 use crate::names::index;
-use crate::proximity::{Body, Least, Placed, Proximity, Workspace, to_root};
-use urdd_geometry::convex::Witness;
+use crate::obstacle::{Obstacle, Part, World};
+use crate::proximity::{
+    Least, Placed, Proximity, SweptPair, Waiting, Workspace, to_root, witnesses,
+};
+use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
-use urdd_geometry::vector::{dot, norm, sub};
+use urdd_geometry::vector::dot;
 
 /// The distance between a shape of the robot and an obstacle, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleDistance {
-    /// The name of the link.
+    /// The name of the link, or of the attached object.
     pub link: Arc<str>,
-    /// The index of the link.
+    /// The index of the link; for an attached object, of the link that it is attached to.
     pub link_idx: usize,
-    /// The index of the link's piece; 0 for a hull and its bounding volumes.
+    /// The index of the link's piece; 0 for a hull and its bounding volumes. For an attached object, of its part.
     pub piece: usize,
     /// The name of the obstacle.
     pub obstacle: Arc<str>,
@@ -34,15 +36,15 @@ pub struct ObstacleDistance {
 }
 
 /// The indices of a shape and of a part of an obstacle.
-type Pair = (usize, usize);
+pub(super) type Pair = (usize, usize);
 
 /// A robot's shapes and a world, prepared for distance queries.
 #[derive(Debug)]
 pub struct WorldProximity<P> {
-    proximity: P,
+    pub(super) proximity: P,
     names: Vec<Arc<str>>,
     parts: Vec<(usize, Part)>,
-    /// For each obstacle, the links that are not tested against it.
+    /// For each obstacle, the links and attached objects that are not tested against it.
     ignored: Vec<Vec<usize>>,
 }
 
@@ -62,10 +64,10 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// # Errors
     /// As there.
     pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
-        let names: Vec<String> = proximity.names.iter().map(ToString::to_string).collect();
         let ignored = |obstacle: &Obstacle| {
             let links = obstacle.ignored.iter();
-            links.map(|link| index("link", &names, link)).collect()
+            let known = |link: &String| index("link", &proximity.names, link);
+            links.map(known).collect()
         };
         let ignored: Result<Vec<Vec<usize>>, RobotError> =
             world.obstacles.iter().map(ignored).collect();
@@ -85,8 +87,18 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
         let shapes = self.proximity.shapes.iter();
         shapes.flat_map(|shape| {
-            let tested = (0..self.names.len()).filter(|k| !self.ignored[*k].contains(&shape.link));
+            let tested = (0..self.names.len()).filter(|k| !self.ignored[*k].contains(&shape.owner));
             tested.map(|obstacle| ([shape.link, shape.piece], obstacle))
+        })
+    }
+
+    /// The name of the link of each of the [pairs](WorldProximity::pairs), or of the attached object.
+    pub fn pair_names(&self) -> impl Iterator<Item = &str> {
+        let shapes = self.proximity.shapes.iter();
+        shapes.flat_map(|shape| {
+            let tested = self.ignored.iter();
+            let tested = tested.filter(|ignored| !ignored.contains(&shape.owner));
+            tested.map(|_| &**self.proximity.owner(shape))
         })
     }
 
@@ -194,22 +206,18 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         configuration: &[f64],
         workspace: &mut Workspace,
     ) -> Result<bool, RobotError> {
-        let placed = &mut workspace.placed;
-        self.place_into(configuration, placed)?;
+        self.place_into(configuration, &mut workspace.placed)?;
+        Ok(self.touches(&workspace.placed))
+    }
+
+    /// Whether any pair touches or overlaps.
+    pub(super) fn touches(&self, placed: &Placed) -> bool {
+        let mut waiting = Waiting::new(self.proximity.level);
         let mut near = self
             .tested()
             .filter(|pair| self.bound(placed, *pair) <= 0.0);
-        loop {
-            let pairs: ArrayVec<Pair, AT_ONCE> = near.by_ref().take(AT_ONCE).collect();
-            let mut values = [f64::INFINITY; AT_ONCE];
-            self.values(placed, &pairs, &mut values[..pairs.len()]);
-            if values.contains(&0.0) {
-                return Ok(true);
-            }
-            if !pairs.is_full() {
-                return Ok(false);
-            }
-        }
+        near.any(|pair| waiting.touches_with(self.cores(placed, pair), self.radii(pair)))
+            || waiting.any_touches()
     }
 
     /// Number of pairs of a shape of the robot and a part of an obstacle: the most that [`WorldProximity::nearest`]
@@ -218,41 +226,45 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         self.tested().count()
     }
 
-    fn tested(&self) -> impl Iterator<Item = Pair> {
+    pub(super) fn tested(&self) -> impl Iterator<Item = Pair> {
         let shapes = 0..self.proximity.shapes.len();
         shapes.flat_map(|shape| self.pairs_of(shape))
     }
 
     fn pairs_of(&self, shape: usize) -> impl Iterator<Item = Pair> {
-        let link = self.proximity.shapes[shape].link;
+        let owner = self.proximity.shapes[shape].owner;
         let parts = self.parts.iter().enumerate();
         let tested =
-            parts.filter(move |(_, (obstacle, _))| !self.ignored[*obstacle].contains(&link));
+            parts.filter(move |(_, (obstacle, _))| !self.ignored[*obstacle].contains(&owner));
         tested.map(move |(part, _)| (shape, part))
     }
 
-    fn place(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
+    pub(super) fn place(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
         let mut placed = Placed::default();
         self.place_into(configuration, &mut placed)?;
         Ok(placed)
     }
 
-    fn place_into(&self, configuration: &[f64], placed: &mut Placed) -> Result<(), RobotError> {
+    pub(super) fn place_into(
+        &self,
+        configuration: &[f64],
+        placed: &mut Placed,
+    ) -> Result<(), RobotError> {
         self.proximity.place(configuration, placed)?;
         self.proximity.place_centres(placed);
         Ok(())
     }
 
     /// A lower bound of the distance of a pair, in metres; not positive if it may touch.
-    fn bound(&self, placed: &Placed, (shape, part): Pair) -> f64 {
-        let part = &self.parts[part].1;
-        let (p, q) = (placed.centres[shape], part.shape.centre());
-        let reach = self.proximity.shapes[shape].sphere.radius + part.reach + part.radius;
-        // Reduced by more than any rounding error.
-        norm(sub(q, p)) * (1.0 - 1e-12) - reach
+    pub(super) fn bound(&self, placed: &Placed, (shape, part): Pair) -> f64 {
+        let sphere = BoundingSphere {
+            centre: placed.centres[shape],
+            radius: self.proximity.shapes[shape].sphere.radius,
+        };
+        self.parts[part].1.bound(&sphere)
     }
 
-    fn least(
+    pub(super) fn least(
         &self,
         placed: &Placed,
         pairs: impl Iterator<Item = Pair>,
@@ -278,79 +290,70 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         })
     }
 
-    /// A shape of the robot and a part of an obstacle, with the part placed in the frame of the shape's link.
-    fn placed_pair(&self, placed: &Placed, (shape, part): Pair) -> PlacedPair<'_> {
+    /// The cores of a shape of the robot and a part of an obstacle, with the part placed in the frame of the shape's link.
+    fn cores(&self, placed: &Placed, (shape, part): Pair) -> PlacedPair<'_> {
         let own = &self.proximity.shapes[shape];
         let link = &placed.links[own.link];
         let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(link[k], v));
-        let axis = |k: usize| back([0, 1, 2].map(|i| if i == k { 1.0 } else { 0.0 }));
-        let part = &self.parts[part].1.shape;
+        let axis = |k: usize| [link[0][k], link[1][k], link[2][k]];
         PlacedPair {
-            a: match &own.body {
-                Body::Convex(shape) | Body::Round(shape) => shape,
-            },
-            b: part,
+            a: &own.core,
+            b: &self.parts[part].1.core,
             b_in_a: [axis(0), axis(1), axis(2), back(link[3].map(|x| -x))],
         }
     }
 
-    /// The radii by which a pair's shapes extend beyond their `ConvexShape`.
-    fn radii(&self, (shape, part): Pair) -> [f64; 2] {
-        let own = &self.proximity.shapes[shape];
-        let own = match own.body {
-            Body::Convex(_) => 0.0,
-            Body::Round(_) => own.sphere.radius,
-        };
-        [own, self.parts[part].1.radius]
+    /// The sum of the radii of a pair.
+    fn radii(&self, (shape, part): Pair) -> f64 {
+        self.proximity.shapes[shape].radius + self.parts[part].1.radius
+    }
+
+    pub(super) fn swept(&self, placed: &Placed, pair: Pair) -> SweptPair<'_> {
+        let own = self.proximity.shapes[pair.0].radius;
+        SweptPair {
+            cores: self.cores(placed, pair),
+            radii: [own, self.parts[pair.1].1.radius],
+        }
     }
 
     /// The distances of some pairs, at most [`AT_ONCE`].
-    fn values(&self, placed: &Placed, pairs: &[Pair], values: &mut [f64]) {
-        let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
-        let both: ArrayVec<PlacedPair, AT_ONCE> = both.collect();
-        across::distances(self.proximity.level, &both, values);
+    pub(super) fn values(&self, placed: &Placed, pairs: &[Pair], values: &mut [f64]) {
+        let cores = pairs.iter().map(|pair| self.cores(placed, *pair));
+        let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
+        across::distances(self.proximity.level, &cores, values);
         for (value, pair) in values.iter_mut().zip(pairs) {
-            let radii = self.radii(*pair);
-            *value = (*value - radii[0] - radii[1]).max(0.0);
+            *value = (*value - self.radii(*pair)).max(0.0);
         }
     }
 
     fn witnesses(&self, placed: &Placed, pairs: &[Pair]) -> Vec<ObstacleDistance> {
-        let both = pairs.iter().map(|pair| self.placed_pair(placed, *pair));
-        let both: Vec<PlacedPair> = both.collect();
-        let found = across::witnesses(self.proximity.level, &both);
-        let all = pairs.iter().zip(found).map(|(&(shape, part), witness)| {
-            let own = &self.proximity.shapes[shape];
-            let obstacle = self.parts[part].0;
-            let (distance, points) = rounded(&witness, self.radii((shape, part)));
-            ObstacleDistance {
-                link: self.proximity.names[own.link].clone(),
-                link_idx: own.link,
-                piece: own.piece,
-                obstacle: self.names[obstacle].clone(),
-                obstacle_idx: obstacle,
-                distance,
-                points: points.map(|p| to_root(&placed.links[own.link], p)),
-            }
-        });
-        all.collect()
+        let both = pairs.iter().map(|pair| self.swept(placed, *pair));
+        let found = witnesses(self.proximity.level, &both.collect::<Vec<_>>());
+        let each = pairs.iter().zip(found);
+        each.map(|(pair, (distance, points))| {
+            let link = self.proximity.shapes[pair.0].link;
+            let points = points.map(|p| to_root(&placed.links[link], p));
+            self.obstacle_distance(*pair, distance, points)
+        })
+        .collect()
     }
-}
 
-/// The distance and closest points of two shapes enlarged by radii.
-fn rounded(witness: &Witness, [a, b]: [f64; 2]) -> (f64, [[f64; 3]; 2]) {
-    let [p, q] = witness.points;
-    let between = sub(q, p);
-    let length = norm(between);
-    let distance = (witness.distance - a - b).max(0.0);
-    if length == 0.0 {
-        return (distance, [p, q]);
+    pub(super) fn obstacle_distance(
+        &self,
+        (shape, part): Pair,
+        distance: f64,
+        points: [[f64; 3]; 2],
+    ) -> ObstacleDistance {
+        let own = &self.proximity.shapes[shape];
+        let obstacle = self.parts[part].0;
+        ObstacleDistance {
+            link: Arc::clone(self.proximity.owner(own)),
+            link_idx: own.link,
+            piece: own.piece,
+            obstacle: self.names[obstacle].clone(),
+            obstacle_idx: obstacle,
+            distance,
+            points,
+        }
     }
-    // Positions along the line from p to q. If the bodies overlap, the middle of their common segment.
-    let along = match distance > 0.0 {
-        true => [a, length - b],
-        false => [0.5 * ((length - b).max(0.0) + a.min(length)); 2],
-    };
-    let points = along.map(|t| [0, 1, 2].map(|k| p[k] + between[k] * (t / length)));
-    (distance, points)
 }

@@ -48,7 +48,7 @@ fn is_malformed(module: &Module) -> bool {
 }
 
 fn known_versions(kind: ModuleKind, profile: Profile) -> String {
-    let versions: Vec<&str> = registry::MODULES
+    let versions: Vec<&str> = registry::modules()
         .iter()
         .filter(|spec| spec.kind == kind && !spec.version.is_empty())
         .filter(|spec| profile == Profile::Legacy || spec.profile == Profile::V1)

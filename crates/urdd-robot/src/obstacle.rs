@@ -1,41 +1,58 @@
-//! Obstacles.
+//! Bodies that a robot must not touch, or that its links carry.
 
 use std::sync::Arc;
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Translation3};
 
 use crate::error::RobotError;
 use urdd_geometry::Mesh;
-use urdd_geometry::bounding_sphere::about;
+use urdd_geometry::bounding_sphere::{BoundingSphere, about};
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::decompose::{self, decompose};
 use urdd_geometry::oriented_box::corners;
+use urdd_geometry::vector::norm;
 
 /// Sides of the prism that approximates a cylinder.
 const SIDES: u32 = 64;
 
-/// A body that a robot must not touch.
+/// A body that a robot must not touch, or that a link carries: [`Proximity::attach`](crate::Proximity::attach). Clones
+/// share its shapes.
 #[derive(Debug, Clone)]
 pub struct Obstacle {
-    pub(super) name: Arc<str>,
-    pub(super) parts: Vec<Part>,
+    pub(crate) name: Arc<str>,
+    pub(crate) parts: Vec<Part>,
     /// Names of links that may touch it.
-    pub(super) ignored: Vec<String>,
+    pub(crate) ignored: Vec<String>,
 }
 
 /// A convex shape swept by a sphere: all points within `radius` of the shape, in the root link's frame.
 #[derive(Debug, Clone)]
-pub(super) struct Part {
-    pub shape: ConvexShape,
+pub(crate) struct Part {
+    pub core: Arc<ConvexShape>,
     pub radius: f64,
-    /// Distance from the centre of the shape to its farthest point, in metres, without `radius`.
-    pub reach: f64,
+    /// The points of the shape in the frame of the obstacle.
+    own: Arc<[[f64; 3]]>,
+    /// The least and the largest coordinates of the shape, in metres, without `radius`.
+    bounds: [[f64; 3]; 2],
+    /// Of the shape, with `radius`.
+    pub sphere: BoundingSphere,
+}
+
+impl Part {
+    /// A lower bound of the distance of the part from a sphere, in metres; not positive if they may touch.
+    pub fn bound(&self, sphere: &BoundingSphere) -> f64 {
+        let [least, most] = self.bounds;
+        let p = sphere.centre;
+        let apart = [0, 1, 2].map(|k| (least[k] - p[k]).max(p[k] - most[k]).max(0.0));
+        // Less by more than any rounding error.
+        norm(apart) * (1.0 - 1e-12) - sphere.radius - self.radius
+    }
 }
 
 /// The obstacles around a robot.
 #[derive(Debug, Clone, Default)]
 pub struct World {
-    pub(super) obstacles: Vec<Obstacle>,
+    pub(crate) obstacles: Vec<Obstacle>,
 }
 
 impl World {
@@ -49,6 +66,25 @@ impl World {
     /// The obstacles.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
+    }
+
+    /// Adds an obstacle, or replaces the first one of its name: one that came, or [moved](Obstacle::at). The others, and
+    /// the robot's shapes, are not prepared again by [`Proximity::world_proximity`](crate::Proximity::world_proximity).
+    pub fn put(&mut self, obstacle: Obstacle) {
+        match self
+            .obstacles
+            .iter_mut()
+            .find(|one| one.name == obstacle.name)
+        {
+            Some(known) => *known = obstacle,
+            None => self.obstacles.push(obstacle),
+        }
+    }
+
+    /// Removes the first obstacle of this name, and returns it.
+    pub fn remove(&mut self, name: &str) -> Option<Obstacle> {
+        let place = self.obstacles.iter().position(|one| *one.name == *name)?;
+        Some(self.obstacles.remove(place))
     }
 }
 
@@ -74,7 +110,12 @@ impl Obstacle {
     /// # Errors
     /// As [`Obstacle::cuboid`].
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
-        Self::swept(name, &Isometry3::identity(), &[centre], radius)
+        Self::swept(
+            name,
+            &Translation3::from(centre).into(),
+            &[[0.0; 3]],
+            radius,
+        )
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
@@ -136,14 +177,31 @@ impl Obstacle {
         if pieces.is_empty() {
             return Ok(whole);
         }
-        let parts = pieces.iter().map(|piece| part(&pose, &piece.vertices, 0.0));
+        let parts = pieces.iter();
+        let parts = parts.map(|piece| part(&pose, piece.vertices.as_slice().into(), 0.0));
         let parts: Result<Vec<Part>, ShapeError> = parts.collect();
         whole.parts = parts.map_err(|error| fault(name, &error.to_string()))?;
         Ok(whole)
     }
 
-    /// Excludes a link from the tests against this obstacle, such as the base mounted on it or the gripper that holds
-    /// it. [`Proximity::world_proximity`](crate::Proximity::world_proximity) rejects an unknown link.
+    /// The same body with its frame at another pose, which its shapes are placed at: a mesh is not decomposed again.
+    /// The frame of a sphere is at its centre.
+    ///
+    /// # Errors
+    /// As [`Obstacle::cuboid`].
+    pub fn at(&self, pose: Isometry3<f64>) -> Result<Self, RobotError> {
+        let parts = self.parts.iter();
+        let parts = parts.map(|own| part(&pose, Arc::clone(&own.own), own.radius));
+        let parts: Result<Vec<Part>, ShapeError> = parts.collect();
+        Ok(Self {
+            parts: parts.map_err(|error| fault(&self.name, &error.to_string()))?,
+            ..self.clone()
+        })
+    }
+
+    /// Excludes a link, or an attached object, from the tests against this obstacle, such as the base mounted on it or
+    /// the gripper that holds it. [`Proximity::world_proximity`](crate::Proximity::world_proximity) rejects an unknown
+    /// link.
     pub fn ignoring(mut self, link: &str) -> Self {
         self.ignored.push(link.to_owned());
         self
@@ -152,6 +210,15 @@ impl Obstacle {
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The links and attached objects that it ignores.
+    pub(crate) fn ignored(&self) -> &[String] {
+        &self.ignored
+    }
+
+    pub(crate) fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     /// Number of its convex parts.
@@ -166,7 +233,8 @@ impl Obstacle {
         radius: f64,
     ) -> Result<Self, RobotError> {
         check_size(name, radius)?;
-        let part = part(pose, points, radius).map_err(|error| fault(name, &error.to_string()))?;
+        let part =
+            part(pose, points.into(), radius).map_err(|error| fault(name, &error.to_string()))?;
         Ok(Self {
             name: Arc::from(name),
             parts: vec![part],
@@ -175,16 +243,28 @@ impl Obstacle {
     }
 }
 
-fn part(pose: &Isometry3<f64>, points: &[[f64; 3]], radius: f64) -> Result<Part, ShapeError> {
-    let placed = points
-        .iter()
-        .map(|p| (pose * Point3::from(*p)).coords.into());
+fn part(pose: &Isometry3<f64>, own: Arc<[[f64; 3]]>, radius: f64) -> Result<Part, ShapeError> {
+    let placed = own.iter();
+    let placed = placed.map(|p| (pose * Point3::from(*p)).coords.into());
     let placed: Vec<[f64; 3]> = placed.collect();
-    let shape = ConvexShape::of_points(&placed)?;
+    let core = ConvexShape::of_points(&placed)?;
+    // Larger by more than what placing them rounds.
+    let largest = placed
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let end = |k: usize, sign: f64| {
+        let numbers = placed.iter().map(|p| sign * p[k]);
+        sign * (numbers.fold(f64::NEG_INFINITY, f64::max) + 1e-12 * largest)
+    };
+    let mut sphere = about(core.centre(), &placed);
+    sphere.radius += radius;
     Ok(Part {
-        reach: about(shape.centre(), &placed).radius,
-        shape,
+        bounds: [-1.0, 1.0].map(|sign| [0, 1, 2].map(|k| end(k, sign))),
+        core: Arc::new(core),
         radius,
+        own,
+        sphere,
     })
 }
 

@@ -1,0 +1,293 @@
+//! What each format carries of a robot: the table of docs/export.md, and what was lost of one robot.
+
+use std::fmt::Write;
+
+use super::error::Note;
+use super::format::Format;
+use super::output::Export;
+use super::subject::Subject;
+use urdd_format::escape;
+use urdd_format::urdf::{Joint, JointType, Link};
+
+/// How a format carries something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum How {
+    Yes,
+    /// In another way.
+    Otherwise(&'static str),
+    No,
+    /// The program has it from another file, such as the URDF.
+    Elsewhere,
+}
+
+use How::{Elsewhere, No, Otherwise, Yes};
+
+/// Something that a robot can have.
+struct Feature {
+    name: &'static str,
+    /// How many a robot has.
+    count: fn(&Subject) -> usize,
+    /// By format, in the order of [`Format::ALL`].
+    by_format: [How; 9],
+}
+
+const MIMIC: How = Otherwise("as equality constraints, which hold in simulation only");
+const CHAIN: How = Otherwise("as a chain of joints of one DOF, and a ball joint");
+const SLIDES: How = Otherwise("as three slides and a ball joint");
+const PLANAR: How = Otherwise("as two slides and a hinge");
+const WHOLE: How = Otherwise("for whole links, also where the URDD checks some of their pieces");
+const SPHERES: How = Otherwise("by spheres");
+const DRAKE: How = Otherwise("for whole links, and for Drake only");
+const EFFORT: How = Otherwise("effort; velocity only of velocity actuators");
+const FIRST: How = Otherwise("the first, in the model directive");
+const RETRACT: How = Otherwise("one, as the retract configuration");
+const CUROBO: How = Otherwise("in the whole robot file");
+const NO_FRICTION: How = Otherwise("damping; Drake ignores friction");
+const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
+const IGNORED: How = Otherwise("written, and ignored by Drake");
+
+/// SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt, SDF.
+const TABLE: [Feature; 15] = [
+    Feature {
+        name: "masses and inertias",
+        count: |of| links(of, |link| link.inertial.is_some()),
+        by_format: [
+            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "colours of visual geometry",
+        count: |of| links(of, |link| !link.visual.is_empty()),
+        by_format: [
+            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "textures in the URDF",
+        count: |of| links(of, has_texture),
+        by_format: [Elsewhere, No, No, No, Elsewhere, Elsewhere, No, No, No],
+    },
+    Feature {
+        name: "limits of position",
+        count: |of| {
+            of.view
+                .joints
+                .iter()
+                .filter(|joint| joint.position_limits().is_some())
+                .count()
+        },
+        by_format: [
+            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "limits of effort and velocity",
+        count: |of| {
+            joints(of, |joint| {
+                joint
+                    .limit
+                    .as_ref()
+                    .is_some_and(|limit| limit.effort.is_some() || limit.velocity.is_some())
+            })
+        },
+        by_format: [
+            Elsewhere, Yes, Yes, EFFORT, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "limits of acceleration and jerk",
+        count: |of| {
+            joints(of, |joint| {
+                joint
+                    .limit
+                    .as_ref()
+                    .is_some_and(|limit| limit.acceleration.is_some() || limit.jerk.is_some())
+            })
+        },
+        by_format: [Elsewhere, Yes, NO_JERK, No, CUROBO, Elsewhere, Yes, Yes, No],
+    },
+    Feature {
+        name: "damping and friction of joints",
+        count: |of| joints(of, |joint| joint.dynamics.is_some()),
+        by_format: [
+            Elsewhere,
+            Yes,
+            NO_FRICTION,
+            Yes,
+            Elsewhere,
+            Elsewhere,
+            Yes,
+            Yes,
+            Yes,
+        ],
+    },
+    Feature {
+        name: "safety controllers and calibrations",
+        count: |of| {
+            joints(of, |joint| {
+                joint.safety_controller.is_some() || joint.calibration.is_some()
+            })
+        },
+        by_format: [
+            Elsewhere, Yes, IGNORED, No, Elsewhere, Elsewhere, Yes, Yes, No,
+        ],
+    },
+    Feature {
+        name: "mimic joints",
+        count: |of| of.mimics.by_joint.iter().flatten().count(),
+        by_format: [
+            Elsewhere, Yes, Yes, MIMIC, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "planar joints",
+        count: |of| joints(of, |joint| joint.joint_type == JointType::Planar),
+        by_format: [
+            Elsewhere, Yes, Yes, PLANAR, Elsewhere, Elsewhere, Yes, Yes, CHAIN,
+        ],
+    },
+    Feature {
+        name: "floating joints",
+        count: |of| joints(of, |joint| joint.joint_type == JointType::Floating),
+        by_format: [
+            Elsewhere, Yes, CHAIN, SLIDES, Elsewhere, Elsewhere, Yes, Yes, CHAIN,
+        ],
+    },
+    Feature {
+        name: "spherical joints",
+        count: |of| joints(of, |joint| joint.joint_type == JointType::Spherical),
+        by_format: [
+            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
+        ],
+    },
+    Feature {
+        name: "elements that URDF does not define, such as transmissions",
+        count: |of| {
+            let of_links = of.urdf.links.iter().map(|link| link.unknown_elements.len());
+            let of_joints = of
+                .urdf
+                .joints
+                .iter()
+                .map(|joint| joint.unknown_elements.len());
+            of_links.chain(of_joints).sum::<usize>() + of.urdf.unknown_elements.len()
+        },
+        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
+    },
+    Feature {
+        name: "pairs that need no collision check",
+        count: |of| of.disabled().count(),
+        by_format: [WHOLE, No, WHOLE, Yes, SPHERES, SPHERES, No, WHOLE, DRAKE],
+    },
+    Feature {
+        name: "named configurations",
+        count: |of| of.robot.named_configurations().map_or(0, <[_]>::len),
+        by_format: [
+            Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No,
+        ],
+    },
+];
+
+fn links(subject: &Subject, has: impl Fn(&Link) -> bool) -> usize {
+    subject.urdf.links.iter().filter(|link| has(link)).count()
+}
+
+fn joints(subject: &Subject, has: impl Fn(&Joint) -> bool) -> usize {
+    subject
+        .urdf
+        .joints
+        .iter()
+        .filter(|joint| has(joint))
+        .count()
+}
+
+fn has_texture(link: &Link) -> bool {
+    let materials = link
+        .visual
+        .iter()
+        .filter_map(|visual| visual.material.as_ref());
+    materials
+        .into_iter()
+        .any(|material| material.texture.is_some())
+}
+
+/// What a robot has, and how its format carries it.
+fn carried<'s>(subject: &'s Subject) -> impl Iterator<Item = (&'static str, usize, How)> + 's {
+    let place = Format::ALL
+        .iter()
+        .position(|format| *format == subject.format);
+    TABLE.iter().filter_map(move |feature| {
+        let count = (feature.count)(subject);
+        let how = feature.by_format[place?];
+        (count > 0 && how != Elsewhere).then_some((feature.name, count, how))
+    })
+}
+
+/// What the format cannot carry of this robot.
+pub(super) fn lost(subject: &Subject) -> Option<Note> {
+    let lost: Vec<String> = carried(subject)
+        .filter(|(_, _, how)| *how == No)
+        .map(|(name, count, _)| format!("{name} ({count})"))
+        .collect();
+    (!lost.is_empty()).then(|| Note::Lost(lost.join(", ")))
+}
+
+/// The report of an export, as JSON: what is carried, what otherwise, what is lost, and the notes.
+pub(super) fn report(subject: &Subject, made: &Export) -> String {
+    let of = |wanted: fn(How) -> bool| -> Vec<serde_json::Value> {
+        let found = carried(subject).filter(|(_, _, how)| wanted(*how));
+        let entry = |(name, count, how)| match how {
+            Otherwise(how) => serde_json::json!({"what": name, "count": count, "how": how}),
+            _ => serde_json::json!({"what": name, "count": count}),
+        };
+        found.map(entry).collect()
+    };
+    let document = serde_json::json!({
+        "robot": subject.urdf.name,
+        "format": subject.format.name(),
+        "program": urdd_format::registry::PROGRAM_VERSION,
+        "carried": of(|how| how == Yes),
+        "otherwise": of(|how| matches!(how, Otherwise(_))),
+        "lost": of(|how| how == No),
+        "notes": made.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    });
+    let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
+    escape::json(&text).into_owned()
+}
+
+/// The table of docs/export.md, in Markdown.
+#[must_use]
+pub fn carried_table() -> String {
+    let mut text = String::from("| |");
+    for format in Format::ALL {
+        let _ = write!(text, " {} |", format.name());
+    }
+    text += "\n|---|";
+    text += &"---|".repeat(Format::ALL.len());
+    text.push('\n');
+    let mut notes: Vec<&str> = Vec::new();
+    for feature in &TABLE {
+        let _ = write!(text, "| {} |", feature.name);
+        for how in feature.by_format {
+            let cell = match how {
+                Yes => "yes".to_owned(),
+                No => "**lost**".to_owned(),
+                Elsewhere => "–".to_owned(),
+                Otherwise(how) => {
+                    let known = notes.iter().position(|note| *note == how);
+                    let place = known.unwrap_or_else(|| {
+                        notes.push(how);
+                        notes.len() - 1
+                    });
+                    format!("({})", place + 1)
+                }
+            };
+            let _ = write!(text, " {cell} |");
+        }
+        text.push('\n');
+    }
+    text.push('\n');
+    for (place, note) in notes.iter().enumerate() {
+        let _ = writeln!(text, "({}) {note}.  ", place + 1);
+    }
+    text
+}

@@ -1,0 +1,214 @@
+//! Joint groups, as the DOFs of a robot: of a setup, or of an SRDF.
+
+use std::collections::BTreeSet;
+
+use roxmltree::{Document, Node};
+use thiserror::Error;
+
+use super::error::ExportError;
+use super::nested::within;
+use super::setup::{Members, Setup};
+use super::srdf_merge::{SrdfError, elements, parse_of};
+use super::structure::Structure;
+use urdd_format::nearest::nearest;
+use urdd_robot::{Robot, RobotError};
+
+/// A group of joints that a planner moves together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JointGroup {
+    /// Its name.
+    pub name: String,
+    /// The DOFs of its joints, ascending: none of joints that are fixed or follow others.
+    pub dofs: Vec<usize>,
+}
+
+impl Setup {
+    /// The groups, in the order of the file.
+    ///
+    /// # Errors
+    /// If the description of the robot is missing or unusable, or the setup is that of another robot.
+    pub fn joint_groups(&self, robot: &Robot) -> Result<Vec<JointGroup>, ExportError> {
+        let structure = Structure::new(robot)?;
+        structure.check(&self.of)?;
+        let groups = self.groups.iter().enumerate();
+        let groups = groups.map(|(place, group)| {
+            let joints = joints_of(self, place, &structure);
+            JointGroup::of(&group.value.name, joints, robot, &structure)
+        });
+        groups.collect()
+    }
+}
+
+impl JointGroup {
+    fn of(
+        name: &str,
+        joints: impl IntoIterator<Item = usize>,
+        robot: &Robot,
+        structure: &Structure,
+    ) -> Result<Self, ExportError> {
+        let mut dofs = Vec::new();
+        for joint in joints {
+            if structure.moves(joint) {
+                let (parent, child) = structure.tree.joint_links[joint];
+                dofs.extend(robot.dofs_between(parent, child)?);
+            }
+        }
+        dofs.sort_unstable();
+        let name = name.to_owned();
+        Ok(JointGroup { name, dofs })
+    }
+}
+
+/// The groups of an SRDF, in the order of the file: their joints, the joints above their links, their chains, and the
+/// groups in them.
+///
+/// # Errors
+/// If the text is not an SRDF of the robot, or a group names what there is not, or contains itself.
+pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>, SrdfGroupsError> {
+    let structure = Structure::new(robot)?;
+    let document = parse_of(text, &structure.view.name)?;
+    let tables: Vec<Node> = elements(document.root_element(), "group").collect();
+    let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
+    let names: Vec<String> = tables.iter().map(name).collect();
+    let reader = Reader {
+        structure: &structure,
+        names: &names,
+        document: &document,
+    };
+    let mut own = Vec::new();
+    for table in &tables {
+        own.push(reader.members(*table)?);
+    }
+    let all = own.iter().enumerate();
+    all.map(|(place, _)| {
+        let inner = |group: usize| own[group].1.as_slice();
+        let groups = within(place, own.len(), inner)
+            .ok_or_else(|| reader.wrong(tables[place], GroupFault::Cycle(names[place].clone())))?;
+        let joints = groups
+            .iter()
+            .flat_map(|group| own[*group].0.iter().copied());
+        let joints: BTreeSet<usize> = joints.collect();
+        Ok(JointGroup::of(&names[place], joints, robot, &structure)?)
+    })
+    .collect()
+}
+
+struct Reader<'a, 't> {
+    structure: &'a Structure,
+    names: &'a [String],
+    document: &'a Document<'t>,
+}
+
+impl Reader<'_, '_> {
+    /// The joints and the groups of a group.
+    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), SrdfGroupsError> {
+        let (mut joints, mut groups) = (Vec::new(), Vec::new());
+        let view = &self.structure.view;
+        let tree = &self.structure.tree;
+        let link_names = || view.links.iter().map(|link| link.name.as_str());
+        for node in table.children().filter(Node::is_element) {
+            let link = |attribute| self.place(node, "link", attribute, link_names());
+            match node.tag_name().name() {
+                "joint" => {
+                    let names = view.joints.iter().map(|joint| joint.name.as_str());
+                    joints.push(self.place(node, "joint", "name", names)?);
+                }
+                "link" => joints.extend(tree.parent_joint[link("name")?]),
+                "chain" => {
+                    let [base, tip] = [link("base_link")?, link("tip_link")?];
+                    if base != tip && self.structure.between(base, tip).is_empty() {
+                        return Err(self.wrong(node, GroupFault::NoChain));
+                    }
+                    joints.extend(self.structure.between(base, tip));
+                }
+                "group" => {
+                    let names = self.names.iter().map(String::as_str);
+                    groups.push(self.place(node, "group", "name", names)?);
+                }
+                _ => {}
+            }
+        }
+        Ok((joints, groups))
+    }
+
+    /// The place of what an attribute names.
+    fn place<'n>(
+        &self,
+        node: Node,
+        what: &'static str,
+        attribute: &str,
+        mut names: impl Iterator<Item = &'n str> + Clone,
+    ) -> Result<usize, SrdfGroupsError> {
+        let name = node.attribute(attribute).unwrap_or_default();
+        let all = names.clone();
+        names.position(|known| known == name).ok_or_else(|| {
+            let unknown = RobotError::Unknown {
+                what,
+                name: name.to_owned(),
+                nearest: nearest(all, name),
+            };
+            self.wrong(node, GroupFault::Unknown(unknown))
+        })
+    }
+
+    fn wrong(&self, node: Node, fault: GroupFault) -> SrdfGroupsError {
+        let line = self.document.text_pos_at(node.range().start).row;
+        SrdfGroupsError::Element { line, fault }
+    }
+}
+
+/// Errors of [`joint_groups_of_srdf`].
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SrdfGroupsError {
+    /// Not an SRDF, or the SRDF of another robot.
+    #[error(transparent)]
+    Srdf(#[from] SrdfError),
+    /// A query on the robot failed.
+    #[error(transparent)]
+    Robot(#[from] ExportError),
+    /// An element of a group is wrong.
+    #[error("line {line}: {fault}")]
+    Element {
+        /// The line, from 1.
+        line: u32,
+        /// What is wrong.
+        fault: GroupFault,
+    },
+}
+
+/// What is wrong with a group of an SRDF.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GroupFault {
+    /// A link, a joint or a group that there is not: [`RobotError::Unknown`].
+    #[error(transparent)]
+    Unknown(RobotError),
+    /// The base of a chain is not above its tip.
+    #[error("the base of this chain is not above its tip")]
+    NoChain,
+    /// A group contains itself.
+    #[error("the group `{}` contains itself", .0.escape_debug())]
+    Cycle(String),
+}
+
+/// The joints of a group that move it, in joint order: none that are fixed or follow others.
+pub(super) fn joints_of(setup: &Setup, group: usize, structure: &Structure) -> Vec<usize> {
+    let members = |group: usize| &setup.groups[group].value.members;
+    let inner = |group: usize| match members(group) {
+        Members::Groups(others) => others.as_slice(),
+        _ => &[],
+    };
+    let mut joints = Vec::new();
+    for group in within(group, setup.groups.len(), inner).unwrap_or_default() {
+        match members(group) {
+            Members::Chain { base, tip } => joints.extend(structure.between(*base, *tip)),
+            Members::Joints(own) => joints.extend(own),
+            Members::Groups(_) => {}
+        }
+    }
+    joints.retain(|joint| structure.moves(*joint));
+    joints.sort_unstable();
+    joints.dedup();
+    joints
+}

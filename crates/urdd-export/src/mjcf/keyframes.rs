@@ -1,0 +1,109 @@
+//! Keyframes: the named configurations of the URDD, as MuJoCo's positions and controls.
+
+use std::collections::HashMap;
+
+use super::super::element::Element;
+use super::super::error::ExportError;
+use super::super::names::check_names;
+use super::super::numbers::numbers;
+use super::super::options::ActuatorKind;
+use super::super::subject::Subject;
+use super::scene::Stand;
+use urdd_format::urdf::JointType;
+use urdd_kinematics::rotation::from_rotation_vector;
+
+/// The name of the keyframe of a robot whose URDD names none.
+const DEFAULT: &str = "default";
+
+/// A keyframe for each named configuration. Without one, actuators and a free base get the default configuration, which
+/// differs from MuJoCo's zeros where 0 is out of bounds.
+pub(super) fn keyframes(subject: &Subject, stand: &Stand) -> Result<Element, ExportError> {
+    let mut keyframes = Element::new("keyframe");
+    let named = subject.robot.named_configurations()?;
+    let names = named.iter().map(|named| named.name.as_str());
+    check_names(subject.format, "configuration", names)?;
+    let mjcf = &subject.options.mjcf;
+    if named.is_empty() && (mjcf.actuators.is_some() || subject.has_free_base()) {
+        let zero = subject.robot.configurations()?.zero();
+        keyframes.push(keyframe(subject, DEFAULT, &zero, stand.base_height)?);
+    }
+    for named in named {
+        let height = match subject.has_free_base() {
+            true => stand.height(subject, &named.configuration)?,
+            false => 0.0,
+        };
+        let name = named.name.as_str();
+        keyframes.push(keyframe(subject, name, &named.configuration, height)?);
+    }
+    Ok(keyframes)
+}
+
+fn keyframe(
+    subject: &Subject,
+    name: &str,
+    configuration: &[f64],
+    height: f64,
+) -> Result<Element, ExportError> {
+    let dofs = subject.robot.dof_names()?.iter();
+    let values: HashMap<&str, f64> = dofs
+        .map(String::as_str)
+        .zip(configuration.iter().copied())
+        .collect();
+    let value = |dof: &str| values.get(dof).copied().unwrap_or(0.0);
+    let mut positions = Vec::new();
+    let mut controls = Vec::new();
+    if subject.has_free_base() {
+        positions.extend([0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0]);
+    }
+    // MuJoCo numbers joints as it meets their bodies: depth first, children in their order.
+    let mut links = vec![subject.tree.root];
+    while let Some(link) = links.pop() {
+        let children = subject.tree.child_joints[link].iter().rev();
+        links.extend(children.map(|joint| subject.tree.joint_links[*joint].1));
+        let Some(index) = subject.tree.parent_joint[link] else {
+            continue;
+        };
+        let joint = &subject.view.joints[index];
+        let part = |part: &str| value(&format!("{}/{part}", joint.name));
+        let rotation = || {
+            let q = from_rotation_vector(["rot_x", "rot_y", "rot_z"].map(part));
+            [q.w, q.i, q.j, q.k]
+        };
+        match joint.joint_type {
+            JointType::Fixed => {}
+            JointType::Spherical => positions.extend(rotation()),
+            JointType::Floating => {
+                positions.extend(["trans_x", "trans_y", "trans_z"].map(part));
+                positions.extend(rotation());
+            }
+            JointType::Planar => positions.extend(["trans_x", "trans_y", "rot"].map(part)),
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic => {
+                positions.push(match &subject.mimics.by_joint[index] {
+                    Some(mimic) => {
+                        let driver = &subject.view.joints[mimic.driver];
+                        let driven = match driver.num_dofs() {
+                            1 => value(&driver.name),
+                            _ => 0.0,
+                        };
+                        mimic.multiplier * driven + mimic.offset
+                    }
+                    None => value(&joint.name),
+                });
+            }
+        }
+    }
+    // Actuators are in the order of joints.
+    for (index, joint) in subject.view.joints.iter().enumerate() {
+        if subject.is_driven(index) {
+            controls.push(value(&joint.name));
+        }
+    }
+    let is_position = subject.options.mjcf.actuators == Some(ActuatorKind::Position);
+    Ok(Element::new("key")
+        .with("name", name)
+        .with("qpos", numbers(&positions))
+        .with_some(
+            "ctrl",
+            (is_position && !controls.is_empty()).then(|| numbers(&controls)),
+        ))
+}

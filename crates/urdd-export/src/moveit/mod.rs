@@ -1,0 +1,51 @@
+//! A configuration package of MoveIt 2: groups, limits, solvers, planners, controllers, a launch file, and our URDF.
+//!
+//! The forms are those of MoveIt's own packages and of its Setup Assistant. The text of the export is the SRDF.
+
+mod config;
+mod controllers;
+mod package;
+mod planning;
+mod semantic;
+
+use super::error::ExportError;
+use super::output::Export;
+use super::subject::Subject;
+use super::urdf;
+use config::Config;
+
+pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+    let mut notes = Vec::new();
+    let setup = subject.setup(&mut notes)?;
+    let config = Config::new(subject, &setup)?;
+    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    let (mut robot, meshes) = urdf::robot(subject, shapes, &mut notes)?;
+    if !config.has_hardware() {
+        robot.push(config.hardware());
+    }
+    let text = semantic::srdf(&config, &mut notes)?;
+    let what = format!("Collision geometry: {}.", subject.options.shapes);
+    let name = &config.name;
+    let mut files = vec![(
+        format!("config/{name}.urdf"),
+        robot.document(&subject.comments(what, &notes)?),
+    )];
+    files.extend(planning::files(&config)?);
+    files.extend(controllers::files(&config)?);
+    files.extend(package::files(&config));
+    let mut files: Vec<(String, Vec<u8>)> = files
+        .into_iter()
+        .map(|(path, text)| (path, text.into_bytes()))
+        .collect();
+    // Meshes are named by package: the folder of the package is where the export is.
+    let prefix = format!("package://{}/", subject.options.package());
+    files.extend(meshes.into_iter().map(|(path, bytes)| {
+        let inside = path.strip_prefix(&prefix).map(str::to_owned);
+        (inside.unwrap_or(path), bytes)
+    }));
+    files.sort();
+    Ok(Export {
+        path: Some(format!("config/{name}.srdf")),
+        ..Export::of(text, files, notes)
+    })
+}

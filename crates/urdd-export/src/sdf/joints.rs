@@ -1,0 +1,199 @@
+//! Joints: each as SDF's, or as a chain of them.
+
+use nalgebra::Vector3;
+
+use super::super::element::Element;
+use super::super::error::Note;
+use super::super::joints::{Moves, joints as resolved, parts as simple_joints};
+use super::super::numbers::{number, numbers, rpy};
+use super::super::subject::Subject;
+use urdd_document::robot::Joint as View;
+use urdd_format::urdf::{Joint, JointType};
+use urdd_kinematics::rotation::unit_axis;
+
+/// The joint that fixes the root link to the world.
+pub(super) const WORLD: &str = "world_fixed";
+
+const CHAIN: &str =
+    "it has several DOFs; it is a chain of simple joints with light links between them";
+const CROSSED: &str = "its lower limit is above its upper one, which SDF refuses; it has no range";
+const AXIS: &str = "its axis is zero, which SDF refuses; it is fixed";
+
+/// The joints of a model.
+#[derive(Default)]
+pub(super) struct Joints {
+    pub elements: Vec<Element>,
+    pub names: Vec<String>,
+    /// For each joint of the robot, the joint of SDF that moves its child.
+    pub last_parts: Vec<String>,
+    /// The links between the parts of a joint, each with the joint of SDF that moves it.
+    pub links: Vec<(String, String)>,
+    pub has_mimics: bool,
+}
+
+pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
+    let mut made = Joints::default();
+    for (joint, view) in resolved(subject, notes).iter().zip(&subject.view.joints) {
+        let parts = parts(joint, view);
+        if parts.len() > 1 {
+            notes.push(Note::joint(&view.name, CHAIN));
+        }
+        let mut parent = view.parent.clone();
+        let last = parts.len() - 1;
+        for (place, part) in parts.into_iter().enumerate() {
+            let child = match place == last {
+                true => view.child.clone(),
+                false => part.name.clone() + "_link",
+            };
+            let mut element = Element::new("joint")
+                .with("name", part.name.as_str())
+                .with("type", part.kind);
+            let pose = match place {
+                0 => numbers(&pose(joint, view)),
+                _ => "0 0 0 0 0 0".to_owned(),
+            };
+            // SDF's own `world` is outside of the model.
+            let is_world = parent == "world";
+            let frame = if is_world {
+                "__model__"
+            } else {
+                parent.as_str()
+            };
+            let frame = Element::new("pose").with("relative_to", frame);
+            element.push(frame.containing(&pose));
+            element.push(Element::new("parent").containing(&parent));
+            element.push(Element::new("child").containing(&child));
+            if let Some(axis) = part.axis {
+                let mut axis = Element::new("axis")
+                    .holding(Element::new("xyz").containing(&numbers(axis.as_slice())));
+                if part.is_own {
+                    fill(&mut axis, joint, view, notes, &mut made.has_mimics);
+                }
+                element.push(axis);
+            }
+            made.elements.push(element);
+            match place == last {
+                true => made.last_parts.push(part.name.clone()),
+                false => made.links.push((child.clone(), part.name.clone())),
+            }
+            made.names.push(part.name);
+            parent = child;
+        }
+        if joint.joint_type != JointType::Fixed
+            && view.num_dofs() == 1
+            && unit_axis(view.axis).is_none()
+        {
+            notes.push(Note::joint(&view.name, AXIS));
+        }
+    }
+    made
+}
+
+/// Position and roll, pitch, yaw of a joint in its parent link. A joint that follows a fixed one stands at its offset.
+fn pose(joint: &Joint, view: &View) -> [f64; 6] {
+    let (xyz, rpy) = match &joint.origin {
+        Some(origin) if joint.joint_type != view.joint_type => (
+            origin.xyz.unwrap_or_default(),
+            origin.rpy.unwrap_or_default(),
+        ),
+        _ => (view.origin.xyz, rpy(&view.origin.rotation())),
+    };
+    let ([x, y, z], [roll, pitch, yaw]) = (xyz, rpy);
+    [x, y, z, roll, pitch, yaw]
+}
+
+struct Part {
+    name: String,
+    kind: &'static str,
+    axis: Option<Vector3<f64>>,
+    /// Whether limits, dynamics and mimic of the source are its own.
+    is_own: bool,
+}
+
+/// The joints of SDF that together are a joint, from its parent to its child; at least one.
+fn parts(joint: &Joint, view: &View) -> Vec<Part> {
+    let simple = |kind: &'static str, axis: Option<Vector3<f64>>| {
+        vec![Part {
+            name: view.name.clone(),
+            kind: if axis.is_some() { kind } else { "fixed" },
+            axis,
+            is_own: true,
+        }]
+    };
+    let axis = unit_axis(view.axis).map(|axis| axis.into_inner());
+    let of_several = |(name, moves): (String, Moves)| {
+        let (kind, axis) = match moves {
+            Moves::Slides(axis) => ("prismatic", Some(axis)),
+            Moves::Turns(axis) => ("continuous", Some(axis)),
+            Moves::Ball => ("ball", None),
+        };
+        Part {
+            name,
+            kind,
+            axis,
+            is_own: false,
+        }
+    };
+    match joint.joint_type {
+        JointType::Fixed => simple("fixed", None),
+        JointType::Revolute => simple("revolute", axis),
+        JointType::Continuous => simple("continuous", axis),
+        JointType::Prismatic => simple("prismatic", axis),
+        JointType::Spherical | JointType::Floating | JointType::Planar => {
+            simple_joints(view).into_iter().map(of_several).collect()
+        }
+    }
+}
+
+/// Limits, dynamics and the mimic of a joint of one DOF.
+fn fill(
+    axis: &mut Element,
+    joint: &Joint,
+    view: &View,
+    notes: &mut Vec<Note>,
+    has_mimics: &mut bool,
+) {
+    let text = |name: &'static str, value: f64| Element::new(name).containing(&number(value));
+    let positive = |value: Option<f64>| value.filter(|value| *value >= 0.0);
+    let mut limit = Element::new("limit");
+    match view.position_limits() {
+        Some((lower, upper)) if lower > upper => notes.push(Note::joint(&view.name, CROSSED)),
+        Some((lower, upper)) => {
+            limit.push(text("lower", lower));
+            limit.push(text("upper", upper));
+        }
+        None => {}
+    }
+    let source = joint.limit.as_ref();
+    if let Some(effort) = positive(source.and_then(|limit| limit.effort)) {
+        limit.push(text("effort", effort));
+    }
+    if let Some(velocity) = positive(source.and_then(|limit| limit.velocity)) {
+        limit.push(text("velocity", velocity));
+    }
+    if !limit.is_empty() {
+        axis.push(limit);
+    }
+    if let Some(of) = &joint.dynamics {
+        let mut dynamics = Element::new("dynamics");
+        if let Some(damping) = positive(of.damping) {
+            dynamics.push(text("damping", damping));
+        }
+        if let Some(friction) = positive(of.friction) {
+            dynamics.push(text("friction", friction));
+        }
+        if !dynamics.is_empty() {
+            axis.push(dynamics);
+        }
+    }
+    if let Some(mimic) = &joint.mimic {
+        *has_mimics = true;
+        axis.push(
+            Element::new("mimic")
+                .with("joint", mimic.joint.as_str())
+                .holding(text("multiplier", mimic.multiplier.unwrap_or(1.0)))
+                .holding(text("offset", mimic.offset.unwrap_or(0.0)))
+                .holding(text("reference", 0.0)),
+        );
+    }
+}

@@ -1,0 +1,183 @@
+//! Links: mass, visuals and collisions.
+
+use nalgebra::{Isometry3, Matrix3};
+
+use super::super::element::Element;
+use super::super::error::{ExportError, Note};
+use super::super::meshes::{MeshFiles, MeshFormat, looks};
+use super::super::numbers::{HALF_THICKNESS, number, numbers, rpy};
+use super::super::output::Files;
+use super::super::subject::Subject;
+use super::joints::Joints;
+use urdd_document::robot::Inertial;
+use urdd_robot::{LinkShape, Solid};
+
+/// Mass and moments of inertia of links without them, kg and kg m².
+const LEAST: f64 = 1e-6;
+
+const MASSLESS: &str =
+    "no mass: exported with 1e-6 kg and 1e-6 kg m2, since SDF takes a link without mass for 1 kg";
+
+const IMPOSSIBLE: &str = "moments of inertia that no body has, which SDF refuses: exported with their mean in all directions, or 1e-6 kg m2";
+
+/// The links in link order, then those between the parts of joints; and the files that they reference.
+pub(super) fn links(
+    subject: &Subject,
+    joints: &Joints,
+    notes: &mut Vec<Note>,
+) -> Result<(Vec<Element>, Files), ExportError> {
+    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    if shapes.iter().all(Vec::is_empty) {
+        notes.push(Note::NoShapes(subject.options.shapes));
+    }
+    let mut files = MeshFiles::new(subject);
+    let mut elements = Vec::new();
+    let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
+    let each = shapes.into_iter().zip(looks(subject, notes)?);
+    for (link, (shapes, looks)) in each.enumerate() {
+        let view = &subject.view.links[link];
+        let joint = subject.tree.parent_joint[link];
+        let joint = joint.map(|joint| joints.last_parts[joint].as_str());
+        let mut element = empty(&view.name, joint);
+        element.push(
+            match view
+                .inertial
+                .as_ref()
+                .filter(|of| of.mass.is_some_and(|mass| mass > 0.0))
+            {
+                Some(of) => {
+                    let (element, is_changed) = inertial(of);
+                    if is_changed {
+                        impossible.push(view.name.clone());
+                    }
+                    element
+                }
+                None => {
+                    if !subject.is_world(link) {
+                        massless.push(view.name.clone());
+                    }
+                    light()
+                }
+            },
+        );
+        for (place, look) in looks.into_iter().enumerate() {
+            let path = files.add(link, &format!("visual_{place}"), look.mesh, MeshFormat::Obj)?;
+            let mut visual = Element::new("visual").with("name", format!("visual_{place}"));
+            visual.push(Element::new("geometry").holding(mesh(&path)));
+            if let Some(rgba) = look.rgba {
+                let colour = numbers(&rgba);
+                let ambient = Element::new("ambient").containing(&colour);
+                let diffuse = Element::new("diffuse").containing(&colour);
+                visual.push(Element::new("material").holding(ambient).holding(diffuse));
+            }
+            element.push(visual);
+        }
+        for shape in shapes {
+            element.push(collision(subject, link, shape, &mut files)?);
+        }
+        elements.push(element);
+    }
+    for (links, what) in [(massless, MASSLESS), (impossible, IMPOSSIBLE)] {
+        if !links.is_empty() {
+            notes.push(Note::Links { links, what });
+        }
+    }
+    for (name, joint) in &joints.links {
+        elements.push(empty(name, Some(joint)).holding(light()));
+    }
+    Ok((elements, files.into_files()))
+}
+
+/// A link at its joint.
+fn empty(name: &str, joint: Option<&str>) -> Element {
+    let mut element = Element::new("link").with("name", name);
+    if let Some(joint) = joint {
+        let pose = Element::new("pose").with("relative_to", joint);
+        element.push(pose.containing("0 0 0 0 0 0"));
+    }
+    element
+}
+
+/// The mass properties, and whether the moments of inertia had to be changed.
+fn inertial(of: &Inertial) -> (Element, bool) {
+    let [roll, pitch, yaw] = rpy(&of.origin.rotation());
+    let [x, y, z] = of.origin.xyz;
+    let pose = numbers(&[x, y, z, roll, pitch, yaw]);
+    let mass = of.mass.unwrap_or(0.0);
+    let [xx, xy, xz, yy, yz, zz] = of.inertia.unwrap_or_default();
+    let mut moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
+    moments.as_mut_slice().sort_by(f64::total_cmp);
+    let is_possible = moments[0] > 0.0 && moments[0] + moments[1] >= moments[2];
+    let mean = (xx + yy + zz) / 3.0;
+    let tensor = match is_possible {
+        true => [xx, xy, xz, yy, yz, zz],
+        false if mean > 0.0 => [mean, 0.0, 0.0, mean, 0.0, mean],
+        false => [LEAST, 0.0, 0.0, LEAST, 0.0, LEAST],
+    };
+    (self::tensor(&pose, mass, tensor), !is_possible)
+}
+
+fn light() -> Element {
+    tensor("0 0 0 0 0 0", LEAST, [LEAST, 0.0, 0.0, LEAST, 0.0, LEAST])
+}
+
+fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
+    let mut tensor = Element::new("inertia");
+    for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]
+        .into_iter()
+        .zip(inertia)
+    {
+        tensor.push(Element::new(name).containing(&number(value)));
+    }
+    Element::new("inertial")
+        .holding(Element::new("pose").containing(pose))
+        .holding(Element::new("mass").containing(&number(mass)))
+        .holding(tensor)
+}
+
+fn mesh(path: &str) -> Element {
+    Element::new("mesh").holding(Element::new("uri").containing(path))
+}
+
+fn collision(
+    subject: &Subject,
+    link: usize,
+    shape: LinkShape,
+    files: &mut MeshFiles,
+) -> Result<Element, ExportError> {
+    let name = format!("piece_{}", shape.piece);
+    let mut collision = Element::new("collision").with("name", name.as_str());
+    let geometry = match shape.solid {
+        Solid::Mesh(solid) => {
+            let path = files.add(link, &name, solid, MeshFormat::Obj)?;
+            mesh(&path).holding(Element::new("drake:declare_convex"))
+        }
+        Solid::Box { pose, half_extents } => {
+            collision.push(placed(&pose));
+            let size = half_extents.map(|half| 2.0 * half.max(HALF_THICKNESS));
+            Element::new("box").holding(Element::new("size").containing(&numbers(&size)))
+        }
+        Solid::Sphere { centre, radius } => {
+            collision.push(placed(&Isometry3::translation(
+                centre[0], centre[1], centre[2],
+            )));
+            let radius = number(radius.max(HALF_THICKNESS));
+            Element::new("sphere").holding(Element::new("radius").containing(&radius))
+        }
+    };
+    collision.push(Element::new("geometry").holding(geometry));
+    if let Some(friction) = subject.options.friction().map(number) {
+        let ode = ["mu", "mu2"].map(|name| Element::new(name).containing(&friction));
+        let ode = ode.into_iter().fold(Element::new("ode"), Element::holding);
+        let friction = Element::new("friction").holding(ode);
+        collision.push(Element::new("surface").holding(friction));
+    }
+    Ok(collision)
+}
+
+fn placed(pose: &Isometry3<f64>) -> Element {
+    let rotation = pose.rotation.to_rotation_matrix();
+    let mut values = pose.translation.vector.as_slice().to_vec();
+    values.extend(rpy(rotation.matrix()));
+    Element::new("pose").containing(&numbers(&values))
+}

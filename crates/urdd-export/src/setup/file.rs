@@ -1,0 +1,95 @@
+//! The tables of `NAME.export.toml`.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::JointGains;
+
+pub(super) type Name = Spanned<String>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct File {
+    pub robot: Name,
+    #[serde(default)]
+    pub base: BaseTable,
+    #[serde(default)]
+    pub group: Vec<Spanned<GroupTable>>,
+    #[serde(default)]
+    pub end_effector: Vec<EndEffectorTable>,
+    #[serde(default)]
+    pub frames: FramesTable,
+    #[serde(default)]
+    pub actuators: ActuatorsTable,
+    #[serde(default)]
+    pub limits: LimitsTable,
+    #[serde(default)]
+    pub contact: ContactTable,
+    #[serde(default)]
+    pub curobo: CuroboTable,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BaseTable {
+    #[serde(default)]
+    pub floating: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GroupTable {
+    pub name: Name,
+    pub base: Option<Name>,
+    pub tip: Option<Name>,
+    pub joints: Option<Vec<Name>>,
+    pub groups: Option<Vec<Name>>,
+    #[serde(default)]
+    pub passive: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct EndEffectorTable {
+    pub name: Name,
+    pub group: Name,
+    pub parent_group: Option<Name>,
+    pub parent_link: Name,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct FramesTable {
+    pub tools: Vec<Name>,
+    pub imus: Vec<Name>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ActuatorsTable {
+    pub bandwidth: Option<Spanned<f64>>,
+    pub joint: BTreeMap<Name, Spanned<JointGains>>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct LimitsTable {
+    pub acceleration: Option<Spanned<f64>>,
+    pub jerk: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ContactTable {
+    pub friction: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct CuroboTable {
+    pub ee_link: Option<Name>,
+    pub retract: Option<Name>,
+    pub locked: BTreeMap<Name, Spanned<f64>>,
+}

@@ -1,0 +1,119 @@
+//! What exports need and a URDD does not say: planning groups, end effectors, tool frames, the kind of base, gains.
+//!
+//! It is guessed from the structure of the robot ([`guess`]), written for a person to change ([`write`](mod@write)), and
+//! read from `NAME.export.toml` beside the URDD `NAME` ([`read`]). Every name in it is checked when it is read.
+
+mod chains;
+mod error;
+mod file;
+mod guess;
+mod guesser;
+mod read;
+mod words;
+mod write;
+
+use std::collections::BTreeMap;
+
+pub use error::{SetupError, SetupFault};
+
+/// What exports need and a URDD does not say.
+///
+/// It belongs to the robot that it was read or guessed for: it refers to links and joints by index.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    /// The robot to which places refer: its name, and its numbers of links and joints.
+    pub(super) of: (String, [usize; 2]),
+    /// Whether the root link moves freely in the world.
+    pub(super) floating: Guess<bool>,
+    pub(super) groups: Vec<Guess<Group>>,
+    pub(super) end_effectors: Vec<Guess<EndEffector>>,
+    /// Links whose frames are tools, the one that cuRobo plans for first.
+    pub(super) tools: Guess<Vec<usize>>,
+    /// Links whose frames are those of inertial measurement units.
+    pub(super) imus: Guess<Vec<usize>>,
+    pub(super) gains: Gains,
+    pub(super) curobo: Curobo,
+    /// Acceleration and jerk of joints for which the URDF has none, rad/s² or m/s², and rad/s³ or m/s³.
+    pub(super) acceleration: Option<f64>,
+    pub(super) jerk: Option<f64>,
+    /// The coefficient of friction of all shapes.
+    pub(super) friction: Option<f64>,
+}
+
+/// A value, and why it was guessed; no reason where it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Guess<T> {
+    pub value: T,
+    pub why: String,
+}
+
+impl<T> Guess<T> {
+    /// A value that was read.
+    fn read(value: T) -> Self {
+        let why = String::new();
+        Guess { value, why }
+    }
+}
+
+/// A planning group.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Group {
+    pub name: String,
+    pub members: Members,
+    /// Whether nothing drives its joints: casters.
+    pub passive: bool,
+}
+
+/// The members of a group.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Members {
+    /// The joints between two links; the base is an ancestor of the tip.
+    Chain { base: usize, tip: usize },
+    /// Joints, in joint order.
+    Joints(Vec<usize>),
+    /// Other groups, by their place.
+    Groups(Vec<usize>),
+}
+
+/// What a group ends with.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct EndEffector {
+    pub name: String,
+    /// Its own group.
+    pub group: usize,
+    /// The group that carries it.
+    pub parent_group: Option<usize>,
+    /// The link that carries it.
+    pub parent_link: usize,
+}
+
+/// Gains of actuators that a person set.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Gains {
+    /// The frequency below which a joint follows its actuator, Hz.
+    pub bandwidth: Option<f64>,
+    pub joints: BTreeMap<usize, JointGains>,
+}
+
+/// What a person set for a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointGains {
+    /// N m/rad or N/m.
+    pub kp: Option<f64>,
+    /// N m s/rad or N s/m.
+    pub kv: Option<f64>,
+    /// The inertia of the motor, as the joint sees it, kg m² or kg.
+    pub armature: Option<f64>,
+}
+
+/// What cuRobo's robot file needs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Curobo {
+    /// The link whose pose is planned; the first tool otherwise.
+    pub ee_link: Option<usize>,
+    /// Joints that do not move, with their positions, rad or m.
+    pub locked: BTreeMap<usize, f64>,
+    /// The named configuration to which plans retract; the default configuration otherwise.
+    pub retract: Option<String>,
+}

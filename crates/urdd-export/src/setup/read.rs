@@ -1,0 +1,331 @@
+//! Reads `NAME.export.toml`.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+
+use super::super::nested::within;
+use super::error::{SetupError, SetupFault};
+use super::file::{EndEffectorTable, File, GroupTable, Name};
+use super::{Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup};
+use crate::structure::Structure;
+use urdd_directory::position::LineIndex;
+use urdd_directory::regular;
+use urdd_format::nearest::nearest;
+use urdd_robot::Robot;
+
+/// Maximum size of the file, in bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// A value, or a fault with its byte offset.
+type Placed<T> = Result<T, (usize, SetupFault)>;
+
+impl Setup {
+    /// The path of the file for a URDD: `NAME.export.toml` beside the folder `NAME` or the archive `NAME.zip`.
+    #[must_use]
+    pub fn path(urdd: &Path) -> PathBuf {
+        // `.` and `..` have no name of their own.
+        let named = match urdd.file_name() {
+            Some(_) => urdd.to_owned(),
+            None => urdd.canonicalize().unwrap_or_else(|_| urdd.to_owned()),
+        };
+        let name = named.file_name().unwrap_or_default().to_string_lossy();
+        let stem = name.strip_suffix(".zip").unwrap_or(&name);
+        named.with_file_name(format!("{stem}.export.toml"))
+    }
+
+    /// Reads the file for a URDD, if there is one.
+    ///
+    /// # Errors
+    /// If there is one that cannot be read or is wrong: see [`Setup::from_toml`].
+    pub fn beside(urdd: &Path, robot: &Robot) -> Result<Option<Setup>, SetupError> {
+        let file = Setup::path(urdd);
+        match file.symlink_metadata() {
+            Ok(_) => Setup::read(&file, robot).map(Some),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If it cannot be read, is longer than 1 MiB, or is wrong: see [`Setup::from_toml`].
+    pub fn read(file: &Path, robot: &Robot) -> Result<Setup, SetupError> {
+        let shown = file.display().to_string();
+        let unreadable = |reason: String| SetupError::Unreadable {
+            file: shown.clone(),
+            reason,
+        };
+        let bytes =
+            regular::read(file, MAX_BYTES).map_err(|error| unreadable(error.to_string()))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8".to_owned()))?;
+        Setup::from_toml(&text, &shown, robot)
+    }
+
+    /// Reads the text of a file; `shown` is its name in messages.
+    ///
+    /// # Errors
+    /// If it is not TOML, has an unknown key, is for another robot, or names something that there is not: what is
+    /// wrong, where, and what to do.
+    pub fn from_toml(text: &str, shown: &str, robot: &Robot) -> Result<Setup, SetupError> {
+        let refused = |at: Option<usize>, fault: SetupFault| SetupError::Content {
+            file: shown.to_owned(),
+            at: at.map(|at| LineIndex::new(text).position(at)),
+            fault,
+        };
+        let file: File = toml::from_str(text).map_err(|error| {
+            let fault = SetupFault::Toml(error.message().to_owned());
+            refused(error.span().map(|span| span.start), fault)
+        })?;
+        let structure = Structure::new(robot)?;
+        let configurations: Vec<String> = robot
+            .named_configurations()?
+            .iter()
+            .map(|named| named.name.as_str().to_owned())
+            .collect();
+        let reader = Reader {
+            structure: &structure,
+            configurations: &configurations,
+        };
+        let setup = reader.setup(file);
+        setup.map_err(|(at, fault)| refused(Some(at), fault))
+    }
+}
+
+struct Reader<'a> {
+    structure: &'a Structure,
+    configurations: &'a [String],
+}
+
+impl Reader<'_> {
+    fn setup(&self, file: File) -> Placed<Setup> {
+        let expected = &self.structure.view.name;
+        if file.robot.get_ref() != expected {
+            let fault = SetupFault::OtherRobot {
+                found: file.robot.get_ref().clone(),
+                expected: expected.clone(),
+            };
+            return Err((file.robot.span().start, fault));
+        }
+        let groups = self.groups(&file.group)?;
+        let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
+        let mut ends = Vec::new();
+        for end in &file.end_effector {
+            ends.push(self.end_effector(end, &names, &ends)?);
+        }
+        let positive = "a number above 0";
+        let mut gains = Gains {
+            bandwidth: number("bandwidth", file.actuators.bandwidth.as_ref(), positive)?,
+            joints: BTreeMap::new(),
+        };
+        for (name, of) in &file.actuators.joint {
+            let joint = self.driven(name)?;
+            gains.joints.insert(joint, joint_gains(of)?);
+        }
+        let mut curobo = Curobo {
+            ee_link: file
+                .curobo
+                .ee_link
+                .as_ref()
+                .map(|link| self.link(link))
+                .transpose()?,
+            locked: BTreeMap::new(),
+            retract: None,
+        };
+        for (name, position) in &file.curobo.locked {
+            if !position.get_ref().is_finite() {
+                return Err((
+                    position.span().start,
+                    not_a("locked", "a position, rad or m"),
+                ));
+            }
+            curobo
+                .locked
+                .insert(self.driven(name)?, *position.get_ref());
+        }
+        if let Some(name) = &file.curobo.retract {
+            let known = self.configurations.iter().map(String::as_str);
+            find(name, "named configuration", known)?;
+            curobo.retract = Some(name.get_ref().clone());
+        }
+        let links = |names: &[Name]| -> Placed<Vec<usize>> {
+            names.iter().map(|name| self.link(name)).collect()
+        };
+        Ok(Setup {
+            of: self.structure.identity(),
+            floating: Guess::read(file.base.floating),
+            groups: groups.into_iter().map(Guess::read).collect(),
+            end_effectors: ends.into_iter().map(Guess::read).collect(),
+            tools: Guess::read(links(&file.frames.tools)?),
+            imus: Guess::read(links(&file.frames.imus)?),
+            gains,
+            curobo,
+            acceleration: number("acceleration", file.limits.acceleration.as_ref(), positive)?,
+            jerk: number("jerk", file.limits.jerk.as_ref(), positive)?,
+            friction: number("friction", file.contact.friction.as_ref(), positive)?,
+        })
+    }
+
+    fn groups(&self, tables: &[Spanned<GroupTable>]) -> Placed<Vec<Group>> {
+        let names: Vec<&str> = tables
+            .iter()
+            .map(|table| table.get_ref().name.get_ref().as_str())
+            .collect();
+        let mut groups = Vec::new();
+        for (place, table) in tables.iter().enumerate() {
+            let name = &table.get_ref().name;
+            if names[..place].contains(&name.get_ref().as_str()) {
+                return Err(twice("group", name));
+            }
+            groups.push(self.group(table, &names)?);
+        }
+        for (place, table) in tables.iter().enumerate() {
+            let inner = |group: usize| match &groups[group].members {
+                Members::Groups(others) => others.as_slice(),
+                _ => &[],
+            };
+            if within(place, groups.len(), inner).is_none() {
+                let fault = SetupFault::Cycle(names[place].to_owned());
+                return Err((table.span().start, fault));
+            }
+        }
+        Ok(groups)
+    }
+
+    fn group(&self, table: &Spanned<GroupTable>, names: &[&str]) -> Placed<Group> {
+        let start = table.span().start;
+        let table = table.get_ref();
+        let members = match (&table.base, &table.tip, &table.joints, &table.groups) {
+            (Some(base), Some(tip), None, None) => {
+                let [from, to] = [self.link(base)?, self.link(tip)?];
+                if !self.structure.is_chain(from, to) {
+                    let [base, tip] = [base, tip].map(|name| name.get_ref().clone());
+                    return Err((start, SetupFault::Chain { base, tip }));
+                }
+                Members::Chain {
+                    base: from,
+                    tip: to,
+                }
+            }
+            (None, None, Some(joints), None) if !joints.is_empty() => {
+                let joints: Placed<Vec<usize>> =
+                    joints.iter().map(|name| self.driven(name)).collect();
+                Members::Joints(joints?)
+            }
+            (None, None, None, Some(groups)) if !groups.is_empty() => {
+                let groups = groups
+                    .iter()
+                    .map(|name| find(name, "group", names.iter().copied()));
+                Members::Groups(groups.collect::<Placed<Vec<usize>>>()?)
+            }
+            _ => return Err((start, SetupFault::Members(table.name.get_ref().clone()))),
+        };
+        Ok(Group {
+            name: table.name.get_ref().clone(),
+            members,
+            passive: table.passive,
+        })
+    }
+
+    fn end_effector(
+        &self,
+        table: &EndEffectorTable,
+        groups: &[&str],
+        before: &[EndEffector],
+    ) -> Placed<EndEffector> {
+        let name = table.name.get_ref();
+        if before.iter().any(|other| other.name == *name) {
+            return Err(twice("end effector", &table.name));
+        }
+        let group = |name: &Name| find(name, "group", groups.iter().copied());
+        Ok(EndEffector {
+            name: name.clone(),
+            group: group(&table.group)?,
+            parent_group: table.parent_group.as_ref().map(group).transpose()?,
+            parent_link: self.link(&table.parent_link)?,
+        })
+    }
+
+    fn link(&self, name: &Name) -> Placed<usize> {
+        let links = &self.structure.view.links;
+        find(name, "link", links.iter().map(|link| link.name.as_str()))
+    }
+
+    /// A joint that something can drive.
+    fn driven(&self, name: &Name) -> Placed<usize> {
+        let joints = &self.structure.view.joints;
+        let joint = find(
+            name,
+            "joint",
+            joints.iter().map(|joint| joint.name.as_str()),
+        )?;
+        match self.structure.moves(joint) {
+            true => Ok(joint),
+            false => {
+                let fault = SetupFault::Still(name.get_ref().clone());
+                Err((name.span().start, fault))
+            }
+        }
+    }
+}
+
+fn find<'n>(
+    name: &Name,
+    what: &'static str,
+    known: impl Iterator<Item = &'n str> + Clone,
+) -> Placed<usize> {
+    let found = known.clone().position(|known| known == name.get_ref());
+    found.ok_or_else(|| {
+        let fault = SetupFault::Unknown {
+            what,
+            name: name.get_ref().clone(),
+            nearest: nearest(known, name.get_ref()),
+        };
+        (name.span().start, fault)
+    })
+}
+
+fn twice(what: &'static str, name: &Name) -> (usize, SetupFault) {
+    let fault = SetupFault::Twice {
+        what,
+        name: name.get_ref().clone(),
+    };
+    (name.span().start, fault)
+}
+
+fn not_a(key: &'static str, needs: &'static str) -> SetupFault {
+    SetupFault::Number { key, needs }
+}
+
+fn number(
+    key: &'static str,
+    value: Option<&Spanned<f64>>,
+    needs: &'static str,
+) -> Placed<Option<f64>> {
+    match value {
+        Some(value) if !(value.get_ref().is_finite() && *value.get_ref() > 0.0) => {
+            Err((value.span().start, not_a(key, needs)))
+        }
+        value => Ok(value.map(|value| *value.get_ref())),
+    }
+}
+
+fn joint_gains(table: &Spanned<JointGains>) -> Placed<JointGains> {
+    let gains = *table.get_ref();
+    let each = [
+        ("kp", gains.kp),
+        ("kv", gains.kv),
+        ("armature", gains.armature),
+    ];
+    let is_wrong =
+        |value: Option<f64>| value.is_some_and(|value| !(value.is_finite() && value >= 0.0));
+    match each.into_iter().find(|(_, value)| is_wrong(*value)) {
+        Some((key, _)) => Err((
+            table.span().start,
+            not_a(key, "a number that is not below 0"),
+        )),
+        None => Ok(gains),
+    }
+}

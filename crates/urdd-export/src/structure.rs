@@ -1,0 +1,121 @@
+//! The joints of a robot as a tree.
+
+use super::error::ExportError;
+use urdd_document::mimics::Mimics;
+use urdd_document::robot::{Robot as View, of_urdf};
+use urdd_document::tree::Tree;
+use urdd_format::urdf::UrdfModule;
+use urdd_robot::Robot;
+
+/// The joints of a robot as a tree.
+pub(super) struct Structure {
+    /// The robot with the defaults of URDF filled in.
+    pub view: View,
+    pub tree: Tree,
+    /// For each joint, the DOF that it follows, with mimic chains resolved.
+    pub mimics: Mimics,
+}
+
+impl Structure {
+    pub fn new(robot: &Robot) -> Result<Self, ExportError> {
+        Structure::of(&robot.description()?)
+    }
+
+    pub fn of(urdf: &UrdfModule) -> Result<Self, ExportError> {
+        let view = of_urdf(urdf);
+        let tree = Tree::new(&view).ok_or(ExportError::NoTree)?;
+        let mimics = Mimics::resolve(&view).ok_or(ExportError::Mimics)?;
+        Ok(Structure { view, tree, mimics })
+    }
+
+    /// The robot's name, and its numbers of links and joints.
+    pub fn identity(&self) -> (String, [usize; 2]) {
+        let view = &self.view;
+        (view.name.clone(), [view.links.len(), view.joints.len()])
+    }
+
+    /// An error if this is the identity of another robot.
+    pub fn check(&self, of: &(String, [usize; 2])) -> Result<(), ExportError> {
+        match *of == self.identity() {
+            true => Ok(()),
+            false => Err(ExportError::OtherSetup {
+                found: of.0.clone(),
+                expected: self.view.name.clone(),
+            }),
+        }
+    }
+
+    /// Whether a link is the root link and called `world`: what MuJoCo, SDF, Drake and MoveIt call their own.
+    pub fn is_world(&self, link: usize) -> bool {
+        link == self.tree.root && self.view.links[link].name == "world"
+    }
+
+    /// Whether a joint has one DOF and follows no other: what an actuator can drive.
+    pub fn is_driven(&self, joint: usize) -> bool {
+        self.view.joints[joint].num_dofs() == 1 && self.moves(joint)
+    }
+
+    /// Whether a joint has DOFs and follows no other.
+    pub fn moves(&self, joint: usize) -> bool {
+        self.view.joints[joint].num_dofs() > 0 && self.mimics.by_joint[joint].is_none()
+    }
+
+    /// A link and those that are fixed to it, further from the root.
+    pub fn fixed_to(&self, link: usize) -> Vec<usize> {
+        let mut links = vec![link];
+        let mut next = 0;
+        while let Some(&link) = links.get(next) {
+            let children = self.tree.child_joints[link].iter();
+            let fixed = children.filter(|joint| self.view.joints[**joint].num_dofs() == 0);
+            links.extend(fixed.map(|joint| self.tree.joint_links[*joint].1));
+            next += 1;
+        }
+        links
+    }
+
+    /// The moving joints that are attached to a link or to what is fixed to it, in joint order.
+    pub fn joints_after(&self, link: usize) -> Vec<usize> {
+        let links = self.fixed_to(link).into_iter();
+        let joints = links.flat_map(|link| &self.tree.child_joints[link]);
+        let mut joints: Vec<usize> = joints
+            .copied()
+            .filter(|joint| self.view.joints[*joint].num_dofs() > 0)
+            .collect();
+        joints.sort_unstable();
+        joints
+    }
+
+    /// A link and all of its descendants.
+    pub fn links_after(&self, link: usize) -> Vec<usize> {
+        let mut links = vec![link];
+        let mut next = 0;
+        while let Some(&link) = links.get(next) {
+            let children = self.tree.child_joints[link].iter();
+            links.extend(children.map(|joint| self.tree.joint_links[*joint].1));
+            next += 1;
+        }
+        links
+    }
+
+    /// The joints from a link to a descendant, from the root outwards; empty if it is not one.
+    pub fn between(&self, base: usize, tip: usize) -> Vec<usize> {
+        let mut joints = Vec::new();
+        let mut link = tip;
+        while link != base {
+            let Some(joint) = self.tree.parent_joint[link] else {
+                return Vec::new();
+            };
+            joints.push(joint);
+            link = self.tree.joint_links[joint].0;
+        }
+        joints.reverse();
+        joints
+    }
+
+    /// Whether a joint between the two links moves.
+    pub fn is_chain(&self, base: usize, tip: usize) -> bool {
+        self.between(base, tip)
+            .iter()
+            .any(|joint| self.moves(*joint))
+    }
+}

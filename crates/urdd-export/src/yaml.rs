@@ -1,0 +1,184 @@
+//! A YAML tree and its serialization.
+
+use std::fmt::Write;
+
+use super::numbers::number;
+use urdd_format::escape;
+
+/// A value.
+#[derive(Debug, Clone)]
+pub(super) enum Yaml {
+    /// A value on one line, already in YAML.
+    Plain(String),
+    /// Keys, already in YAML, and their values.
+    Map(Vec<(String, Yaml)>),
+    List(Vec<Yaml>),
+}
+
+impl Yaml {
+    /// An empty mapping.
+    pub const EMPTY: Yaml = Yaml::Map(Vec::new());
+
+    /// A quoted string.
+    pub fn text(text: &str) -> Yaml {
+        Yaml::Plain(quoted(text))
+    }
+
+    /// A list of quoted strings, an item a line.
+    pub fn texts<'t>(texts: impl IntoIterator<Item = &'t str>) -> Yaml {
+        Yaml::List(texts.into_iter().map(Yaml::text).collect())
+    }
+
+    pub fn number(value: f64) -> Yaml {
+        Yaml::Plain(real(value))
+    }
+
+    /// Numbers on one line.
+    pub fn numbers(values: &[f64]) -> Yaml {
+        let values: Vec<String> = values.iter().map(|value| real(*value)).collect();
+        Yaml::Plain(format!("[{}]", values.join(", ")))
+    }
+
+    pub fn plain(text: &str) -> Yaml {
+        Yaml::Plain(text.to_owned())
+    }
+
+    /// A mapping of fixed keys.
+    pub fn map<const N: usize>(fixed: [(&str, Yaml); N]) -> Yaml {
+        Yaml::Map(entries(fixed))
+    }
+
+    /// A mapping of names.
+    pub fn named<'n>(names: impl IntoIterator<Item = (&'n str, Yaml)>) -> Yaml {
+        Yaml::Map(named(names))
+    }
+
+    /// The document, after comments.
+    pub fn document(&self, comments: &[String]) -> String {
+        let mut text = String::new();
+        for comment in comments {
+            let _ = writeln!(text, "# {}", escape::line(comment));
+        }
+        self.write(&mut text, 0, true);
+        text
+    }
+
+    /// Writes the value after its key or dash.
+    fn write(&self, text: &mut String, depth: usize, begins_line: bool) {
+        let margin = "  ".repeat(depth);
+        match self {
+            Yaml::Plain(plain) => {
+                let _ = writeln!(text, "{}{plain}", if begins_line { "" } else { " " });
+            }
+            Yaml::Map(entries) if entries.is_empty() => {
+                *text += if begins_line { "{}\n" } else { " {}\n" };
+            }
+            Yaml::List(items) if items.is_empty() => {
+                *text += if begins_line { "[]\n" } else { " []\n" };
+            }
+            Yaml::Map(entries) => {
+                if !begins_line {
+                    text.push('\n');
+                }
+                for (key, value) in entries {
+                    let _ = write!(text, "{margin}{key}:");
+                    value.write(text, depth + 1, false);
+                }
+            }
+            Yaml::List(items) => {
+                if !begins_line {
+                    text.push('\n');
+                }
+                for item in items {
+                    let _ = write!(text, "{margin}-");
+                    match item {
+                        // The first key is on the line of the dash.
+                        Yaml::Map(entries) if !entries.is_empty() => {
+                            let start = text.len();
+                            item.write(text, depth + 1, true);
+                            text.replace_range(start..start + margin.len() + 1, "");
+                        }
+                        _ => item.write(text, depth + 1, false),
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Entries of fixed keys.
+pub(super) fn entries<const N: usize>(fixed: [(&str, Yaml); N]) -> Vec<(String, Yaml)> {
+    fixed.map(|(key, value)| (key.to_owned(), value)).into()
+}
+
+/// Entries of names.
+pub(super) fn named<'n>(names: impl IntoIterator<Item = (&'n str, Yaml)>) -> Vec<(String, Yaml)> {
+    let names = names.into_iter();
+    names.map(|(name, value)| (quoted(name), value)).collect()
+}
+
+/// A number with a decimal point, and a sign in its exponent: without them, YAML 1.1 (PyYAML) reads a text.
+pub(super) fn real(value: f64) -> String {
+    let text = number(value);
+    let (digits, exponent) = match text.split_once('e') {
+        Some((digits, exponent)) if exponent.starts_with('-') => (digits, format!("e{exponent}")),
+        Some((digits, exponent)) => (digits, format!("e+{exponent}")),
+        None => (text.as_str(), String::new()),
+    };
+    let point = if digits.contains('.') { "" } else { ".0" };
+    format!("{digits}{point}{exponent}")
+}
+
+/// A double-quoted string that every reader of YAML, TOML and Python decodes exactly. It is JSON's, except for
+/// characters beyond U+FFFF that are escaped: JSON uses two surrogates, which YAML does not combine.
+pub(super) fn quoted(name: &str) -> String {
+    let mut text = String::new();
+    for c in serde_json::Value::from(name).to_string().chars() {
+        match escape::is_hidden(c) {
+            true if c > '\u{ffff}' => _ = write!(text, "\\U{:08x}", u32::from(c)),
+            true => _ = write!(text, "\\u{:04x}", u32::from(c)),
+            false => text.push(c),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tree_reads_back() {
+        let sphere = Yaml::map([
+            ("center", Yaml::numbers(&[0.0, 1e-9, -2.5])),
+            ("radius", Yaml::number(3.0)),
+        ]);
+        let tree = Yaml::map([
+            ("empty", Yaml::EMPTY),
+            ("none", Yaml::List(Vec::new())),
+            ("number", Yaml::number(1e-9)),
+            ("names", Yaml::texts(["a: b", "\u{202e}- c"])),
+            (
+                "spheres",
+                Yaml::named([("link: 1", Yaml::List(vec![sphere.clone(), sphere]))]),
+            ),
+        ]);
+        assert_eq!(
+            [-0.0, 1e-9, 1e300, 2.5].map(real).join(" "),
+            "0.0 1.0e-9 1.0e+300 2.5"
+        );
+        let text = tree.document(&["two\nlines".to_owned()]);
+        let read: serde_json::Value = serde_yaml::from_str(&text).expect("YAML");
+        let sphere = serde_json::json!({"center": [0.0, 1e-9, -2.5], "radius": 3.0});
+
+        assert_eq!(read["empty"], serde_json::json!({}));
+        assert_eq!(read["none"], serde_json::json!([]));
+        assert_eq!(read["number"], serde_json::json!(1e-9));
+        assert_eq!(read["names"], serde_json::json!(["a: b", "\u{202e}- c"]));
+        assert_eq!(
+            read["spheres"]["link: 1"],
+            serde_json::json!([sphere, sphere])
+        );
+        assert!(text.starts_with("# two\\nlines\n"), "{text}");
+    }
+}

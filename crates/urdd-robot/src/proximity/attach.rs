@@ -1,0 +1,85 @@
+//! Objects that links carry.
+
+use std::sync::Arc;
+
+use super::body::Shape;
+use super::{Pair, Proximity};
+use crate::error::RobotError;
+use crate::names::index;
+use crate::obstacle::Obstacle;
+
+impl Proximity {
+    /// These shapes and an object that a link carries, such as a tool or what a gripper holds: every query then includes
+    /// it, also among obstacles. The pose of `object` is that in the link's frame.
+    ///
+    /// The object is tested against the shapes of all links that move against it and against objects on them, except those
+    /// that it [ignores](Obstacle::ignoring): the links that may touch it. Skips do not apply. An obstacle that ignores the
+    /// link does not thereby ignore the object: it can name the object. These shapes are shared, not copied, and stay as
+    /// they are; to release the object, use them again.
+    ///
+    /// ```
+    /// use nalgebra::Isometry3;
+    /// # use urdd_robot::{Robot, RobotError, ShapeKind};
+    /// use urdd_robot::Obstacle;
+    ///
+    /// # fn ask(robot: &Robot) -> Result<(), RobotError> {
+    /// let empty = robot.proximity(ShapeKind::Pieces)?;
+    /// let part = Obstacle::cuboid("part", Isometry3::translation(0.0, 0.0, 0.05), [0.02, 0.02, 0.05])?;
+    /// let holding = empty.attach(robot.link("palm")?, &part.ignoring("finger"))?;
+    /// # let q = robot.configurations()?.zero();
+    /// println!("{:?} m with the part, {:?} m without", holding.self_distance(&q)?, empty.self_distance(&q)?);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] for a link that does not exist; [`RobotError::Unknown`] if the object ignores a link
+    /// that does not exist; [`RobotError::Obstacle`] if a link or an attached object has its name.
+    pub fn attach(&self, link: usize, object: &Obstacle) -> Result<Proximity, RobotError> {
+        let count = self.motion.links.len();
+        if link >= count {
+            let what = "link";
+            return Err(RobotError::OutOfRange {
+                what,
+                index: link,
+                count,
+            });
+        }
+        if self.names.iter().any(|name| **name == *object.name()) {
+            return Err(RobotError::Obstacle {
+                name: object.name().to_owned(),
+                reason: "a link or an attached object has this name: choose another one".to_owned(),
+            });
+        }
+        let ignored = object.ignored().iter();
+        let ignored = ignored.map(|name| index("link", &self.names, name));
+        let ignored: Vec<usize> = ignored.collect::<Result<_, _>>()?;
+        let mut with = self.clone();
+        let owner = with.names.len();
+        with.names.push(Arc::from(object.name()));
+        let others = self.shapes.iter().enumerate();
+        let bodies = self.motion.kinematics.rigid_bodies();
+        let others = others.filter(|(_, shape)| {
+            bodies[shape.link] != bodies[link] && !ignored.contains(&shape.owner)
+        });
+        let others: Vec<usize> = others.map(|(place, _)| place).collect();
+        for (piece, part) in object.parts().iter().enumerate() {
+            let place = with.shapes.len();
+            with.shapes.push(Shape {
+                link,
+                owner,
+                piece,
+                core: Arc::clone(&part.core),
+                radius: part.radius,
+                sphere: part.sphere,
+                is_ball: false,
+            });
+            let pair = |other: &usize| Pair {
+                shapes: [*other, place],
+                mean: None,
+            };
+            with.pairs.extend(others.iter().map(pair));
+        }
+        Ok(with.arranged())
+    }
+}

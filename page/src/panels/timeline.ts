@@ -1,0 +1,240 @@
+/** A trajectory below the picture: play, speed, loop, where it collides and how near it comes, a video of it. */
+
+import type { App } from "../app";
+import { message } from "../app";
+import { Trajectory, trajectoryOf } from "../trajectory";
+import { button, fill, h } from "../ui/dom";
+import { length } from "../ui/format";
+import { offer } from "../ui/offer";
+import { color } from "../ui/theme";
+
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+/** Configurations whose distances are asked, at most. */
+const ASKED = 240;
+const STRIP = { width: 480, height: 28 };
+
+/** A trajectory among the files of a drop, if it is the only one. */
+export function trajectoryIn(transfer: DataTransfer): File | null {
+  const [file] = transfer.files;
+  return file && transfer.files.length === 1 && /\.(?:csv|jsonl|ndjson)$/i.test(file.name) ? file : null;
+}
+
+export class Timeline {
+  readonly element: HTMLElement;
+  private trajectory: Trajectory | null = null;
+  private time = 0;
+  private playing = false;
+  /** Counts what is loaded or played, so that only the last one takes effect. */
+  private turn = 0;
+  private found: ({ distance: number; collides: boolean } | null)[] = [];
+  private readonly input = h("input", { type: "file", accept: ".csv,.jsonl,.ndjson", hidden: true });
+  private readonly title = h("strong", {});
+  private readonly play = button("Play", { id: "timeline-play" }, () => {
+    this.toggle();
+  });
+  private readonly slider = h("input", { type: "range", min: 0, step: "any", "aria-label": "Time" });
+  private readonly clock = h("output", {});
+  private readonly speed = h(
+    "select",
+    { "aria-label": "Speed" },
+    ...SPEEDS.map((speed) => h("option", { value: speed, selected: speed === 1 }, `${speed} ×`)),
+  );
+  private readonly loop = h("input", { type: "checkbox", id: "timeline-loop" });
+  private readonly strip = h("canvas", { ...STRIP, role: "img" });
+  private readonly said = h("span", { class: "along", "aria-live": "polite" });
+
+  constructor(private readonly app: App) {
+    const record = button("Record", "Play it once, and save the picture as a WebM video", () => void this.record());
+    record.hidden = typeof MediaRecorder === "undefined";
+    this.element = h(
+      "div",
+      { class: "timeline", hidden: true, role: "group", "aria-label": "Trajectory" },
+      h("div", { class: "actions" }, this.title, this.said, h("span", { class: "spring" }), this.clock),
+      this.strip,
+      this.slider,
+      h(
+        "div",
+        { class: "actions" },
+        this.play,
+        this.speed,
+        h("label", {}, this.loop, " Loop"),
+        record,
+        h("span", { class: "spring" }),
+        button("Close", {}, () => {
+          this.close();
+        }),
+      ),
+      this.input,
+    );
+    this.slider.addEventListener("input", () => {
+      this.stop();
+      this.show(Number(this.slider.value));
+    });
+    this.input.addEventListener("change", () => {
+      const [file] = this.input.files ?? [];
+      if (file) void this.load(file);
+      this.input.value = "";
+    });
+    addEventListener("urdd-trajectory", () => {
+      this.input.click();
+    });
+    addEventListener("urdd-theme", () => {
+      this.draw();
+    });
+    app.store.on(["robot"], () => {
+      this.close();
+    });
+    app.store.on(["shapes"], () => {
+      if (this.trajectory) void this.ask();
+    });
+  }
+
+  async load(file: File): Promise<void> {
+    const { robot } = this.app.store.now;
+    if (!robot?.moves) return;
+    this.close();
+    const turn = ++this.turn;
+    try {
+      const trajectory = await trajectoryOf(file, robot.dofs, robot.about.zero ?? robot.dofs.map(() => 0));
+      if (turn !== this.turn) return;
+      this.trajectory = trajectory;
+    } catch (error) {
+      this.app.note(message(error));
+      return;
+    }
+    fill(this.title, this.trajectory.name);
+    this.slider.max = String(this.trajectory.duration);
+    this.element.hidden = false;
+    this.show(0);
+    await this.ask();
+  }
+
+  private close(): void {
+    this.stop();
+    this.turn++;
+    this.trajectory = null;
+    this.element.hidden = true;
+  }
+
+  private stop(): void {
+    this.playing = false;
+    this.play.textContent = "Play";
+  }
+
+  private show(time: number): void {
+    const { trajectory } = this;
+    if (!trajectory) return;
+    this.time = time;
+    this.slider.value = String(time);
+    this.clock.textContent = `${time.toFixed(2)} of ${trajectory.duration.toFixed(2)} s`;
+    this.app.follow(trajectory.at(time));
+    this.draw();
+  }
+
+  private toggle(): void {
+    const { trajectory } = this;
+    if (!trajectory) return;
+    if (this.playing) {
+      this.stop();
+      return;
+    }
+    if (this.time >= trajectory.duration) this.time = 0;
+    void this.run(trajectory);
+  }
+
+  /** Plays to the end, or until it is stopped. */
+  private run(trajectory: Trajectory): Promise<void> {
+    this.playing = true;
+    this.play.textContent = "Pause";
+    let before: number | null = null;
+    return new Promise((resolve) => {
+      const step = (now: number): void => {
+        if (!this.playing || this.trajectory !== trajectory) {
+          resolve();
+          return;
+        }
+        const passed = ((now - (before ?? now)) / 1000) * Number(this.speed.value);
+        before = now;
+        let time = this.time + passed;
+        if (time >= trajectory.duration && this.loop.checked && trajectory.duration > 0) time %= trajectory.duration;
+        this.show(Math.min(time, trajectory.duration));
+        if (time >= trajectory.duration) this.stop();
+        requestAnimationFrame(step);
+      };
+      requestAnimationFrame(step);
+    });
+  }
+
+  /** Asks for distances along the trajectory, as long as it is the one that is shown. */
+  private async ask(): Promise<void> {
+    const { trajectory, app } = this;
+    if (!trajectory) return;
+    const turn = ++this.turn;
+    const kind = app.store.now.shapes;
+    const number = Math.min(ASKED, Math.max(2, trajectory.times.length));
+    this.found = Array.from({ length: number }, () => null);
+    this.said.textContent = "";
+    try {
+      for (let k = 0; k < number; k++) {
+        const q = trajectory.at((trajectory.duration * k) / (number - 1));
+        const answer = await app.engine.ask("proximity", { q, kind, k: 1 });
+        if (turn !== this.turn) return;
+        const [pair] = answer.nearest;
+        this.found[k] = { distance: pair?.distance ?? Infinity, collides: answer.in_collision };
+        this.draw();
+      }
+    } catch {
+      // A robot that is still being generated has no distances yet.
+      return;
+    }
+    const all = this.found.flatMap((one) => one ?? []);
+    const hits = all.filter((one) => one.collides).length;
+    const least = Math.min(...all.map((one) => one.distance));
+    const near = Number.isFinite(least) ? `, least distance ${length(least)}` : "";
+    this.said.textContent =
+      hits > 0 ? `self-collision for ${Math.ceil((100 * hits) / number)} % of the time` : `no self-collision${near}`;
+    this.strip.setAttribute("aria-label", this.said.textContent);
+  }
+
+  /** The distances, red where it collides, and the present time. */
+  private draw(): void {
+    const context = this.strip.getContext("2d");
+    if (!context || !this.trajectory) return;
+    const { width, height } = STRIP;
+    context.clearRect(0, 0, width, height);
+    const finite = this.found.flatMap((one) => (one && Number.isFinite(one.distance) ? [one.distance] : []));
+    const most = Math.max(1e-9, ...finite);
+    const wide = width / this.found.length;
+    for (const [k, one] of this.found.entries()) {
+      if (!one) continue;
+      context.fillStyle = color(one.collides ? "--error" : "--accent");
+      const tall = one.collides ? height : Math.max(1, (Math.min(one.distance, most) / most) * height);
+      context.fillRect(k * wide, height - tall, wide + 0.5, tall);
+    }
+    context.fillStyle = color("--text");
+    context.fillRect((this.time / (this.trajectory.duration || 1)) * (width - 2), 0, 2, height);
+  }
+
+  /** Plays once, and saves the picture as a video. */
+  private async record(): Promise<void> {
+    const { trajectory } = this;
+    const picture = document.getElementById("picture");
+    if (!trajectory || !(picture instanceof HTMLCanvasElement)) return;
+    this.stop();
+    const recorder = new MediaRecorder(picture.captureStream(60), { mimeType: "video/webm" });
+    const parts: Blob[] = [];
+    recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
+    const ended = new Promise((resolve) => {
+      recorder.addEventListener("stop", resolve);
+    });
+    recorder.start();
+    const loop = this.loop.checked;
+    this.loop.checked = false;
+    this.show(0);
+    await this.run(trajectory);
+    this.loop.checked = loop;
+    recorder.stop();
+    await ended;
+    offer(new Blob(parts, { type: "video/webm" }), `${trajectory.name.replace(/\.[^.]*$/, "")}.webm`);
+  }
+}

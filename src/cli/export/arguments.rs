@@ -1,0 +1,166 @@
+//! Arguments of `urdd export`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::mjcf::MjcfArguments;
+use crate::cli::making::Skip;
+use crate::cli::shapes::Shapes;
+use urdd_export::{Detail, Format};
+
+/// Arguments of `urdd export`.
+#[derive(Args)]
+#[command(
+    after_help = "Meshes are written to a folder beside the file: the file's name without its extension, followed by `_meshes`.\n\n\
+    `urdd export init URDD` writes `NAME.export.toml` beside the URDD `NAME`: groups, end effectors, tool frames, gains. \
+    Every export reads it.\n\n\
+    Exit status: 0 written; 2 nothing was written."
+)]
+pub struct ExportArguments {
+    /// The format.
+    #[arg(value_enum)]
+    pub format: Target,
+
+    /// A URDD: a folder or a zip archive.
+    #[arg(value_name = "URDD")]
+    pub path: PathBuf,
+
+    /// The file to write; `-` prints a format that has no mesh files. For `moveit`, a folder. For `init`, by default
+    /// `NAME.export.toml` beside the URDD.
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// What the URDD does not say: groups, end effectors, tool frames, gains. Default: `NAME.export.toml` beside the URDD,
+    /// if it is there.
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+
+    /// Shapes that represent the links, in the collision geometry and in the disabled pairs.
+    #[arg(long, value_enum, default_value_t = Shapes::Pieces)]
+    pub shapes: Shapes,
+
+    /// Reasons for which pairs of links are disabled, separated by commas. Default: those of the URDD. A person's edits
+    /// apply in either case.
+    #[arg(long, value_enum, value_name = "REASONS", value_delimiter = ',')]
+    pub reasons: Option<Vec<Skip>>,
+
+    /// Checks a pair of links if the URDD skips some pairs of their pieces and checks others. By default, such a pair is
+    /// disabled. Applies to formats that list pairs of links; MJCF always follows the URDD for each piece.
+    #[arg(long)]
+    pub keep_pairs: bool,
+
+    /// Maximum number of spheres per link. Default: 12 on average and at most 150 in total; with `--cover`, 8.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub spheres: Option<u16>,
+
+    /// Maximum number of spheres for all links together; each link has at least one.
+    #[arg(long, value_name = "N", conflicts_with = "spheres", value_parser = clap::value_parser!(u16).range(1..))]
+    pub total_spheres: Option<u16>,
+
+    /// Makes the spheres enclose each link completely. No collision is missed then, but often every configuration is in
+    /// contact; the file states how often. By default, spheres are fitted to give the same answers as the shapes.
+    #[arg(long)]
+    pub cover: bool,
+
+    /// Number of sampled configurations in which spheres are measured; fewer where that would take long.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    pub samples: u32,
+
+    /// Leaves out visual geometry.
+    #[arg(long)]
+    pub no_visuals: bool,
+
+    /// Visual geometry with fewer triangles: at most a part of them (`0.1`), or at most as many in total (`20000`).
+    #[arg(long, value_name = "RATIO|TRIANGLES", conflicts_with = "no_visuals", value_parser = detail)]
+    pub visuals: Option<Detail>,
+
+    /// MJCF and SDF: the root link moves freely. Otherwise it is fixed to the world.
+    #[arg(long)]
+    pub floating_base: bool,
+
+    #[command(flatten)]
+    pub mjcf: MjcfArguments,
+
+    /// cuRobo: writes the whole robot file, for the URDF of this path. Default: the name of the source.
+    #[arg(long, value_name = "URDF", num_args = 0..=1, require_equals = true)]
+    pub config: Option<Option<String>>,
+
+    /// MoveIt: the name of the package. Default: the name of the folder. Drake: writes `package.xml` and a model directive
+    /// beside the file.
+    #[arg(long, value_name = "NAME")]
+    pub package: Option<String>,
+
+    /// Replaces the pairs of links in an existing SRDF, except those that a person wrote (their reason is `User` or free
+    /// text). Everything else in the file is unchanged. For `moveit`, all other files that exist stay as they are.
+    #[arg(long, conflicts_with = "force")]
+    pub update: bool,
+
+    /// Writes what was carried, carried otherwise and lost of this robot to a file, as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+
+    /// Overwrites existing files.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A part of all triangles, or a number of them.
+fn detail(word: &str) -> Result<Detail, String> {
+    let count = word.parse::<usize>().ok().filter(|count| *count > 0);
+    let ratio = || {
+        word.parse::<f64>()
+            .ok()
+            .filter(|ratio| *ratio > 0.0 && *ratio < 1.0)
+    };
+    (count.map(Detail::Triangles))
+        .or_else(|| ratio().map(Detail::Ratio))
+        .ok_or_else(|| "a part between 0 and 1, such as 0.1, or a number of triangles".to_owned())
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    /// Pairs of links that need no check, for MoveIt.
+    Srdf,
+    /// URDF of the robot, with the URDD's shapes as collision geometry.
+    Urdf,
+    /// The same for Drake, with collision filter groups.
+    Drake,
+    /// For MuJoCo: bodies, joints, shapes, excluded pairs.
+    Mjcf,
+    /// Spheres and ignored pairs per link, for cuRobo.
+    Curobo,
+    /// Spheres per link, in Foam's format.
+    Foam,
+    /// URDF of the robot, with these spheres as collision geometry.
+    Spherized,
+    /// A configuration package for MoveIt 2: a folder.
+    Moveit,
+    /// For Gazebo and Drake: links, joints, shapes.
+    Sdf,
+    /// What exports need and the URDD does not say, guessed: groups, end effectors, tool frames.
+    Init,
+}
+
+impl Target {
+    /// The format; `None` for what is no robot.
+    pub fn format(self) -> Option<Format> {
+        Some(match self {
+            Target::Srdf => Format::Srdf,
+            Target::Urdf => Format::Urdf,
+            Target::Drake => Format::Drake,
+            Target::Mjcf => Format::Mjcf,
+            Target::Curobo => Format::Curobo,
+            Target::Foam => Format::Foam,
+            Target::Spherized => Format::Spherized,
+            Target::Moveit => Format::Moveit,
+            Target::Sdf => Format::Sdf,
+            Target::Init => return None,
+        })
+    }
+
+    /// Whether it is a single file.
+    pub fn is_alone(self) -> bool {
+        matches!(self, Target::Srdf | Target::Curobo | Target::Foam)
+    }
+}

@@ -1,0 +1,116 @@
+//! Writes what was exported.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::arguments::{ExportArguments, Target};
+use crate::cli::{output, srdf_file};
+use urdd_directory::regular;
+use urdd_export::{Export, merge_srdf};
+use urdd_format::escape;
+
+/// The existing SRDF, merged with the new pairs.
+fn merged(file: &Path, new: &str) -> Result<String, String> {
+    let shown = escape::line(&file.display().to_string()).into_owned();
+    let failed = |error: &dyn std::fmt::Display| format!("{shown}: {error}");
+    let old = srdf_file::read(file)
+        .map_err(|error| format!("{error}; omit --update to write a new file"))?;
+    let merged = merge_srdf(&old, new).map_err(|error| failed(&error))?;
+    let pairs = |count: usize| match count {
+        1 => "1 pair of links".to_owned(),
+        _ => format!("{count} pairs of links"),
+    };
+    if merged.kept > 0 {
+        let pairs = pairs(merged.kept);
+        output::error(&format!(
+            "note: kept {pairs} that a person disabled: their reason is not Adjacent, Always, Default or Never"
+        ));
+    }
+    if merged.enabled > 0 {
+        let pairs = pairs(merged.enabled);
+        output::error(&format!(
+            "note: did not disable {pairs} that a person enabled"
+        ));
+    }
+    Ok(merged.text)
+}
+
+/// Writes the text, the other files and the report. What exists is overwritten on request only.
+pub(super) fn write(
+    arguments: &ExportArguments,
+    output: &Path,
+    mut made: Export,
+) -> Result<(), String> {
+    let report = arguments.report.clone();
+    let report = report.map(|file| (file, made.report.as_bytes()));
+    if output.as_os_str() == "-" {
+        let report: Vec<(PathBuf, &[u8])> = report.into_iter().collect();
+        refuse_others(arguments, &report)?;
+        output::write_files(&report)?;
+        return output::print_raw(&made.text);
+    }
+    let (own, folder) = match &made.path {
+        Some(path) => (output.join(path), output),
+        None => (output.to_owned(), output.parent().unwrap_or(Path::new(""))),
+    };
+    let is_merged = arguments.update && (made.path.is_none() || own.exists());
+    if is_merged {
+        made.text = merged(&own, &made.text)?;
+    }
+    // The file that references the others is last.
+    let files = made.files.iter();
+    let files = files.map(|(path, bytes)| (folder.join(path), bytes.as_slice()));
+    let mut files: Vec<(PathBuf, &[u8])> = files.collect();
+    if arguments.update {
+        files.retain(|file| {
+            let stays = is_other(file);
+            if stays {
+                let shown = file.0.display().to_string();
+                output::error(&format!("note: {} stays as it is", escape::line(&shown)));
+            }
+            !stays
+        });
+    }
+    files.extend(report);
+    let own = (own, made.text.as_bytes());
+    refuse_others(arguments, files.iter().chain((!is_merged).then_some(&own)))?;
+    files.push(own);
+    output::write_files(&files)
+}
+
+/// An error if a file exists with different content.
+fn refuse_others<'f>(
+    arguments: &ExportArguments,
+    files: impl IntoIterator<Item = &'f (PathBuf, &'f [u8])>,
+) -> Result<(), String> {
+    let mut files = files.into_iter();
+    if !arguments.force
+        && let Some((there, _)) = files.find(|file| is_other(file))
+    {
+        let also = match arguments.format {
+            Target::Srdf => "; --update replaces the pairs of links in it",
+            Target::Moveit => {
+                "; --update replaces the pairs of links in the SRDF, and leaves other files as they are"
+            }
+            _ => "",
+        };
+        return Err(format!(
+            "{} already exists: --force overwrites it{also}",
+            escape::line(&there.display().to_string())
+        ));
+    }
+    Ok(())
+}
+
+/// Whether a file exists with different content.
+fn is_other((file, bytes): &(PathBuf, &[u8])) -> bool {
+    match fs::metadata(file) {
+        Ok(there) if there.is_file() => {
+            let read = regular::read(file, bytes.len() as u64);
+            !read.is_ok_and(|there| there == *bytes)
+        }
+        // Writing to devices and pipes is allowed.
+        Ok(there) => there.is_dir(),
+        Err(_) => fs::symlink_metadata(file).is_ok(),
+    }
+}

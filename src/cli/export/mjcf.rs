@@ -1,0 +1,65 @@
+//! Arguments of `urdd export` for single formats.
+
+use clap::{Args, ValueEnum};
+
+use urdd_export::{ActuatorKind, MjcfOptions};
+
+/// Arguments of MJCF alone.
+#[derive(Args)]
+pub struct MjcfArguments {
+    /// MJCF: adds an actuator to each joint of one DOF. Gains are computed from inertias, for `--bandwidth`.
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = Actuators::None)]
+    actuators: Actuators,
+
+    /// MJCF: the frequency below which a joint follows its actuator, Hz.
+    /// Default: that of `NAME.export.toml`, or 10.
+    #[arg(long, value_name = "HZ", value_parser = bandwidth)]
+    bandwidth: Option<f64>,
+
+    /// MJCF: a gyroscope and an accelerometer at each IMU frame of `NAME.export.toml`.
+    #[arg(long)]
+    sensors: bool,
+
+    /// MJCF: writes a scene with floor and light beside the file: `NAME_scene.xml`.
+    #[arg(long)]
+    scene: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Actuators {
+    /// No actuators.
+    None,
+    /// They are told positions, rad or m.
+    Position,
+    /// They are told velocities, rad/s or m/s.
+    Velocity,
+    /// They are told torques or forces, N m or N.
+    Motor,
+}
+
+/// A frequency in Hz.
+fn bandwidth(word: &str) -> Result<f64, String> {
+    let hertz = word.parse::<f64>().ok();
+    let hertz = hertz.filter(|hertz| (0.01..=100.0).contains(hertz));
+    hertz.ok_or_else(|| "a bandwidth is between 0.01 and 100 Hz".to_owned())
+}
+
+impl MjcfArguments {
+    pub(super) fn options(&self) -> MjcfOptions {
+        MjcfOptions {
+            actuators: match self.actuators {
+                Actuators::None => None,
+                Actuators::Position => Some(ActuatorKind::Position),
+                Actuators::Velocity => Some(ActuatorKind::Velocity),
+                Actuators::Motor => Some(ActuatorKind::Motor),
+            },
+            bandwidth: self.bandwidth,
+            sensors: self.sensors,
+            scene: self.scene,
+        }
+    }
+
+    pub(super) fn is_given(&self) -> bool {
+        self.actuators != Actuators::None || self.sensors || self.scene
+    }
+}

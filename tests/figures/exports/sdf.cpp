@@ -1,0 +1,23 @@
+// Loads an SDF with libsdformat, and prints mass and pose of each link at zero, in the model: what `peers.py` compares.
+#include <cstdio>
+#include <sdf/sdf.hh>
+
+int main(int argc, char **argv) {
+    if (argc != 2) return 2;
+    sdf::Root root;
+    const sdf::Errors errors = root.Load(argv[1]);
+    for (const sdf::Error &error : errors) std::fprintf(stderr, "%s\n", error.Message().c_str());
+    if (!errors.empty() || root.Model() == nullptr) return 1;
+    const sdf::Model &model = *root.Model();
+    for (uint64_t i = 0; i < model.LinkCount(); ++i) {
+        const sdf::Link &link = *model.LinkByIndex(i);
+        ignition::math::Pose3d pose;
+        if (!link.SemanticPose().Resolve(pose, "__model__").empty()) return 1;
+        const auto &p = pose.Pos();
+        const auto &q = pose.Rot();
+        std::printf("{\"link\": \"%s\", \"mass\": %.17g, \"pose\": [%.17g, %.17g, %.17g, %.17g, %.17g, %.17g, %.17g], \"collisions\": %lu}\n",
+                    link.Name().c_str(), link.Inertial().MassMatrix().Mass(), p.X(), p.Y(), p.Z(), q.W(), q.X(), q.Y(), q.Z(),
+                    static_cast<unsigned long>(link.CollisionCount()));
+    }
+    return 0;
+}

@@ -1,0 +1,155 @@
+//! Import of an SRDF's group states as named configurations.
+
+use urdd_export::{StateFault, StatesError, import_states};
+use urdd_robot::Robot;
+
+use testkit::robots::made_of;
+
+const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
+
+fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
+    let joints = joints
+        .iter()
+        .map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
+    format!(
+        "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
+        joints.collect::<String>()
+    )
+}
+
+#[test]
+fn states_of_groups_are_configurations() {
+    let (folder, path) = made_of(URDF);
+    let folder = folder.path();
+    let name = path.file_name().expect("a name").to_str().expect("a name");
+    let srdf = format!(
+        "<robot name=\"r\">{}{}{}{}</robot>",
+        state("home", "x", &[("j", "0.5")]),
+        state("home", "y", &[("k", " -0.5 "), ("m", "0.1")]),
+        state("far", "x", &[("j", "2")]),
+        state("empty", "x", &[("m", "0")]),
+    );
+    std::fs::write(folder.join("r.srdf"), &srdf).expect("written");
+    let import = |more: &[&str]| {
+        crate::program::urdd(
+            &[&["configurations", "import", "r.srdf", name], more].concat(),
+            folder,
+        )
+    };
+    let (status, told, _) = import(&[]);
+    assert_eq!(status, 0);
+    assert_eq!(
+        told,
+        format!(
+            "{name}: 1 configuration imported; 0 of the SRDF unchanged\n  \
+             2 positions left out: of joints with no DOF of their own, or with several\n  \
+             `far` left out: `j` is out of its bounds there\n"
+        )
+    );
+    let robot = Robot::open(&path).expect("a robot");
+    assert_eq!(robot.named_configuration("home"), Ok(&[0.5, -0.5][..]));
+    assert!(
+        import(&[])
+            .1
+            .contains("0 configurations imported; 1 of the SRDF unchanged")
+    );
+
+    // A person's configuration stays, unless --force.
+    let (status, ..) =
+        crate::program::urdd(&["configurations", "set", name, "home", "j=0.25"], folder);
+    assert_eq!(status, 0);
+    let (status, _, said) = import(&[]);
+    assert!(
+        status == 2 && said.contains("another configuration `home`; --force"),
+        "{said}"
+    );
+    assert_eq!(
+        Robot::open(&path)
+            .expect("a robot")
+            .named_configuration("home"),
+        Ok(&[0.25, 0.0][..])
+    );
+    assert_eq!(import(&["--force"]).0, 0);
+    assert_eq!(
+        Robot::open(&path)
+            .expect("a robot")
+            .named_configuration("home"),
+        Ok(&[0.5, -0.5][..])
+    );
+}
+
+#[test]
+fn wrong_states_are_refused_with_their_line() {
+    let (_folder, path) = made_of(URDF);
+    let robot = Robot::open(path).expect("a robot");
+    let cases = [
+        (
+            state("s", "g", &[("jj", "0")]),
+            StateFault::NoJoint {
+                joint: "jj".into(),
+                nearest: Some("j".into()),
+            },
+        ),
+        (
+            state("s", "g", &[("j", "x")]),
+            StateFault::NotANumber("x".into()),
+        ),
+        (
+            state("s", "g", &[("j", "NaN")]),
+            StateFault::NotANumber("NaN".into()),
+        ),
+        (
+            state("s", "g", &[("j", "0 1")]),
+            StateFault::NotANumber("0 1".into()),
+        ),
+        (
+            state("s", "g", &[("j", "")]),
+            StateFault::Missing {
+                element: "joint",
+                attribute: "value",
+            },
+        ),
+        (
+            state("", "g", &[("j", "0")]),
+            StateFault::Missing {
+                element: "group_state",
+                attribute: "name",
+            },
+        ),
+        (
+            state("s", "g", &[("j", "0"), ("j", "1")]),
+            StateFault::Conflict {
+                state: "s".into(),
+                joint: "j".into(),
+            },
+        ),
+    ];
+    for (inner, expected) in cases {
+        let text = format!("<robot name=\"r\">\n{inner}</robot>");
+        match import_states(&robot, &text, false) {
+            Err(StatesError::Element { line: 2, fault }) => assert_eq!(fault, expected),
+            other => panic!("{inner}: {other:?}"),
+        }
+    }
+    let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
+    assert!(matches!(other, StatesError::Srdf(_)), "{other}");
+}
+
+/// An SRDF of 16 MB holds a quarter of a million states.
+#[test]
+fn very_many_states_take_a_moment() {
+    let (_folder, path) = made_of(URDF);
+    let robot = Robot::open(path).expect("a robot");
+    let mut text = String::from("<robot name=\"r\">");
+    for k in 0..100_000 {
+        text += &state(&format!("s{k}"), "g", &[("j", "0.5")]);
+    }
+    text += "</robot>";
+    let started = std::time::Instant::now();
+    let imported = import_states(&robot, &text, false).expect("states");
+    assert_eq!(imported.changed, 100_000);
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+}
