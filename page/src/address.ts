@@ -38,7 +38,7 @@ export class Address {
       }, QUIET);
     };
     app.store.on(
-      ["robot", "q", "tab", "selected", "layers", "overlays", "frameSize", "hidden", "pair", "shapes"],
+      ["robot", "q", "tab", "selected", "layers", "overlays", "frameSize", "hidden", "pair", "shapes", "compareWith"],
       later,
     );
     stage?.view.moved.push(later);
@@ -178,6 +178,7 @@ export class Address {
     app.store.set({
       ...looks(shared),
       failure: null,
+      compareWith: shared.compareWith,
       selected: link >= 0 ? { kind: "link", index: link } : joint >= 0 ? { kind: "joint", index: joint } : null,
       hidden: new Set((shared.hidden ?? []).filter(known)),
       pair: CHOOSES_PAIRS.has(tab) && shared.pair?.every(([link]) => known(link)) ? shared.pair : null,
@@ -191,7 +192,8 @@ export class Address {
 
   /** The present view as a fragment. */
   private current(): string {
-    const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes, frameSize } = this.app.store.now;
+    const { robot, q, tab, selected, layers, overlays, hidden, pair, shapes, frameSize, compareWith } =
+      this.app.store.now;
     // Dropped files have no address.
     if (!robot || robot.entry.id === "") return "";
     const link = selected?.kind === "link" ? robot.links[selected.index] : undefined;
@@ -213,6 +215,7 @@ export class Address {
       layers: onlyOriginal && layers.original.opacity === 1 ? null : layers,
       overlays: OVERLAYS.every((kind) => overlays[kind] === begin.overlays[kind]) ? null : over,
       frameSize,
+      compareWith,
       camera: camera && this.stage ? [...camera, ...this.stage.view.controls.target.toArray()] : null,
       token: null,
     });

@@ -34,6 +34,8 @@ export class App {
   private opening = 0;
   /** The robot whose first picture is complete. */
   private drawn: RobotModel | null = null;
+  /** Called before a person moves the robot. */
+  readonly byHand: (() => void)[] = [];
   private back: number[][] = [];
   private forth: number[][] = [];
   private movedAt = -Infinity;
@@ -77,7 +79,7 @@ export class App {
       making: NOT_MADE,
       faults: new Map(),
       loading: { what: "modules", done: 0, of: 0 },
-      ...(old ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null }),
+      ...(old ? {} : { selected: null, hovered: null, hidden: new Set<number>(), pair: null, compareWith: null }),
       proximity: { answer: null, error: null },
       contacts: null,
       absent: [],
@@ -138,6 +140,7 @@ export class App {
   /** Moves the robot. Moves in quick succession, as in a drag, are one undo step. */
   move(q: number[]): void {
     if (!q.every(Number.isFinite)) return;
+    for (const listener of this.byHand) listener();
     const now = performance.now();
     if (now - this.movedAt > REST) {
       this.back = [...this.back.slice(1 - MAX_STEPS), this.store.now.q];
@@ -160,7 +163,7 @@ export class App {
     this.place(q);
   }
 
-  /** Shows a configuration that a program sent, which no undo step takes back. */
+  /** Shows a configuration of a trajectory or of a program, which no undo step takes back. */
   follow(q: number[]): void {
     if (q.every(Number.isFinite)) this.place(q);
   }

@@ -22,6 +22,8 @@ export interface Shared {
   /** Metres. */
   frameSize: number | null;
   camera: number[] | null;
+  /** The id of the robot to compare with. */
+  compareWith: string | null;
   token: string | null;
 }
 
@@ -92,6 +94,7 @@ export function read(fragment: string): Shared {
     overlays: overlays === null ? null : OVERLAYS.filter((kind) => overlays.split(",").includes(kind)),
     frameSize: numbers(words.get("f"))?.find((size) => size > 0) ?? null,
     camera: numbers(words.get("c")),
+    compareWith: words.get("v"),
     token: words.get("token"),
   };
 }
@@ -116,6 +119,7 @@ export function write(shared: Shared): string {
   add("o", shared.overlays && (shared.overlays.join(",") || NONE));
   add("f", shared.frameSize === null ? null : short(shared.frameSize));
   add("q", shared.q?.map(short).join(",") ?? null);
+  add("v", shared.compareWith);
   add("c", shared.camera?.map(short).join(",") ?? null);
   return words.join("&");
 }

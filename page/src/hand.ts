@@ -84,7 +84,10 @@ export class Hand {
       this.stage.view.canvas.releasePointerCapture(event.pointerId);
     }
     if (down && !down.moved && event.type === "pointerup") {
-      this.app.select(down.link === null ? null : { kind: "link", index: down.link });
+      const { measure, scene, view } = this.stage;
+      const picked = measure.isOn && scene ? pick(view, scene, event.clientX, event.clientY) : null;
+      if (picked) measure.take(picked);
+      else this.app.select(down.link === null ? null : { kind: "link", index: down.link });
     }
   }
 

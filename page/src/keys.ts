@@ -22,6 +22,7 @@ export function keys(app: App, stage: Stage | null): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key === "Escape") {
       app.store.set({ pair: null, selected: null, unfolded: null });
+      stage?.measure.use(false);
       return;
     }
     if (isField) return;

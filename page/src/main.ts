@@ -2,6 +2,7 @@
 
 import { Address } from "./address";
 import { App, message } from "./app";
+import { comparing } from "./comparing";
 import { dropped, chosen } from "./drop";
 import { Engine } from "./engine/client";
 import { Hand } from "./hand";
@@ -51,6 +52,7 @@ function start(): void {
       if (robot) app.settled();
     });
   }
+  comparing(app);
   const address = new Address(app, stage);
 
   const failure = h("div", { class: "failure", role: "alert" });

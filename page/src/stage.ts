@@ -6,20 +6,25 @@ import { message } from "./app";
 import type { RobotModel } from "./model";
 import { pairOf, same as samePair } from "./panels/proximity";
 import { looks } from "./scene/dress";
+import { Beside } from "./beside";
+import { Ghosts } from "./scene/ghosts";
 import { Gizmo, GIZMOS } from "./scene/gizmo";
 import { Ground } from "./scene/ground";
 import { load } from "./scene/layers";
 import { Overlays } from "./scene/overlays";
+import { Measure } from "./scene/measure";
 import { prepare } from "./scene/pick";
 import { RobotScene } from "./scene/robot";
 import { Names } from "./scene/names";
 import { rimColor } from "./scene/rim";
+import { Segment } from "./scene/segment";
 import { View } from "./scene/view";
-import { Witness } from "./scene/witness";
 import { absent } from "./panels/absent";
+import { chooseOther, comparison } from "./panels/comparison";
 import { drawnLayers, ghosted, LAYERS } from "./state";
 import type { LayerKind, State } from "./state";
 import { button, h } from "./ui/dom";
+import { length } from "./ui/format";
 import { color } from "./ui/theme";
 
 export const DIRECTIONS = {
@@ -44,8 +49,11 @@ export class Stage {
   private readonly ground = new Ground();
   private readonly overlays = new Overlays();
   private readonly names: Names;
-  private readonly witness: Witness;
-  private readonly label = h("div", { class: "witness", hidden: true });
+  private readonly witness: Segment;
+  readonly measure: Measure;
+  private readonly beside: Beside;
+  private readonly ghosts = new Ghosts();
+  private readonly scale = h("span", {});
   private readonly progress = h("div", { class: "progress", role: "progressbar", hidden: true });
   private model: RobotModel | null = null;
   /** Size of the robot, metres. */
@@ -71,20 +79,29 @@ export class Stage {
     const howto = h(
       "p",
       { class: "howto" },
-      "Drag a joint to move it · shift-drag a link to pull it · space: play samples",
+      this.scale,
+      h("span", { class: "moving" }, "Drag a joint to move it · shift-drag a link to pull it · space: play samples"),
     );
+    this.witness = new Segment(this.view);
+    this.measure = new Measure(app, this.view, () => this.size);
     this.element = h(
       "div",
       { class: "stage" },
       canvas,
       this.names.element,
-      this.label,
-      h("div", { class: "over" }, views, absent(app)),
+      this.witness.label,
+      this.measure.segment.label,
+      h("div", { class: "over" }, views, absent(app), comparison(app)),
       howto,
       this.progress,
     );
     this.view.follow(this.element);
-    this.witness = new Witness(this.view, this.label);
+    this.beside = new Beside(
+      app,
+      this.view,
+      () => this.scene?.bounds() ?? null,
+      () => this.look("fit"),
+    );
     this.gizmo = new Gizmo(app, this.view);
     const handles = GIZMOS.map((kind) => {
       const made = button(HANDLES[kind].text, { "aria-pressed": "false", title: HANDLES[kind].title }, () => {
@@ -96,13 +113,21 @@ export class Stage {
     this.gizmo.changed = () => {
       for (const [kind, button] of handles) button.setAttribute("aria-pressed", String(this.gizmo.kind === kind));
     };
-    views.append(h("span", { class: "gap" }), ...handles.map(([, button]) => button));
+    const measure = button(
+      "Measure",
+      { "aria-pressed": "false", title: "Click two points: how far apart they are" },
+      () => this.measure.use(!this.measure.isOn),
+    );
+    this.measure.changed = () => measure.setAttribute("aria-pressed", String(this.measure.isOn));
+    views.append(h("span", { class: "gap" }), ...handles.map(([, button]) => button), measure, chooseOther(app));
     app.store.on(["robot"], ({ robot }) => {
       views.hidden = !robot;
-      howto.hidden = !robot?.moves;
+      howto.hidden = !robot;
+      howto.classList.toggle("still", !robot?.moves);
       for (const [, button] of handles) button.hidden = !robot?.moves;
     });
-    this.view.scene.add(this.ground.group, this.overlays.group, this.witness.group);
+    this.view.scene.add(this.ground.group, this.overlays.group, this.ghosts.group);
+    this.view.scene.add(this.witness.group, this.measure.segment.group);
     this.listen();
   }
 
@@ -110,7 +135,9 @@ export class Stage {
     const { selected } = this.app.store.now;
     const only = key === "fit" && selected?.kind === "link" ? new Set([selected.index]) : undefined;
     const box = this.scene?.bounds(only);
+    if (box && !only) box.union(this.beside.bounds());
     if (box) this.view.fit(box, DIRECTIONS[key] ?? undefined);
+    if (box && !only) this.view.lightUp(box);
   }
 
   private listen(): void {
@@ -129,6 +156,11 @@ export class Stage {
       this.scene?.pose(poses);
       this.overlays.pose(poses);
       this.names.pose(poses);
+      this.view.castShadows();
+      this.view.invalidate();
+    });
+    store.on(["ghosts", "layers", "hidden", "faults"], ({ ghosts }) => {
+      this.ghosts.show(this.scene, ghosts, [color("--accent"), color("--mark")]);
       this.view.invalidate();
     });
     store.on(["layers", "pair", "shapes", "tab"], () => void this.fill());
@@ -146,15 +178,20 @@ export class Stage {
         "faults",
         "contacts",
         "tab",
+        "compared",
       ],
       (state) => this.dress(state),
     );
-    store.on(["overlays", "frameSize", "selected", "robot"], (state) => this.over(state));
+    store.on(["overlays", "frameSize", "selected", "robot", "units"], (state) => this.over(state));
     store.on(["proximity", "pair", "tab", "units"], (state) => {
       const { answer } = state.proximity;
       const pair = ghosted(state);
       const found = answer?.nearest.find((at) => samePair(pair, pairOf(at))) ?? null;
-      this.witness.show(found, this.size);
+      const [from, to] = found?.points ?? [];
+      const touching = (found?.distance ?? 1) <= 0;
+      const text = touching ? "in contact" : length(found?.distance ?? 0);
+      const points = from && to && ([new Vector3(...from), new Vector3(...to)] as const);
+      this.witness.show(points ? { points, text, alarming: touching } : null, this.size);
     });
     store.on(["loading"], ({ loading, robot }) => {
       if (!loading && !robot) this.retire();
@@ -248,6 +285,7 @@ export class Stage {
     const side = box.getSize(new Vector3());
     this.size = Math.max(side.x, side.y, side.z, 1e-3);
     this.ground.under(box);
+    this.view.lightUp(box);
     this.over(this.app.store.now);
     this.view.fit(box, START);
     if (this.from) this.place(this.from);
@@ -259,6 +297,7 @@ export class Stage {
 
   private over({ robot, overlays, frameSize, selected, poses }: State): void {
     this.ground.group.visible = overlays.grid;
+    this.scale.textContent = overlays.grid ? `A square of the ground: ${length(this.ground.step)}` : "";
     if (robot && this.scene) {
       const link = selected?.kind === "link" ? selected.index : null;
       this.overlays.make(robot, overlays, this.size, frameSize ?? this.frameSize, link);
@@ -282,6 +321,7 @@ export class Stage {
   private dress(state: State): void {
     if (!state.robot || !this.scene) return;
     this.scene.show(drawnLayers(state), state.hidden, state.overlays.wireframe, looks(state));
+    this.view.castShadows();
     this.view.invalidate();
   }
 

@@ -4,6 +4,7 @@ import { SHAPE_KINDS } from "./engine/protocol";
 import type { ProximityAnswer, Report, ShapeKind, SkipEdit, SkipsAnswer } from "./engine/protocol";
 import type { AbsentMesh } from "./absent";
 import type { Contacts } from "./contacts";
+import type { Compared } from "./compared";
 import type { Entry, Part, RobotModel } from "./model";
 import { keptUnits } from "./ui/format";
 import type { Units } from "./ui/format";
@@ -103,6 +104,11 @@ export interface State {
   byPart: boolean;
   /** The pose errors of the displayed sample. */
   sample: { at: number; of: number; position: number; angle: number } | null;
+  /** Poses of all links that are drawn beside the present ones: where a trajectory begins and ends. */
+  ghosts: readonly Float64Array[];
+  /** The id of the robot that this one is to be compared with, and that robot once it is read. */
+  compareWith: string | null;
+  compared: Compared | null;
   /** A temporary line in the status bar. */
   note: string | null;
   units: Units;
@@ -170,6 +176,9 @@ export function initial(): State {
     painted: "auto",
     byPart: true,
     sample: null,
+    ghosts: [],
+    compareWith: null,
+    compared: null,
     note: null,
     units: keptUnits(),
     making: NOT_MADE,

@@ -18,6 +18,8 @@ export class Trajectory {
     readonly times: Float64Array,
     private readonly values: Float64Array,
     private readonly dofs: number,
+    /** Of samples: the largest errors of the poses of each row, m and rad. */
+    readonly errors: readonly { position: number; angle: number }[] = [],
   ) {}
 
   get duration(): number {
@@ -28,14 +30,26 @@ export class Trajectory {
     return [...this.values.subarray(at * this.dofs, (at + 1) * this.dofs)];
   }
 
-  /** The configuration at a time, on a straight line between the rows before and after it. */
-  at(time: number): number[] {
+  value(row: number, dof: number): number {
+    return this.values[row * this.dofs + dof] ?? 0;
+  }
+
+  /** The last row that is not later than a time. */
+  before(time: number): number {
     let [low, high] = [0, this.times.length - 1];
+    if ((this.times[high] ?? 0) <= time) return high;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
       if ((this.times[middle] ?? 0) <= time) low = middle;
       else high = middle;
     }
+    return low;
+  }
+
+  /** The configuration at a time, on a straight line between the rows before and after it. */
+  at(time: number): number[] {
+    const low = this.before(time);
+    const high = Math.min(low + 1, this.times.length - 1);
     const [from, to] = [this.times[low] ?? 0, this.times[high] ?? 0];
     const part = to > from ? Math.min(1, Math.max(0, (time - from) / (to - from))) : 1;
     const end = this.row(high);

@@ -5,7 +5,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after } from "node:test";
-import { dropOn, inPage, setting, soon } from "./world.mjs";
+import { dropOn, inPage, open, setting, soon, state } from "./world.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "urdd-cancel-"));
 after(() => rmSync(folder, { recursive: true, force: true }));
@@ -29,4 +29,35 @@ inPage(
   },
   // The server never comes to answer.
   { routes: [["**/drops", () => undefined]] },
+);
+
+// Answers that came after another robot was opened were once written into memory of the engine that was free by then.
+const held = [];
+let late = 0;
+inPage(
+  set,
+  "no file of a robot is read any more when another one was opened meanwhile",
+  async (page) => {
+    await open(page, "welding_arm");
+    // All requests at once that the page makes: the queue behind them is longer.
+    await soon(() => assert.equal(held.length, 8));
+    await open(page, "gripper");
+    late = 0;
+    for (const route of held.splice(0)) await route.continue();
+    await state(page, "proximity", (value) => value.answer !== null);
+    await page.waitForTimeout(500);
+    assert.equal(late, 0);
+    assert.equal(await page.evaluate(() => globalThis.urdd.app.store.now.failure), null);
+  },
+  {
+    routes: [
+      [
+        "**/robots/welding_arm/files/**/convex_decomposition_meshes_module/meshes/**",
+        (route) => {
+          late++;
+          held.push(route);
+        },
+      ],
+    ],
+  },
 );

@@ -89,7 +89,12 @@ describe("the page", { concurrency: false }, () => {
     await page.getByRole("button", { name: "Play samples" }).click();
     const sample = await state(page, "sample");
     assert.ok(sample.position < 1e-9 && sample.angle < 1e-7, JSON.stringify(sample));
-    await page.getByRole("button", { name: "Stop" }).click();
+    await state(page, "sample", (value) => value?.at > 0);
+    // A move by hand stops it.
+    await page.getByRole("button", { name: "Zero" }).click();
+    assert.equal(await page.locator("#timeline-play").textContent(), "Play");
+    assert.equal(await state(page, "sample", () => true), null);
+    await page.getByRole("button", { name: "Close", exact: true }).click();
   });
 
   inPage(set, "a joint follows the pointer in the picture, and a link is selected by a click", async (page) => {
@@ -225,7 +230,7 @@ describe("the page", { concurrency: false }, () => {
     assert.equal(answer.in_collision, native.in_collision);
     await page.locator(".pair").first().click();
     assert.notEqual(await state(page, "pair"), null);
-    await page.waitForSelector(".witness:not([hidden])");
+    await page.waitForSelector(".segment:not([hidden])");
     await page.getByLabel("Kind of shapes").selectOption("boxes");
     await state(page, "proximity", (value) => value.answer !== null);
     assert.equal(await state(page, "shapes"), "boxes");

@@ -42,7 +42,7 @@ inPage(set, "a CSV with times is shown as it says, and as fast", async (page) =>
   await load(page, "motion.csv", text);
   await page.locator(".timeline").waitFor();
   near(await shown(page), rows[0]);
-  assert.match(await page.locator(".timeline output").textContent(), /^0\.00 of 2\.00 s$/);
+  assert.match(await page.locator(".timeline .actions output").textContent(), /^0\.00 of 2\.00 s$/);
   await seek(page, 0.5);
   near(await shown(page), rows[1]);
   await seek(page, 1.25);
@@ -86,7 +86,7 @@ inPage(set, "the timeline says how much of it collides, as check-collisions does
   });
   // Red is drawn where it collides.
   const red = await page.evaluate(() => {
-    const strip = globalThis.document.querySelector(".timeline canvas");
+    const strip = globalThis.document.querySelector(".timeline > canvas");
     const { data } = strip.getContext("2d").getImageData(0, 0, strip.width, 1);
     return [...data.keys()].filter((k) => k % 4 === 0 && data[k] > 200 && data[k + 2] < 150).length / strip.width;
   });
@@ -123,3 +123,62 @@ inPage(set, "files that are no trajectory of this robot are refused with their l
     assert.ok(await page.locator(".timeline").isHidden());
   }
 });
+
+inPage(
+  set,
+  "plots have the values of each joint and its limits, and ghosts are where it begins and ends",
+  async (page) => {
+    await drawn(page, "welding_arm");
+    const { rows } = await rowsOf(page, 30);
+    // The second joint is beyond its limit at one time.
+    rows[12][1] = 3;
+    await load(page, "motion.csv", rows.map((row) => row.join(",")).join("\n"));
+    await page.locator(".timeline").waitFor();
+    await page.getByLabel("Plots").check();
+    await seek(page, 12 / 30);
+    const value = page.locator(".plots output").nth(1);
+    await soon(async () => assert.equal(await value.textContent(), `${((3 * 180) / Math.PI).toFixed(2)}°`));
+    assert.match(await value.getAttribute("class"), /bad/);
+    assert.doesNotMatch((await page.locator(".plots output").nth(2).getAttribute("class")) ?? "", /bad/);
+    // The curve is highest in the column of that row, and above the line of the upper limit.
+    const found = await page.evaluate(() => {
+      const canvas = globalThis.document.querySelectorAll(".plots canvas")[1];
+      const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      const first = (isWanted) => {
+        const at = [...Array(width * height).keys()].find((k) => isWanted(...data.subarray(4 * k, 4 * k + 4)));
+        return [at % width, Math.floor(at / width)];
+      };
+      return {
+        width,
+        curve: first((r, g, b, a) => a > 200 && b > 1.5 * r),
+        limit: first((r, g, b, a) => a > 100 && r > 1.5 * b),
+      };
+    });
+    assert.ok(Math.abs(found.curve[0] - (found.width * 12) / 29) < 4, JSON.stringify(found));
+    assert.ok(found.curve[1] < found.limit[1], JSON.stringify(found));
+    // Each ghost has the link's place in the first or the last row.
+    const ghosts = () => page.evaluate(() => globalThis.urdd.app.store.now.ghosts.map((poses) => [...poses]));
+    const expected = await page.evaluate(
+      async (rows) => {
+        const { engine } = globalThis.urdd.app;
+        return Promise.all(rows.map(async (q) => [...(await engine.ask("linkPoses", { q }))]));
+      },
+      [rows[0], rows[29]],
+    );
+    assert.deepEqual(await ghosts(), expected);
+    const drawnGhosts = () =>
+      page.evaluate(() => {
+        const places = [];
+        globalThis.urdd.stage.view.scene.traverse(({ material, matrixWorld }) => {
+          if (material?.opacity === 0.22) places.push(matrixWorld.elements.slice(12, 15));
+        });
+        return places;
+      });
+    const places = await drawnGhosts();
+    assert.ok(places.length > 0 && places.length % 2 === 0, `${places.length}`);
+    assert.notDeepEqual(places.slice(0, places.length / 2), places.slice(places.length / 2));
+    await page.getByLabel("Start and end").uncheck();
+    assert.deepEqual(await ghosts(), []);
+    await soon(async () => assert.deepEqual(await drawnGhosts(), []));
+  },
+);

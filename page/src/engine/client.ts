@@ -39,13 +39,18 @@ export class Engine {
     return this.send(call, question, onProgress);
   }
 
+  /** A second worker, for another robot. */
+  another(): Engine {
+    return new Engine(this.script, this.wasm);
+  }
+
   /** Runs a long query in a second worker, which then ends. */
   async aside<K extends CallName>(
     call: K,
     question: Calls[K][0],
     onProgress?: (progress: Progress) => void,
   ): Promise<Calls[K][1]> {
-    const other = new Engine(this.script, this.wasm);
+    const other = this.another();
     try {
       if (this.source) await other.ask("open", { source: this.source });
       return await other.ask(call, question, onProgress);

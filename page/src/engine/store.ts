@@ -6,6 +6,8 @@ import type { FileEntry, RobotSource } from "./protocol";
 /** Number of files fetched at once. */
 const AT_ONCE = 8;
 
+const CLOSED = "another robot was opened";
+
 const ABOUT = [
   "urdf",
   "chain",
@@ -27,8 +29,8 @@ const MODULES = {
 };
 
 export class Store {
-  readonly handle: number;
   readonly name: string;
+  private open: number | null;
   private readonly given = new Set<string>();
   private readonly faults = new Map<string, string>();
   private readonly sizes: Map<string, number>;
@@ -41,14 +43,14 @@ export class Store {
     private readonly source: RobotSource,
   ) {
     if (source.kind === "zip") {
-      this.handle = module.filesOfZip(source.name, new Uint8Array(source.bytes));
+      this.open = module.filesOfZip(source.name, new Uint8Array(source.bytes));
       const listed = module.list(this.handle);
       this.name = listed.name;
       this.sizes = new Map(listed.files.map((file) => [file.path, file.size]));
       for (const path of this.sizes.keys()) this.given.add(path);
       return;
     }
-    this.handle = module.newFiles(source.name);
+    this.open = module.newFiles(source.name);
     this.name = source.name;
     if (source.kind === "local") {
       for (const { path, file } of source.files) this.local.set(path, file);
@@ -58,6 +60,18 @@ export class Store {
       for (const { path, at } of source.files) if (at !== undefined) this.places.set(path, at);
     }
     for (const [path, size] of this.sizes) module.nameFile(this.handle, path, size);
+  }
+
+  /** The files in the module. A query that waited for a file may come after they are closed. */
+  get handle(): number {
+    if (this.open === null) throw new Error(CLOSED);
+    return this.open;
+  }
+
+  /** Closes a robot of these files, and the files. */
+  close(robot: number): void {
+    this.module.close(this.handle, robot);
+    this.open = null;
   }
 
   list(): FileEntry[] {
@@ -88,7 +102,7 @@ export class Store {
     const waiting = wanted.slice();
     let done = 0;
     const work = async (): Promise<void> => {
-      for (let path = waiting.shift(); path !== undefined; path = waiting.shift()) {
+      for (let path = waiting.shift(); path !== undefined && this.open !== null; path = waiting.shift()) {
         try {
           this.module.giveFile(this.handle, path, await this.read(path));
           this.given.add(path);
@@ -101,6 +115,7 @@ export class Store {
       }
     };
     await Promise.all(Array.from({ length: Math.min(AT_ONCE, wanted.length) }, work));
+    if (this.open === null) throw new Error(CLOSED);
   }
 
   /** The bytes of a file. */

@@ -54,7 +54,7 @@ const handlers: { [K in CallName]: (question: Question<K>, onProgress: OnProgres
 
   async open({ source }, onProgress) {
     const engineNow = engine();
-    if (store) engineNow.close(store.handle, robot);
+    store?.close(robot);
     robot = 0;
     about = null;
     store = new Store(engineNow, source);

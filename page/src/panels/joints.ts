@@ -16,7 +16,7 @@ import {
 } from "../ui/format";
 import type { RobotModel } from "../model";
 import type { NamedConfiguration } from "../configurations";
-import { Player } from "../play";
+import { Sweep } from "../sweep";
 import { refine } from "../ui/slider";
 import { naming } from "./naming";
 
@@ -31,7 +31,7 @@ interface Control {
 const OPEN = { rad: Math.PI, m: 1 };
 
 export function joints(app: App): HTMLElement {
-  const player = new Player(app);
+  const sweeps = new Sweep(app);
   const list = h("div", { class: "joints" });
   const sample = h("p", { class: "sample", "aria-live": "polite" });
   let controls: Control[] = [];
@@ -41,10 +41,11 @@ export function joints(app: App): HTMLElement {
     const q = app.store.now.robot?.about[key];
     if (q) app.move(q);
   };
-  const play = button("Play samples", "Show the stored samples in turn (space)", () => void player.toggle());
+  const play = button("Play samples", "Show the stored samples in turn (space)", () =>
+    dispatchEvent(new Event("urdd-samples")),
+  );
   const step = (by: "back" | "forth", text: string, title: string): HTMLButtonElement => {
     const made = button(text, title, () => {
-      player.stop();
       app.step(by);
     });
     made.setAttribute("aria-label", title);
@@ -94,7 +95,7 @@ export function joints(app: App): HTMLElement {
               "aria-label": `Sweep ${name(found?.name ?? "")}`,
             },
             () => {
-              if (first !== undefined) player.sweep(first);
+              if (first !== undefined) sweeps.toggle(first);
             },
           )
         : null;
@@ -156,12 +157,10 @@ export function joints(app: App): HTMLElement {
       h("span", { class: "limit high" }, dofValue(upper, unit)),
     );
     slider.addEventListener("input", () => {
-      player.stop();
       app.setDof(dof, Number(slider.value));
     });
     slider.addEventListener("dblclick", () => app.setDof(dof, robot.about.zero?.[dof] ?? 0));
     entry.addEventListener("change", () => {
-      player.stop();
       const value = fromShown(Number(entry.value), unit);
       if (entry.value !== "" && Number.isFinite(value)) app.setDof(dof, value);
     });
@@ -170,7 +169,6 @@ export function joints(app: App): HTMLElement {
   };
 
   app.store.on(["robot", "units"], ({ robot }) => {
-    player.stop();
     controls = [];
     const moving = robot?.joints.flatMap((joint, index) => ((joint.dofs?.length ?? 0) > 0 ? [index] : [])) ?? [];
     fill(list, ...(robot ? moving.map((joint) => group(robot, joint)) : []));
@@ -178,7 +176,6 @@ export function joints(app: App): HTMLElement {
     named.hidden = !robot?.moves || robot.named.length === 0;
     const preset = ({ name: shown, q }: NamedConfiguration): HTMLButtonElement =>
       button(name(shown), "A named configuration of this URDD", () => {
-        player.stop();
         app.move(q);
       });
     fill(named, ...(robot?.named ?? []).map(preset));
@@ -218,10 +215,6 @@ export function joints(app: App): HTMLElement {
       sample.classList.toggle("bad", shown.position > 1e-6 || shown.angle > 1e-6);
     }
   });
-  player.changed = (playing) => {
-    play.textContent = playing ? "Stop" : "Play samples";
-  };
-  addEventListener("urdd-play", () => void player.toggle());
   addEventListener("urdd-random", () => void random(app, drawn++));
   return panel;
 }

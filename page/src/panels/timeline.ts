@@ -1,12 +1,16 @@
-/** A trajectory below the picture: play, speed, loop, where it collides and how near it comes, a video of it. */
+/** A trajectory below the picture: play, speed, loop, plots, where it collides and how near it comes, a video of it. */
 
 import type { App } from "../app";
 import { message } from "../app";
-import { Trajectory, trajectoryOf } from "../trajectory";
+import type { RobotModel } from "../model";
+import { samplesOf } from "../samples";
+import { trajectoryOf } from "../trajectory";
+import type { Trajectory } from "../trajectory";
 import { button, fill, h } from "../ui/dom";
 import { length } from "../ui/format";
 import { offer } from "../ui/offer";
 import { color } from "../ui/theme";
+import { Plots } from "./plots";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 /** Configurations whose distances are asked, at most. */
@@ -40,16 +44,25 @@ export class Timeline {
     ...SPEEDS.map((speed) => h("option", { value: speed, selected: speed === 1 }, `${speed} ×`)),
   );
   private readonly loop = h("input", { type: "checkbox", id: "timeline-loop" });
+  private readonly ghosts = h("input", { type: "checkbox", id: "timeline-ghosts", checked: true });
+  private readonly plots = new Plots();
   private readonly strip = h("canvas", { ...STRIP, role: "img" });
   private readonly said = h("span", { class: "along", "aria-live": "polite" });
 
   constructor(private readonly app: App) {
     const record = button("Record", "Play it once, and save the picture as a WebM video", () => void this.record());
     record.hidden = typeof MediaRecorder === "undefined";
+    const plotted = h("input", { type: "checkbox", id: "timeline-plots" });
+    plotted.addEventListener("change", () => {
+      this.plots.element.hidden = !plotted.checked;
+      this.plots.at(this.time);
+    });
+    this.ghosts.addEventListener("change", () => void this.haunt());
     this.element = h(
       "div",
       { class: "timeline", hidden: true, role: "group", "aria-label": "Trajectory" },
       h("div", { class: "actions" }, this.title, this.said, h("span", { class: "spring" }), this.clock),
+      this.plots.element,
       this.strip,
       this.slider,
       h(
@@ -58,6 +71,8 @@ export class Timeline {
         this.play,
         this.speed,
         h("label", {}, this.loop, " Loop"),
+        h("label", { title: "Where it begins, in blue, and ends, in yellow" }, this.ghosts, " Start and end"),
+        h("label", { title: "Each joint over the time, with its limits in red" }, plotted, " Plots"),
         record,
         h("span", { class: "spring" }),
         button("Close", {}, () => {
@@ -78,6 +93,14 @@ export class Timeline {
     addEventListener("urdd-trajectory", () => {
       this.input.click();
     });
+    addEventListener("urdd-samples", () => void this.playSamples());
+    addEventListener("urdd-play", () => {
+      if (this.trajectory) this.toggle();
+      else void this.playSamples();
+    });
+    app.byHand.push(() => {
+      this.stop();
+    });
     addEventListener("urdd-theme", () => {
       this.draw();
     });
@@ -90,23 +113,40 @@ export class Timeline {
   }
 
   async load(file: File): Promise<void> {
+    await this.open((robot) => trajectoryOf(file, robot.dofs, robot.about.zero ?? robot.dofs.map(() => 0)));
+  }
+
+  /** Plays the stored samples, round and round. */
+  private async playSamples(): Promise<void> {
+    this.loop.checked = true;
+    const { engine } = this.app;
+    const made = await this.open(({ dofs }) => samplesOf(engine, dofs.length), "There are no samples to play: ");
+    if (made && made === this.trajectory) void this.run(made);
+  }
+
+  /** Shows a trajectory of the robot, and returns it before its distances are known; null if it cannot be read. */
+  private async open(read: (robot: RobotModel) => Promise<Trajectory>, failing = ""): Promise<Trajectory | null> {
     const { robot } = this.app.store.now;
-    if (!robot?.moves) return;
+    if (!robot?.moves) return null;
     this.close();
     const turn = ++this.turn;
+    let trajectory: Trajectory;
     try {
-      const trajectory = await trajectoryOf(file, robot.dofs, robot.about.zero ?? robot.dofs.map(() => 0));
-      if (turn !== this.turn) return;
-      this.trajectory = trajectory;
+      trajectory = await read(robot);
     } catch (error) {
-      this.app.note(message(error));
-      return;
+      this.app.note(failing + message(error));
+      return null;
     }
-    fill(this.title, this.trajectory.name);
-    this.slider.max = String(this.trajectory.duration);
+    if (turn !== this.turn) return null;
+    this.trajectory = trajectory;
+    fill(this.title, trajectory.name);
+    this.slider.max = String(trajectory.duration);
+    this.plots.show(trajectory, robot.dofs);
     this.element.hidden = false;
     this.show(0);
-    await this.ask();
+    void this.haunt();
+    void this.ask();
+    return trajectory;
   }
 
   private close(): void {
@@ -114,6 +154,22 @@ export class Timeline {
     this.turn++;
     this.trajectory = null;
     this.element.hidden = true;
+    this.plots.show(null, []);
+    this.app.store.set({ ghosts: [] });
+  }
+
+  /** Shows where the trajectory begins and ends, if that is asked for. */
+  private async haunt(): Promise<void> {
+    const { trajectory, app } = this;
+    const isWanted = (): boolean => this.trajectory === trajectory && this.ghosts.checked;
+    if (!trajectory || !isWanted()) {
+      app.store.set({ ghosts: [] });
+      return;
+    }
+    const poses: Float64Array[] = [];
+    for (const row of [0, trajectory.times.length - 1])
+      poses.push(await app.engine.ask("linkPoses", { q: trajectory.row(row) }));
+    if (isWanted()) app.store.set({ ghosts: poses });
   }
 
   private stop(): void {
@@ -128,6 +184,10 @@ export class Timeline {
     this.slider.value = String(time);
     this.clock.textContent = `${time.toFixed(2)} of ${trajectory.duration.toFixed(2)} s`;
     this.app.follow(trajectory.at(time));
+    const at = trajectory.before(time);
+    const error = trajectory.errors[at];
+    if (error) this.app.store.set({ sample: { at, of: trajectory.errors.length, ...error } });
+    this.plots.at(time);
     this.draw();
   }
 

@@ -2,6 +2,7 @@
 
 import { Color } from "three";
 import { placeKey } from "../contacts";
+import { CHANGE_COLORS } from "../compared";
 import { paintNow, paintOf } from "../findings";
 import { partColor } from "../parts";
 import { ghosted } from "../state";
@@ -18,12 +19,13 @@ export function looks(state: Readonly<State>): (link: number, piece: number, lay
   const { contacts, shapes } = state;
   const touching = new Color(color("--error"));
   const ghost = ghosted(state);
+  const isPainted = paintNow(state) !== null || state.compared !== null;
   return (link, piece, layer) => {
     const isExact = layer === shapes;
     const place = layer === "pieces" || layer.startsWith("piece-") ? piece : 0;
     // In the layer of the checked shapes, only the shapes that touch; in other layers the whole link.
     const touches =
-      !paintNow(state) &&
+      !isPainted &&
       (isExact ? (contacts?.places.has(placeKey(link, place)) ?? false) : (contacts?.links.has(link) ?? false));
     let fade = 1;
     if (ghost) {
@@ -54,7 +56,14 @@ function tinted({ robot, selected, hovered, pair, tab }: Readonly<State>): Map<n
 }
 
 function painted(state: Readonly<State>): (link: number) => Color | null {
-  const { robot, byPart, report } = state;
+  const { robot, byPart, report, compared } = state;
+  if (robot && compared) {
+    const changes = new Map(compared.changes.map(({ link, change }) => [link, change]));
+    return (link) => {
+      const change = changes.get(robot.links[link]?.name ?? "");
+      return new Color(color(change ? CHANGE_COLORS[change] : "--open"));
+    };
+  }
   const by = paintNow(state);
   const parts = new Map<number, Color>();
   if (byPart)

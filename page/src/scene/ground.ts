@@ -1,7 +1,21 @@
-/** The ground: a grid with a round spacing, under the robot. */
+/** The ground: a grid with a round spacing, and the robot's shadow. */
 
-import { BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  PlaneGeometry,
+  ShadowMaterial,
+  Vector3,
+} from "three";
 import type { Box3 } from "three";
+
+/** Width of the part of the ground that has shadows, of the diagonal of the robot's box. */
+const SHADED = 2;
 
 /** The largest number of the form 1, 2 or 5 times a power of ten that is not larger. */
 export function roundStep(length: number): number {
@@ -16,6 +30,11 @@ export class Ground {
   step = 0.1;
   private colors: [string, string] = ["#2a3140", "#39424f"];
   private box: Box3 | null = null;
+  private readonly shadow = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.28, depthWrite: false }));
+
+  constructor() {
+    this.shadow.receiveShadow = true;
+  }
 
   color(fine: string, coarse: string): void {
     this.colors = [fine, coarse];
@@ -47,6 +66,11 @@ export class Ground {
       geometry.setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
       this.group.add(new LineSegments(geometry, new LineBasicMaterial({ color: new Color(color) })));
     }
+    // Every pixel of it costs time, so it is no larger than where shadows fall.
+    const center = box.getCenter(new Vector3());
+    this.shadow.position.set(center.x, center.y, 0);
+    this.shadow.scale.setScalar(SHADED * box.getSize(new Vector3()).length());
+    this.group.add(this.shadow);
     this.group.position.z = box.min.z;
   }
 

@@ -1,9 +1,12 @@
 /** The robot's links in the scene: poses, shapes, appearance. */
 
-import { Box3, Color, Group, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
+import { Box3, Color, Group, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3 } from "three";
 import type { Object3D } from "three";
 import { LAYERS } from "../state";
 import type { Layer, LayerKind } from "../state";
+
+/** Maximum opacity of what casts no shadow. */
+const SHADOWLESS = 0.5;
 
 /** The origin of a mesh in the scene. */
 export interface MeshData {
@@ -16,6 +19,12 @@ export interface MeshData {
 
 export function dataOf(object: Object3D): MeshData | null {
   return (object.userData as { of?: MeshData }).of ?? null;
+}
+
+/** The pose of a link, of those of all links: x, y, z and the quaternion w, x, y, z of each. */
+export function poseOf(poses: Float64Array, link: number): Matrix4 {
+  const [x = 0, y = 0, z = 0, w = 1, qx = 0, qy = 0, qz = 0] = poses.subarray(7 * link, 7 * link + 7);
+  return new Matrix4().compose(new Vector3(x, y, z), new Quaternion(qx, qy, qz, w), new Vector3(1, 1, 1));
 }
 
 /** The appearance of a link in all layers: a tint, and a factor of its opacity. */
@@ -39,15 +48,10 @@ export class RobotScene {
     });
   }
 
-  /** Sets each link's pose: x, y, z and the quaternion w, x, y, z. */
+  /** Sets the poses of all links. */
   pose(poses: Float64Array): void {
-    const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     this.links.forEach((group, link) => {
-      const at = 7 * link;
-      const get = (k: number): number => poses[at + k] ?? 0;
-      place.set(get(0), get(1), get(2));
-      turn.set(get(4), get(5), get(6), get(3));
-      group.matrix.compose(place, turn, scale);
+      group.matrix.copy(poseOf(poses, link));
       group.matrixWorldNeedsUpdate = true;
     });
     this.root.updateMatrixWorld(true);
@@ -127,7 +131,9 @@ export class RobotScene {
         group.traverse((object) => {
           const data = dataOf(object);
           if (!data || !(object instanceof Mesh)) return;
-          paint(object.material as MeshLambertMaterial, data, look(link, data.piece, kind), layer.opacity, wireframe);
+          const material = object.material as MeshLambertMaterial;
+          paint(material, data, look(link, data.piece, kind), layer.opacity, wireframe);
+          object.castShadow = material.opacity > SHADOWLESS && !wireframe;
         });
       });
     }

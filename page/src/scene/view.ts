@@ -1,11 +1,11 @@
 /** Canvas, camera and light. Draws only when something changed. */
 
 import {
-  AmbientLight,
   Box3,
   Color,
   DirectionalLight,
   HemisphereLight,
+  PCFShadowMap,
   PerspectiveCamera,
   Raycaster,
   Scene,
@@ -15,6 +15,11 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+/** Width of the picture that shadows are made from, pixels. */
+const SHADOW_SIZE = 1024;
+/** Towards the light that casts shadows. */
+const SUN = new Vector3(0.35, -0.55, 1).normalize();
 
 export class View {
   readonly scene = new Scene();
@@ -27,7 +32,9 @@ export class View {
   /** Number of drawn frames. */
   pictures = 0;
   private readonly renderer: WebGLRenderer;
-  private readonly light = new DirectionalLight(0xffffff, 1.6);
+  /** From above, with shadows; and from the camera, so that no side is black. */
+  private readonly sun = new DirectionalLight(0xfff6e8, 1.7);
+  private readonly light = new DirectionalLight(0xffffff, 0.9);
   private waiting = false;
   private bounds = new Box3();
 
@@ -36,9 +43,17 @@ export class View {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(2, -2, 1.5);
-    this.scene.add(new HemisphereLight(0xffffff, 0x8a94a6, 1.5), new AmbientLight(0xffffff, 0.35));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    // Only what moves the robot or changes what is drawn of it calls for new shadows, not the camera.
+    this.renderer.shadowMap.autoUpdate = false;
+    const sky = new HemisphereLight(0xffffff, 0x8a94a6, 1.5);
+    sky.position.set(0, 0, 1);
+    this.scene.add(sky, this.sun, this.sun.target);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.setScalar(SHADOW_SIZE);
     this.camera.add(this.light);
-    this.light.position.set(0.6, 0.9, 1);
+    this.light.position.set(-0.5, 0.6, 1);
     this.scene.add(this.camera);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => {
@@ -71,6 +86,23 @@ export class View {
   background(color: string): void {
     this.scene.background = new Color(color);
     this.invalidate();
+  }
+
+  /** Aims the light that casts shadows at a robot that reaches this far from its box in all directions. */
+  lightUp(box: Box3): void {
+    const { center, radius } = box.getBoundingSphere(new Sphere());
+    const reach = 2 * Math.max(radius, 1e-4);
+    this.sun.target.position.copy(center);
+    this.sun.position.copy(center).addScaledVector(SUN, 2 * reach);
+    const { camera } = this.sun.shadow;
+    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0, far: 5 * reach });
+    camera.updateProjectionMatrix();
+    this.castShadows();
+  }
+
+  /** Draws shadows anew in the next picture. */
+  castShadows(): void {
+    this.renderer.shadowMap.needsUpdate = true;
   }
 
   /** The ray under a position in the window. */

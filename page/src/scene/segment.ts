@@ -1,4 +1,4 @@
-/** The closest points of two shapes, the line between them, and the distance beside it. */
+/** Two points, the line between them, and a label beside it. */
 
 import {
   BufferGeometry,
@@ -11,15 +11,21 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
-import type { PairDistance } from "../engine/protocol";
-import { length } from "../ui/format";
+import { h } from "../ui/dom";
 import type { View } from "./view";
 
-const NEAR = new Color("#ffd166");
-const TOUCHING = new Color("#ff5d5d");
+const USUAL = new Color("#ffd166");
+const ALARMING = new Color("#ff5d5d");
 
-export class Witness {
+export interface Shown {
+  points: readonly [Vector3, Vector3];
+  text: string;
+  alarming?: boolean;
+}
+
+export class Segment {
   readonly group = new Group();
+  readonly label = h("div", { class: "segment", hidden: true });
   private readonly line = new Line(
     new BufferGeometry(),
     new LineBasicMaterial({ depthTest: false, transparent: true }),
@@ -29,39 +35,32 @@ export class Witness {
   );
   private middle: Vector3 | null = null;
 
-  constructor(
-    private readonly view: View,
-    private readonly label: HTMLElement,
-  ) {
+  constructor(private readonly view: View) {
     this.line.frustumCulled = false;
     this.group.add(this.line, ...this.balls);
-    this.group.renderOrder = 10;
     this.group.traverse((object) => (object.renderOrder = 10));
     this.show(null, 1);
     view.before.push(() => this.follow());
   }
 
-  show(pair: PairDistance | null, size: number): void {
-    this.group.visible = pair !== null;
-    this.label.hidden = pair === null;
+  /** Shows two points of a robot of this size, metres; or nothing. */
+  show(shown: Shown | null, size: number): void {
+    this.group.visible = shown !== null;
+    this.label.hidden = shown === null;
     this.middle = null;
-    if (pair) {
-      const points = pair.points.map((point) => new Vector3(...point));
-      const touching = pair.distance <= 0;
-      const color = touching ? TOUCHING : NEAR;
-      this.line.geometry.setFromPoints(points);
+    if (shown) {
+      const { points, text, alarming = false } = shown;
+      const color = alarming ? ALARMING : USUAL;
+      this.line.geometry.setFromPoints([...points]);
       this.line.material.color.copy(color);
       this.balls.forEach((ball, k) => {
         ball.material.color.copy(color);
-        ball.position.copy(points[k] ?? new Vector3());
+        ball.position.copy(points[k] ?? points[0]);
         ball.scale.setScalar(size * 0.006);
       });
-      this.middle = new Vector3()
-        .add(points[0] ?? new Vector3())
-        .add(points[1] ?? new Vector3())
-        .divideScalar(2);
-      this.label.textContent = touching ? "in contact" : length(pair.distance);
-      this.label.classList.toggle("touching", touching);
+      this.middle = points[0].clone().add(points[1]).divideScalar(2);
+      this.label.textContent = text;
+      this.label.classList.toggle("alarming", alarming);
     }
     this.view.invalidate();
   }
