@@ -52,6 +52,23 @@ void kinematics(const urdd::Robot &robot) {
     CHECK(found.is_reached());
     const urdd::Pose there = robot.link_poses(found.configuration)[tip];
     CHECK((urdd::pose_map(there) - urdd::pose_map(poses[tip])).norm() < 1e-5);
+    // A pose that the robot has without touching itself is found without.
+    urdd_inverse_settings settings = urdd::inverse_settings();
+    const urdd::Proximity shapes = robot.proximity(urdd::ShapeKind::hulls);
+    settings.free_of = shapes.handle();
+    const urdd::Inverse free = robot.inverse_kinematics(tip, poses[tip], robot.zero(), settings);
+    CHECK(free.solution.verdict == (free.is_reached() ? URDD_VERDICT_REACHED : URDD_VERDICT_REFUSED));
+    if (free.is_reached()) CHECK(!shapes.in_collision(free.configuration));
+    CHECK(robot.velocity_limits().size() == q.size() && robot.effort_limits()[0] > 0);
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    double mass = 0;
+    for (std::size_t link = 0; link < poses.size(); ++link) {
+        const std::array<double, 4> own = robot.link_masses()[link];
+        moment += own[0] * (urdd::pose_map(poses[link]) * Eigen::Vector4d(own[1], own[2], own[3], 1)).head<3>();
+        mass += own[0];
+    }
+    const urdd::Point centre = robot.centre_of_mass(q);
+    CHECK((moment / mass - Eigen::Vector3d(centre[0], centre[1], centre[2])).norm() < 1e-12);
 
     const Eigen::VectorXd eigen = Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
     CHECK(robot.link_poses(eigen) == poses);

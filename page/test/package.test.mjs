@@ -39,7 +39,7 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
     // TypeScript, so that the types are held too; Node runs what is left without them.
     const program = `
       import { folder, load } from "urdd";
-      import type { Report } from "urdd";
+      import type { Body, Report } from "urdd";
       import type { JointInChain } from "urdd/modules";
       const urdd = await load();
       const source = await folder(process.argv[2] ?? "");
@@ -54,6 +54,17 @@ test("`npm pack` makes a package that validates a URDD and moves its robot, with
       const reached = robot.inverseKinematics({ q: robot.random(3), link, position: there.position, restarts: 20 });
       const [nearest] = robot.nearest(robot.about.zero ?? [], 1, "hulls");
       const [model, clearances] = [robot.collisionModel, robot.clearances(q)];
+      const shelf = { name: "shelf", position: [0.5, 0, 0.4], box: { half_extents: [0.2, 0.4, 0.01] } } satisfies Body;
+      const tool = { name: "tool", link, sphere: { radius: 0.03 } };
+      const world = { kind: "hulls" as const, obstacles: [shelf], attached: [tool] };
+      const blocked: number | null = robot.blockedEdge(q, robot.random(8), { margin: 0.02, resolution: 0.01, ...world });
+      const [to] = robot.gradients(q, 1, world);
+      if (to?.obstacle !== "shelf" || to.gradient?.length !== q.length) throw new Error("a gradient " + blocked);
+      if (robot.isWithin(q, 0.9 * to.distance, world) || !robot.isWithin(q, 1.1 * to.distance, world)) throw new Error("a margin");
+      for (const { depth } of robot.penetrations(q, "hulls")) if (depth < 0) throw new Error("a depth");
+      if (robot.limits.velocity.length !== q.length || robot.linkMasses.length !== link + 1) throw new Error("limits");
+      const middle: readonly number[] | null = robot.centreOfMass(q);
+      if (middle?.length !== 3) throw new Error("a centre of mass");
       const missed: number | undefined = model?.evaluation.num_missed;
       const least: number | undefined = clearances?.min_clearance?.clearance;
       if (model !== null || clearances !== null) throw new Error("a model, where there is none: " + missed + least);

@@ -7,10 +7,12 @@ import type {
   InverseSolution,
   PairDistance,
   Pose,
+  Quaternion,
   Report,
   Shape,
   ShapeKind,
   SkipsAnswer,
+  Vector,
 } from "./protocol.js";
 
 export type * from "./protocol.js";
@@ -40,6 +42,55 @@ export class Urdd {
 /** A pair of shapes and their distance. */
 export type Distance = Omit<PairDistance, "link_idxs" | "statistics">;
 
+/** The distance between a shape of the robot, or of what it carries, and an obstacle. */
+export interface ObstacleDistance {
+  link: string;
+  piece: number;
+  obstacle: string;
+  /** Metres; 0 if they touch or overlap. */
+  distance: number;
+  /** The closest points, in the root link's frame, metres. */
+  points: [Vector, Vector];
+}
+
+/** How far two shapes overlap. */
+export interface Depth {
+  /** The length of the least translation that separates the two, metres. */
+  depth: number;
+  /** The unit vector along which the second would move, in the root link's frame. */
+  direction: Vector;
+  /** The derivative of the depth for each DOF, m/rad or m/m. */
+  gradient: number[];
+}
+
+/** A convex body. Capsules and cylinders are along the z axis of its frame; the half length is that of the segment. */
+export type Body = {
+  name: string;
+  /** Of its frame, in the root link's frame, or in that of the link that carries it; metres. */
+  position?: Vector;
+  quaternion_wxyz?: Quaternion;
+  /** Names of links and of what they carry that may touch it. */
+  ignoring?: string[];
+} & (
+  | { box: { half_extents: Vector } }
+  | { sphere: { radius: number } }
+  | { capsule: { radius: number; half_length: number } }
+  | { cylinder: { radius: number; half_length: number } }
+  | { hull: { points: Vector[] } }
+);
+
+/** The pairs of the robot's own shapes, with what its links carry. */
+export interface Own {
+  /** `pieces` by default. */
+  kind?: ShapeKind;
+  attached?: (Body & { link: number })[];
+}
+
+/** The pairs of a shape of the robot and an obstacle. Obstacles that stay or move are not prepared again. */
+export interface Among extends Own {
+  obstacles: Body[];
+}
+
 /** A robot. Configurations have a value for each DOF, rad or m; poses are in the root link's frame, metres. */
 export class Robot {
   private constructor();
@@ -55,14 +106,73 @@ export class Robot {
   clamp(q: Iterable<number>): number[];
   /** Searches for a configuration in which a link reaches a target position or pose. */
   inverseKinematics(
-    question: InverseQuestion & { restarts?: number },
+    question: InverseQuestion & {
+      restarts?: number;
+      /** Of the translation along and the rotation about the axes of the target; 0 leaves one free. */
+      weights?: [number, number, number, number, number, number];
+      /** A configuration that the solution should be near. */
+      posture?: number[];
+      /** The shapes that must not touch one another in the solution. */
+      free_of?: ShapeKind;
+      /** Whether to find out why a target is not reached: the verdict then is not `unknown`. */
+      explain?: boolean;
+    },
   ): InverseSolution;
   /** The distance and the closest points of each pair of shapes that is not skipped. */
   closestPoints(q: Iterable<number>, kind?: ShapeKind): Distance[];
-  /** The nearest pairs. */
-  nearest(q: Iterable<number>, k?: number, kind?: ShapeKind): Distance[];
-  /** Whether shapes that are not skipped touch. */
-  inCollision(q: Iterable<number>, kind?: ShapeKind): boolean;
+  /** The nearest pairs, among obstacles where they are given. */
+  nearest(q: Iterable<number>, k: number, among: Among): ObstacleDistance[];
+  nearest(q: Iterable<number>, k?: number, among?: ShapeKind | Own): Distance[];
+  /** Whether shapes that are not skipped touch, or one touches an obstacle. */
+  inCollision(q: Iterable<number>, among?: ShapeKind | Own | Among): boolean;
+  /**
+   * Whether a pair is at most `margin` apart, metres. With a margin above 0, pairs count whose links can move against each
+   * other.
+   */
+  isWithin(
+    q: Iterable<number>,
+    margin: number,
+    among?: ShapeKind | Own | Among,
+  ): boolean;
+  /**
+   * Where a straight motion is blocked, as a part of it from 0 to 1; null if it is free. Between two checked
+   * configurations no point of the robot travels farther than `resolution`, metres; without, the motion is proved free,
+   * which needs 0.1 mm more than the margin.
+   */
+  blockedEdge(
+    start: Iterable<number>,
+    end: Iterable<number>,
+    among?: (Own | Among) & { margin?: number; resolution?: number },
+  ): number | null;
+  /** The nearest pairs, with the derivative of each distance for each DOF, m/rad or m/m; null where the two touch. */
+  gradients(
+    q: Iterable<number>,
+    k: number,
+    among: Among,
+  ): (ObstacleDistance & { gradient: number[] | null })[];
+  gradients(
+    q: Iterable<number>,
+    k?: number,
+    among?: ShapeKind | Own,
+  ): (Distance & { gradient: number[] | null })[];
+  /** The pairs that touch or overlap. */
+  penetrations(
+    q: Iterable<number>,
+    among: Among,
+  ): (ObstacleDistance & Depth)[];
+  penetrations(
+    q: Iterable<number>,
+    among?: ShapeKind | Own,
+  ): (Distance & Depth)[];
+  /** The largest velocity (rad/s or m/s) and effort (N m or N) of each DOF; null without a limit. */
+  readonly limits: {
+    velocity: (number | null)[];
+    effort: (number | null)[];
+  };
+  /** The mass of each link, kg, and its centre of mass in the link's frame, metres. */
+  readonly linkMasses: { mass: number; centre: Vector }[];
+  /** The centre of mass in the root link's frame, metres; null for a robot without masses. */
+  centreOfMass(q: Iterable<number>): Vector | null;
   /** The learned self-collision model and its measured error rates; null if the URDD has none. */
   readonly collisionModel: CollisionModel | null;
   /**

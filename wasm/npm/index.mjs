@@ -102,12 +102,41 @@ export class Robot {
     return this.#ask({ ask: "closest_points", q: [...q], kind });
   }
 
-  nearest(q, k = 1, kind = "pieces") {
-    return this.#ask({ ask: "nearest", q: [...q], k, kind });
+  nearest(q, k = 1, among = {}) {
+    return this.#collisions({ nearest: { q: [...q], k } }, among);
   }
 
-  inCollision(q, kind = "pieces") {
-    return this.#ask({ ask: "in_collision", q: [...q], kind });
+  inCollision(q, among = {}) {
+    return this.#collisions({ in_collision: { q: [...q] } }, among);
+  }
+
+  isWithin(q, margin, among = {}) {
+    return this.#collisions({ is_within: { q: [...q], margin } }, among);
+  }
+
+  blockedEdge(start, end, { margin, resolution, ...among } = {}) {
+    const edge = { start: [...start], end: [...end], margin, resolution };
+    return this.#collisions({ blocked_edge: edge }, among);
+  }
+
+  gradients(q, k = 1, among = {}) {
+    return this.#collisions({ gradients: { q: [...q], k } }, among);
+  }
+
+  penetrations(q, among = {}) {
+    return this.#collisions({ penetrations: { q: [...q] } }, among);
+  }
+
+  get limits() {
+    return this.#ask({ ask: "limits" });
+  }
+
+  get linkMasses() {
+    return this.#ask({ ask: "link_masses" });
+  }
+
+  centreOfMass(q) {
+    return this.#ask({ ask: "centre_of_mass", q: [...q] });
   }
 
   get collisionModel() {
@@ -141,6 +170,12 @@ export class Robot {
   #open() {
     if (this.#handle === 0) throw new Error("this robot is closed");
     return this.#handle;
+  }
+
+  /** The kind of shapes alone, or all of what is asked about. */
+  #collisions(about, among) {
+    const all = typeof among === "string" ? { kind: among } : among;
+    return this.#ask({ ask: "collisions", about, ...all });
   }
 
   #ask(question) {

@@ -3,7 +3,9 @@
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde::Deserialize;
 use serde_json::{Value, json};
-use urdd_robot::{InverseSettings, Robot, Target};
+use urdd_robot::{InverseSettings, Proximity, Robot, Target, Verdict};
+
+use crate::kind::Kind;
 
 /// Searches from `q` for a configuration in which a point of a link is at a position, and the link has a rotation, if
 /// given.
@@ -19,14 +21,23 @@ pub struct InverseQuestion {
     quaternion_wxyz: Option<[f64; 4]>,
     /// The DOFs that may change; all by default.
     dofs: Option<Vec<usize>>,
+    /// Weights of the translation and of the rotation about the axes of the target: [`Target::weighted`].
+    weights: Option<[f64; 6]>,
+    /// A configuration that the solution should be near.
+    posture: Option<Vec<f64>>,
+    /// The shapes that must not touch one another in the solution.
+    pub free_of: Option<Kind>,
+    /// Whether to find out why a target is not reached.
+    #[serde(default)]
+    explain: bool,
     /// Maximum number of restarts.
     #[serde(default)]
     restarts: usize,
 }
 
 impl InverseQuestion {
-    /// `configuration`, `position_error`, `rotation_error`, `reached`.
-    pub fn solve(&self, robot: &Robot) -> Result<Value, String> {
+    /// `configuration`, `position_error`, `rotation_error`, `reached`, `verdict`.
+    pub fn solve(&self, robot: &Robot, free_of: Option<&Proximity>) -> Result<Value, String> {
         let target = match self.quaternion_wxyz {
             None => Target::position(self.link, self.position),
             Some([w, x, y, z]) => {
@@ -39,10 +50,18 @@ impl InverseQuestion {
         let settings = InverseSettings {
             restarts: self.restarts,
             locked: self.locked(),
-            explain: false,
+            posture: self.posture.clone(),
+            explain: self.explain,
             ..InverseSettings::default()
         };
-        let found = robot.inverse_kinematics(&target.of_point(self.point), &self.q, &settings);
+        let target = match self.weights {
+            Some(weights) => target.weighted(weights),
+            None => target,
+        };
+        let target = target.of_point(self.point);
+        let is_free = |q: &[f64]| free_of.is_none_or(|shapes| shapes.in_collision(q) == Ok(false));
+        let never = Default::default();
+        let found = robot.inverse_kinematics_where(&target, &self.q, &settings, &is_free, &never);
         let found = found.map_err(|error| error.to_string())?;
         let solution = found.nearest();
         Ok(json!({
@@ -50,6 +69,13 @@ impl InverseQuestion {
             "position_error": solution.position_error,
             "rotation_error": solution.rotation_error,
             "reached": found.is_reached(),
+            "verdict": match solution.verdict {
+                Verdict::Reached => "reached",
+                Verdict::Refused => "refused",
+                Verdict::Limits => "limits",
+                Verdict::OutOfReach => "out of reach",
+                Verdict::Unknown => "unknown",
+            },
         }))
     }
 

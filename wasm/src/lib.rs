@@ -6,10 +6,13 @@
 
 mod about;
 mod answer;
+mod bodies;
+mod collisions;
 #[cfg(feature = "validate")]
 mod explain;
 mod files;
 mod inverse;
+mod kind;
 mod memory;
 mod mesh;
 mod model;

@@ -1,18 +1,20 @@
 //! Queries on a robot.
 
-use std::str::FromStr;
-
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::{
-    CollisionModel, LinkShape, PairDistance, Proximity, Robot, RobotError, ShapeKind, Solid,
+    CollisionModel, LinkMass, LinkShape, PairDistance, Proximity, Robot, RobotError, ShapeKind,
+    Solid,
 };
 
 use crate::about::about;
+use crate::bodies::{Obstacles, carrying};
+use crate::collisions::{About, Among, pair};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;
+use crate::kind::Kind;
 use crate::pairs::Pairs;
 use crate::sources::sources;
 use crate::{answer, memory, model};
@@ -22,6 +24,7 @@ pub struct Handle {
     files: Files,
     robot: Robot,
     proximity: Vec<Proximity>,
+    obstacles: Obstacles,
     pairs: Option<Pairs>,
     /// The learned model once read; `Some(None)` if the robot has none.
     model: Option<Option<CollisionModel>>,
@@ -39,6 +42,7 @@ pub unsafe extern "C" fn urdd_robot_open(files: *mut Files) -> *mut Handle {
         robot: Robot::of(files.root.clone()),
         files,
         proximity: Vec::new(),
+        obstacles: Obstacles::default(),
         pairs: None,
         model: None,
     }))
@@ -80,7 +84,7 @@ pub unsafe extern "C" fn urdd_robot_link_poses_batch(
     }))
 }
 
-/// A query, such as `{"ask": "nearest", "q": [...], "k": 3}`. `q` is a configuration, in rad or m; `kind` is a kind of
+/// A query, such as `{"ask": "proximity", "q": [...], "k": 3}`. `q` is a configuration, in rad or m; `kind` is a kind of
 /// shapes, `pieces` by default.
 #[derive(Deserialize)]
 #[serde(tag = "ask", rename_all = "snake_case")]
@@ -111,20 +115,18 @@ enum Question {
         #[serde(default)]
         kind: Kind,
     },
-    /// The `k` nearest pairs.
-    Nearest {
-        q: Vec<f64>,
-        #[serde(default)]
-        kind: Kind,
-        #[serde(default = "one")]
-        k: u64,
+    /// [`crate::collisions`].
+    Collisions {
+        about: About,
+        #[serde(flatten)]
+        among: Among,
     },
-    /// Whether shapes that are not skipped touch.
-    InCollision {
-        q: Vec<f64>,
-        #[serde(default)]
-        kind: Kind,
-    },
+    /// `velocity` and `effort`: the largest of each DOF, rad/s or m/s, N m or N; null without a limit.
+    Limits,
+    /// `mass` (kg) and `centre` (m, in the link's frame) of each link.
+    LinkMasses,
+    /// The centre of mass in the root link's frame, m; null for a robot without masses.
+    CentreOfMass { q: Vec<f64> },
     /// `nearest`, each with its statistics; `in_collision`, `pairs` (the number checked) and `of` (their total number).
     Proximity {
         q: Vec<f64>,
@@ -162,24 +164,6 @@ fn one() -> u64 {
     1
 }
 
-#[derive(Clone, Copy, Deserialize)]
-#[serde(try_from = "String")]
-struct Kind(ShapeKind);
-
-impl Default for Kind {
-    fn default() -> Self {
-        Kind(ShapeKind::Pieces)
-    }
-}
-
-impl TryFrom<String> for Kind {
-    type Error = <ShapeKind as FromStr>::Err;
-
-    fn try_from(name: String) -> Result<Self, Self::Error> {
-        name.parse().map(Kind)
-    }
-}
-
 /// Answers a [`Question`]: JSON in, JSON out.
 ///
 /// # Safety
@@ -214,20 +198,41 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
             configurations.clamp(&mut q);
             Ok(json!(q))
         }
-        Question::InverseKinematics(question) => question.solve(&handle.robot),
+        Question::InverseKinematics(question) => {
+            let Handle {
+                proximity, robot, ..
+            } = handle;
+            let free_of = match question.free_of {
+                Some(kind) => Some(prepared(proximity, robot, kind)?),
+                None => None,
+            };
+            question.solve(robot, free_of)
+        }
         Question::Sources => sources(&handle.files, &handle.robot),
         Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
         Question::ClosestPoints { q, kind } => {
             let pairs = proximity(handle, kind)?.closest_points(&q).map_err(said)?;
             Ok(pairs.iter().map(pair).collect())
         }
-        Question::Nearest { q, kind, k } => {
-            let pairs = proximity(handle, kind)?.nearest(&q, count(k));
-            Ok(pairs.map_err(said)?.iter().map(pair).collect())
+        Question::Collisions { about, among } => collisions(handle, &about, &among),
+        Question::Limits => {
+            let numbers = |found: Result<Vec<f64>, RobotError>| {
+                let found = found.map_err(said)?.into_iter();
+                Ok::<_, String>(found.map(|most| most.is_finite().then_some(most)).collect())
+            };
+            let velocity: Vec<Option<f64>> = numbers(handle.robot.velocity_limits())?;
+            let effort: Vec<Option<f64>> = numbers(handle.robot.effort_limits())?;
+            Ok(json!({ "velocity": velocity, "effort": effort }))
         }
-        Question::InCollision { q, kind } => {
-            let found = proximity(handle, kind)?.in_collision(&q);
-            found.map(Value::Bool).map_err(said)
+        Question::LinkMasses => {
+            let masses = handle.robot.link_masses().map_err(said)?;
+            let mass =
+                |LinkMass { mass, centre }: &LinkMass| json!({ "mass": mass, "centre": centre });
+            Ok(masses.iter().map(mass).collect())
+        }
+        Question::CentreOfMass { q } => {
+            let found = handle.robot.centre_of_mass(&q);
+            found.map(|centre| json!(centre)).map_err(said)
         }
         Question::Proximity { q, kind, k } => {
             let shapes = proximity(handle, kind)?;
@@ -285,6 +290,26 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
     }
 }
 
+fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value, String> {
+    let own = prepared(&mut handle.proximity, &handle.robot, among.kind)?;
+    let carried;
+    let shapes = match &among.attached[..] {
+        [] => own,
+        attached => {
+            carried = carrying(own, attached)?;
+            &carried
+        }
+    };
+    let answer = match &among.obstacles {
+        None => about.own(shapes),
+        Some(bodies) => {
+            let world = shapes.world_proximity(handle.obstacles.world(bodies)?);
+            world.and_then(|world| about.among(&world))
+        }
+    };
+    answer.map_err(|error| error.to_string())
+}
+
 fn pose(pose: &Isometry3<f64>) -> Value {
     let q = pose.rotation.quaternion();
     json!({
@@ -315,17 +340,24 @@ fn shapes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
 }
 
 /// The shapes of a kind, prepared on first use.
-fn proximity(handle: &mut Handle, Kind(kind): Kind) -> Result<&Proximity, String> {
-    let known = &mut handle.proximity;
+fn prepared<'a>(
+    known: &'a mut Vec<Proximity>,
+    robot: &Robot,
+    Kind(kind): Kind,
+) -> Result<&'a Proximity, String> {
     let at = match known.iter().position(|known| known.kind() == kind) {
         Some(at) => at,
         None => {
-            let prepared = handle.robot.proximity(kind);
+            let prepared = robot.proximity(kind);
             known.push(prepared.map_err(|error| error.to_string())?);
             known.len() - 1
         }
     };
-    Ok(&handle.proximity[at])
+    Ok(&known[at])
+}
+
+fn proximity(handle: &mut Handle, kind: Kind) -> Result<&Proximity, String> {
+    prepared(&mut handle.proximity, &handle.robot, kind)
 }
 
 /// The learned model, read on first use.
@@ -344,14 +376,4 @@ fn pairs(handle: &mut Handle) -> Result<&Pairs, String> {
         handle.pairs = Some(Pairs::read(&handle.files)?);
     }
     handle.pairs.as_ref().ok_or_else(String::new)
-}
-
-fn pair(pair: &PairDistance) -> Value {
-    json!({
-        "links": pair.links.iter().map(|name| name.to_string()).collect::<Vec<_>>(),
-        "pieces": pair.pieces,
-        "distance": pair.distance,
-        "relative": pair.relative,
-        "points": pair.points,
-    })
 }

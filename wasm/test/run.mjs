@@ -68,7 +68,9 @@ try {
       const lines = run("check-collisions", target, "--random", "5", "--shapes", kind, "--format", "json", "--nearest", "1000000");
       for (const native of lines.trim().split("\n").map((line) => JSON.parse(line))) {
         const question = { q: native.values, kind };
-        const nearest = urdd.ask(handle, { ask: "nearest", k: 1e6, ...question });
+        const { q } = question;
+        const ask = (about, among = {}) => urdd.ask(handle, { ask: "collisions", about, kind, ...among });
+        const nearest = ask({ nearest: { q, k: 1e6 } });
         assert.equal(nearest.length, native.nearest.length);
         nearest.forEach((pair, k) => near(pair.distance, native.nearest[k].distance, 1e-9));
         const shown = urdd.ask(handle, { ask: "proximity", k: 1e6, ...question });
@@ -79,7 +81,8 @@ try {
           assert.ok(statistics.min <= statistics.mean && statistics.mean <= statistics.max);
           if (relative !== null) near(relative * statistics.mean, distance, 1e-9);
         }
-        assert.equal(urdd.ask(handle, { ask: "in_collision", ...question }), native.in_collision);
+        assert.equal(ask({ in_collision: { q } }), native.in_collision);
+        among(urdd, handle, ask, q);
         compared += nearest.length;
       }
     }
@@ -88,6 +91,7 @@ try {
     compareAbout(urdd.ask(handle, { ask: "about" }), target);
     compareSkips(urdd.ask(handle, { ask: "skips", kind: "hulls" }), target);
     reaches(urdd, handle);
+    compareLimits(urdd, handle, target);
     assert.equal(urdd.ask(handle, { ask: "collision_model" }), null);
     assert.equal(urdd.ask(handle, { ask: "clearances", q: about.zero }), null);
     const sources = urdd.ask(handle, { ask: "sources" });
@@ -176,8 +180,101 @@ function reaches(urdd, handle) {
   const pose = urdd.ask(handle, { ask: "link_poses", q: found.configuration })[link];
   pose.position.forEach((x, k) => near(x, there.position[k], 1e-5));
   assert.deepEqual(urdd.ask(handle, { ...wish, dofs: [] }).configuration, about.zero);
+  assert.equal(found.verdict, "reached");
+  const far = urdd.ask(handle, { ...wish, position: [100, 0, 0], explain: true });
+  // What slides gets there beyond its limits.
+  const slides = about.dofs.some(({ unit }) => unit === "m");
+  assert.equal(far.reached, false);
+  assert.match(far.verdict, slides ? /^(limits|out of reach)$/ : /^out of reach$/);
+  const free = urdd.ask(handle, { ...wish, free_of: "pieces", explain: true });
+  const collides = urdd.ask(handle, { ask: "collisions", about: { in_collision: { q: free.configuration } } });
+  assert.ok(free.verdict === "refused" ? collides : !collides, JSON.stringify(free));
+  // The rotation alone: the position is wherever it is.
+  const turned = { position: [0, 0, 0], quaternion_wxyz: there.quaternion_wxyz, weights: [0, 0, 0, 1, 1, 1] };
+  const turn = urdd.ask(handle, { ...wish, ...turned });
+  assert.ok(turn.reached && turn.rotation_error < 1e-5, JSON.stringify(turn));
   assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /expected an array of length 3/);
   assert.throws(() => urdd.ask(handle, { ...wish, link: 1000 }), /./);
+}
+
+/** Distances to a ball that a link carries have a closed form; gradients are held to differences, depths to what they mean. */
+function among(urdd, handle, ask, q) {
+  const link = urdd.ask(handle, { ask: "about" }).links.length - 1;
+  const [centre, radius] = [[0.9, -0.4, 0.7], 0.05];
+  const ball = { name: "ball", position: centre, sphere: { radius } };
+  const part = { name: "part", link, position: [0, 0, 0.1], sphere: { radius: 0.02 } };
+  const carried = { attached: [part], obstacles: [ball] };
+  const expected = (q) => {
+    const { position, quaternion_wxyz: [w, x, y, z] } = urdd.ask(handle, { ask: "link_poses", q })[link];
+    const axis = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)];
+    return Math.max(0, Math.hypot(...position.map((p, k) => p + 0.1 * axis[k] - centre[k])) - radius - 0.02);
+  };
+  const to = ask({ nearest: { q, k: 1e6 } }, carried).find((pair) => pair.link === "part");
+  near(to.distance, expected(q), 1e-9);
+  const least = ask({ nearest: { q, k: 1 } }, carried)[0].distance;
+  for (const margin of [0, 0.5 * least, 1.001 * least])
+    assert.equal(ask({ is_within: { q, margin } }, carried), least <= margin, `${least} ${margin}`);
+  for (const { link, gradient, distance } of ask({ gradients: { q, k: 1e6 } }, carried)) {
+    if (link !== "part" || distance < 1e-3) continue;
+    gradient.forEach((slope, dof) => {
+      const at = (step) => expected(q.map((value, k) => (k === dof ? value + step : value)));
+      near(slope, (at(1e-5) - at(-1e-5)) / 2e-5, 1e-6);
+    });
+  }
+  // A box about the link, pushed out along the direction by the depth, touches and does not overlap.
+  const { position } = urdd.ask(handle, { ask: "link_poses", q })[link];
+  const box = (by) => ({ name: "box", position: position.map((p, k) => p + by[k]), box: { half_extents: [0.05, 0.07, 0.06] } });
+  for (const { link, piece, depth, direction } of ask({ penetrations: { q } }, { obstacles: [box([0, 0, 0])] })) {
+    near(Math.hypot(...direction), 1, 1e-9);
+    const overlaps = (by) => {
+      const moved = box(direction.map((d) => d * by));
+      return ask({ penetrations: { q } }, { obstacles: [moved] }).some((pair) => pair.link === link && pair.piece === piece);
+    };
+    assert.ok(!overlaps(depth + 1e-6), `${link} ${depth}`);
+    assert.ok(overlaps(depth - 1e-6), `${link} ${depth}`);
+  }
+  // Where a motion is blocked, it collides.
+  const [from, end] = [11, 9].map((k) => urdd.ask(handle, { ask: "random", k }));
+  const wall = { obstacles: [box([0, 0, 0])] };
+  const blocked = ask({ blocked_edge: { start: from, end, resolution: 0.002 } }, wall);
+  const collides = (part) => ask({ in_collision: { q: from.map((value, k) => value + part * (end[k] - value)) } }, wall);
+  if (blocked === null) for (let k = 0; k <= 20; k++) assert.equal(collides(k / 20), false);
+  else assert.equal(collides(blocked), true);
+  assert.throws(() => ask({ is_within: { q, margin: -1 } }), /./);
+  assert.throws(() => ask({ nearest: { q, k: 1 } }, { obstacles: [{ name: "x" }] }), /./);
+  assert.throws(() => ask({ nearest: { q, k: 1 } }, { attached: [{ ...part, link: 1000 }] }), /./);
+}
+
+/** Limits and masses are those of the URDF. */
+function compareLimits(urdd, handle, target) {
+  const { joints, links } = read(target, "urdf_module");
+  const [limits, about] = ["limits", "about"].map((ask) => urdd.ask(handle, { ask }));
+  about.dofs.forEach(({ joint }, dof) => {
+    const { name, dofs } = about.joints[joint];
+    // A URDF has one number for a joint, which says nothing of one of several DOFs.
+    if (dofs.length > 1) return;
+    const { limit } = joints.find((one) => one.name === name);
+    for (const key of ["velocity", "effort"]) assert.equal(limits[key][dof] ?? 0, limit?.[key] ?? 0, `${name} ${key}`);
+  });
+  const masses = urdd.ask(handle, { ask: "link_masses" });
+  assert.deepEqual(masses.map(({ mass }) => mass), links.map(({ inertial }) => inertial?.mass.value ?? 0));
+  const q = urdd.ask(handle, { ask: "random", k: 2 });
+  const poses = urdd.ask(handle, { ask: "link_poses", q });
+  const total = masses.reduce((sum, { mass }) => sum + mass, 0);
+  const found = urdd.ask(handle, { ask: "centre_of_mass", q });
+  if (total === 0) assert.equal(found, null);
+  found?.forEach((value, i) => {
+    const moments = masses.map(({ mass, centre: c }, link) => {
+      const { position: p, quaternion_wxyz: [w, x, y, z] } = poses[link];
+      const row = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+      ][i];
+      return mass * (p[i] + row.reduce((sum, r, k) => sum + r * c[k], 0));
+    });
+    near(value, moments.reduce((sum, moment) => sum + moment, 0) / total, 1e-9);
+  });
 }
 
 /** What the learned model says is what its own test vectors say; one that is cut short is told of. */

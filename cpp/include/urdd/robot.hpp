@@ -77,6 +77,23 @@ public:
     }
     /// Moves each value beyond its bounds to the nearer bound.
     void clamp(Span<double> q) const { detail::check(urdd_robot_clamp(handle_.get(), q.data(), q.size())); }
+    /// The largest speed of each DOF, rad/s or m/s; infinite where the source states none.
+    std::vector<double> velocity_limits() const { return configuration(urdd_robot_velocity_limits); }
+    /// The largest effort of each DOF, N m or N; infinite where the source states none.
+    std::vector<double> effort_limits() const { return configuration(urdd_robot_effort_limits); }
+    /// The mass of each link, kg, 0 where the source states none, and its centre of mass in the link's frame.
+    std::vector<std::array<double, 4>> link_masses() const {
+        std::vector<std::array<double, 4>> found(num_links());
+        double *values = found.empty() ? nullptr : found.data()->data();
+        detail::check(urdd_robot_link_masses(handle_.get(), values, 4 * found.size()));
+        return found;
+    }
+    /// The centre of mass of the robot, in the root link's frame; NaN where the source states no mass.
+    Point centre_of_mass(Span<const double> q) const {
+        Point found{};
+        detail::check(urdd_robot_centre_of_mass(handle_.get(), q.data(), 1, q.size(), found.data()));
+        return found;
+    }
     /// The names of the configurations that a person named.
     std::vector<std::string> configuration_names() const {
         std::size_t count = 0;
@@ -116,7 +133,8 @@ public:
             urdd_robot_jacobians(handle_.get(), q.data(), 1, q.size(), link, point.data(), out.data(), out.size()));
     }
 
-    /// Searches a configuration within the bounds in which a link has a pose. Does not check for collisions.
+    /// Searches a configuration within the bounds in which a link has a pose. Checks for collisions where `free_of` of
+    /// the settings is set, to the `handle()` of a `Proximity`.
     Inverse inverse_kinematics(std::size_t link, const Pose &pose, Span<const double> start,
                                const urdd_inverse_settings &settings = inverse_settings()) const {
         urdd_target target{};

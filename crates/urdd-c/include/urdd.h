@@ -65,6 +65,20 @@ typedef enum urdd_status {
     URDD_STATUS_INTERNAL = 12,
 } urdd_status;
 
+// Whether a target is reached; if not, why.
+typedef enum urdd_verdict {
+    // None within the bounds was found; why was not searched for.
+    URDD_VERDICT_UNKNOWN = 0,
+    // It is reached within the tolerances.
+    URDD_VERDICT_REACHED = 1,
+    // Every configuration that was found to reach it was refused by `free_of`.
+    URDD_VERDICT_REFUSED = 2,
+    // None within the bounds was found, but one beyond them.
+    URDD_VERDICT_LIMITS = 3,
+    // None was found, within the bounds or beyond them.
+    URDD_VERDICT_OUT_OF_REACH = 4,
+} urdd_verdict;
+
 // The learned self-collision model of a URDD (SPEC 8.8): an estimate of the clearance between links.
 typedef struct urdd_collision_model urdd_collision_model;
 
@@ -116,6 +130,19 @@ typedef struct urdd_inverse_settings {
     const double *bounds;
     // Number of values at `bounds`: dofs x 2, or 0.
     size_t bounds_length;
+    // Indices of DOFs that keep the value that they have in the start; or null.
+    const size_t *locked;
+    // Number of indices at `locked`.
+    size_t locked_length;
+    // A configuration that the solution should be near, rad or m: every descent is used, and the nearest solution counts;
+    // or null.
+    const double *posture;
+    // Number of values at `posture`: dofs, or 0.
+    size_t posture_length;
+    // Shapes that must not touch one another in a solution, which is searched until one is free; or null.
+    const struct urdd_proximity *free_of;
+    // Whether to find out why a target is not reached, which takes as long as the search.
+    bool explain;
 } urdd_inverse_settings;
 
 // A target of inverse kinematics, in the root link's frame.
@@ -129,6 +156,9 @@ typedef struct urdd_target {
     double point[3];
     // True if only the position counts: the link's rotation is free.
     bool is_position;
+    // Weights of the translation along, and of the rotation about, the x, y and z axes of `pose`, 0 or more: 0 leaves
+    // one free, as (0, 0, 0, 1, 1, 1) for a rotation alone. Six zeros stand for six ones.
+    double weights[6];
 } urdd_target;
 
 // How near a configuration comes to its target.
@@ -143,6 +173,8 @@ typedef struct urdd_inverse_solution {
     size_t iterations;
     // True if the target is reached within the tolerances.
     bool is_reached;
+    // Whether it is, or why not.
+    enum urdd_verdict verdict;
 } urdd_inverse_solution;
 
 // Two shapes that are checked against each other.
@@ -282,14 +314,15 @@ enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_mo
 // that fails.
 struct urdd_text urdd_error_message(void);
 
-// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds.
+// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
+// locked, no posture, no shapes, no explanation.
 //
 // Contract:
 // `out` is null or has room for settings.
 enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
 
 // Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
-// start, then from random configurations. Does not check for collisions.
+// start, then from random configurations. Checks for collisions where `free_of` is set.
 //
 // There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
 // each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
@@ -348,6 +381,48 @@ enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
                                       const double *point,
                                       double *jacobians,
                                       size_t length);
+
+// Writes the largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none. `dofs`
+// values.
+//
+// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: bounds_module.
+//
+// Contract:
+// `handle` is null or open; there is room for `dofs` values at `limits`.
+enum urdd_status urdd_robot_velocity_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
+
+// Writes the largest effort of each DOF, N m or N, as the source states it; infinite where it states none. `dofs`
+// values.
+//
+// Errors: as `urdd_robot_velocity_limits`.
+//
+// Contract:
+// As there.
+enum urdd_status urdd_robot_effort_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
+
+// Writes the mass of each link, kg, 0 where the source states none, and its centre of mass in the link's frame, metres:
+// links x 4 values.
+//
+// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: urdf_module.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` values at `masses`.
+enum urdd_status urdd_robot_link_masses(const struct urdd_robot *handle, double *masses, size_t length);
+
+// Writes the centre of mass of the robot in the root link's frame for each configuration, metres; NaN for a robot whose
+// source states no mass.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `centres` has room for rows x 3 values.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_robot_centre_of_mass(const struct urdd_robot *handle,
+                                           const double *configurations,
+                                           size_t rows,
+                                           size_t dofs,
+                                           double *centres);
 
 // Writes the number of configurations that a person named; 0 without named_configurations_module.
 //

@@ -9,6 +9,7 @@ use urdd_robot::{InverseSettings, RobotError, Target as RobotTarget, fill};
 use crate::failure::{Failure, Status, run};
 use crate::handle::at;
 use crate::memory::{Plain, check, exact_room, put, values};
+use crate::proximity::Proximity;
 use crate::robot::Robot;
 
 /// A target of inverse kinematics, in the root link's frame.
@@ -24,6 +25,9 @@ pub struct Target {
     pub point: [f64; 3],
     /// True if only the position counts: the link's rotation is free.
     pub is_position: bool,
+    /// Weights of the translation along, and of the rotation about, the x, y and z axes of `pose`, 0 or more: 0 leaves
+    /// one free, as (0, 0, 0, 1, 1, 1) for a rotation alone. Six zeros stand for six ones.
+    pub weights: [f64; 6],
 }
 
 /// Tolerances and limits of inverse kinematics. `urdd_inverse_settings_default` sets them.
@@ -44,6 +48,36 @@ pub struct Settings {
     pub bounds: *const f64,
     /// Number of values at `bounds`: dofs x 2, or 0.
     pub bounds_length: usize,
+    /// Indices of DOFs that keep the value that they have in the start; or null.
+    pub locked: *const usize,
+    /// Number of indices at `locked`.
+    pub locked_length: usize,
+    /// A configuration that the solution should be near, rad or m: every descent is used, and the nearest solution counts;
+    /// or null.
+    pub posture: *const f64,
+    /// Number of values at `posture`: dofs, or 0.
+    pub posture_length: usize,
+    /// Shapes that must not touch one another in a solution, which is searched until one is free; or null.
+    pub free_of: *const Proximity,
+    /// Whether to find out why a target is not reached, which takes as long as the search.
+    pub explain: bool,
+}
+
+/// Whether a target is reached; if not, why.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Verdict {
+    /// None within the bounds was found; why was not searched for.
+    #[default]
+    Unknown = 0,
+    /// It is reached within the tolerances.
+    Reached = 1,
+    /// Every configuration that was found to reach it was refused by `free_of`.
+    Refused = 2,
+    /// None within the bounds was found, but one beyond them.
+    Limits = 3,
+    /// None was found, within the bounds or beyond them.
+    OutOfReach = 4,
 }
 
 /// How near a configuration comes to its target.
@@ -60,14 +94,30 @@ pub struct Solution {
     pub iterations: usize,
     /// True if the target is reached within the tolerances.
     pub is_reached: bool,
+    /// Whether it is, or why not.
+    pub verdict: Verdict,
 }
 
-// SAFETY: zeros are numbers, and false.
+impl From<urdd_robot::Verdict> for Verdict {
+    fn from(verdict: urdd_robot::Verdict) -> Self {
+        use urdd_robot::Verdict as Of;
+        match verdict {
+            Of::Reached => Verdict::Reached,
+            Of::Refused => Verdict::Refused,
+            Of::Limits => Verdict::Limits,
+            Of::OutOfReach => Verdict::OutOfReach,
+            Of::Unknown => Verdict::Unknown,
+        }
+    }
+}
+
+// SAFETY: zeros are numbers, false, and `Unknown`.
 unsafe impl Plain for Solution {}
 // SAFETY: as above.
 unsafe impl Plain for Target {}
 
-/// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds.
+/// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
+/// locked, no posture, no shapes, no explanation.
 ///
 /// # Safety
 /// `out` is null or has room for settings.
@@ -87,16 +137,31 @@ pub unsafe extern "C" fn urdd_inverse_settings_default(out: *mut Settings) -> St
                 seed: settings.seed,
                 bounds: ptr::null(),
                 bounds_length: 0,
+                locked: ptr::null(),
+                locked_length: 0,
+                posture: ptr::null(),
+                posture_length: 0,
+                free_of: ptr::null(),
+                explain: false,
             },
         )
     })
 }
 
+/// The settings, and the shapes that a solution must be free of.
+///
 /// # Safety
-/// `settings` is null or one that can be read, with its bounds.
-unsafe fn settings(settings: *const Settings) -> Result<InverseSettings, Failure> {
+/// `settings` is null or one that can be read, with its arrays and handle.
+unsafe fn settings<'a>(
+    settings: *const Settings,
+) -> Result<(InverseSettings, Option<&'a Proximity>), Failure> {
     if settings.is_null() {
-        return Ok(InverseSettings::default());
+        let explain = false;
+        let settings = InverseSettings {
+            explain,
+            ..InverseSettings::default()
+        };
+        return Ok((settings, None));
     }
     check("settings", settings)?;
     // SAFETY: guaranteed by the caller.
@@ -108,21 +173,29 @@ unsafe fn settings(settings: *const Settings) -> Result<InverseSettings, Failure
             let message = format!("`bounds` has {} values: expected two a DOF", bounds.len());
             return Err(Failure::new(Status::Length, message));
         }
-        Ok(InverseSettings {
+        let locked = values("locked", settings.locked, settings.locked_length)?;
+        let posture = values("posture", settings.posture, settings.posture_length)?;
+        let free_of = match settings.free_of.is_null() {
+            true => None,
+            false => Some(at(settings.free_of)?),
+        };
+        let settings = InverseSettings {
             position_tolerance: settings.position_tolerance,
             rotation_tolerance: settings.rotation_tolerance,
             iterations: settings.iterations,
             restarts: settings.restarts,
             seed: settings.seed,
             bounds: (!pairs.is_empty()).then(|| pairs.to_vec()),
-            explain: false,
-            ..InverseSettings::default()
-        })
+            locked: locked.to_vec(),
+            posture: (!posture.is_empty()).then(|| posture.to_vec()),
+            explain: settings.explain,
+        };
+        Ok((settings, free_of))
     }
 }
 
 /// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
-/// start, then from random configurations. Does not check for collisions.
+/// start, then from random configurations. Checks for collisions where `free_of` is set.
 ///
 /// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
 /// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
@@ -154,7 +227,18 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
             let message = format!("`starts` has {starts_rows} rows: expected 1 or {count}");
             return Err(Failure::new(Status::Length, message));
         }
-        let settings = self::settings(settings)?;
+        let (settings, free_of) = self::settings(settings)?;
+        if let Some(shapes) = free_of
+            && shapes.0.num_dofs() != dofs
+        {
+            let message = format!(
+                "`free_of` is of a robot with {} DOFs: expected {dofs}",
+                shapes.0.num_dofs()
+            );
+            return Err(Failure::new(Status::Length, message));
+        }
+        let is_free =
+            |q: &[f64]| free_of.is_none_or(|shapes| shapes.0.in_collision(q) == Ok(false));
         let length = count.saturating_mul(dofs);
         let inputs = [q.values];
         let out = exact_room(
@@ -177,7 +261,7 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
                 let target = &targets[k];
                 let inverse = robot
                     .robot
-                    .inverse_kinematics_cancellable(target, start, &settings, &on)?;
+                    .inverse_kinematics_where(target, start, &settings, &is_free, &on)?;
                 let nearest = inverse.nearest();
                 let solution = Solution {
                     position_error: nearest.position_error,
@@ -185,6 +269,7 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
                     restarts: nearest.restarts,
                     iterations: nearest.iterations,
                     is_reached: inverse.is_reached(),
+                    verdict: nearest.verdict.into(),
                 };
                 out[0] = (nearest.configuration.clone(), solution);
                 Ok::<(), RobotError>(())
@@ -215,6 +300,10 @@ unsafe fn targets_of(targets: *const Target, count: usize) -> Result<Vec<RobotTa
                 })?;
                 RobotTarget::pose(target.link, pose)
             }
+        };
+        let made = match target.weights == [0.0; 6] {
+            true => made,
+            false => made.weighted(target.weights),
         };
         Ok(made.of_point(target.point))
     };

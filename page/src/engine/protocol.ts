@@ -238,6 +238,8 @@ export interface InverseSolution {
   position_error: number;
   rotation_error: number;
   reached: boolean;
+  /** `unknown` unless it was asked why a target is not reached. */
+  verdict: "reached" | "refused" | "limits" | "out of reach" | "unknown";
 }
 
 /** The triangles of a mesh, or an error. */

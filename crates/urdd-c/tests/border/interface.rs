@@ -14,32 +14,32 @@ static ARM: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
     testkit::robots::made(&testkit::repository().join("conformance/robots/welding_arm.urdf"))
 });
 
-fn c(text: &str) -> CString {
+pub fn c(text: &str) -> CString {
     CString::new(text).expect("no zero byte")
 }
 
-fn said() -> String {
+pub fn said() -> String {
     text(urdd_error_message())
 }
 
-fn text(text: Text) -> String {
+pub fn text(text: Text) -> String {
     // SAFETY: a text of the library.
     let bytes = unsafe { std::slice::from_raw_parts(text.data.cast::<u8>(), text.length) };
     String::from_utf8(bytes.to_vec()).expect("UTF-8")
 }
 
-fn ok(status: Status) {
+pub fn ok(status: Status) {
     assert_eq!(status, Status::Ok, "{}", said());
 }
 
 /// Holds a call to its status, and to words of its message.
 #[track_caller]
-fn fails(status: Status, expected: Status, words: &str) {
+pub fn fails(status: Status, expected: Status, words: &str) {
     assert_eq!(status, expected, "{}", said());
     assert!(said().contains(words), "{}", said());
 }
 
-fn open() -> *mut Robot {
+pub fn open() -> *mut Robot {
     let (path, mut robot) = (c(ARM.1.to_str().expect("UTF-8")), null_mut());
     // SAFETY: as the header says.
     ok(unsafe { urdd_robot_open(path.as_ptr(), &mut robot) });
@@ -53,12 +53,12 @@ fn proximity(robot: *const Robot, kind: &str) -> *mut Proximity {
     made
 }
 
-fn arm() -> urdd_robot::Robot {
+pub fn arm() -> urdd_robot::Robot {
     urdd_robot::Robot::open(&ARM.1).expect("a robot")
 }
 
 /// Samples of the arm, one after another.
-fn samples(count: u64) -> Vec<f64> {
+pub fn samples(count: u64) -> Vec<f64> {
     let robot = arm();
     let space = robot.configurations().expect("configurations");
     (0..count).flat_map(|k| space.random(k)).collect()
@@ -155,77 +155,6 @@ fn poses_and_jacobians_are_those_of_rust_in_one_row_and_in_many() {
             let far = found.iter().zip(&known).map(|(a, b)| (a - b).abs());
             assert!(far.fold(0.0, f64::max) < 1e-14);
         }
-        ok(urdd_robot_free(handle));
-    }
-}
-
-#[test]
-fn inverse_kinematics_reaches_a_pose_a_point_and_says_when_it_does_not() {
-    let (handle, robot, q) = (open(), arm(), samples(4));
-    let torch = robot.link("torch").unwrap();
-    let target = |row: &[f64]| {
-        let pose = robot.link_poses(row).unwrap()[torch]
-            .to_homogeneous()
-            .transpose();
-        Target {
-            link: torch,
-            pose: pose.as_slice().try_into().unwrap(),
-            point: [0.0; 3],
-            is_position: false,
-        }
-    };
-    let mut targets: Vec<Target> = q.chunks(6).map(target).collect();
-    targets[1].is_position = true;
-    targets[2].pose[3] = 100.0;
-    let (mut found, mut solutions) = ([0.0; 24], [Solution::default(); 4]);
-    let start = [0.0; 6];
-    // SAFETY: as the header says.
-    unsafe {
-        ok(urdd_robot_inverse_kinematics(
-            handle,
-            targets.as_ptr(),
-            4,
-            start.as_ptr(),
-            1,
-            6,
-            null(),
-            found.as_mut_ptr(),
-            solutions.as_mut_ptr(),
-        ));
-        assert_eq!(
-            solutions.map(|one| one.is_reached),
-            [true, true, false, true]
-        );
-        for k in [0, 3] {
-            let pose = robot.link_poses(&found[6 * k..6 * k + 6]).unwrap()[torch];
-            let known = robot.link_poses(&q[6 * k..6 * k + 6]).unwrap()[torch];
-            assert!((pose.translation.vector - known.translation.vector).norm() <= 1e-6);
-            assert!(pose.rotation.angle_to(&known.rotation) <= 1.1e-6);
-        }
-        assert!(solutions[2].position_error > 90.0);
-        targets[0].pose[0] = 3.0;
-        let outputs = (found.as_mut_ptr(), solutions.as_mut_ptr());
-        let ask = |targets: &[Target], starts_rows| {
-            let (at, count) = (targets.as_ptr(), targets.len());
-            let start = start.as_ptr();
-            urdd_robot_inverse_kinematics(
-                handle,
-                at,
-                count,
-                start,
-                starts_rows,
-                6,
-                null(),
-                outputs.0,
-                outputs.1,
-            )
-        };
-        fails(ask(&targets, 1), Status::Value, "pose of target 0");
-        targets[0].pose[0] = f64::NAN;
-        fails(ask(&targets, 1), Status::Value, "pose of target 0");
-        targets[1].link = 99;
-        fails(ask(&targets[1..], 1), Status::OutOfRange, "link 99");
-        fails(ask(&targets[3..], 0), Status::Length, "`starts` has 0 rows");
         ok(urdd_robot_free(handle));
     }
 }

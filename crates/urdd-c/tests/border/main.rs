@@ -7,3 +7,4 @@ mod allocations;
 mod calls;
 mod fuzz_findings;
 mod interface;
+mod inverse;

@@ -1,0 +1,135 @@
+//! What planners ask of the robot's shapes, with what its links carry: among its own links, or among obstacles.
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use urdd_robot::{
+    EdgeSettings, ObstacleDistance, Overlap, PairDistance, Proximity, RobotError, WorldProximity,
+};
+
+use crate::bodies::{Attached, Body};
+use crate::kind::Kind;
+
+/// Between which shapes.
+#[derive(Default, Deserialize)]
+pub struct Among {
+    #[serde(default)]
+    pub kind: Kind,
+    /// What links carry.
+    #[serde(default)]
+    pub attached: Vec<Attached>,
+    /// The pairs of a shape of the robot and an obstacle; without, the robot's own pairs.
+    pub obstacles: Option<Vec<Body>>,
+}
+
+/// A query, with the vocabulary of [`Proximity`] and [`WorldProximity`].
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum About {
+    /// Whether shapes touch.
+    InCollision { q: Vec<f64> },
+    /// The `k` nearest pairs, with their distances and closest points.
+    Nearest { q: Vec<f64>, k: usize },
+    /// Whether a pair is at most `margin` apart, in metres.
+    IsWithin { q: Vec<f64>, margin: f64 },
+    /// Where a straight motion is blocked, 0 to 1; null if it is free. Sampled with a `resolution` (metres of motion),
+    /// proved without.
+    BlockedEdge {
+        start: Vec<f64>,
+        end: Vec<f64>,
+        #[serde(default)]
+        margin: f64,
+        resolution: Option<f64>,
+    },
+    /// As `nearest`, each with `gradient`: m/rad or m/m for each DOF; null where the two touch.
+    Gradients { q: Vec<f64>, k: usize },
+    /// The pairs that touch or overlap: `depth`, `direction` and `gradient`.
+    Penetrations { q: Vec<f64> },
+}
+
+impl About {
+    /// The answer for the robot's own pairs.
+    pub fn own(&self, shapes: &Proximity) -> Result<Value, RobotError> {
+        Ok(match self {
+            About::InCollision { q } => shapes.in_collision(q)?.into(),
+            About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(pair).collect(),
+            About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
+            About::BlockedEdge { start, end, .. } => {
+                shapes.blocked_edge(start, end, &self.settings())?.into()
+            }
+            About::Gradients { q, k } => {
+                let found = shapes.gradients(q, *k)?.into_iter();
+                found
+                    .map(|found| with(pair(&found.pair), found.gradient))
+                    .collect()
+            }
+            About::Penetrations { q } => overlaps(shapes.penetrations(q)?, pair),
+        })
+    }
+
+    /// The answer for the pairs of a shape of the robot and an obstacle.
+    pub fn among(&self, shapes: &WorldProximity<&Proximity>) -> Result<Value, RobotError> {
+        Ok(match self {
+            About::InCollision { q } => shapes.in_collision(q)?.into(),
+            About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(to_obstacle).collect(),
+            About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
+            About::BlockedEdge { start, end, .. } => {
+                shapes.blocked_edge(start, end, &self.settings())?.into()
+            }
+            About::Gradients { q, k } => {
+                let found = shapes.gradients(q, *k)?.into_iter();
+                found
+                    .map(|found| with(to_obstacle(&found.pair), found.gradient))
+                    .collect()
+            }
+            About::Penetrations { q } => overlaps(shapes.penetrations(q)?, to_obstacle),
+        })
+    }
+
+    fn settings(&self) -> EdgeSettings {
+        match self {
+            About::BlockedEdge {
+                margin, resolution, ..
+            } => EdgeSettings {
+                margin: *margin,
+                resolution: *resolution,
+            },
+            _ => EdgeSettings::default(),
+        }
+    }
+}
+
+/// A pair of the robot's shapes.
+pub fn pair(pair: &PairDistance) -> Value {
+    json!({
+        "links": pair.links.iter().map(|name| name.to_string()).collect::<Vec<_>>(),
+        "pieces": pair.pieces,
+        "distance": pair.distance,
+        "relative": pair.relative,
+        "points": pair.points,
+    })
+}
+
+fn to_obstacle(pair: &ObstacleDistance) -> Value {
+    json!({
+        "link": &*pair.link,
+        "piece": pair.piece,
+        "obstacle": &*pair.obstacle,
+        "distance": pair.distance,
+        "points": pair.points,
+    })
+}
+
+fn with(mut value: Value, gradient: Option<Vec<f64>>) -> Value {
+    value["gradient"] = json!(gradient);
+    value
+}
+
+fn overlaps<P>(found: Vec<Overlap<P>>, pair: impl Fn(&P) -> Value) -> Value {
+    let value = |found: Overlap<P>| {
+        let mut value = with(pair(&found.pair), Some(found.gradient));
+        value["depth"] = json!(found.depth);
+        value["direction"] = json!(found.direction);
+        value
+    };
+    found.into_iter().map(value).collect()
+}
