@@ -100,7 +100,11 @@ export class Stage {
       app,
       this.view,
       () => this.scene?.bounds() ?? null,
-      () => this.look("fit"),
+      () => {
+        this.look("fit");
+        const box = this.scene?.bounds().union(this.beside.bounds());
+        if (box) this.ground.under(box);
+      },
     );
     this.gizmo = new Gizmo(app, this.view);
     const handles = GIZMOS.map((kind) => {

@@ -235,7 +235,9 @@ def test_the_page_is_served_until_it_is_closed(arm: urdd.Robot) -> None:
         with urllib.request.urlopen(address, timeout=30) as answer:
             assert b"urdd" in answer.read()
         # A browser holds connections open on which it has asked for nothing yet.
-        idle = socket.create_connection(("127.0.0.1", urllib.parse.urlsplit(address).port), timeout=30)
+        port = urllib.parse.urlsplit(address).port
+        assert port is not None
+        idle = socket.create_connection(("127.0.0.1", port), timeout=30)
     with idle, pytest.raises(urllib.error.URLError):
         urllib.request.urlopen(address, timeout=30)
     with pytest.raises(ValueError, match="unknown backend"):

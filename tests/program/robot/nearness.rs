@@ -1,3 +1,4 @@
+use testkit::trials::sample;
 use urdd_robot::{PairDistance, Robot, ShapeKind};
 
 use crate::robot::{made, made_of, our_robots};
@@ -165,7 +166,7 @@ fn every_question_agrees_with_each_pair_asked_alone() {
         for kind in [ShapeKind::Hulls, ShapeKind::Pieces] {
             let proximity = robot.proximity(kind).unwrap();
             let space = robot.configurations().unwrap();
-            for k in 0..12 {
+            for k in sample(0..12, 3) {
                 let q = match k {
                     0 => space.zero(),
                     k => space.random(k),
@@ -206,7 +207,7 @@ fn every_question_agrees_with_each_pair_asked_alone() {
             }
         }
     }
-    assert!(collisions.iter().all(|count| *count > 20), "{collisions:?}");
+    assert!(collisions.iter().all(|count| *count > 6), "{collisions:?}");
 }
 
 #[test]
