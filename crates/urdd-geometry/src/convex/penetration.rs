@@ -3,8 +3,7 @@
 //! The expanding polytope algorithm (G. van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game
 //! Objects, Game Developers Conference 2001): a polytope of vertices of the Minkowski difference grows by the farthest
 //! vertex beyond its face that is nearest to the origin. Here it is the exact hull of these vertices, computed anew in
-//! each step, so that thin shapes and parallel faces need no tolerances; and it grows beyond every face that is nearer
-//! than the least depth that is known, so that steps are few.
+//! each step, so that thin shapes and parallel faces need no tolerances.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -55,8 +54,7 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
             // A point or a segment: nothing that is inside.
             return touching(&vertices);
         };
-        let faces = faces(&hull);
-        let face = nearest(&faces)?;
+        let face = nearest_face(&hull)?;
         let (normal, least) = (face.normal, face.distance);
         let next = support(normal);
         let depth = normal.dot(&next[0]);
@@ -77,20 +75,6 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
             break;
         }
         vertices.push(next);
-        let mut most = best.map_or(depth, |best| best.depth);
-        for face in &faces {
-            if face.distance >= most - EXACT || face.normal == normal {
-                continue;
-            }
-            let next = support(face.normal);
-            most = most.min(face.normal.dot(&next[0]));
-            if most < -TOLERANCE {
-                return None;
-            }
-            if !vertices.iter().any(|[v, _]| *v == next[0]) {
-                vertices.push(next);
-            }
-        }
     }
     best
 }
@@ -131,7 +115,9 @@ impl Face {
     }
 }
 
-fn faces(hull: &ConvexHull) -> Vec<Face> {
+/// The face whose plane is nearest to the origin, or farthest on the wrong side of it. Of the triangles of one plane, the
+/// one with the point that is nearest.
+fn nearest_face(hull: &ConvexHull) -> Option<Face> {
     let mesh = hull.mesh();
     let faces = mesh.triangles.iter().filter_map(|triangle| {
         let corners = triangle.map(|k| Vector3::from(mesh.vertices[k as usize]));
@@ -143,15 +129,10 @@ fn faces(hull: &ConvexHull) -> Vec<Face> {
             corners,
         })
     });
-    faces.collect()
-}
-
-/// The face whose plane is nearest to the origin, or farthest on the wrong side of it. Of the triangles of one plane, the
-/// one with the point that is nearest.
-fn nearest(faces: &[Face]) -> Option<&Face> {
+    let faces: Vec<Face> = faces.collect();
     let least = faces.iter().map(|face| face.distance);
     let most = least.fold(f64::INFINITY, f64::min) + 0.1 * EXACT;
-    let nearest = faces.iter().filter(|face| face.distance <= most);
+    let nearest = faces.into_iter().filter(|face| face.distance <= most);
     nearest.max_by(|a, b| a.inside().total_cmp(&b.inside()))
 }
 
