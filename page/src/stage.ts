@@ -186,6 +186,8 @@ export class Stage {
       ],
       (state) => this.dress(state),
     );
+    // What a colour changes casts the same shadow.
+    store.on(["layers", "hidden", "overlays", "pair", "tab", "faults"], () => this.view.castShadows());
     store.on(["overlays", "frameSize", "selected", "robot", "units"], (state) => this.over(state));
     store.on(["proximity", "pair", "tab", "units"], (state) => {
       const { answer } = state.proximity;
@@ -325,7 +327,6 @@ export class Stage {
   private dress(state: State): void {
     if (!state.robot || !this.scene) return;
     this.scene.show(drawnLayers(state), state.hidden, state.overlays.wireframe, looks(state));
-    this.view.castShadows();
     this.view.invalidate();
   }
 

@@ -1,8 +1,10 @@
 //! Obstacles and attached objects in JSON.
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::Isometry3;
 use serde::Deserialize;
 use urdd_robot::{Obstacle, Proximity, World};
+
+use crate::pose::pose;
 
 /// A body: `{"name": "shelf", "position": [0, 0, 1], "box": {"half_extents": [1, 0.2, 0.02]}}`. Metres.
 #[derive(Clone, PartialEq, Deserialize)]
@@ -67,13 +69,7 @@ impl Body {
     }
 
     fn pose(&self) -> Result<Isometry3<f64>, String> {
-        let [w, x, y, z] = self.quaternion_wxyz;
-        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
-        let turn = turn.ok_or("`quaternion_wxyz` is not a rotation")?;
-        Ok(Isometry3::from_parts(
-            Translation3::from(self.position),
-            turn,
-        ))
+        pose(self.position, self.quaternion_wxyz)
     }
 
     /// Whether another body is the same, elsewhere.

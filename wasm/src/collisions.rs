@@ -53,8 +53,15 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(pair).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge { start, end, .. } => {
-                shapes.blocked_edge(start, end, &self.settings())?.into()
+            About::BlockedEdge {
+                start,
+                end,
+                margin,
+                resolution,
+            } => {
+                let (margin, resolution) = (*margin, *resolution);
+                let settings = EdgeSettings { margin, resolution };
+                shapes.blocked_edge(start, end, &settings)?.into()
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
@@ -72,8 +79,15 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(to_obstacle).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge { start, end, .. } => {
-                shapes.blocked_edge(start, end, &self.settings())?.into()
+            About::BlockedEdge {
+                start,
+                end,
+                margin,
+                resolution,
+            } => {
+                let (margin, resolution) = (*margin, *resolution);
+                let settings = EdgeSettings { margin, resolution };
+                shapes.blocked_edge(start, end, &settings)?.into()
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
@@ -83,18 +97,6 @@ impl About {
             }
             About::Penetrations { q } => overlaps(shapes.penetrations(q)?, to_obstacle),
         })
-    }
-
-    fn settings(&self) -> EdgeSettings {
-        match self {
-            About::BlockedEdge {
-                margin, resolution, ..
-            } => EdgeSettings {
-                margin: *margin,
-                resolution: *resolution,
-            },
-            _ => EdgeSettings::default(),
-        }
     }
 }
 

@@ -1,11 +1,11 @@
 //! Inverse kinematics queries in JSON.
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{InverseSettings, Proximity, Robot, Target, Verdict};
 
 use crate::kind::Kind;
+use crate::pose::pose;
 
 /// Searches from `q` for a configuration in which a point of a link is at a position, and the link has a rotation, if
 /// given.
@@ -40,12 +40,7 @@ impl InverseQuestion {
     pub fn solve(&self, robot: &Robot, free_of: Option<&Proximity>) -> Result<Value, String> {
         let target = match self.quaternion_wxyz {
             None => Target::position(self.link, self.position),
-            Some([w, x, y, z]) => {
-                let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9);
-                let turn = turn.ok_or("`quaternion_wxyz` is not a rotation")?;
-                let pose = Isometry3::from_parts(Translation3::from(self.position), turn);
-                Target::pose(self.link, pose)
-            }
+            Some(quaternion) => Target::pose(self.link, pose(self.position, quaternion)?),
         };
         let settings = InverseSettings {
             restarts: self.restarts,

@@ -17,6 +17,7 @@ mod memory;
 mod mesh;
 mod model;
 mod pairs;
+mod pose;
 #[cfg(target_arch = "wasm32")]
 mod random;
 mod robot;
