@@ -69,6 +69,7 @@ impl Bounds {
 impl Mesh {
     /// The positions of a triangle's vertices.
     #[must_use]
+    #[inline]
     pub fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|index| self.vertices[index as usize])
     }

@@ -56,8 +56,3 @@ pub fn from_isometry(isometry: &Isometry3<f64>) -> Pose {
         quaternion_wxyz: [q.w, q.i, q.j, q.k],
     }
 }
-
-/// Distance between the origins of two frames, metres.
-pub fn position_distance(a: &Isometry3<f64>, b: &Isometry3<f64>) -> f64 {
-    (a.translation.vector - b.translation.vector).norm()
-}

@@ -97,11 +97,6 @@ impl Context {
         self.cancellation.is_cancelled()
     }
 
-    /// Whether sampled data is checked completely.
-    pub fn is_deep(&self) -> bool {
-        self.deep
-    }
-
     /// The loaded URDD.
     pub fn urdd(&self) -> &Urdd {
         &self.urdd

@@ -66,7 +66,8 @@ mod two_robots;
 mod unverified;
 #[doc(hidden)]
 pub mod urdf_text;
-mod views;
+#[doc(hidden)]
+pub mod views;
 mod worst;
 
 pub use examined::Examined;

@@ -260,7 +260,7 @@ fn robots_that_are_too_large_go_without() {
 fn a_robot_of_ours_with_lengths_turns_and_mimics() {
     let folder = testkit::temporary::folder();
     let made = folder.path().join("made");
-    let outcome = make(&robot("hand.urdf"), &made, &with(LEAST));
+    let outcome = make(&robot("scaled_parts.urdf"), &made, &with(LEAST));
     assert_eq!(findings_of(&made), []);
     let refused = outcome
         .notes

@@ -307,6 +307,7 @@ impl Goal<'_> {
 }
 
 /// The sphere with the smallest signed distance to a point, and that distance: negative inside.
+#[inline]
 pub(super) fn nearest(own: &[super::model::Sphere], p: Point) -> Option<(usize, f64)> {
     let each = own.iter().map(|sphere| sphere.to(p)).enumerate();
     each.min_by(|a, b| a.1.total_cmp(&b.1))

@@ -12,6 +12,7 @@ pub(super) struct Sphere {
 
 impl Sphere {
     /// Signed distance of a point; negative inside.
+    #[inline]
     pub fn to(&self, p: Point) -> f64 {
         norm(sub(p, self.centre)) - self.radius
     }

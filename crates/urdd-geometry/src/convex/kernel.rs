@@ -25,96 +25,118 @@ pub fn distance<T: Shape>(a: &T, b: &T, b_in_a: &Isometry3<f64>) -> f64 {
 }
 
 mod sealed {
-    use super::{Level, PoseLanes, Simd, dispatch};
+    use super::{Level, PoseLanes};
 
     pub trait Distances: Sized {
         /// The distance in each sample, in order. In place of one in the range `within`, any number in it. The length
         /// of `distances` is a multiple of the lane count.
-        fn distances_in<S: Simd>(
-            simd: S,
-            pair: [&Self; 2],
-            poses: &PoseLanes,
-            within: [f64; 2],
-            distances: &mut [f64],
-        );
-
+        ///
+        /// A function of each shape, and none of the trait: a kernel is compiled here, and not in each crate that asks.
         fn distances(
             level: Level,
             pair: [&Self; 2],
             poses: &PoseLanes,
             within: [f64; 2],
             distances: &mut [f64],
-        ) {
-            dispatch!(level, simd => Self::distances_in(simd, pair, poses, within, distances));
-        }
+        );
     }
 }
 
 impl sealed::Distances for ConvexShape {
-    #[inline(always)]
-    fn distances_in<S: Simd>(
-        simd: S,
-        [a, b]: [&Self; 2],
+    fn distances(
+        level: Level,
+        pair: [&Self; 2],
         poses: &PoseLanes,
         within: [f64; 2],
         distances: &mut [f64],
     ) {
-        let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
-        for (at, out) in groups(distances) {
-            let mut pose = poses.load(simd, at);
-            pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
-            let lanes = gjk::first_lanes(poses.num_samples() - at);
-            out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
-        }
+        dispatch!(level, simd => hulls(simd, pair, poses, within, distances));
+    }
+}
+
+#[inline(always)]
+fn hulls<S: Simd>(
+    simd: S,
+    [a, b]: [&ConvexShape; 2],
+    poses: &PoseLanes,
+    within: [f64; 2],
+    distances: &mut [f64],
+) {
+    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+    for (at, out) in groups(distances) {
+        let mut pose = poses.load(simd, at);
+        pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
+        let lanes = gjk::first_lanes(poses.num_samples() - at);
+        out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
     }
 }
 
 impl sealed::Distances for OrientedBox {
-    #[inline(always)]
-    fn distances_in<S: Simd>(
-        simd: S,
-        [a, b]: [&Self; 2],
+    fn distances(
+        level: Level,
+        pair: [&Self; 2],
         poses: &PoseLanes,
         within: [f64; 2],
         distances: &mut [f64],
     ) {
-        let frame = |shape: &Self| Pose::same(simd, &columns(&shape.pose));
-        let (frame_a, frame_b) = (frame(a), frame(b));
-        for (at, out) in groups(distances) {
-            let pose = poses.load(simd, at);
-            let shift = pose.shift + pose.rotate(frame_b.shift) - frame_a.shift;
-            let pose = Pose {
-                columns: [
-                    frame_a.rotate_back(pose.rotate(frame_b.columns[0])),
-                    frame_a.rotate_back(pose.rotate(frame_b.columns[1])),
-                    frame_a.rotate_back(pose.rotate(frame_b.columns[2])),
-                ],
-                shift: frame_a.rotate_back(shift),
-            };
-            let lanes = gjk::first_lanes(poses.num_samples() - at);
-            out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
-        }
+        dispatch!(level, simd => boxes(simd, pair, poses, within, distances));
+    }
+}
+
+#[inline(always)]
+fn boxes<S: Simd>(
+    simd: S,
+    [a, b]: [&OrientedBox; 2],
+    poses: &PoseLanes,
+    within: [f64; 2],
+    distances: &mut [f64],
+) {
+    let frame = |shape: &OrientedBox| Pose::same(simd, &columns(&shape.pose));
+    let (frame_a, frame_b) = (frame(a), frame(b));
+    for (at, out) in groups(distances) {
+        let pose = poses.load(simd, at);
+        let shift = pose.shift + pose.rotate(frame_b.shift) - frame_a.shift;
+        let pose = Pose {
+            columns: [
+                frame_a.rotate_back(pose.rotate(frame_b.columns[0])),
+                frame_a.rotate_back(pose.rotate(frame_b.columns[1])),
+                frame_a.rotate_back(pose.rotate(frame_b.columns[2])),
+            ],
+            shift: frame_a.rotate_back(shift),
+        };
+        let lanes = gjk::first_lanes(poses.num_samples() - at);
+        out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
     }
 }
 
 impl sealed::Distances for Sphere {
-    #[inline(always)]
-    fn distances_in<S: Simd>(
-        simd: S,
-        [a, b]: [&Self; 2],
+    fn distances(
+        level: Level,
+        pair: [&Self; 2],
         poses: &PoseLanes,
-        _within: [f64; 2],
+        within: [f64; 2],
         distances: &mut [f64],
     ) {
-        let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
-        let radii = splat(simd, a.radius + b.radius);
-        let zero = splat(simd, 0.0);
-        for (at, out) in groups(distances) {
-            let pose = poses.load(simd, at);
-            let between = pose.shift + pose.rotate(centre_b) - centre_a;
-            let gap = between.dot(between).sqrt() - radii;
-            out.copy_from_slice(&select(gap.simd_gt(zero), gap, zero).to_array());
-        }
+        dispatch!(level, simd => spheres(simd, pair, poses, within, distances));
+    }
+}
+
+#[inline(always)]
+fn spheres<S: Simd>(
+    simd: S,
+    [a, b]: [&Sphere; 2],
+    poses: &PoseLanes,
+    _within: [f64; 2],
+    distances: &mut [f64],
+) {
+    let (centre_a, centre_b) = (Vec3::splat(simd, a.centre), Vec3::splat(simd, b.centre));
+    let radii = splat(simd, a.radius + b.radius);
+    let zero = splat(simd, 0.0);
+    for (at, out) in groups(distances) {
+        let pose = poses.load(simd, at);
+        let between = pose.shift + pose.rotate(centre_b) - centre_a;
+        let gap = between.dot(between).sqrt() - radii;
+        out.copy_from_slice(&select(gap.simd_gt(zero), gap, zero).to_array());
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 use urdd_format::pose::Pose;
-use urdd_kinematics::pose::{PoseError, from_isometry, position_distance, to_isometry};
+use urdd_kinematics::pose::{PoseError, from_isometry, to_isometry};
 use urdd_kinematics::rotation::*;
 
 use crate::naive_kinematics::rpy as naive_rpy;
@@ -129,11 +129,6 @@ fn distances() {
         rotation_distance(&a, &quaternion([-a.w, -a.i, -a.j, -a.k])),
         0.0
     );
-    let (p, q) = (
-        Isometry3::translation(1.0, 2.0, 3.0),
-        Isometry3::translation(1.0, 5.0, 7.0),
-    );
-    assert_eq!(position_distance(&p, &q), 5.0);
 }
 
 proptest! {

@@ -3,8 +3,6 @@
 //! recurses, because a chain may be as long as the file.
 
 mod motion;
-#[cfg(test)]
-mod tests;
 
 use std::collections::HashMap;
 

@@ -27,6 +27,3 @@ pub fn read(text: &str) -> Reading {
         },
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use testkit::core_modules::{Joint, chain_of, core_modules, dof_count};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::pose::Pose;
-use urdd_kinematics::pose::{position_distance, to_isometry};
+use urdd_kinematics::pose::to_isometry;
 use urdd_kinematics::rotation::{rotation_distance, to_rotation_vector, uniform_rotation};
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics, unit};
 use urdd_validate::reference::{MimicDofs, Reference};
@@ -129,7 +129,7 @@ fn compare_poses(
             configuration.label
         );
         let (position, rotation) = (
-            position_distance(found, &expected),
+            (found.translation.vector - expected.translation.vector).norm(),
             rotation_distance(&found.rotation, &expected.rotation),
         );
         assert!(position < TOLERANCE, "{place}: {position:e} m off");

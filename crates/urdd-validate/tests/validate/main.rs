@@ -6,8 +6,11 @@
 
 mod core_rules_random;
 mod corpus;
+mod extension_schema;
 mod kinematics_figures;
 mod no_crash;
+mod reference;
 mod shape_rules_random;
 mod soundness;
 mod undeclared_need;
+mod urdf_text;

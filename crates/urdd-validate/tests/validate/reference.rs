@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use nalgebra::Vector3;
 
-use super::{MimicDofs, Reference};
-use crate::urdf_text;
+use urdd_validate::reference::{MimicDofs, Reference};
+use urdd_validate::urdf_text;
 
 fn reference(urdf: &str) -> Reference {
     let reading = urdf_text::read(urdf);

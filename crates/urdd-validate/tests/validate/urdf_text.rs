@@ -1,6 +1,8 @@
-use super::*;
+//! The small reader of the carried URDF: what is absent stays absent, and each fault has its place.
+
 use urdd_directory::position::LineIndex;
 use urdd_format::urdf::{Geometry, JointType};
+use urdd_validate::urdf_text::{Fault, Reading, as_legacy, read};
 
 fn robot(inside: &str) -> Reading {
     read(&format!("<robot name=\"r\">{inside}</robot>"))
