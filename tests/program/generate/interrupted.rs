@@ -104,7 +104,8 @@ fn a_killed_run_leaves_the_old_and_the_next_one_tidies_up() {
 
 #[test]
 fn what_is_read_only_in_a_left_over_goes_too() {
-    let (folder, source) = workshop(2);
+    // A robot of two links is made while the test sleeps.
+    let (folder, source) = workshop(12);
     let target = folder.path().join("out");
     let mut child = start(&source, &target);
     wait_for_work(folder.path());
