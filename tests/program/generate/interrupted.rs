@@ -48,10 +48,10 @@ fn hidden(folder: &Path) -> Vec<String> {
     names.filter(|name| name.starts_with('.')).collect()
 }
 
-/// Waits until a folder contains a hidden entry: the run has begun.
+/// Waits until a folder contains two hidden entries, the lock and the staging folder: the run has begun.
 fn wait_for_work(folder: &Path) {
     let begun = Instant::now();
-    while !hidden(folder).iter().any(|name| !name.contains('.')) && hidden(folder).len() < 2 {
+    while hidden(folder).len() < 2 {
         assert!(begun.elapsed() < Duration::from_secs(60), "it never began");
         std::thread::sleep(Duration::from_millis(2));
     }
