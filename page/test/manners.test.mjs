@@ -92,19 +92,22 @@ inPage(
   async (page) => {
     await open(page, "dark");
     await page.getByRole("button", { name: "Sweep turn" }).click();
+    // By the times that pictures have, which the sweep goes by, so that a busy machine makes no difference: in a
+    // picture the sweep's step comes first, as it was asked for first.
     const fastest = await page.evaluate(async () => {
-      const { store } = globalThis.urdd.app;
-      let [fastest, before] = [0, { q: store.now.q[0], time: performance.now() }];
-      for (let k = 0; k < 20; k++) {
-        await new Promise((resolve) => setTimeout(resolve, 100));
-        const now = { q: store.now.q[0], time: performance.now() };
+      const look = () =>
+        new Promise((resolve) =>
+          requestAnimationFrame((time) => resolve({ q: globalThis.urdd.app.store.now.q[0], time })),
+        );
+      let [fastest, before] = [0, await look()];
+      for (const end = before.time + 2000; before.time < end;) {
+        const now = await look();
         fastest = Math.max(fastest, (1000 * Math.abs(now.q - before.q)) / (now.time - before.time));
         before = now;
       }
       return fastest;
     });
-    // A picture more or less in a step of 100 ms, on a machine that is busy.
-    assert.ok(fastest > 0.1 && fastest < 2 * (Math.PI / 4), String(fastest));
+    assert.ok(fastest > 0.1 && fastest < (Math.PI / 4) * 1.001, String(fastest));
     await page.getByRole("button", { name: "Sweep turn" }).click();
     const q = await state(page, "q");
     await page.waitForTimeout(300);
