@@ -64,6 +64,49 @@ fn the_wall_between_generate_and_validate_stands() {
     }
 }
 
+/// A manifest may say that a library has no tests, or no examples, so that it is not compiled, or read, for none.
+#[test]
+fn no_test_and_no_example_is_left_out() {
+    let mut without = 0;
+    for folder in sources() {
+        let manifest = folder.with_file_name("Cargo.toml");
+        let text = fs::read_to_string(&manifest).expect("a manifest");
+        for (file, source) in rust_files(&folder) {
+            for (line, holds) in [
+                ("test = false", source.contains("#[cfg(test)]")),
+                ("doctest = false", has_example(&source)),
+            ] {
+                let says = text.lines().any(|of| of == line);
+                without += usize::from(says);
+                assert!(
+                    !(says && holds),
+                    "{} would not run: delete `{line}` from {}",
+                    file.display(),
+                    manifest.display()
+                );
+            }
+        }
+    }
+    assert!(without > 50, "{without}: another form");
+}
+
+/// Whether Rust's documentation in a source has an example that is compiled.
+fn has_example(source: &str) -> bool {
+    let documentation = source.lines().filter_map(|line| {
+        let line = line.trim_start();
+        line.strip_prefix("///")
+            .or_else(|| line.strip_prefix("//!"))
+    });
+    let fences = documentation.filter_map(|line| line.trim_start().strip_prefix("```"));
+    // Every second one ends a block.
+    fences.step_by(2).any(|words| {
+        words.is_empty()
+            || ["rust", "no_run", "should_panic", "compile_fail"]
+                .iter()
+                .any(|word| words.starts_with(word))
+    })
+}
+
 #[test]
 fn files_stay_small() {
     let rules = rules_folder();

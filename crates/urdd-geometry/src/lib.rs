@@ -7,13 +7,16 @@
 //! - [`primitives`] tessellates box, cylinder, sphere and capsule.
 //! - [`hull`] computes convex hulls. [`oriented_box`] and [`bounding_sphere`] fit minimum-volume boxes and spheres.
 //!   [`decompose`](mod@decompose) splits a mesh into convex pieces.
-//! - [`farthest`] measures the extent from the origin. [`convex`] measures distances between convex shapes.
+//! - [`surface`] compares two meshes, whatever the order of their triangles.
+//! - [`farthest`] measures the extent from the origin. [`convex`] measures distances between convex shapes, and
+//!   [`half_spaces`] those of points from the planes of a body's faces.
 
 pub mod bounding_sphere;
 pub mod clean;
 pub mod convex;
 pub mod decompose;
 pub mod farthest;
+pub mod half_spaces;
 pub mod hull;
 pub mod levels;
 pub mod mesh;
@@ -21,6 +24,7 @@ pub mod oriented_box;
 mod polygon;
 pub mod primitives;
 pub mod read;
+pub mod surface;
 pub mod vector;
 pub mod write;
 

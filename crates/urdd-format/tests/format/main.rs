@@ -4,7 +4,12 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod annotations;
+mod escape;
 mod mutate;
+mod rate;
+mod readable;
+mod skips;
 
 use std::cell::Cell;
 

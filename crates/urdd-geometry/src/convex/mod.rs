@@ -26,7 +26,7 @@ pub use bodies::BodyPairs;
 pub use fearless_simd::Level;
 pub use gjk::TOLERANCE;
 pub use kernel::{Shape, distance};
-pub use motion::{Motion, MotionError};
+pub use motion::{Motion, MotionError, PoseLanes};
 pub use penetration::{Penetration, penetration};
 pub use shape::{ConvexShape, OrientedBox, ShapeError, Sphere};
 pub use statistics::{

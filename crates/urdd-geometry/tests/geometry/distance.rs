@@ -224,6 +224,36 @@ fn many_vertices() {
     );
 }
 
+/// A blunt dome with a keel, across a cone's tip on the dome's axis. The vertices that the descent meets, the axis and
+/// the origin lie in one plane, so that a simplex has no volume but for rounding.
+#[test]
+fn what_lies_on_one_axis_is_as_far_as_it_is() {
+    const SIDES: u32 = 24;
+    let at = |side: u32, x: f64, radius: f64| {
+        let angle = std::f64::consts::TAU * f64::from(side) / f64::from(SIDES);
+        [x, radius * angle.cos(), radius * angle.sin()]
+    };
+    let shape = |points: Vec<[f64; 3]>| ConvexShape::of_points(&points).expect("a shape");
+    let base = (0..SIDES).map(|side| at(side, 0.1, 0.05));
+    let tip = shape(base.chain([[0.0; 3]]).collect());
+    for keel in 0..SIDES {
+        let rings = (1..=12).map(|k| 0.005 * f64::from(k));
+        let cap = rings.flat_map(|r| (0..SIDES).map(move |side| at(side, 25e-6 - r * r, r)));
+        let dome = shape(cap.chain([at(keel, -0.1, 0.15)]).collect());
+        for k in 0..5_000 {
+            let x = f64::from(k);
+            let placed = |at: f64, angle: f64| {
+                let turn = UnitQuaternion::from_euler_angles(angle, 0.0, 0.0);
+                Isometry3::from_parts(Translation3::new(at, 0.051, 0.0), turn)
+            };
+            let [p, q] = [(1.1 * x).sin(), (0.37 * x + 0.3).sin()];
+            let pose = placed(-0.09, 1.2 * p).inv_mul(&placed(0.24, 1.2 * q));
+            let found = distance(&dome, &tip, &pose);
+            assert!((found - 0.33).abs() < 1e-9, "{keel}, {k}: {found}");
+        }
+    }
+}
+
 #[test]
 fn boxes_and_spheres() {
     let pose = |x, y, z| Isometry3::from_parts(Translation3::new(x, y, z), turn(0.0, 0.0, 0.0));

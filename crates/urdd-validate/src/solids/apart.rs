@@ -2,9 +2,9 @@
 
 use urdd_geometry::Mesh;
 
-use super::surface::is_thin;
+use urdd_geometry::surface::is_thin;
 
-/// Whether [`surface::difference`](super::surface::difference) is certain to find a triangle of `expected` missing in
+/// Whether [`surface::difference`](urdd_geometry::surface::difference) is certain to find a triangle of `expected` missing in
 /// `found`. Looks at a few triangles only, so false says nothing.
 pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
     const TRIANGLES: usize = 3;
@@ -26,9 +26,9 @@ pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::surface::{Likeness, difference};
     use super::*;
     use urdd_geometry::primitives::cuboid;
+    use urdd_geometry::surface::{Likeness, difference};
 
     #[test]
     fn only_different_surfaces_are_apart() {

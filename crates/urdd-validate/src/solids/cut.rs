@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use nalgebra::Vector3;
 
 use super::expected::Expected;
-use super::surface::{self, Matching, is_thin};
 use crate::tolerance::placing_resolution;
 use urdd_geometry::Mesh;
+use urdd_geometry::surface::{self, Matching, is_thin};
 
 /// Maximum number of triangles and pairs of edges that are looked at, for all faces of a link.
 const MAX_WORK: usize = 500_000_000;

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use super::file::{self, MeshFault};
 use super::glb_header::{HEADER, header_fault};
 use super::stl_records;
-use super::surface::{self, Difference, Likeness};
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::Meshes;
@@ -16,6 +15,7 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Format as Content;
+use urdd_geometry::surface::{self, Difference, Likeness};
 
 /// A mesh of a link, or one of its pieces.
 #[derive(Debug)]

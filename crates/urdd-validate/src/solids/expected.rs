@@ -4,7 +4,6 @@
 use nalgebra::Vector3;
 
 use super::primitive::Primitive;
-use super::surface::extent;
 use urdd_document::robot::{Element, Link};
 use urdd_document::urdd::Urdd;
 use urdd_document::usable_geometry::UsableGeometry;
@@ -13,6 +12,7 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::urdf::Geometry;
 use urdd_geometry::Mesh;
 use urdd_geometry::mesh::placement;
+use urdd_geometry::surface::extent;
 
 /// The surface of a link by its source.
 #[derive(Debug, Default)]

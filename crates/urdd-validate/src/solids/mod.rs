@@ -7,17 +7,16 @@ mod apart;
 mod cut;
 pub mod dents;
 pub mod derived;
+pub mod difference;
 pub mod expected;
 pub mod file;
 pub mod glb_header;
-mod half_spaces;
 pub mod original;
 pub mod placed;
 pub mod polytope;
 
 pub mod primitive;
 pub mod stl_records;
-pub mod surface;
 
 use std::collections::HashMap;
 use std::hash::{BuildHasher, RandomState};

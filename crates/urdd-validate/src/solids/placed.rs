@@ -6,10 +6,10 @@ use super::Solids;
 use super::apart::are_apart;
 use super::cut;
 use super::derived::Derived;
+use super::difference;
 use super::expected::{self, Expected};
 use super::original;
 use super::polytope::step;
-use super::surface::{self, Difference, Likeness};
 use crate::finding::point;
 use crate::part::Why;
 use crate::tolerance::{PRIMITIVE_AREA, PRIMITIVE_SAG, placing_resolution};
@@ -19,6 +19,7 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
+use urdd_geometry::surface::{self, Difference, Likeness};
 
 /// A link with a wrong mesh.
 #[derive(Debug)]
@@ -128,7 +129,7 @@ fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
-    let told = |difference: &Difference| Some((difference.in_words(), tolerance));
+    let told = |found: &Difference| Some((difference::in_words(found), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
         return told(&difference);
     }

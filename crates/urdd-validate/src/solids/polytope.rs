@@ -4,11 +4,11 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::half_spaces::{HalfSpace, HalfSpaces};
-use super::surface::is_thin;
 use crate::tolerance::mesh_resolution;
 use urdd_geometry::Mesh;
+use urdd_geometry::half_spaces::{HalfSpace, HalfSpaces};
 use urdd_geometry::mesh::Bounds;
+use urdd_geometry::surface::is_thin;
 
 /// The half-spaces of a mesh's faces.
 #[derive(Debug)]

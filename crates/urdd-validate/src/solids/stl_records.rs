@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::surface::is_thin;
 use crate::tolerance::{STL_NORMAL, mesh_resolution};
+use urdd_geometry::surface::is_thin;
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;

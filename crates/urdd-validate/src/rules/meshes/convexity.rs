@@ -6,7 +6,7 @@ use crate::rules::prelude::*;
 use crate::solids::dents::{Dents, dents};
 use crate::solids::derived::{Derived, noun};
 use crate::solids::polytope::{NotConvex, not_convex};
-use crate::solids::surface::extent;
+use urdd_geometry::surface::extent;
 
 /// Reports every mesh of a module that is not the closed surface of a convex body.
 pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> Option<()> {

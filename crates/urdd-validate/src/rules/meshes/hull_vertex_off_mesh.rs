@@ -6,8 +6,8 @@ use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{bits, distinct};
-use crate::solids::surface::{extent, nearest};
 use urdd_geometry::Mesh;
+use urdd_geometry::surface::{extent, nearest};
 
 declare_rule! {
     /// A vertex of a convex hull is not a vertex of its link's mesh.

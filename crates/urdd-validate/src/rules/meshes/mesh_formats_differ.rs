@@ -1,6 +1,7 @@
 use crate::rules::prelude::*;
 use crate::solids::derived::noun;
-use crate::solids::surface::extent;
+use crate::solids::difference::in_words;
+use urdd_geometry::surface::extent;
 
 declare_rule! {
     /// The files of one mesh hold different surfaces.
@@ -33,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "this is not the same {} of {} as `{first}`: {}",
                     noun(kind),
                     context.link_label(mesh.link),
-                    difference.in_words()
+                    in_words(difference)
                 );
                 Finding::of(module, &file.pointer, message)
                     .expected(format!("the {triangles} triangles of `{first}`"))

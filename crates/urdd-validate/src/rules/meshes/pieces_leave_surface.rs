@@ -6,9 +6,9 @@ use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
-use crate::solids::surface::extent;
 use crate::views::judged::judged;
 use urdd_geometry::Mesh;
+use urdd_geometry::surface::extent;
 
 declare_rule! {
     /// The convex pieces of a link leave out a part of its surface.

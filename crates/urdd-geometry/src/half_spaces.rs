@@ -13,6 +13,7 @@ const WIDTH: usize = 8;
 pub struct HalfSpace {
     /// Outward normal of unit length.
     pub normal: [f64; 3],
+    /// Distance of the plane from the origin along the normal, m.
     pub offset: f64,
     /// How far outside a point of a convex body may appear, m: the corners of a face are known to the resolution, and
     /// the resulting tilt of its plane grows with the distance from a thin face.
@@ -53,6 +54,8 @@ impl HalfSpaces {
         })
     }
 
+    /// Their number.
+    #[expect(clippy::len_without_is_empty, reason = "it is not empty")]
     pub fn len(&self) -> usize {
         self.len
     }
@@ -154,7 +157,7 @@ fn hold<S: Simd>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use urdd_geometry::levels::levels;
+    use crate::levels::levels;
 
     #[test]
     fn each_instruction_set_finds_what_the_plain_loop_finds() {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use urdd_geometry::Mesh;
+use crate::Mesh;
 
 /// How equal two meshes must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,33 +33,6 @@ impl Difference {
     /// Whether there is none.
     fn is_none(&self) -> bool {
         self.missing == 0 && self.extra.is_empty() && self.turned == 0
-    }
-
-    /// The difference in words.
-    pub fn in_words(&self) -> String {
-        let mut parts = Vec::new();
-        let count = |n: usize, what: &str| match n {
-            1 => format!("1 triangle {what}"),
-            n => format!("{n} triangles {what}"),
-        };
-        if self.missing > 0 {
-            parts.push(count(self.missing, "missing"));
-        }
-        if !self.extra.is_empty() {
-            parts.push(count(self.extra.len(), "too many"));
-        }
-        if self.turned > 0 {
-            parts.push(count(self.turned, "turned round"));
-        }
-        let mut text = parts.join(", ");
-        if self.distance > 0.0 {
-            text.push_str(&format!(
-                ", corners {} apart",
-                urdd_format::readable::metres(self.distance)
-            ));
-        }
-        text.push_str(&format!(", first at {}", crate::finding::point(self.place)));
-        text
     }
 }
 
@@ -118,18 +91,19 @@ pub fn is_thin(corners: [[f64; 3]; 3], tolerance: f64) -> bool {
 }
 
 /// The corners of two meshes, with those within the tolerance merged.
-pub(super) struct Matching<'a> {
+pub struct Matching<'a> {
     meshes: [&'a Mesh; 2],
     tolerance: f64,
     /// For each vertex of each mesh, the index of its merged point.
-    pub(super) places: [Vec<u32>; 2],
+    pub places: [Vec<u32>; 2],
 }
 
 /// Triangles on the same three points: their number in each mesh, by orientation.
 type Count = [[u32; 2]; 2];
 
 impl<'a> Matching<'a> {
-    pub(super) fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
+    /// Merges the corners of the two meshes.
+    pub fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
         let meshes = [expected, actual];
         let points: Vec<[f64; 3]> = meshes
             .iter()
@@ -326,84 +300,5 @@ impl Joined {
         let (a, b) = (self.root(a), self.root(b));
         // The lower index stays, so that the result does not depend on the order of merging.
         self.0[a.max(b)] = a.min(b) as u32;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_geometry::primitives::cuboid;
-
-    const TOLERANCE: f64 = 1e-6;
-
-    fn compare(a: &Mesh, b: &Mesh) -> Option<Difference> {
-        difference(a, b, TOLERANCE, Likeness::SameTriangles)
-    }
-
-    /// The triangles in reverse order, each with another first corner, without shared vertices.
-    fn shuffled(mesh: &Mesh) -> Mesh {
-        let mut other = Mesh::default();
-        for triangle in mesh.triangles.iter().rev() {
-            let [a, b, c] = mesh.corners(*triangle);
-            let first = other.vertices.len() as u32;
-            other.vertices.extend([b, c, a]);
-            other.triangles.push([first, first + 1, first + 2]);
-        }
-        other
-    }
-
-    #[test]
-    fn order_and_shared_vertices_do_not_matter() {
-        let mesh = cuboid([1.0, 2.0, 3.0]);
-        assert_eq!(compare(&mesh, &mesh), None);
-        assert_eq!(compare(&mesh, &shuffled(&mesh)), None);
-    }
-
-    #[test]
-    fn a_moved_corner_is_told_with_its_distance() {
-        let mesh = cuboid([1.0, 2.0, 3.0]);
-        let mut near = shuffled(&mesh);
-        near.vertices[4][1] += 0.9 * TOLERANCE;
-        assert_eq!(compare(&mesh, &near), None);
-        let mut far = mesh.clone();
-        far.vertices[7][2] += 0.25;
-        let found = compare(&mesh, &far).expect("a difference");
-        assert!(found.missing > 0 && found.missing == found.extra.len());
-        assert!((found.distance - 0.25).abs() < 1e-12, "{found:?}");
-    }
-
-    #[test]
-    fn a_triangle_too_many_too_few_or_turned_round_is_told() {
-        let mesh = cuboid([1.0, 2.0, 3.0]);
-        let mut fewer = mesh.clone();
-        fewer.triangles.pop();
-        let found = compare(&mesh, &fewer).expect("a difference");
-        assert_eq!((found.missing, found.extra.len(), found.turned), (1, 0, 0));
-        let mut more = shuffled(&mesh);
-        more.triangles.push(more.triangles[3]);
-        let found = compare(&mesh, &more).expect("a difference");
-        assert_eq!((found.missing, found.extra.len(), found.turned), (0, 1, 0));
-        assert_eq!(
-            difference(&mesh, &more, TOLERANCE, Likeness::SameSurface),
-            None
-        );
-        let mut turned = shuffled(&mesh);
-        turned.triangles[5].swap(0, 1);
-        let found = compare(&mesh, &turned).expect("a difference");
-        assert_eq!((found.missing, found.extra.len(), found.turned), (0, 0, 1));
-        let found = difference(&mesh, &turned, TOLERANCE, Likeness::SameSurface);
-        assert_eq!(found.expect("a difference").turned, 1);
-    }
-
-    #[test]
-    fn triangles_without_an_area_count_for_nothing() {
-        let mesh = cuboid([1.0, 2.0, 3.0]);
-        let mut more = shuffled(&mesh);
-        let first = more.vertices.len() as u32;
-        more.vertices
-            .extend([[5.0, 5.0, 5.0], [5.0, 5.0, 6.0], [5.0, 5.0, 7.0]]);
-        more.triangles.push([first, first + 1, first + 2]);
-        assert_eq!(compare(&mesh, &more), None);
-        assert_eq!(compare(&more, &mesh), None);
     }
 }
