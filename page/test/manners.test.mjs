@@ -97,7 +97,7 @@ inPage(
     const fastest = await page.evaluate(async () => {
       const look = () =>
         new Promise((resolve) =>
-          requestAnimationFrame((time) => resolve({ q: globalThis.urdd.app.store.now.q[0], time })),
+          globalThis.requestAnimationFrame((time) => resolve({ q: globalThis.urdd.app.store.now.q[0], time })),
         );
       let [fastest, before] = [0, await look()];
       for (const end = before.time + 2000; before.time < end;) {

@@ -1,6 +1,6 @@
-//! Whether two meshes are the same surface, in any order of triangles.
+//! Whether two meshes are the same surface, in any order of triangles; the distinct vertices of one, and its open edges.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::Mesh;
 
@@ -114,7 +114,7 @@ impl<'a> Matching<'a> {
         let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(points.len());
         let mut exact: HashMap<[u64; 3], u32> = HashMap::with_capacity(points.len());
         for (at, point) in points.iter().enumerate() {
-            let bits = point.map(|x| (x + 0.0).to_bits());
+            let bits = bits(*point);
             if let Some(same) = exact.get(&bits) {
                 joined.join(*same as usize, at);
                 continue;
@@ -249,8 +249,7 @@ impl<'a> Matching<'a> {
         let mut farthest: Option<([f64; 3], f64)> = None;
         for (which, lost) in lost.iter().enumerate() {
             let other = self.meshes[1 - which];
-            let known: std::collections::HashSet<u32> =
-                self.places[1 - which].iter().copied().collect();
+            let known: HashSet<u32> = self.places[1 - which].iter().copied().collect();
             let corners = lost.iter().flatten().copied();
             let alone: Vec<u32> = corners
                 .filter(|vertex| !known.contains(&self.places[which][*vertex as usize]))
@@ -277,6 +276,57 @@ pub fn nearest(mesh: &Mesh, point: [f64; 3]) -> f64 {
         .map(square)
         .fold(f64::INFINITY, f64::min);
     least.sqrt()
+}
+
+/// The distinct vertices of a mesh's triangles, in order.
+pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
+    let mut seen = HashSet::with_capacity(mesh.vertices.len());
+    // Six triangles share a vertex, whose place is hashed once.
+    let mut used = vec![false; mesh.vertices.len()];
+    let corners = mesh.triangles.as_flattened().iter();
+    let first = corners.filter(|vertex| !std::mem::replace(&mut used[**vertex as usize], true));
+    let places = first.map(|vertex| mesh.vertices[*vertex as usize]);
+    places.filter(|place| seen.insert(bits(*place))).collect()
+}
+
+/// A point as a key.
+pub fn bits(place: [f64; 3]) -> [u64; 3] {
+    // Adding 0 makes -0 equal to 0.
+    place.map(|x| (x + 0.0).to_bits())
+}
+
+/// The middle of an edge that is not used equally often in both directions.
+pub fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
+    let mut places: HashMap<[u64; 3], usize> = HashMap::new();
+    let mut place = |vertex: u32| {
+        let next = places.len();
+        *places
+            .entry(bits(mesh.vertices[vertex as usize]))
+            .or_insert(next)
+    };
+    let triangles: Vec<[usize; 3]> = mesh
+        .triangles
+        .iter()
+        .map(|triangle| triangle.map(&mut place))
+        .filter(|[a, b, c]| a != b && b != c && c != a)
+        .collect();
+    let edges = |[a, b, c]: [usize; 3]| [[a, b], [b, c], [c, a]];
+    let mut balance: HashMap<[usize; 2], i32> = HashMap::new();
+    for [a, b] in triangles.iter().copied().flat_map(edges) {
+        match a < b {
+            true => *balance.entry([a, b]).or_default() += 1,
+            false => *balance.entry([b, a]).or_default() -= 1,
+        }
+    }
+    let open = |[a, b]: &[usize; 2]| balance.get(&[*a.min(b), *a.max(b)]) != Some(&0);
+    let [a, b] = triangles.iter().copied().flat_map(edges).find(open)?;
+    let mut of = vec![[0.0; 3]; places.len()];
+    for vertex in &mesh.vertices {
+        if let Some(at) = places.get(&bits(*vertex)) {
+            of[*at] = *vertex;
+        }
+    }
+    Some(std::array::from_fn(|i| (of[a][i] + of[b][i]) / 2.0))
 }
 
 /// Merges equal elements (union-find).

@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::polytope::{Polytope, distinct, step};
+use super::polytope::{Polytope, step};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::surface::distinct;
 
 /// How a closed surface differs from that of a convex body.
 #[derive(Debug, Clone, Copy, PartialEq)]

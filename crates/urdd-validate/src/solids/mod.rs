@@ -71,9 +71,9 @@ impl Solids {
         let hashes: Vec<u64> = all
             .par_iter()
             .map(|(_, mesh)| {
-                let bits = |vertex: &[f64; 3]| vertex.map(f64::to_bits);
-                let vertices: Vec<[u64; 3]> = mesh.vertices.iter().map(bits).collect();
-                seed.hash_one((vertices, &mesh.triangles))
+                let numbers = mesh.vertices.as_flattened().iter();
+                let bits: Vec<u64> = numbers.map(|x| x.to_bits()).collect();
+                seed.hash_one((bits, mesh.triangles.as_flattened()))
             })
             .collect();
         let mut first: HashMap<u64, (usize, &Mesh)> = HashMap::new();

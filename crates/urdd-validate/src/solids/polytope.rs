@@ -1,14 +1,12 @@
 //! A mesh as the half-spaces of its faces: whether it is the closed surface of a convex body, and what is outside it.
 
-use std::collections::HashMap;
-
 use nalgebra::Vector3;
 
 use crate::tolerance::mesh_resolution;
 use urdd_geometry::Mesh;
 use urdd_geometry::half_spaces::{HalfSpace, HalfSpaces};
 use urdd_geometry::mesh::Bounds;
-use urdd_geometry::surface::is_thin;
+use urdd_geometry::surface::{distinct, is_thin, open_edge};
 
 /// The half-spaces of a mesh's faces.
 #[derive(Debug)]
@@ -117,57 +115,6 @@ pub fn not_convex(mesh: &Mesh) -> Option<NotConvex> {
         _ if inward => Some(NotConvex::Inward),
         (vertex, distance) => Some(NotConvex::Vertex(vertex, distance)),
     }
-}
-
-/// The distinct vertices of a mesh's triangles, in order.
-pub fn distinct(mesh: &Mesh) -> Vec<[f64; 3]> {
-    let mut seen = std::collections::HashSet::with_capacity(mesh.vertices.len());
-    // Six triangles share a vertex, whose place is hashed once.
-    let mut used = vec![false; mesh.vertices.len()];
-    let corners = mesh.triangles.as_flattened().iter();
-    let first = corners.filter(|vertex| !std::mem::replace(&mut used[**vertex as usize], true));
-    let places = first.map(|vertex| mesh.vertices[*vertex as usize]);
-    places.filter(|place| seen.insert(bits(*place))).collect()
-}
-
-/// A point as a key.
-pub fn bits(place: [f64; 3]) -> [u64; 3] {
-    // Adding 0 makes -0 equal to 0.
-    place.map(|x| (x + 0.0).to_bits())
-}
-
-/// The middle of an edge that is not used equally often in both directions.
-fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
-    let mut places: HashMap<[u64; 3], usize> = HashMap::new();
-    let mut place = |vertex: u32| {
-        let next = places.len();
-        *places
-            .entry(bits(mesh.vertices[vertex as usize]))
-            .or_insert(next)
-    };
-    let triangles: Vec<[usize; 3]> = mesh
-        .triangles
-        .iter()
-        .map(|triangle| triangle.map(&mut place))
-        .filter(|[a, b, c]| a != b && b != c && c != a)
-        .collect();
-    let edges = |[a, b, c]: [usize; 3]| [[a, b], [b, c], [c, a]];
-    let mut balance: HashMap<[usize; 2], i32> = HashMap::new();
-    for [a, b] in triangles.iter().copied().flat_map(edges) {
-        match a < b {
-            true => *balance.entry([a, b]).or_default() += 1,
-            false => *balance.entry([b, a]).or_default() -= 1,
-        }
-    }
-    let open = |[a, b]: &[usize; 2]| balance.get(&[*a.min(b), *a.max(b)]) != Some(&0);
-    let [a, b] = triangles.iter().copied().flat_map(edges).find(open)?;
-    let mut of = vec![[0.0; 3]; places.len()];
-    for vertex in &mesh.vertices {
-        if let Some(at) = places.get(&bits(*vertex)) {
-            of[*at] = *vertex;
-        }
-    }
-    Some(std::array::from_fn(|i| (of[a][i] + of[b][i]) / 2.0))
 }
 
 #[cfg(test)]

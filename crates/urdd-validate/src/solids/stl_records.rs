@@ -13,18 +13,16 @@ const RECORD: usize = 50;
 pub fn fault(stl: &[u8]) -> Option<String> {
     let records = stl.get(HEADER..)?.chunks_exact(RECORD);
     records.enumerate().find_map(|(at, record)| {
-        let vector = |from: usize| -> [f64; 3] {
-            std::array::from_fn(|axis| {
-                let bytes = &record[from + 4 * axis..];
-                f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
-            })
+        let mut numbers = [0.0; 12];
+        for (number, bytes) in numbers.iter_mut().zip(record.as_chunks().0) {
+            *number = f64::from(f32::from_le_bytes(*bytes));
+        }
+        let &[normal, a, b, c] = numbers.as_chunks().0 else {
+            return None;
         };
-        let corners = [vector(12), vector(24), vector(36)];
-        let normal = Vector3::from(vector(0));
-        let extent = corners
-            .as_flattened()
-            .iter()
-            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let (normal, corners) = (Vector3::from(normal), [a, b, c]);
+        let sizes = numbers[3..].iter().map(|x| x.abs());
+        let extent = sizes.fold(0.0, f64::max);
         if record[48..] != [0, 0] {
             return Some(format!(
                 "triangle {at} has {:?} in the two unused bytes; write zeros",
@@ -35,7 +33,7 @@ pub fn fault(stl: &[u8]) -> Option<String> {
         if normal == Vector3::zeros() || is_thin(corners, mesh_resolution(extent) / STL_NORMAL) {
             return None;
         }
-        let [a, b, c] = corners.map(Vector3::from);
+        let (a, b, c) = (Vector3::from(a), Vector3::from(b), Vector3::from(c));
         let right = (b - a).cross(&(c - a)).normalize();
         let off = (right - normal).norm();
         (off.is_nan() || off > STL_NORMAL).then(|| {

@@ -5,9 +5,10 @@ use super::hull_and_mesh::{self, Words};
 use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
-use crate::solids::polytope::{Polytope, bits, distinct, step};
+use crate::solids::polytope::{Polytope, step};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
+use urdd_geometry::surface::{bits, distinct};
 
 declare_rule! {
     /// A convex hull leaves out a part of its link.

@@ -5,9 +5,8 @@ use super::hull_and_mesh::{self, Words};
 use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
-use crate::solids::polytope::{bits, distinct};
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{extent, nearest};
+use urdd_geometry::surface::{bits, distinct, extent, nearest};
 
 declare_rule! {
     /// A vertex of a convex hull is not a vertex of its link's mesh.

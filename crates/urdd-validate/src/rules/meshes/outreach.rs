@@ -11,9 +11,10 @@ use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
-use crate::solids::polytope::{Polytope, distinct, step};
+use crate::solids::polytope::{Polytope, step};
 use crate::views::judged::judged;
 use urdd_geometry::Mesh;
+use urdd_geometry::surface::distinct;
 
 /// Which pieces to report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
