@@ -64,30 +64,33 @@ fn the_wall_between_generate_and_validate_stands() {
     }
 }
 
-/// A manifest may say that a library has no tests, or no examples, so that it is not compiled, or read, for none.
+/// Where a library has no unit tests, or no examples, its manifest may say so, and Cargo builds nothing for them.
 #[test]
 fn no_test_and_no_example_is_left_out() {
+    let has_test = |source: &str| source.contains("#[cfg(test)]");
     let mut without = 0;
     for folder in sources() {
         let manifest = folder.with_file_name("Cargo.toml");
         let text = fs::read_to_string(&manifest).expect("a manifest");
-        for (file, source) in rust_files(&folder) {
-            for (line, holds) in [
-                ("test = false", source.contains("#[cfg(test)]")),
-                ("doctest = false", has_example(&source)),
-            ] {
-                let says = text.lines().any(|of| of == line);
-                without += usize::from(says);
+        let files = rust_files(&folder);
+        let mut check = |line: &str, holds: &dyn Fn(&str) -> bool| {
+            if !text.lines().any(|of| of == line) {
+                return;
+            }
+            without += 1;
+            for (file, source) in &files {
                 assert!(
-                    !(says && holds),
+                    !holds(source),
                     "{} would not run: delete `{line}` from {}",
                     file.display(),
                     manifest.display()
                 );
             }
-        }
+        };
+        check("test = false", &has_test);
+        check("doctest = false", &has_example);
     }
-    assert!(without > 50, "{without}: another form");
+    assert!(without > 10, "{without}: another form");
 }
 
 /// Whether Rust's documentation in a source has an example that is compiled.
