@@ -1,7 +1,7 @@
 //! The half-spaces of a body's faces, several side by side.
 //!
 //! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, compare, select;
-//! no fused multiply-add), so that findings do not depend on the machine.
+//! no fused multiply-add), so that results do not depend on the machine.
 
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
 

@@ -25,6 +25,7 @@ mod polygon;
 pub mod primitives;
 pub mod read;
 pub mod surface;
+mod union_find;
 pub mod vector;
 pub mod write;
 

@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::Mesh;
+use crate::union_find::Groups;
 
 /// How equal two meshes must be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +37,7 @@ impl Difference {
     }
 }
 
-/// The largest absolute coordinate of a mesh's triangles.
+/// The largest absolute coordinate of a mesh's triangles, metres.
 pub fn extent(mesh: &Mesh) -> f64 {
     let corners = mesh.triangles.iter().flatten();
     let places = corners.map(|vertex| mesh.vertices[*vertex as usize]);
@@ -109,7 +110,7 @@ impl<'a> Matching<'a> {
             .iter()
             .flat_map(|mesh| mesh.vertices.iter().copied())
             .collect();
-        let mut joined = Joined::new(points.len());
+        let mut joined = Groups::new(points.len());
         let size = (2.0 * tolerance).max(f64::MIN_POSITIVE);
         let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(points.len());
         let mut exact: HashMap<[u64; 3], u32> = HashMap::with_capacity(points.len());
@@ -146,7 +147,7 @@ impl<'a> Matching<'a> {
         }
         let (first, all) = (expected.vertices.len(), points.len());
         let mut of =
-            |range: std::ops::Range<usize>| range.map(|at| joined.root(at) as u32).collect();
+            |range: std::ops::Range<usize>| range.map(|at| joined.first(at) as u32).collect();
         let places = [of(0..first), of(first..all)];
         Matching {
             meshes,
@@ -267,7 +268,7 @@ impl<'a> Matching<'a> {
     }
 }
 
-/// Distance of a point from the nearest vertex of a mesh.
+/// Distance of a point from the nearest vertex of a mesh, metres.
 pub fn nearest(mesh: &Mesh, point: [f64; 3]) -> f64 {
     let square = |q: &[f64; 3]| (0..3).map(|i| (point[i] - q[i]).powi(2)).sum::<f64>();
     let least = mesh
@@ -327,28 +328,4 @@ pub fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
         }
     }
     Some(std::array::from_fn(|i| (of[a][i] + of[b][i]) / 2.0))
-}
-
-/// Merges equal elements (union-find).
-struct Joined(Vec<u32>);
-
-impl Joined {
-    fn new(count: usize) -> Self {
-        Joined((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut at: usize) -> usize {
-        while self.0[at] as usize != at {
-            let up = self.0[self.0[at] as usize];
-            self.0[at] = up;
-            at = up as usize;
-        }
-        at
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The lower index stays, so that the result does not depend on the order of merging.
-        self.0[a.max(b)] = a.min(b) as u32;
-    }
 }

@@ -5,6 +5,7 @@ use std::ops::AddAssign;
 use nalgebra::Vector3;
 
 use super::super::mesh::{Mesh, double_area_normal};
+use crate::union_find::Groups;
 
 /// Cosine of the crease angle, 35 degrees. Faces that meet at a smaller angle belong to a round surface. Cylinders of
 /// robots have at least a dozen corners, which is 30 degrees; chamfers have 45.
@@ -27,6 +28,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
         .iter()
         .map(|triangle| unit(double_area_normal(mesh.corners(*triangle))))
         .collect();
+    // Corners that share a normal.
     let mut groups = Groups::new(mesh.triangles.len() * 3);
     // Each edge of a triangle: its ends in ascending order, and the corner at which it starts.
     let mut edges: Vec<([u32; 2], usize)> = Vec::with_capacity(mesh.triangles.len() * 3);
@@ -104,29 +106,6 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
 
 fn unit(vector: Vector3<f64>) -> Vector3<f64> {
     vector.try_normalize(0.0).unwrap_or_else(Vector3::z)
-}
-
-/// Union-find of corners that share a normal; the first corner represents its group.
-struct Groups(Vec<u32>);
-
-impl Groups {
-    fn new(count: usize) -> Self {
-        Groups((0..count as u32).collect())
-    }
-
-    fn first(&mut self, mut at: usize) -> usize {
-        while self.0[at] as usize != at {
-            let up = self.0[self.0[at] as usize];
-            self.0[at] = up;
-            at = up as usize;
-        }
-        at
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.0[a.max(b)] = a.min(b) as u32;
-    }
 }
 
 #[cfg(test)]

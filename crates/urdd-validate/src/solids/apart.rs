@@ -1,7 +1,6 @@
 //! Shows with little work that two meshes are not the same surface.
 
 use urdd_geometry::Mesh;
-
 use urdd_geometry::surface::is_thin;
 
 /// Whether [`surface::difference`](urdd_geometry::surface::difference) is certain to find a triangle of `expected` missing in
