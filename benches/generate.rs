@@ -18,10 +18,8 @@ const RUNS: usize = 3;
 
 fn main() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let core = Settings {
-        selection: Selection::parse(["core"]).expect("a class"),
-        ..Settings::default()
-    };
+    let core =
+        Settings { selection: Selection::parse(["core"]).expect("a class"), ..Settings::default() };
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let one = one.expect("a thread");
     println!("chains, core class, one thread");

@@ -133,10 +133,7 @@ impl Subject {
             let near = collisions.par_iter();
             let near = near.filter(|(k, of)| !self.collides(&towards(*k, &of.q)));
             let near: Vec<&Collision> = near.map(|(_, of)| of).collect();
-            let depths = near
-                .iter()
-                .filter(|of| of.missed)
-                .map(|of| self.depth(&of.q));
+            let depths = near.iter().filter(|of| of.missed).map(|of| self.depth(&of.q));
             let depths: Vec<f64> = depths.collect();
             json!({ "misses": rate(near.iter().map(|of| of.missed)), "depth": spread(depths) })
         };
@@ -145,14 +142,10 @@ impl Subject {
         let noise = |k: u64, q: &[f64]| {
             let drawn = self.space.random(FIRST + COUNT + k);
             let bounds = self.space.bounds().iter();
-            let moved = q
-                .iter()
-                .zip(drawn)
-                .zip(bounds)
-                .map(|((q, drawn), [lower, upper])| {
-                    let part = (drawn - lower) / (upper - lower).max(f64::MIN_POSITIVE);
-                    (q + NEAR * (2.0 * part - 1.0)).clamp(*lower, *upper)
-                });
+            let moved = q.iter().zip(drawn).zip(bounds).map(|((q, drawn), [lower, upper])| {
+                let part = (drawn - lower) / (upper - lower).max(f64::MIN_POSITIVE);
+                (q + NEAR * (2.0 * part - 1.0)).clamp(*lower, *upper)
+            });
             moved.collect()
         };
         let at_contact: Vec<Collision> = collisions
@@ -201,9 +194,7 @@ impl Subject {
         }
         let poses = self.robot.link_poses(q).expect("poses");
         SHAPES.with_borrow_mut(|known| {
-            let shapes = known
-                .entry(self.robot.folder_name())
-                .or_insert_with(|| self.shapes());
+            let shapes = known.entry(self.robot.folder_name()).or_insert_with(|| self.shapes());
             let touching = self.pieces.collisions(q).expect("pairs");
             let depths = touching.iter().map(|pair| {
                 let [a, b] = [0, 1].map(|k| {
@@ -225,19 +216,14 @@ impl Subject {
             };
             let points = mesh.vertices.iter();
             let points: Vec<Vector> = points.map(|[x, y, z]| Vector::new(*x, *y, *z)).collect();
-            Some((
-                (piece.link, piece.piece),
-                ConvexPolyhedron::from_convex_hull(&points)?,
-            ))
+            Some(((piece.link, piece.piece), ConvexPolyhedron::from_convex_hull(&points)?))
         });
         shape.collect()
     }
 
     /// Microseconds per configuration, in batches of several sizes.
     fn times(&self) -> Value {
-        let all: Vec<f64> = (0..TIMED as u64)
-            .flat_map(|k| self.space.random(FIRST + k))
-            .collect();
+        let all: Vec<f64> = (0..TIMED as u64).flat_map(|k| self.space.random(FIRST + k)).collect();
         let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let one = one.expect("a thread");
         let row = |batch: usize| {
@@ -260,27 +246,18 @@ impl Subject {
     }
 
     fn by_model(&self, configurations: &[f64]) {
-        self.model
-            .may_collide_batch(configurations)
-            .expect("answers");
+        self.model.may_collide_batch(configurations).expect("answers");
     }
 
     fn exactly(&self, configurations: &[f64]) {
-        self.pieces
-            .in_collision_batch(configurations)
-            .expect("answers");
+        self.pieces.in_collision_batch(configurations).expect("answers");
     }
 
     /// The configurations that the model does not clear.
     fn not_cleared(&self, configurations: &[f64]) -> Vec<f64> {
-        let may = self
-            .model
-            .may_collide_batch(configurations)
-            .expect("answers");
+        let may = self.model.may_collide_batch(configurations).expect("answers");
         let rows = configurations.chunks(self.model.num_dofs()).zip(&may);
-        rows.filter(|(_, may)| **may)
-            .flat_map(|(q, _)| q.to_vec())
-            .collect()
+        rows.filter(|(_, may)| **may).flat_map(|(q, _)| q.to_vec()).collect()
     }
 
     fn per_configuration(&self, all: &[f64], batch: usize, work: &dyn Fn(&[f64])) -> f64 {
@@ -307,9 +284,7 @@ impl Subject {
         let cleared = (0..TIMED as u64).map(|k| self.space.random(FIRST + k));
         let cleared = cleared.filter(|q| self.clears(q)).map(|q| hits(&q));
         let cleared = rate(cleared);
-        let all: Vec<f64> = (0..TIMED as u64)
-            .flat_map(|k| self.space.random(FIRST + k))
-            .collect();
+        let all: Vec<f64> = (0..TIMED as u64).flat_map(|k| self.space.random(FIRST + k)).collect();
         let time = |work: &dyn Fn(&[f64])| self.per_configuration(&all, 1, work);
         json!({
             "cleared_that_hit": cleared,
@@ -327,10 +302,7 @@ type Shapes = HashMap<(usize, usize), ConvexPolyhedron>;
 
 fn placed(pose: &Isometry3<f64>) -> Pose {
     let vector = |v: nalgebra::Vector3<f64>| Vector::new(v.x, v.y, v.z);
-    Pose::new(
-        vector(pose.translation.vector),
-        vector(pose.rotation.scaled_axis()),
-    )
+    Pose::new(vector(pose.translation.vector), vector(pose.rotation.scaled_axis()))
 }
 
 /// A step towards another configuration, as SPEC 8.8.10 defines it.

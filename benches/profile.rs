@@ -70,19 +70,11 @@ fn print(source: &Path, times: &Times) {
     println!("{:>9} {:>6}  stage", "s", "%");
     for (stage, time) in &times.stages {
         let of_links: f64 = times.links.values().filter_map(|of| of.get(stage)).sum();
-        let rest = if of_links > 0.0 {
-            format!(", rest {:.3}", time - of_links)
-        } else {
-            String::new()
-        };
+        let rest =
+            if of_links > 0.0 { format!(", rest {:.3}", time - of_links) } else { String::new() };
         println!("{time:9.3} {:6.1}  {stage}{rest}", 100.0 * time / all);
     }
-    let mut kinds: Vec<&str> = times
-        .links
-        .values()
-        .flat_map(BTreeMap::keys)
-        .copied()
-        .collect();
+    let mut kinds: Vec<&str> = times.links.values().flat_map(BTreeMap::keys).copied().collect();
     kinds.sort_unstable();
     kinds.dedup();
     for kind in &kinds {
@@ -173,9 +165,6 @@ fn seconds() -> f64 {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     let start = *START;
     let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text
-        .split(' ')
-        .next()
-        .and_then(|word| word.parse::<f64>().ok());
+    let nanoseconds = text.split(' ').next().and_then(|word| word.parse::<f64>().ok());
     nanoseconds.map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
 }

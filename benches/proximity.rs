@@ -101,28 +101,15 @@ fn parry(robot: &Robot, kind: ShapeKind, all: &[Vec<f64>]) {
             let Solid::Mesh(mesh) = shape.solid else {
                 panic!("a mesh");
             };
-            let points = mesh
-                .vertices
-                .iter()
-                .map(|[x, y, z]| Vector::new(*x, *y, *z));
+            let points = mesh.vertices.iter().map(|[x, y, z]| Vector::new(*x, *y, *z));
             let points: Vec<Vector> = points.collect();
-            (
-                shape.link,
-                ConvexPolyhedron::from_convex_hull(&points).expect("a hull"),
-            )
+            (shape.link, ConvexPolyhedron::from_convex_hull(&points).expect("a hull"))
         })
         .collect();
     let skips = robot.skips(kind).expect("skips");
     let poses: Vec<Vec<Pose>> = all
         .iter()
-        .map(|q| {
-            robot
-                .link_poses(q)
-                .expect("poses")
-                .iter()
-                .map(pose)
-                .collect()
-        })
+        .map(|q| robot.link_poses(q).expect("poses").iter().map(pose).collect())
         .collect();
     let times: Vec<f64> = (0..ROUNDS)
         .map(|_| {
@@ -142,19 +129,12 @@ fn parry(robot: &Robot, kind: ShapeKind, all: &[Vec<f64>]) {
             1e6 * start.elapsed().as_secs_f64() / poses.len() as f64
         })
         .collect();
-    println!(
-        "    {:<42} {:>9.2} us",
-        "distances by parry, 1 thread",
-        median(times)
-    );
+    println!("    {:<42} {:>9.2} us", "distances by parry, 1 thread", median(times));
 }
 
 fn pose(pose: &Isometry3<f64>) -> Pose {
     let vector = |v: nalgebra::Vector3<f64>| Vector::new(v.x, v.y, v.z);
-    Pose::new(
-        vector(pose.translation.vector),
-        vector(pose.rotation.scaled_axis()),
-    )
+    Pose::new(vector(pose.translation.vector), vector(pose.rotation.scaled_axis()))
 }
 
 fn row(what: &str, mut run: impl FnMut()) {

@@ -32,10 +32,7 @@ fn main() {
     if corpus.is_dir() {
         measure("published URDDs, YAML parsed", &corpus);
     } else {
-        println!(
-            "{} is not here: the published URDDs are not measured",
-            corpus.display()
-        );
+        println!("{} is not here: the published URDDs are not measured", corpus.display());
     }
     let mut toy = Fixture::toy();
     toy.seal();
@@ -54,16 +51,10 @@ fn main() {
 /// Writes every mirror in the canonical emission.
 fn canonical_mirrors(fixture: &mut Fixture) {
     fixture.seal();
-    let documents = fixture
-        .documents
-        .iter()
-        .filter(|(folder, _)| *folder != "urdd.json");
+    let documents = fixture.documents.iter().filter(|(folder, _)| *folder != "urdd.json");
     let mirrors: Vec<(String, String)> = documents
         .map(|(folder, document)| {
-            (
-                format!("{folder}/module.yaml"),
-                urdd_directory::canonical::yaml_string(document),
-            )
+            (format!("{folder}/module.yaml"), urdd_directory::canonical::yaml_string(document))
         })
         .collect();
     for (path, text) in mirrors {
@@ -78,16 +69,9 @@ fn chain(links: usize) -> Robot {
     let name = |i: usize| format!("link_{i}");
     robot.urdf.links = (0..links).map(|i| link(&name(i))).collect();
     for i in 1..links {
-        let mut joint = joint(
-            &format!("joint_{i}"),
-            JointType::Revolute,
-            &name(i - 1),
-            &name(i),
-        );
+        let mut joint = joint(&format!("joint_{i}"), JointType::Revolute, &name(i - 1), &name(i));
         joint.origin = origin([0.1, 0.0, 0.02], [0.0, 0.1 * i as f64 % 3.0, 0.3]);
-        joint.axis = Some(Axis {
-            xyz: Some([0.0, 0.0, 1.0]),
-        });
+        joint.axis = Some(Axis { xyz: Some([0.0, 0.0, 1.0]) });
         joint.limit = limit(-1.0, 1.5);
         robot.urdf.joints.push(joint);
     }
@@ -108,10 +92,7 @@ fn measure(name: &str, path: &Path) {
     });
     let settings = Settings::default();
     let [one, two] = [1, 2].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| {
             least(|| {
                 black_box(validate(&[path], &settings).expect("something to examine"));

@@ -11,19 +11,13 @@ use urdd_robot::Robot;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let path = arguments
-        .next()
-        .ok_or("usage: forward_kinematics URDD [VALUE...]")?;
-    let q: Vec<f64> = arguments
-        .map(|value| value.parse())
-        .collect::<Result<_, _>>()?;
+    let path = arguments.next().ok_or("usage: forward_kinematics URDD [VALUE...]")?;
+    let q: Vec<f64> = arguments.map(|value| value.parse()).collect::<Result<_, _>>()?;
     let robot = Robot::open(path)?;
     let links = robot.link_names()?;
     if q.is_empty() && !robot.dof_names()?.is_empty() {
         let dofs = robot.dof_names()?.iter().zip(robot.dof_units()?);
-        let dofs: Vec<String> = dofs
-            .map(|(name, unit)| format!("{name} [{unit}]"))
-            .collect();
+        let dofs: Vec<String> = dofs.map(|(name, unit)| format!("{name} [{unit}]")).collect();
         println!("{} links; values: {}", links.len(), dofs.join(" "));
         return Ok(());
     }

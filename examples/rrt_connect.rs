@@ -23,10 +23,7 @@ pub fn is_free(
     b: &[f64],
     resolution: Option<f64>,
 ) -> Result<bool, RobotError> {
-    let settings = EdgeSettings {
-        margin: 0.0,
-        resolution,
-    };
+    let settings = EdgeSettings { margin: 0.0, resolution };
     Ok(world.blocked_edge(a, b, &settings)?.is_none()
         && own.blocked_edge(a, b, &settings)?.is_none())
 }
@@ -42,24 +39,14 @@ pub fn plan(
     let grow = |tree: &mut Vec<(Vec<f64>, usize)>,
                 target: &[f64]|
      -> Result<Option<Vec<f64>>, RobotError> {
-        let distance = |q: &[f64]| {
-            q.iter()
-                .zip(target)
-                .map(|(a, b)| (a - b).powi(2))
-                .sum::<f64>()
-                .sqrt()
-        };
+        let distance =
+            |q: &[f64]| q.iter().zip(target).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
         let near = (0..tree.len())
             .min_by(|a, b| distance(&tree[*a].0).total_cmp(&distance(&tree[*b].0)))
             .unwrap_or(0);
         let part = (STEP / distance(&tree[near].0)).min(1.0);
         let new: Vec<f64> = match part < 1.0 {
-            true => tree[near]
-                .0
-                .iter()
-                .zip(target)
-                .map(|(a, b)| a + part * (b - a))
-                .collect(),
+            true => tree[near].0.iter().zip(target).map(|(a, b)| a + part * (b - a)).collect(),
             false => target.to_vec(),
         };
         let free = is_free(checks, &tree[near].0, &new, Some(0.02))?;
@@ -101,18 +88,11 @@ pub fn plan(
 
 /// A table below the robot, on which the links stand that do not move, and a ball in its way.
 pub fn world(robot: &Robot) -> Result<World, RobotError> {
-    let table = Obstacle::cuboid(
-        "table",
-        Isometry3::translation(0.0, 0.0, -0.05),
-        [1.0, 1.0, 0.05],
-    )?;
+    let table =
+        Obstacle::cuboid("table", Isometry3::translation(0.0, 0.0, -0.05), [1.0, 1.0, 0.05])?;
     let ball = Obstacle::sphere("ball", [0.45, 0.1, 0.6], 0.15)?;
     let mut world = World::new([ball]);
-    let still = |link: &usize| {
-        robot
-            .dofs_between(0, *link)
-            .is_ok_and(|dofs| dofs.is_empty())
-    };
+    let still = |link: &usize| robot.dofs_between(0, *link).is_ok_and(|dofs| dofs.is_empty());
     let names = robot.link_names()?;
     let still = (0..names.len()).filter(still);
     world.put(still.fold(table, |table, link| table.ignoring(&names[link])));
@@ -138,10 +118,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let path = plan(checks, &start, &goal, next)?.ok_or("no path was found")?;
     println!("{}", robot.dof_names()?.join(","));
     for q in &path {
-        println!(
-            "{}",
-            q.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
-        );
+        println!("{}", q.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
     }
     let mut proved = true;
     for edge in path.windows(2) {
@@ -150,11 +127,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     eprintln!(
         "{} configurations; {}",
         path.len(),
-        if proved {
-            "proved free"
-        } else {
-            "not proved free"
-        }
+        if proved { "proved free" } else { "not proved free" }
     );
     Ok(())
 }

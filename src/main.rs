@@ -16,8 +16,5 @@ ctor::declarative::ctor! {
 }
 
 fn main() -> ExitCode {
-    urdd::cli::run(
-        std::env::args_os().collect(),
-        CLOSED.load(Ordering::Relaxed),
-    )
+    urdd::cli::run(std::env::args_os().collect(), CLOSED.load(Ordering::Relaxed))
 }

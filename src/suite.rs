@@ -2,10 +2,7 @@
 //! them from the repository, so that new cases need no rebuild.
 
 // `build.rs` packs.
-#[cfg_attr(
-    not(test),
-    allow(dead_code, reason = "one build reads the folder, another unpacks")
-)]
+#[cfg_attr(not(test), allow(dead_code, reason = "one build reads the folder, another unpacks"))]
 mod archive;
 
 use std::io;

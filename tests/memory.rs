@@ -27,29 +27,19 @@ fn urdd(limit: usize, arguments: &[&str], folder: &Path) -> Output {
 /// Asserts that a run exits with this status when its memory is limited to this multiple of the input.
 fn assert_within(multiple: usize, size: usize, status: i32, arguments: &[&str], folder: &Path) {
     let output = urdd(OWN + multiple * size, arguments, folder);
-    assert_eq!(
-        output.status.code(),
-        Some(status),
-        "{arguments:?}, {size} bytes: {output:?}"
-    );
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}, {size} bytes: {output:?}");
 }
 
 #[test]
 fn documents_take_a_stated_multiple_of_memory() {
     let folder = testkit::temporary::folder();
-    fs::write(
-        folder.path().join("r.urdf"),
-        "<robot name=\"r\"><link name=\"a\"/></robot>",
-    )
-    .unwrap();
+    fs::write(folder.path().join("r.urdf"), "<robot name=\"r\"><link name=\"a\"/></robot>")
+        .unwrap();
     let made = ["generate", "--modules", "core", "-o", "r", "r.urdf"];
     assert_within(0, 0, 0, &made, folder.path());
     let nested = "[".repeat(80) + &"]".repeat(80);
     let list = |element: &str| {
-        format!(
-            "[{}0]",
-            format!("{element},").repeat(2_000_000 / (element.len() + 1))
-        )
+        format!("[{}0]", format!("{element},").repeat(2_000_000 / (element.len() + 1)))
     };
     for (multiple, file, text) in [
         (200, "module.json", list(&nested)),
@@ -101,10 +91,7 @@ fn a_mesh_takes_a_stated_multiple_of_memory() {
     for (text, triangles) in [(field, 0), (fan, 180_000)] {
         fs::write(folder.path().join("m.obj"), &text).unwrap();
         let limit = OWN + 200 * text.len() + 600 * triangles;
-        for arguments in [
-            ["generate", "-o", "out", "r.urdf"].as_slice(),
-            &["validate", "out"],
-        ] {
+        for arguments in [["generate", "-o", "out", "r.urdf"].as_slice(), &["validate", "out"]] {
             let output = urdd(limit, arguments, folder.path());
             assert_eq!(output.status.code(), Some(0), "{arguments:?}: {output:?}");
         }

@@ -11,11 +11,8 @@ fn repository() -> PathBuf {
 }
 
 fn cargo(arguments: &[&str], folder: &Path) -> Vec<u8> {
-    let output = Command::new(env!("CARGO"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .expect("cargo");
+    let output =
+        Command::new(env!("CARGO")).args(arguments).current_dir(folder).output().expect("cargo");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.stdout.is_empty(), "{arguments:?}: {said}");
     output.stdout
@@ -29,10 +26,7 @@ fn program() -> PathBuf {
         .current_dir(repository())
         .status();
     assert!(built.expect("cargo").success());
-    repository()
-        .join("target/debug/urdd")
-        .canonicalize()
-        .expect("the program")
+    repository().join("target/debug/urdd").canonicalize().expect("the program")
 }
 
 fn sarif(folder: &Path, arguments: &[&str]) -> Value {
@@ -81,10 +75,8 @@ fn sarif_schema() -> Value {
     let metadata = cargo(&metadata, Path::new(env!("CARGO_MANIFEST_DIR")));
     let metadata: Value = serde_json::from_slice(&metadata).expect("cargo's metadata");
     let packages = metadata["packages"].as_array().expect("a list");
-    let package = packages
-        .iter()
-        .find(|package| package["name"] == "serde-sarif")
-        .expect("serde-sarif");
+    let package =
+        packages.iter().find(|package| package["name"] == "serde-sarif").expect("serde-sarif");
     let manifest = PathBuf::from(package["manifest_path"].as_str().expect("a path"));
     let file = manifest.with_file_name("src").join("schema.json");
     let mut schema: Value = serde_json::from_str(&fs::read_to_string(file).expect("the schema"))
@@ -95,11 +87,7 @@ fn sarif_schema() -> Value {
         let language = language.and_then(Value::as_object_mut).expect("an object");
         assert!(language.remove("pattern").is_some());
     }
-    assert!(
-        schema["title"]
-            .as_str()
-            .is_some_and(|t| t.contains("2.1.0"))
-    );
+    assert!(schema["title"].as_str().is_some_and(|t| t.contains("2.1.0")));
     schema
 }
 

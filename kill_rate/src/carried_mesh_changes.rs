@@ -23,9 +23,8 @@ const STEPS: [(&str, f64); 3] = [
 
 /// Mutations of original meshes, as one list.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
-    let files = original
-        .document(MODULE)
-        .and_then(|document| document.value.get("files")?.as_array());
+    let files =
+        original.document(MODULE).and_then(|document| document.value.get("files")?.as_array());
     let paths: Vec<&str> = files
         .into_iter()
         .flatten()
@@ -94,9 +93,7 @@ fn coordinates(text: &str, extension: &str) -> Vec<Range<usize>> {
             start += line.len();
         }
     } else if let Ok(document) = roxmltree::Document::parse(text) {
-        let arrays = document
-            .descendants()
-            .filter(|node| node.tag_name().name() == "float_array");
+        let arrays = document.descendants().filter(|node| node.tag_name().name() == "float_array");
         pieces.extend(arrays.filter_map(|node| Some(node.first_child()?.range())));
     }
     let mut numbers = Vec::new();

@@ -16,10 +16,7 @@ impl Dice {
         hasher.update(seed.to_le_bytes());
         hasher.update(name);
         let hash = hasher.finalize();
-        let stream = hash
-            .iter()
-            .take(4)
-            .fold(0, |bits, byte| bits << 8 | u64::from(*byte));
+        let stream = hash.iter().take(4).fold(0, |bits, byte| bits << 8 | u64::from(*byte));
         Dice { stream, count: 0 }
     }
 

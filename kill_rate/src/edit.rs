@@ -65,9 +65,7 @@ fn object<'a>(
 
 /// The canonical JSON of an edited document.
 pub(crate) fn json(document: &Value) -> Vec<u8> {
-    canonical::json_string(document)
-        .replace(DOUBLED, "")
-        .into_bytes()
+    canonical::json_string(document).replace(DOUBLED, "").into_bytes()
 }
 
 /// The canonical YAML of an edited document.

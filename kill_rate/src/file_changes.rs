@@ -27,16 +27,10 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
         let Some((module, folder)) = original.module_of(path) else {
             continue;
         };
-        groups
-            .entry((module, kind_of(&path[folder.len() + 1..])))
-            .or_default()
-            .push(path);
+        groups.entry((module, kind_of(&path[folder.len() + 1..]))).or_default().push(path);
     }
     let root = [ROOT_METADATA.to_owned()];
-    groups.insert(
-        (ROOT_METADATA, ROOT_METADATA.to_owned()),
-        root.iter().collect(),
-    );
+    groups.insert((ROOT_METADATA, ROOT_METADATA.to_owned()), root.iter().collect());
     let mut lists = Vec::new();
     for ((module, field), paths) in &groups {
         let mut dice = Dice::new(plan.seed, &format!("{module} {field}"));
@@ -93,10 +87,7 @@ fn of_file(
     }
     if paths.len() > 1 {
         let other = paths[(index + 1 + dice.below(paths.len() - 1)) % paths.len()];
-        for (kind, both) in [
-            ("exchanged with another", true),
-            ("another instead of it", false),
-        ] {
+        for (kind, both) in [("exchanged with another", true), ("another instead of it", false)] {
             out.push(mutation(kind, Change::Files(exchanged(path, other, both))));
         }
     }
@@ -148,10 +139,7 @@ fn versions(
 ) -> Vec<Mutation> {
     let folder = path.trim_end_matches("/VERSION");
     let modules = original.metadata()["modules"].as_array();
-    let entry = modules
-        .into_iter()
-        .flatten()
-        .position(|entry| entry["path"] == folder);
+    let entry = modules.into_iter().flatten().position(|entry| entry["path"] == folder);
     let write = |path: String| -> MakeFiles {
         Box::new(move |original| {
             let before = String::from_utf8_lossy(original.files.get(&path)?).into_owned();
@@ -160,18 +148,12 @@ fn versions(
             Some(FileChange::new(files, format!("{before:?}"), to))
         })
     };
-    let mut out = vec![mutation(
-        "another version",
-        Change::Files(write(path.to_owned())),
-    )];
+    let mut out = vec![mutation("another version", Change::Files(write(path.to_owned())))];
     if let Some(entry) = entry.filter(|_| in_both) {
         let place = format!("/modules/{entry}/version");
         let edits = vec![Edit::Set(place, json!(version))];
         let change = Change::FilesAndMetadata(write(path.to_owned()), edits);
-        out.push(mutation(
-            "another version, in the root metadata too",
-            change,
-        ));
+        out.push(mutation("another version, in the root metadata too", change));
     }
     out
 }

@@ -15,53 +15,17 @@ pub struct FreeField {
 
 /// Every free field. (Keys that begin with `x_`, and `$schema`, are always free: 3.1.2.)
 pub const FREE_FIELDS: &[FreeField] = &[
-    FreeField {
-        module: "urdd.json",
-        field: "/generator",
-        clause: "2.2",
-    },
-    FreeField {
-        module: "convex_decomposition_meshes_module",
-        field: "/method",
-        clause: "Annex A",
-    },
-    FreeField {
-        module: "link_shapes_skips_module",
-        field: "/edits/*/reason",
-        clause: "Annex A",
-    },
+    FreeField { module: "urdd.json", field: "/generator", clause: "2.2" },
+    FreeField { module: "convex_decomposition_meshes_module", field: "/method", clause: "Annex A" },
+    FreeField { module: "link_shapes_skips_module", field: "/edits/*/reason", clause: "Annex A" },
     // The producer's description of how the model was made.
-    FreeField {
-        module: "self_collision_model_module",
-        field: "/clip_distance",
-        clause: "8.8.12",
-    },
-    FreeField {
-        module: "self_collision_model_module",
-        field: "/training",
-        clause: "8.8.12",
-    },
-    FreeField {
-        module: "self_collision_model_module",
-        field: "/calibration",
-        clause: "8.8.12",
-    },
+    FreeField { module: "self_collision_model_module", field: "/clip_distance", clause: "8.8.12" },
+    FreeField { module: "self_collision_model_module", field: "/training", clause: "8.8.12" },
+    FreeField { module: "self_collision_model_module", field: "/calibration", clause: "8.8.12" },
     // Properties of the original parts, which this URDD does not contain.
-    FreeField {
-        module: "composition_module",
-        field: "/parts/*/name",
-        clause: "Annex A",
-    },
-    FreeField {
-        module: "composition_module",
-        field: "/parts/*/source",
-        clause: "6.6.7",
-    },
-    FreeField {
-        module: "composition_module",
-        field: "/parts/*/composition",
-        clause: "6.6.7",
-    },
+    FreeField { module: "composition_module", field: "/parts/*/name", clause: "Annex A" },
+    FreeField { module: "composition_module", field: "/parts/*/source", clause: "6.6.7" },
+    FreeField { module: "composition_module", field: "/parts/*/composition", clause: "6.6.7" },
 ];
 
 /// A change of a field to another value that SPEC.md allows.
@@ -85,11 +49,8 @@ pub const PERMITTED: &[Permitted] = &[
         change: "to a lower class: more than is claimed may be there",
         clause: "12.1",
         permits: |from, to| {
-            let rank = |class: &Value| {
-                ["Core", "Geometry", "Shapes"]
-                    .iter()
-                    .position(|c| class == c)
-            };
+            let rank =
+                |class: &Value| ["Core", "Geometry", "Shapes"].iter().position(|c| class == c);
             rank(to).is_some() && rank(to) < rank(from)
         },
     },
@@ -346,15 +307,11 @@ const LEAST_TOLERANCES: f64 = 10.0;
 
 /// Whether a field is free.
 pub(crate) fn is_free(module: &str, field: &str) -> bool {
-    FREE_FIELDS
-        .iter()
-        .any(|free| free.module == module && is_within(field, free.field))
+    FREE_FIELDS.iter().any(|free| free.module == module && is_within(field, free.field))
 }
 
 fn is_within(field: &str, of: &str) -> bool {
-    field
-        .strip_prefix(of)
-        .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    field.strip_prefix(of).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 /// The location of a number, which determines its tolerance.
@@ -400,10 +357,7 @@ impl Ground<'_> {
             },
             (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
                 let field = format!("{}/*", self.field);
-                let inner = Ground {
-                    field: &field,
-                    ..*self
-                };
+                let inner = Ground { field: &field, ..*self };
                 a.iter().zip(b).any(|(a, b)| inner.differs(a, b))
             }
             (Value::Object(a), Value::Object(b)) if a.len() == b.len() => {
@@ -411,10 +365,7 @@ impl Ground<'_> {
                     None => true,
                     Some(other) => {
                         let field = format!("{}/{key}", self.field);
-                        let inner = Ground {
-                            field: &field,
-                            ..*self
-                        };
+                        let inner = Ground { field: &field, ..*self };
                         inner.differs(value, other)
                     }
                 })
@@ -440,12 +391,7 @@ mod tests {
         };
         assert!(!ground.differs(&json!([1.0, 0.0]), &json!([1.0, 1.9e-8])));
         assert!(ground.differs(&json!([1.0, 0.0]), &json!([1.0, 2.1e-8])));
-        let copied = Ground {
-            module: "bounds_module",
-            field: "/bounds",
-            reach: 2.0,
-            shapes: 1.0,
-        };
+        let copied = Ground { module: "bounds_module", field: "/bounds", reach: 2.0, shapes: 1.0 };
         assert!(copied.differs(&json!([[1.0]]), &json!([[1.0 + 2e-8]])));
         assert!(!copied.differs(&json!([[1.0]]), &json!([[1.0 + 5e-9]])));
         assert!(!copied.differs(&json!({"a": 1}), &json!({"a": 1.0})));

@@ -24,10 +24,7 @@ pub(crate) fn keys(
         .collect();
     let mut out = Vec::new();
     let mut add = |kind: &'static str, edits: Vec<Edit>| out.push(ValueChange { kind, edits });
-    add(
-        "a key added",
-        vec![Edit::Add(place.to_owned(), "added".to_owned())],
-    );
+    add("a key added", vec![Edit::Add(place.to_owned(), "added".to_owned())]);
     if keys.is_empty() {
         return out;
     }
@@ -50,19 +47,13 @@ pub(crate) fn keys(
     if let [only] = keys[..] {
         for tag in schema::tags(&field.schema) {
             if tag != only {
-                add(
-                    "another tag",
-                    vec![Edit::Rename(pointer(only), tag.to_owned())],
-                );
+                add("another tag", vec![Edit::Rename(pointer(only), tag.to_owned())]);
             }
         }
     }
     let (a, b) = (keys[dice.below(keys.len())], keys[dice.below(keys.len())]);
     let within = below(a);
-    let ground = Ground {
-        field: &within,
-        ..field.ground()
-    };
+    let ground = Ground { field: &within, ..field.ground() };
     if ground.differs(&object[a], &object[b]) {
         let edits = vec![
             Edit::Set(pointer(a), object[b].clone()),

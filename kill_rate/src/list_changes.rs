@@ -25,14 +25,10 @@ pub(crate) fn lists(field: &Field, list: &[Value]) -> Vec<(&'static str, Value)>
         }
         [first, .., last] => {
             add("its ends exchanged", &|list| list.swap(0, length - 1));
-            add("its last two exchanged", &|list| {
-                list.swap(length - 2, length - 1)
-            });
+            add("its last two exchanged", &|list| list.swap(length - 2, length - 1));
             add("its first repeated", &|list| list.insert(1, first.clone()));
             add("its last repeated", &|list| list.push(last.clone()));
-            add("its first instead of its last", &|list| {
-                list[length - 1] = first.clone()
-            });
+            add("its first instead of its last", &|list| list[length - 1] = first.clone());
         }
         [only] => add("its last repeated", &|list| list.push(only.clone())),
     }
@@ -41,9 +37,7 @@ pub(crate) fn lists(field: &Field, list: &[Value]) -> Vec<(&'static str, Value)>
         add("its last left out", &|list| list.truncate(length - 1));
         add("none left", &|list| list.clear());
     }
-    to.into_iter()
-        .map(|(kind, list)| (kind, Value::Array(list)))
-        .collect()
+    to.into_iter().map(|(kind, list)| (kind, Value::Array(list))).collect()
 }
 
 /// The transposed place of an off-diagonal value, if it is in a symmetric matrix larger than 3×3.
@@ -53,9 +47,7 @@ pub(crate) fn mirrored(document: &Value, place: &str) -> Option<String> {
     let (i, j): (usize, usize) = (row.parse().ok()?, column.parse().ok()?);
     let rows = document.pointer(matrix)?.as_array()?;
     let at = |i: usize, j: usize| rows.get(i)?.as_array()?.get(j);
-    let square = rows
-        .iter()
-        .all(|row| row.as_array().is_some_and(|row| row.len() == rows.len()));
+    let square = rows.iter().all(|row| row.as_array().is_some_and(|row| row.len() == rows.len()));
     let symmetric = || (0..rows.len()).all(|i| (0..i).all(|j| at(i, j) == at(j, i)));
     (i != j && rows.len() > 3 && square && symmetric()).then(|| format!("{matrix}/{j}/{i}"))
 }

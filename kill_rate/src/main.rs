@@ -92,10 +92,7 @@ fn main() -> ExitCode {
     let judge = Judge {
         rules: &rules,
         plain: Settings::default(),
-        deep: arguments.deep.then(|| Settings {
-            deep: true,
-            ..Settings::default()
-        }),
+        deep: arguments.deep.then(|| Settings { deep: true, ..Settings::default() }),
     };
     let bar = match std::io::stderr().is_terminal() {
         true => ProgressBar::new(0),

@@ -59,9 +59,8 @@ fn without_newline(text: &[u8]) -> &[u8] {
 }
 
 fn is_same_mesh(original: &Original, path: &str, after: &[u8]) -> bool {
-    let carried = original
-        .module_of(path)
-        .is_some_and(|(name, _)| name == "original_meshes_module");
+    let carried =
+        original.module_of(path).is_some_and(|(name, _)| name == "original_meshes_module");
     let mut mesh = path.to_owned();
     let listed = original
         .document("original_meshes_module")
@@ -96,16 +95,9 @@ pub(crate) fn scene(
     };
     let (folder, name) = path.rsplit_once('/')?;
     let mut fetch = |side: &str| bytes(&format!("{folder}/{}", side.trim_start_matches("./")));
-    let options = Options {
-        gltf_up: GltfUp::Keep,
-        ..Options::default()
-    };
+    let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     let scene = read::read_with(&bytes(path)?, name, &mut fetch, &options).ok()?;
-    scene
-        .parts
-        .iter()
-        .any(|part| !part.mesh.triangles.is_empty())
-        .then_some(scene)
+    scene.parts.iter().any(|part| !part.mesh.triangles.is_empty()).then_some(scene)
 }
 
 /// Whether two scenes have the same triangles, in the same colours.
@@ -113,9 +105,7 @@ fn are_same(a: &Scene, b: &Scene) -> bool {
     let corners = |parts: &[Part]| -> Vec<[[f64; 3]; 3]> {
         let triangles = parts.iter().flat_map(|part| {
             let mesh = &part.mesh;
-            mesh.triangles
-                .iter()
-                .map(|triangle| mesh.corners(*triangle))
+            mesh.triangles.iter().map(|triangle| mesh.corners(*triangle))
         });
         triangles.collect()
     };
@@ -124,18 +114,9 @@ fn are_same(a: &Scene, b: &Scene) -> bool {
         scene.parts.iter().map(of).collect()
     };
     let (here, there) = (corners(&a.parts), corners(&b.parts));
-    let largest = here
-        .iter()
-        .flatten()
-        .flatten()
-        .fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let largest = here.iter().flatten().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
     let near = |(p, q): (&f64, &f64)| (p - q).abs() <= SAME_VERTEX * largest;
     colours(a) == colours(b)
         && here.len() == there.len()
-        && here
-            .iter()
-            .flatten()
-            .flatten()
-            .zip(there.iter().flatten().flatten())
-            .all(near)
+        && here.iter().flatten().flatten().zip(there.iter().flatten().flatten()).all(near)
 }

@@ -81,10 +81,7 @@ pub fn measure<P: AsRef<Path>>(
 }
 
 fn original(name: &str, path: &Path, by: &Judge) -> Result<Original, MeasureError> {
-    let failed = |codes| MeasureError::HasFindings {
-        name: name.to_owned(),
-        codes,
-    };
+    let failed = |codes| MeasureError::HasFindings { name: name.to_owned(), codes };
     for settings in std::iter::once(&by.plain).chain(&by.deep) {
         match judge(path, by.rules, settings) {
             Outcome::Missed => {}
@@ -93,10 +90,7 @@ fn original(name: &str, path: &Path, by: &Judge) -> Result<Original, MeasureErro
             Outcome::Unreadable => return Err(failed(Vec::new())),
         }
     }
-    Original::read(path).map_err(|error| MeasureError::Original {
-        name: name.to_owned(),
-        error,
-    })
+    Original::read(path).map_err(|error| MeasureError::Original { name: name.to_owned(), error })
 }
 
 fn mutations(original: &Original, others: &[&Original], plan: &Plan) -> Vec<Mutation> {
@@ -188,17 +182,11 @@ fn try_one(
             Outcome::Missed | Outcome::Warned(_) => judge(path, by.rules, settings),
             _ => plain.clone(),
         });
-        Trial {
-            change,
-            plain,
-            deep,
-        }
+        Trial { change, plain, deep }
     })?;
     Ok(Some(trial))
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

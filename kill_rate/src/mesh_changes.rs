@@ -12,11 +12,8 @@ use super::pointer;
 use super::sample;
 
 /// The modules with meshes in three formats.
-const MODULES: [&str; 3] = [
-    "plain_meshes_module",
-    "convex_hull_meshes_module",
-    "convex_decomposition_meshes_module",
-];
+const MODULES: [&str; 3] =
+    ["plain_meshes_module", "convex_hull_meshes_module", "convex_decomposition_meshes_module"];
 
 /// A mesh's files by format, and its JSON Pointer.
 #[derive(Clone)]
@@ -28,12 +25,8 @@ struct Entry {
 const FORMATS: [&str; 3] = ["stl", "obj", "glb"];
 
 /// Which formats to change together.
-const SCOPES: [(&str, &[usize]); 4] = [
-    ("all formats", &[0, 1, 2]),
-    (".stl", &[0]),
-    (".obj", &[1]),
-    (".glb", &[2]),
-];
+const SCOPES: [(&str, &[usize]); 4] =
+    [("all formats", &[0, 1, 2]), (".stl", &[0]), (".obj", &[1]), (".glb", &[2])];
 
 /// Mutations of meshes, one list per module and choice of formats.
 pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> {
@@ -42,12 +35,9 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
         let entries = entries(document);
         for (name, scope) in SCOPES {
             let mut dice = Dice::new(plan.seed, &format!("{} {name}", document.name));
-            lists.push(sample::draw(
-                plan,
-                entries.len(),
-                &mut dice,
-                |index, dice| of_mesh(document, &entries, index, (name, scope), dice),
-            ));
+            lists.push(sample::draw(plan, entries.len(), &mut dice, |index, dice| {
+                of_mesh(document, &entries, index, (name, scope), dice)
+            }));
         }
     }
     lists.extend(super::carried_mesh_changes::mutations(original, plan));
@@ -62,17 +52,9 @@ fn entries(document: &Document) -> Vec<Entry> {
         .filter_map(|place| {
             let (pointer, _) = place.rsplit_once('/')?;
             let object = document.value.pointer(pointer)?;
-            let file = |format: &str| {
-                object
-                    .get(format)
-                    .and_then(Value::as_str)
-                    .map(str::to_owned)
-            };
+            let file = |format: &str| object.get(format).and_then(Value::as_str).map(str::to_owned);
             let [stl, obj, glb] = FORMATS.map(file);
-            Some(Entry {
-                pointer: pointer.to_owned(),
-                files: [stl?, obj?, glb?],
-            })
+            Some(Entry { pointer: pointer.to_owned(), files: [stl?, obj?, glb?] })
         })
         .collect()
 }
@@ -99,10 +81,7 @@ fn of_mesh(
     }
     if scope.len() == FORMATS.len() && entries.len() > 1 {
         let other = &entries[(index + 1 + dice.below(entries.len() - 1)) % entries.len()];
-        for (kind, both) in [
-            ("exchanged with another", true),
-            ("another instead of it", false),
-        ] {
+        for (kind, both) in [("exchanged with another", true), ("another instead of it", false)] {
             let (entry, other) = (entry.clone(), other.clone());
             let make = move |original: &Original| exchanged(original, &entry, &other, both);
             out.push(mutation(kind, Change::Files(Box::new(make))));

@@ -42,42 +42,21 @@ impl MeshEdit {
     pub(crate) fn each(dice: &mut Dice) -> Vec<(&'static str, MeshEdit)> {
         let mut drawn = || dice.below(1 << 30);
         vec![
-            (
-                "a vertex moved by 2e-5 of its size",
-                MeshEdit::MoveVertex(2e-5, drawn()),
-            ),
-            (
-                "a vertex moved by 1e-3 of its size",
-                MeshEdit::MoveVertex(1e-3, drawn()),
-            ),
-            (
-                "a vertex moved by 0.1 of its size",
-                MeshEdit::MoveVertex(0.1, drawn()),
-            ),
+            ("a vertex moved by 2e-5 of its size", MeshEdit::MoveVertex(2e-5, drawn())),
+            ("a vertex moved by 1e-3 of its size", MeshEdit::MoveVertex(1e-3, drawn())),
+            ("a vertex moved by 0.1 of its size", MeshEdit::MoveVertex(0.1, drawn())),
             ("a triangle left out", MeshEdit::LeaveOut(drawn())),
             ("a triangle turned round", MeshEdit::Turn(drawn())),
-            (
-                "moved by 1e-3 of its size",
-                MeshEdit::MoveAll(1e-3, drawn()),
-            ),
+            ("moved by 1e-3 of its size", MeshEdit::MoveAll(1e-3, drawn())),
             ("moved by 0.1 of its size", MeshEdit::MoveAll(0.1, drawn())),
             ("larger by 1e-3", MeshEdit::Scale(1.001)),
             ("in other units", MeshEdit::Scale(1000.0)),
             ("another colour", MeshEdit::Colour),
             ("a vertex without faces", MeshEdit::StrayVertex(10.0)),
-            (
-                "a vertex without faces, within",
-                MeshEdit::StrayVertex(0.01),
-            ),
-            (
-                "its node moved by 1e-3 m",
-                MeshEdit::Node(NodeChange::Moved(1e-3)),
-            ),
+            ("a vertex without faces, within", MeshEdit::StrayVertex(0.01)),
+            ("its node moved by 1e-3 m", MeshEdit::Node(NodeChange::Moved(1e-3))),
             ("its node turned", MeshEdit::Node(NodeChange::Turned)),
-            (
-                "its node larger by 1e-3",
-                MeshEdit::Node(NodeChange::Larger(1.001)),
-            ),
+            ("its node larger by 1e-3", MeshEdit::Node(NodeChange::Larger(1.001))),
         ]
     }
 
@@ -120,19 +99,12 @@ impl MeshEdit {
             MeshEdit::MoveAll(..) => ("the mesh".to_owned(), format!("moved by {shift:?}")),
             MeshEdit::Scale(factor) => ("the mesh".to_owned(), format!("times {factor}")),
             MeshEdit::Colour => ("a colour".to_owned(), "another".to_owned()),
-            MeshEdit::StrayVertex(times) => (
-                "the vertices of its faces".to_owned(),
-                format!("one more, at {}", times * extent),
-            ),
+            MeshEdit::StrayVertex(times) => {
+                ("the vertices of its faces".to_owned(), format!("one more, at {}", times * extent))
+            }
             MeshEdit::Node(change) => ("its node".to_owned(), format!("{change:?}")),
         };
-        Some(Spot {
-            triangle: triangle.map(single),
-            shift,
-            extent,
-            from,
-            to,
-        })
+        Some(Spot { triangle: triangle.map(single), shift, extent, from, to })
     }
 
     /// Applies the edit to a file in one of the three formats. `None` if the spot is not in it. `parts` is its content.

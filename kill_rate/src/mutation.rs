@@ -71,12 +71,7 @@ pub(crate) struct FileChange {
 impl FileChange {
     /// Replaces files; the root metadata still lists them.
     pub(crate) fn new(files: Files, from: impl Into<String>, to: impl Into<String>) -> Self {
-        FileChange {
-            files,
-            unlisted: Vec::new(),
-            from: from.into(),
-            to: to.into(),
-        }
+        FileChange { files, unlisted: Vec::new(), from: from.into(), to: to.into() }
     }
 }
 
@@ -118,10 +113,7 @@ impl Mutation {
             from: String::new(),
             to: String::new(),
         };
-        Mutation {
-            description,
-            change,
-        }
+        Mutation { description, change }
     }
 
     /// The files to replace, including the root metadata, and the description with old and new values. `None` if
@@ -177,9 +169,7 @@ fn changed(
     description: &mut Description,
 ) -> Option<(Files, Option<Value>)> {
     let mut metadata = edit::apply(original.metadata(), edits)?;
-    file_entry::unlist(&mut metadata, |path| {
-        change.unlisted.iter().any(|gone| gone == path)
-    });
+    file_entry::unlist(&mut metadata, |path| change.unlisted.iter().any(|gone| gone == path));
     (description.from, description.to) = (change.from, change.to);
     Some((change.files, Some(metadata)))
 }
@@ -189,10 +179,7 @@ const SHOWN: usize = 80;
 
 fn in_words(before: &Value, after: &Value, edits: &[Edit], place: &str) -> (String, String) {
     let text = |value: Option<&Value>| {
-        value.map_or_else(
-            || "nothing".to_owned(),
-            |value| shortened(&value.to_string()),
-        )
+        value.map_or_else(|| "nothing".to_owned(), |value| shortened(&value.to_string()))
     };
     match edits {
         [Edit::Rename(at, to)] => (last(at), to.clone()),

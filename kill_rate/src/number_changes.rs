@@ -15,11 +15,8 @@ const RELATIVE_STEPS: [(&str, f64); 4] = [
 ];
 
 /// Absolute step sizes, in the number's own unit.
-const ABSOLUTE_STEPS: [(&str, f64); 3] = [
-    ("a step of 1e-6", 1e-6),
-    ("a step of 1e-3", 1e-3),
-    ("a step of 1", 1.0),
-];
+const ABSOLUTE_STEPS: [(&str, f64); 3] =
+    [("a step of 1e-6", 1e-6), ("a step of 1e-3", 1e-3), ("a step of 1", 1.0)];
 
 /// Mutations of a non-integer number.
 pub(crate) fn numbers(ground: &Ground, x: f64, dice: &mut Dice) -> Vec<(&'static str, Value)> {
@@ -29,14 +26,8 @@ pub(crate) fn numbers(ground: &Ground, x: f64, dice: &mut Dice) -> Vec<(&'static
         ("zero", 0.0),
         ("huge", 1e12_f64.copysign(x)),
         // Slightly more than the smallest change that counts.
-        (
-            "eleven tolerances",
-            x + dice.sign() * 11.5 * ground.tolerance(x, x),
-        ),
-        (
-            "a millionth of the reach",
-            x + dice.sign() * 1e-6 * ground.reach,
-        ),
+        ("eleven tolerances", x + dice.sign() * 11.5 * ground.tolerance(x, x)),
+        ("a millionth of the reach", x + dice.sign() * 1e-6 * ground.reach),
     ];
     for (kind, step) in RELATIVE_STEPS {
         to.push((kind, x * (1.0 + dice.sign() * step)));
@@ -45,9 +36,7 @@ pub(crate) fn numbers(ground: &Ground, x: f64, dice: &mut Dice) -> Vec<(&'static
         to.push((kind, x + dice.sign() * step));
     }
     // Adding 0.0 turns negative zero into zero.
-    to.into_iter()
-        .map(|(kind, x)| (kind, json!(x + 0.0)))
-        .collect()
+    to.into_iter().map(|(kind, x)| (kind, json!(x + 0.0))).collect()
 }
 
 /// Mutations of an integer.

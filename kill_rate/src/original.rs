@@ -70,9 +70,8 @@ impl Original {
         let value = |file: &str| -> Result<Value, OriginalError> {
             let bytes = files.get(file).map_or(&[][..], Vec::as_slice);
             let document = json::read(bytes);
-            let document = document.map_err(|_| OriginalError::NotJson {
-                path: file.to_owned(),
-            })?;
+            let document =
+                document.map_err(|_| OriginalError::NotJson { path: file.to_owned() })?;
             Ok(document.value)
         };
         if !files.contains_key(ROOT_METADATA) {
@@ -126,8 +125,7 @@ impl Original {
 
     /// The root metadata.
     pub(crate) fn metadata(&self) -> &Value {
-        self.document(ROOT_METADATA)
-            .map_or(&Value::Null, |document| &document.value)
+        self.document(ROOT_METADATA).map_or(&Value::Null, |document| &document.value)
     }
 
     /// Path of the source URDF.
@@ -137,10 +135,10 @@ impl Original {
 
     /// Name and folder of the module that contains a file.
     pub(crate) fn module_of(&self, path: &str) -> Option<(&'static str, &'static str)> {
-        self.modules.iter().copied().find(|(_, folder)| {
-            path.strip_prefix(folder)
-                .is_some_and(|rest| rest.starts_with('/'))
-        })
+        self.modules
+            .iter()
+            .copied()
+            .find(|(_, folder)| path.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')))
     }
 }
 
@@ -164,10 +162,7 @@ fn read_files(path: &Path) -> Result<BTreeMap<String, Vec<u8>>, OriginalError> {
     };
     let root = Root::open(path).map_err(failed("."))?;
     let listing = root.list().map_err(failed("."))?;
-    let files = listing
-        .entries
-        .into_iter()
-        .filter(|entry| entry.kind == EntryKind::File);
+    let files = listing.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
     files
         .map(|entry| {
             let bytes = root.read(&entry.path, MAX_DOCUMENT_BYTES);

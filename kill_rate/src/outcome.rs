@@ -28,10 +28,7 @@ pub enum Outcome {
 impl Outcome {
     /// Whether the validator detects the mutation.
     pub fn is_noticed(&self) -> bool {
-        matches!(
-            self,
-            Outcome::Noticed(_) | Outcome::Warned(_) | Outcome::Unreadable
-        )
+        matches!(self, Outcome::Noticed(_) | Outcome::Warned(_) | Outcome::Unreadable)
     }
 }
 
@@ -49,11 +46,8 @@ pub struct Trial {
 /// Runs the validator on a URDD. Slow rules of late phases run only if the earlier ones find no error: late rules
 /// depend on earlier ones, never the reverse.
 pub(crate) fn judge(path: &Path, rules: &[&'static Rule], settings: &Settings) -> Outcome {
-    let early: Vec<&'static Rule> = rules
-        .iter()
-        .copied()
-        .filter(|rule| rule.phase <= Phase::References)
-        .collect();
+    let early: Vec<&'static Rule> =
+        rules.iter().copied().filter(|rule| rule.phase <= Phase::References).collect();
     let outcome = judge_by(path, &early, settings);
     match outcome {
         Outcome::Noticed(_) | Outcome::Crashed(_) | Outcome::Unreadable => outcome,
@@ -76,9 +70,7 @@ fn judge_by(path: &Path, rules: &[&'static Rule], settings: &Settings) -> Outcom
     }
     let codes = |of: &dyn Fn(Severity) -> bool| -> Vec<Code> {
         let found = urdd.findings.iter().filter(|finding| of(finding.severity));
-        let codes: BTreeSet<_> = found
-            .filter_map(|finding| Code::parse(&finding.code))
-            .collect();
+        let codes: BTreeSet<_> = found.filter_map(|finding| Code::parse(&finding.code)).collect();
         codes.into_iter().collect()
     };
     let errors = codes(&|severity| severity == Severity::Error);

@@ -17,22 +17,12 @@ fn collect(value: &Value, pointer: String, field: String, out: &mut BTreeMap<Str
         Value::Object(map) => {
             for (key, value) in map.iter().filter(|(key, _)| is_field(key)) {
                 let key = escape(key);
-                collect(
-                    value,
-                    format!("{pointer}/{key}"),
-                    format!("{field}/{key}"),
-                    out,
-                );
+                collect(value, format!("{pointer}/{key}"), format!("{field}/{key}"), out);
             }
         }
         Value::Array(list) => {
             for (index, value) in list.iter().enumerate() {
-                collect(
-                    value,
-                    format!("{pointer}/{index}"),
-                    format!("{field}/*"),
-                    out,
-                );
+                collect(value, format!("{pointer}/{index}"), format!("{field}/*"), out);
             }
         }
         _ => {}

@@ -87,11 +87,7 @@ fn survivors(urdd: &Measured) -> String {
     let mut by_field: BTreeMap<(&str, &str, &str), Vec<&Trial>> = BTreeMap::new();
     for trial in urdd.survivors() {
         let change = &trial.change;
-        let key = (
-            change.module.as_str(),
-            change.field.as_str(),
-            change.target.as_str(),
-        );
+        let key = (change.module.as_str(), change.field.as_str(), change.target.as_str());
         by_field.entry(key).or_default().push(trial);
     }
     let mut text = String::new();
@@ -103,10 +99,8 @@ fn survivors(urdd: &Measured) -> String {
         for trial in &trials {
             *kinds.entry(trial.change.kind).or_default() += 1;
         }
-        let kinds: Vec<String> = kinds
-            .iter()
-            .map(|(kind, count)| format!("{kind} ({count})"))
-            .collect();
+        let kinds: Vec<String> =
+            kinds.iter().map(|(kind, count)| format!("{kind} ({count})")).collect();
         text += &format!("    {module} {field} ({target}): {}\n", kinds.join(", "));
         for trial in trials.iter().take(SHOWN) {
             let change = &trial.change;

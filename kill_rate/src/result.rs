@@ -102,9 +102,7 @@ impl Measured {
 
     /// The mutations that the last run does not detect.
     pub fn survivors(&self) -> impl Iterator<Item = &Trial> {
-        self.trials
-            .iter()
-            .filter(|trial| !trial.deep.as_ref().unwrap_or(&trial.plain).is_noticed())
+        self.trials.iter().filter(|trial| !trial.deep.as_ref().unwrap_or(&trial.plain).is_noticed())
     }
 }
 
@@ -112,11 +110,7 @@ impl Measured {
 pub fn modules_of(measured: &[Measured]) -> Vec<ModuleCount> {
     let trials = measured.iter().flat_map(|urdd| &urdd.trials);
     let tallies = tallies(trials, |trial| trial.change.module.clone());
-    let count = |(module, plain, deep)| ModuleCount {
-        module,
-        plain,
-        deep,
-    };
+    let count = |(module, plain, deep)| ModuleCount { module, plain, deep };
     tallies.into_iter().map(count).collect()
 }
 

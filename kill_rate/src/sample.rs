@@ -19,18 +19,13 @@ pub(crate) fn draw(
     let mut by_kind: BTreeMap<&'static str, Vec<Mutation>> = BTreeMap::new();
     for place in dice.choose(count, most) {
         for change in changes(place, dice) {
-            by_kind
-                .entry(change.description.kind)
-                .or_default()
-                .push(change);
+            by_kind.entry(change.description.kind).or_default().push(change);
         }
     }
     // Shuffle the kinds, so that small samples have different kinds in each field.
     let mut kinds: Vec<_> = by_kind.into_values().collect();
     let order = dice.choose(kinds.len(), kinds.len());
-    let kinds = order
-        .into_iter()
-        .map(|kind| std::mem::take(&mut kinds[kind]));
+    let kinds = order.into_iter().map(|kind| std::mem::take(&mut kinds[kind]));
     in_turn(kinds.collect(), most)
 }
 

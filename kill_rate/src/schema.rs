@@ -22,33 +22,22 @@ pub(crate) fn of_field<'a>(schema: &'a Value, field: &str) -> Vec<&'a Value> {
 /// Resolves references and splits choices into their alternatives.
 fn branches<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
     if let Some(name) = part.get("$ref").and_then(Value::as_str) {
-        let target = name
-            .strip_prefix('#')
-            .and_then(|pointer| schema.pointer(pointer));
+        let target = name.strip_prefix('#').and_then(|pointer| schema.pointer(pointer));
         return target.map_or_else(Vec::new, |target| branches(schema, target));
     }
-    let choices = ["anyOf", "oneOf"]
-        .iter()
-        .filter_map(|key| part.get(*key)?.as_array());
+    let choices = ["anyOf", "oneOf"].iter().filter_map(|key| part.get(*key)?.as_array());
     let choices: Vec<&Value> = choices.flatten().collect();
     if choices.is_empty() {
         return vec![part];
     }
-    choices
-        .into_iter()
-        .flat_map(|choice| branches(schema, choice))
-        .collect()
+    choices.into_iter().flat_map(|choice| branches(schema, choice)).collect()
 }
 
 /// The allowed words of an enumeration field.
 pub(crate) fn words<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
     let lists = parts.iter().filter_map(|part| part.get("enum")?.as_array());
     let singles = parts.iter().filter_map(|part| part.get("const"));
-    lists
-        .flatten()
-        .chain(singles)
-        .filter_map(Value::as_str)
-        .collect()
+    lists.flatten().chain(singles).filter_map(Value::as_str).collect()
 }
 
 /// The allowed keys of a one-key object.
@@ -65,16 +54,13 @@ pub(crate) fn tags<'a>(parts: &[&'a Value]) -> Vec<&'a str> {
 
 /// Whether a field contains integers.
 pub(crate) fn is_integer(parts: &[&Value]) -> bool {
-    parts
-        .iter()
-        .any(|part| types(part).any(|kind| kind == "integer"))
+    parts.iter().any(|part| types(part).any(|kind| kind == "integer"))
 }
 
 fn types(part: &Value) -> impl Iterator<Item = &str> {
     let one = part.get("type").and_then(Value::as_str);
     let several = part.get("type").and_then(Value::as_array);
-    one.into_iter()
-        .chain(several.into_iter().flatten().filter_map(Value::as_str))
+    one.into_iter().chain(several.into_iter().flatten().filter_map(Value::as_str))
 }
 
 /// A valid value of a field other than null.
@@ -97,14 +83,10 @@ pub(crate) fn example(schema: &Value, parts: &[&Value]) -> Option<Value> {
             "object" => {
                 let members = part.get("properties")?.as_object()?;
                 let mut object = Map::new();
-                for (key, member) in members
-                    .iter()
-                    .filter(|(key, _)| super::pointer::is_field(key))
+                for (key, member) in members.iter().filter(|(key, _)| super::pointer::is_field(key))
                 {
                     let member = branches(schema, member);
-                    let null = member
-                        .iter()
-                        .any(|part| types(part).any(|kind| kind == "null"));
+                    let null = member.iter().any(|part| types(part).any(|kind| kind == "null"));
                     let value = match null {
                         true => Value::Null,
                         false => example(schema, &member)?,
@@ -136,13 +118,7 @@ mod tests {
         let limit = example(&schema, &of("/joints/*/limit")).unwrap();
         assert_eq!(limit["lower"], Value::Null);
         let schema = find(ModuleKind::Dof, "1.0.0").unwrap().schema().to_value();
-        assert!(is_integer(&of_field(
-            &schema,
-            "/joint_idx_to_mimic_mapping/*/dof_idx"
-        )));
-        assert!(!is_integer(&of_field(
-            &schema,
-            "/joint_idx_to_mimic_mapping/*/offset"
-        )));
+        assert!(is_integer(&of_field(&schema, "/joint_idx_to_mimic_mapping/*/dof_idx")));
+        assert!(!is_integer(&of_field(&schema, "/joint_idx_to_mimic_mapping/*/offset")));
     }
 }

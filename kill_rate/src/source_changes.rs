@@ -86,32 +86,17 @@ pub(crate) fn mutations(original: &Original, plan: &Plan) -> Vec<Vec<Mutation>> 
     let mut lists = Vec::new();
     for (field, places) in attributes(text) {
         let mut dice = Dice::new(plan.seed, &field);
-        lists.push(sample::draw(
-            plan,
-            places.len(),
-            &mut dice,
-            |index, dice| {
-                let place = &places[index];
-                let changed = changed(
-                    original.reach,
-                    &text[place.value.clone()],
-                    place.numbers,
-                    dice,
-                );
-                let value = place.value.clone();
-                changed
-                    .into_iter()
-                    .map(|(kind, to)| {
-                        mutation(path, &field, kind, replaced(path, value.clone(), to))
-                    })
-                    .collect()
-            },
-        ));
+        lists.push(sample::draw(plan, places.len(), &mut dice, |index, dice| {
+            let place = &places[index];
+            let changed = changed(original.reach, &text[place.value.clone()], place.numbers, dice);
+            let value = place.value.clone();
+            changed
+                .into_iter()
+                .map(|(kind, to)| mutation(path, &field, kind, replaced(path, value.clone(), to)))
+                .collect()
+        }));
     }
-    let cut = [
-        ("its second half left out", Damage::Half),
-        ("emptied", Damage::All),
-    ];
+    let cut = [("its second half left out", Damage::Half), ("emptied", Damage::All)];
     let cut = cut.map(|(kind, damage)| {
         let path_of = path.to_owned();
         let make = move |original: &Original| {
@@ -149,10 +134,10 @@ fn attributes(text: &str) -> BTreeMap<String, Vec<Attribute>> {
             };
             let path: Vec<&str> = names.iter().rev().copied().collect();
             let field = format!("{}@{}", path.join("/"), attribute.name());
-            found.entry(field).or_default().push(Attribute {
-                value: attribute.range_value(),
-                numbers: *numbers,
-            });
+            found
+                .entry(field)
+                .or_default()
+                .push(Attribute { value: attribute.range_value(), numbers: *numbers });
         }
     }
     found
@@ -168,12 +153,7 @@ fn changed(reach: f64, value: &str, numbers: bool, dice: &mut Dice) -> Vec<(&'st
     let Some(from) = words.get(at).and_then(|word| word.parse::<f64>().ok()) else {
         return Vec::new();
     };
-    let ground = Ground {
-        module: "urdf_module",
-        field: "",
-        reach,
-        shapes: reach,
-    };
+    let ground = Ground { module: "urdf_module", field: "", reach, shapes: reach };
     let mut out: Vec<(&'static str, String)> = number_changes::numbers(&ground, from, dice)
         .into_iter()
         .filter_map(|(kind, to)| {

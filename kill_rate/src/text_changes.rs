@@ -27,10 +27,9 @@ pub(crate) fn texts(field: &Field, text: &str, dice: &mut Dice) -> Vec<(&'static
                 |path: &&String| *path != text && (extension(path) == extension(text)) == same;
             files.keys().filter(fits).collect::<Vec<_>>()
         };
-        for (kind, paths) in [
-            ("another file of its kind", other(true)),
-            ("a file of another kind", other(false)),
-        ] {
+        for (kind, paths) in
+            [("another file of its kind", other(true)), ("a file of another kind", other(false))]
+        {
             if !paths.is_empty() {
                 to.push((kind, json!(paths[dice.below(paths.len())])));
             }
@@ -66,9 +65,7 @@ pub(crate) fn spellings(text: &str, dice: &mut Dice) -> Vec<(&'static str, Strin
         shorter.remove(at);
         to.push(("a letter left out", shorter));
     }
-    let cased = letters
-        .iter()
-        .find(|at| text.as_bytes()[**at].is_ascii_alphabetic());
+    let cased = letters.iter().find(|at| text.as_bytes()[**at].is_ascii_alphabetic());
     if let Some(&at) = cased {
         let other = char::from(text.as_bytes()[at] ^ 0x20);
         let mut changed = text.to_owned();

@@ -47,15 +47,9 @@ pub(crate) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueC
         // In a symmetric matrix, also change both elements together.
         if let Some(other) = &mirrored {
             let edits = vec![set.clone(), Edit::Set(other.clone(), new)];
-            out.push(ValueChange {
-                kind: both_halves(kind),
-                edits,
-            });
+            out.push(ValueChange { kind: both_halves(kind), edits });
         }
-        out.push(ValueChange {
-            kind,
-            edits: vec![set],
-        });
+        out.push(ValueChange { kind, edits: vec![set] });
     }
     let is_permitted =
         |from: &Value, to: &Value| free::is_permitted(ground.module, ground.field, from, to);
@@ -68,10 +62,7 @@ pub(crate) fn changes(field: &Field, place: &str, dice: &mut Dice) -> Vec<ValueC
             Edit::Set(place.to_owned(), other.clone()),
             Edit::Set(other_place.to_owned(), value.clone()),
         ];
-        out.push(ValueChange {
-            kind: "two places exchanged",
-            edits,
-        });
+        out.push(ValueChange { kind: "two places exchanged", edits });
     }
     out
 }

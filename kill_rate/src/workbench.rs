@@ -19,10 +19,7 @@ pub(crate) struct Workbench<'a> {
 impl<'a> Workbench<'a> {
     /// Copies a URDD into a temporary folder.
     pub(crate) fn new(original: &'a Original) -> io::Result<Self> {
-        let workbench = Workbench {
-            folder: TempDir::new()?,
-            files: &original.files,
-        };
+        let workbench = Workbench { folder: TempDir::new()?, files: &original.files };
         for (path, bytes) in workbench.files {
             workbench.write(path, bytes)?;
         }

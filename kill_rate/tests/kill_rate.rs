@@ -36,11 +36,7 @@ fn plan(modules: &[&str]) -> Plan {
 }
 
 fn measured(path: &Path, rules: &[&'static Rule], plan: &Plan) -> Result<Measured, MeasureError> {
-    let judge = Judge {
-        rules,
-        plain: Settings::default(),
-        deep: None,
-    };
+    let judge = Judge { rules, plain: Settings::default(), deep: None };
     measure(&[path], &judge, plan, &|_, _, _| {}).map(|mut urdds| urdds.remove(0))
 }
 
@@ -68,20 +64,13 @@ fn a_rule_that_is_missing_is_a_blind_spot() {
     assert!(all.trials.len() > 40, "{}", all.trials.len());
     assert_eq!(all.survivors().count(), 0, "{}", present::table(&[all]));
 
-    let without: Vec<&'static Rule> = rules::all()
-        .into_iter()
-        .filter(|rule| rule.code != Code::BND005)
-        .collect();
+    let without: Vec<&'static Rule> =
+        rules::all().into_iter().filter(|rule| rule.code != Code::BND005).collect();
     let blind = measured(folder.path(), &without, &plan).expect("a measure");
-    let survived: BTreeSet<&str> = blind
-        .survivors()
-        .map(|trial| trial.change.field.as_str())
-        .collect();
+    let survived: BTreeSet<&str> =
+        blind.survivors().map(|trial| trial.change.field.as_str()).collect();
     let speeds = ["/dof_effort_limits/*", "/dof_velocity_limits/*"];
-    assert!(
-        speeds.iter().all(|field| survived.contains(field)),
-        "{survived:?}"
-    );
+    assert!(speeds.iter().all(|field| survived.contains(field)), "{survived:?}");
     let by_that_rule = |field: &&str| speeds.iter().any(|speed| speed.starts_with(field));
     assert!(survived.iter().all(by_that_rule), "{survived:?}");
     for trial in blind.survivors() {
@@ -96,19 +85,11 @@ fn a_rule_that_is_missing_is_a_blind_spot() {
 fn the_result_is_the_same_for_any_number_of_threads() {
     let folder = core();
     let with = |threads| {
-        let plan = Plan {
-            threads: Some(threads),
-            limit: Some(60),
-            ..plan(&[])
-        };
+        let plan = Plan { threads: Some(threads), limit: Some(60), ..plan(&[]) };
         measured(folder.path(), &rules::all(), &plan).expect("a measure")
     };
     let one = with(1);
-    assert!(
-        (50..=60).contains(&one.trials.len()),
-        "{}",
-        one.trials.len()
-    );
+    assert!((50..=60).contains(&one.trials.len()), "{}", one.trials.len());
     let modules = one.modules();
     assert!(modules.iter().all(|module| module.plain.changes > 0));
     // All core modules, the samples, urdd.json and the carried URDF.
@@ -133,19 +114,12 @@ fn only_what_is_right_is_measured_with() {
 #[test]
 fn hashes_follow_the_change() {
     let folder = core();
-    let rules: Vec<&'static Rule> = rules::all()
-        .into_iter()
-        .filter(|rule| rule.code == Code::DIR014)
-        .collect();
+    let rules: Vec<&'static Rule> =
+        rules::all().into_iter().filter(|rule| rule.code == Code::DIR014).collect();
     let modules = measured(folder.path(), &rules, &plan(&["dof_module", "source"]));
     let modules = modules.expect("a measure");
     assert!(modules.trials.len() > 40);
-    assert!(
-        modules
-            .trials
-            .iter()
-            .all(|trial| trial.plain == Outcome::Missed)
-    );
+    assert!(modules.trials.iter().all(|trial| trial.plain == Outcome::Missed));
     let root = measured(folder.path(), &rules, &plan(&["urdd.json"])).expect("a measure");
     let sizes = root.trials.iter().filter(|trial| {
         trial.change.field == "/modules/*/files/*/size" && trial.change.kind.starts_with("one ")
@@ -153,20 +127,15 @@ fn hashes_follow_the_change() {
     let sizes: Vec<&Outcome> = sizes.map(|trial| &trial.plain).collect();
     assert!(sizes.len() > 1);
     let noticed = Outcome::Noticed(vec![Code::DIR014]);
-    assert!(
-        sizes.iter().all(|outcome| **outcome == noticed),
-        "{sizes:?}"
-    );
+    assert!(sizes.iter().all(|outcome| **outcome == noticed), "{sizes:?}");
 }
 
 /// A warning is a finding: only a mutation without any finding has survived.
 #[test]
 fn a_warning_counts() {
     let folder = core();
-    let rules: Vec<&'static Rule> = rules::all()
-        .into_iter()
-        .filter(|rule| rule.severity != Severity::Error)
-        .collect();
+    let rules: Vec<&'static Rule> =
+        rules::all().into_iter().filter(|rule| rule.severity != Severity::Error).collect();
     let measured = measured(folder.path(), &rules, &plan(&["source"])).expect("a measure");
     let warned = |trial: &&Trial| matches!(trial.plain, Outcome::Warned(_));
     assert!(measured.trials.iter().any(|trial| warned(&trial)));
@@ -181,32 +150,22 @@ fn what_lies_beside_the_triangles_of_a_mesh_is_changed_too() {
     let folder = testkit::temporary::folder();
     Fixture::toy().write_to(folder.path());
     // Changes of nodes are rare among those of a mesh.
-    let plan = Plan {
-        per_field: Some(12),
-        ..plan(&["convex_hull_meshes_module"])
-    };
+    let plan = Plan { per_field: Some(12), ..plan(&["convex_hull_meshes_module"]) };
     let measured = measured(folder.path(), &rules::all(), &plan).expect("a measure");
     let of = |start: &str| -> Vec<&Trial> {
         let trials = measured.trials.iter();
-        trials
-            .filter(|trial| trial.change.kind.starts_with(start))
-            .collect()
+        trials.filter(|trial| trial.change.kind.starts_with(start)).collect()
     };
     let stray = of("a vertex without faces");
     assert!(!stray.is_empty());
     assert!(
-        stray
-            .iter()
-            .all(|trial| !trial.change.file.ends_with(".stl")
-                || trial.change.field == "meshes, all formats")
+        stray.iter().all(|trial| !trial.change.file.ends_with(".stl")
+            || trial.change.field == "meshes, all formats")
     );
     let nodes = of("its node");
     assert!(nodes.len() > 2, "{}", nodes.len());
     // Poses of nodes are read: a hull in another place is another hull.
-    assert!(
-        nodes.iter().all(|trial| trial.plain.is_noticed()),
-        "{nodes:#?}"
-    );
+    assert!(nodes.iter().all(|trial| trial.plain.is_noticed()), "{nodes:#?}");
 }
 
 #[test]
@@ -214,11 +173,7 @@ fn what_is_free_is_left_alone() {
     let folder = core();
     let root = measured(folder.path(), &rules::all(), &plan(&["urdd.json"])).expect("a measure");
     let generator = |field: &str| field.starts_with("/generator");
-    assert!(
-        root.trials
-            .iter()
-            .all(|trial| !generator(&trial.change.field))
-    );
+    assert!(root.trials.iter().all(|trial| !generator(&trial.change.field)));
     assert_eq!(root.survivors().count(), 0, "{}", present::table(&[root]));
 }
 
@@ -228,14 +183,7 @@ fn the_command_tells_by_its_status() {
     let run = |path: &Path, more: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_urdd-kill-rate"));
         command.arg(path);
-        command.args([
-            "--format",
-            "json",
-            "--modules",
-            "bounds_module",
-            "--limit",
-            "40",
-        ]);
+        command.args(["--format", "json", "--modules", "bounds_module", "--limit", "40"]);
         command.args(more).output().expect("urdd runs")
     };
     let output = run(folder.path(), &[]);
@@ -245,10 +193,7 @@ fn the_command_tells_by_its_status() {
     assert_eq!(module["module"], "bounds_module");
     assert_eq!(module["plain"]["rate"], json!(1.0));
     assert_eq!(said["urdds"][0]["survivors"], json!([]));
-    assert_eq!(
-        run(folder.path(), &["--min-rate", "1.1"]).status.code(),
-        Some(1)
-    );
+    assert_eq!(run(folder.path(), &["--min-rate", "1.1"]).status.code(), Some(1));
     let empty = testkit::temporary::folder();
     assert_eq!(run(empty.path(), &[]).status.code(), Some(2));
     fs::remove_file(folder.path().join("bounds_module/VERSION")).expect("a file");
@@ -277,17 +222,10 @@ fn the_page_lists_what_does_not_count() {
             Tolerance::Absolute(tolerance) => format!("{tolerance:e}"),
         };
         let (module, field, clause) = (listed.module, listed.field, listed.clause);
-        let field = if field.is_empty() {
-            "every one"
-        } else {
-            &format!("`{field}`")
-        };
+        let field = if field.is_empty() { "every one" } else { &format!("`{field}`") };
         rows.push(format!("| `{module}` | {field} | {tolerance} | {clause} |"));
     }
     for row in rows {
-        assert!(
-            page.contains(&row),
-            "conformance/kill_rate.md lacks the line\n{row}"
-        );
+        assert!(page.contains(&row), "conformance/kill_rate.md lacks the line\n{row}");
     }
 }

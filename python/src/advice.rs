@@ -62,12 +62,7 @@ pub fn of_generate(error: &GenerateError) -> String {
                 "nothing was written: strict=True rejects assumptions that change the robot";
             format!("{}\n{words}", shown(notes.iter().map(ToString::to_string)))
         }
-        GenerateError::Edits {
-            file,
-            at,
-            lost,
-            fault,
-        } => {
+        GenerateError::Edits { file, at, lost, fault } => {
             let at = at.map_or_else(String::new, |at| format!(":{at}"));
             let words = format!(
                 "a new run would lose the user's {lost}. Correct the file, or discard all its edits: drop_edits=True"
@@ -93,11 +88,7 @@ pub fn of_combine(error: &CombineError) -> String {
             let part = id.as_ref().map(|id| format!("part `{}`: ", line(id)));
             format!("{}{}", part.unwrap_or_default(), of_generate(error))
         }
-        CombineError::Part {
-            id,
-            source_path,
-            fault: PartFault::Fails { codes },
-        } => {
+        CombineError::Part { id, source_path, fault: PartFault::Fails { codes } } => {
             let part = match id.is_empty() {
                 true => String::new(),
                 false => format!("part `{}`: ", line(id)),

@@ -29,10 +29,7 @@ pub struct Batch {
 
 impl Batch {
     pub fn new(array: &PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        Ok(Batch {
-            count: array.shape()[0],
-            values: copy(array)?,
-        })
+        Ok(Batch { count: array.shape()[0], values: copy(array)? })
     }
 
     /// The values of a configuration; empty for a robot without DOFs.
@@ -81,9 +78,7 @@ pub fn zeros<'py, T: Element, S: IntoDimension>(
         return Err(no_memory(bytes));
     }
     let lengths = PyTuple::new(py, shape.slice())?;
-    let made = py
-        .import("numpy")?
-        .call_method1("zeros", (lengths, T::get_dtype(py)))?;
+    let made = py.import("numpy")?.call_method1("zeros", (lengths, T::get_dtype(py)))?;
     check_memory(BESIDES)?;
     Ok(made.cast_into::<PyArray<T, S::Dim>>()?)
 }

@@ -10,7 +10,5 @@ use pyo3::prelude::*;
 pub fn main(py: Python<'_>, words: Vec<OsString>, closed: bool) -> u8 {
     let status = py.detach(|| urdd::cli::run(words, closed));
     // The only way to get the number of an exit status.
-    (0..=u8::MAX)
-        .find(|number| ExitCode::from(*number) == status)
-        .unwrap_or(101)
+    (0..=u8::MAX).find(|number| ExitCode::from(*number) == status).unwrap_or(101)
 }

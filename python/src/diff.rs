@@ -29,17 +29,11 @@ pub fn diff(
     let (packages, allowed_folders) =
         places(&packages, allowed_folders).map_err(PyValueError::new_err)?;
     let outcome = work::run(py, move |cancellation| -> Result<_, DiffError> {
-        let mut options = Options {
-            without_findings: !findings,
-            ..Options::default()
-        };
+        let mut options = Options { without_findings: !findings, ..Options::default() };
         options.urdf.packages = packages;
         options.urdf.allowed_folders = allowed_folders;
         options.urdf.cancellation = cancellation.clone();
-        let (before, after) = (
-            Side::open(&before, &options)?,
-            Side::open(&after, &options)?,
-        );
+        let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
         Ok(report::json(&compare(&before, &after, tolerance)))
     })?;
     match outcome {

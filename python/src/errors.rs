@@ -54,21 +54,14 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         RobotError::MotionOpen | RobotError::Metadata(_) | RobotError::Kinematics(_) => {
             raise(py, "ModuleUnusableError", advice::of_robot(error), &[])
         }
-        RobotError::Unknown {
-            what,
-            name,
-            nearest,
-        } => raise(
+        RobotError::Unknown { what, name, nearest } => raise(
             py,
             "UnknownNameError",
             error,
             &[
                 ("what", text(py, what)),
                 ("name", text(py, name)),
-                (
-                    "nearest",
-                    nearest.as_deref().map_or_else(none, |name| text(py, name)),
-                ),
+                ("nearest", nearest.as_deref().map_or_else(none, |name| text(py, name))),
             ],
         ),
         RobotError::OutOfRange { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
@@ -99,40 +92,25 @@ pub fn of_generate(py: Python<'_>, error: &GenerateError) -> PyErr {
     }
     let places = placed(py, places_of(error));
     let code = text(py, error.code());
-    raise(
-        py,
-        "GenerateError",
-        advice::of_generate(error),
-        &[("code", code), ("places", places)],
-    )
+    raise(py, "GenerateError", advice::of_generate(error), &[("code", code), ("places", places)])
 }
 
 /// The exception of a combination error.
 pub fn of_combine(py: Python<'_>, error: &CombineError) -> PyErr {
     let (part, places) = match error {
-        CombineError::Generate {
-            error: GenerateError::Cancelled,
-            ..
-        } => return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string()),
+        CombineError::Generate { error: GenerateError::Cancelled, .. } => {
+            return pyo3::exceptions::PyKeyboardInterrupt::new_err(error.to_string());
+        }
         CombineError::Generate { id, error } => (id.as_deref(), places_of(error)),
         CombineError::Part { id, .. } => (Some(id.as_str()), Vec::new()),
-        CombineError::Recipe {
-            file,
-            at: Some(at),
-            fault,
-        } => (
-            None,
-            vec![(file.clone(), at.line, at.column, fault.to_string())],
-        ),
+        CombineError::Recipe { file, at: Some(at), fault } => {
+            (None, vec![(file.clone(), at.line, at.column, fault.to_string())])
+        }
         _ => (None, Vec::new()),
     };
     let part = part.filter(|part| !part.is_empty());
     let part = part.map_or_else(|| py.None().into_bound(py), |part| text(py, part));
-    let more = [
-        ("code", text(py, error.code())),
-        ("part", part),
-        ("places", placed(py, places)),
-    ];
+    let more = [("code", text(py, error.code())), ("part", part), ("places", placed(py, places))];
     raise(py, "CombineError", advice::of_combine(error), &more)
 }
 
@@ -147,22 +125,14 @@ fn placed<'py>(py: Python<'py>, places: Vec<Place>) -> Bound<'py, PyAny> {
 fn places_of(error: &GenerateError) -> Vec<Place> {
     let mut places = Vec::new();
     match error {
-        GenerateError::Refused { file, faults } => places.extend(faults.iter().map(|fault| {
-            (
-                file.clone(),
-                fault.line,
-                fault.column,
-                advice::of_fault(&fault.fault),
-            )
-        })),
+        GenerateError::Refused { file, faults } => {
+            places.extend(faults.iter().map(|fault| {
+                (file.clone(), fault.line, fault.column, advice::of_fault(&fault.fault))
+            }))
+        }
         GenerateError::Outside { file, meshes } => places.extend(meshes.iter().map(|mesh| {
             let leads = mesh.path.display();
-            (
-                file.clone(),
-                mesh.line,
-                mesh.column,
-                format!("mesh {}: leads to {leads}", mesh.name),
-            )
+            (file.clone(), mesh.line, mesh.column, format!("mesh {}: leads to {leads}", mesh.name))
         })),
         GenerateError::Strict { notes } => places.extend(notes.iter().map(|note| {
             (
@@ -172,17 +142,9 @@ fn places_of(error: &GenerateError) -> Vec<Place> {
                 format!("{}: {}", note.problem, note.assumed),
             )
         })),
-        GenerateError::Edits {
-            file,
-            at: Some(at),
-            fault,
-            ..
-        } => places.push((
-            file.display().to_string(),
-            at.line,
-            at.column,
-            advice::of_edits(fault),
-        )),
+        GenerateError::Edits { file, at: Some(at), fault, .. } => {
+            places.push((file.display().to_string(), at.line, at.column, advice::of_edits(fault)))
+        }
         _ => {}
     }
     places

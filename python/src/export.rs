@@ -18,13 +18,7 @@ use crate::robot::Robot;
 use crate::work;
 
 /// The text, its path in a folder, the other files by path, notes, and the report.
-type Made<'py> = (
-    String,
-    Option<String>,
-    Vec<(String, Bound<'py, PyBytes>)>,
-    Vec<String>,
-    String,
-);
+type Made<'py> = (String, Option<String>, Vec<(String, Bound<'py, PyBytes>)>, Vec<String>, String);
 
 /// A robot in another format, in memory.
 #[pyfunction]
@@ -119,9 +113,7 @@ pub fn export<'py>(
     Ok((
         made.text,
         made.path,
-        files
-            .map(|(path, bytes)| (path.clone(), PyBytes::new(py, bytes)))
-            .collect(),
+        files.map(|(path, bytes)| (path.clone(), PyBytes::new(py, bytes))).collect(),
         made.notes.iter().map(ToString::to_string).collect(),
         made.report,
     ))
@@ -138,11 +130,7 @@ pub fn joint_groups(
     let robot = Arc::clone(robot.read(py)?);
     let failed = |message: String| raise(py, "ExportError", message, &[]);
     let groups = match file {
-        Some(file)
-            if file
-                .extension()
-                .is_some_and(|extension| extension == "srdf") =>
-        {
+        Some(file) if file.extension().is_some_and(|extension| extension == "srdf") => {
             let text = std::fs::read_to_string(&file).map_err(|error| {
                 let code = error.raw_os_error();
                 PyOSError::new_err((code, error.kind().to_string(), file.clone()))

@@ -75,20 +75,12 @@ impl Options {
                 "collision" => GeometryKind::Collision,
                 other => {
                     let other = other.escape_debug();
-                    return Err(format!(
-                        "geometry: `{other}` is neither visual nor collision"
-                    ));
+                    return Err(format!("geometry: `{other}` is neither visual nor collision"));
                 }
             },
-            mesh_formats: MeshFormats {
-                stl: has("stl"),
-                obj: has("obj"),
-            },
+            mesh_formats: MeshFormats { stl: has("stl"), obj: has("obj") },
             allowed_folders,
-            pieces: Pieces {
-                most: self.pieces,
-                tolerance: self.piece_tolerance,
-            },
+            pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
             model_effort: Default::default(),
             skipped_reasons: skip.transpose()?,
@@ -193,10 +185,7 @@ pub fn with_progress<T: Send, E: Send>(
     };
     work::run_and_tell(py, hear, move |cancellation, teller| {
         settings.cancellation = cancellation.clone();
-        let told = Told {
-            teller,
-            last: Mutex::default(),
-        };
+        let told = Told { teller, last: Mutex::default() };
         let made = make(&settings, &told);
         if made.is_ok() {
             told.end();
@@ -248,21 +237,14 @@ pub fn generate<'py>(
     options: Options,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let made = with_progress(
-        py,
-        options,
-        progress,
-        move |settings, progress| match text {
-            None => caught(&source, || {
-                urdd_generate::generate(&source, &target, settings, progress)
-            }),
-            Some(text) => {
-                let shown = "<text>";
-                caught(shown.as_ref(), || {
-                    urdd_generate::generate_text(text, shown, &source, &target, settings, progress)
-                })
-            }
-        },
-    )?;
+    let made = with_progress(py, options, progress, move |settings, progress| match text {
+        None => caught(&source, || urdd_generate::generate(&source, &target, settings, progress)),
+        Some(text) => {
+            let shown = "<text>";
+            caught(shown.as_ref(), || {
+                urdd_generate::generate_text(text, shown, &source, &target, settings, progress)
+            })
+        }
+    })?;
     summary(py, &made.map_err(|error| of_generate(py, &error))?)
 }

@@ -104,10 +104,7 @@ impl Obstacle {
         let (vertices, faces) = (rows(&vertices)?, copy(&faces)?);
         let of_vertices = vertices.len().saturating_mul(BYTES_A_VERTEX);
         check_memory(of_vertices.saturating_add(faces.len() / 3 * BYTES_A_TRIANGLE))?;
-        let mesh = Mesh {
-            vertices,
-            triangles: faces.as_chunks().0.to_vec(),
-        };
+        let mesh = Mesh { vertices, triangles: faces.as_chunks().0.to_vec() };
         let pose = unchecked_pose(&copy(&pose)?);
         let made = work::run(py, |_| urdd_robot::Obstacle::mesh(&name, pose, &mesh))?;
         made.map(Obstacle).map_err(|error| of_robot(py, &error))

@@ -18,11 +18,7 @@ use crate::work;
 
 /// The result of reading a module.
 enum Read {
-    Text {
-        version: String,
-        is_legacy: bool,
-        text: String,
-    },
+    Text { version: String, is_legacy: bool, text: String },
     Missing,
     Unusable(String),
     NotListed(ReadError),
@@ -65,20 +61,14 @@ impl Robot {
                 Err(error) => Read::Unusable(format!("{file}: {error}")),
                 Ok(bytes) => Read::Text {
                     version: module.version.clone().unwrap_or_default(),
-                    is_legacy: module
-                        .spec
-                        .is_some_and(|spec| spec.profile == Profile::Legacy),
+                    is_legacy: module.spec.is_some_and(|spec| spec.profile == Profile::Legacy),
                     text: String::from_utf8_lossy(&bytes).into_owned(),
                 },
             }
         })?;
         let name = || vec![("module", pyo3::types::PyString::new(py, name).into_any())];
         match read {
-            Read::Text {
-                version,
-                is_legacy,
-                text,
-            } => Ok((version, is_legacy, text)),
+            Read::Text { version, is_legacy, text } => Ok((version, is_legacy, text)),
             Read::NotListed(error) => Err(raise(py, "OpenError", error, &[])),
             Read::Missing => {
                 let error = urdd_robot::RobotError::Missing(kind);

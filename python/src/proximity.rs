@@ -22,9 +22,7 @@ pub type Overlapping<N> = (N, f64, [f64; 3], Vec<f64>);
 
 pub fn overlapping<P, N>(found: Vec<Overlap<P>>, near: impl Fn(&P) -> N) -> Vec<Overlapping<N>> {
     let found = found.into_iter();
-    found
-        .map(|one| (near(&one.pair), one.depth, one.direction, one.gradient))
-        .collect()
+    found.map(|one| (near(&one.pair), one.depth, one.direction, one.gradient)).collect()
 }
 
 /// The shapes of one kind, prepared for distances.
@@ -87,11 +85,7 @@ impl Proximity {
 
     /// (pairs, 2, 2): the link and the piece of both shapes of each pair.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<usize>>> {
-        let numbers = self
-            .0
-            .pairs()
-            .flatten()
-            .flat_map(|(link, piece)| [link, piece]);
+        let numbers = self.0.pairs().flatten().flat_map(|(link, piece)| [link, piece]);
         shaped(py, numbers.collect(), [self.0.num_pairs(), 2, 2])
     }
 
@@ -189,9 +183,7 @@ impl Proximity {
     ) -> PyResult<Vec<Overlapping<Near>>> {
         let batch = Batch::new(&configuration)?;
         let found = py.detach(|| self.0.penetrations(&batch.values));
-        found
-            .map(|found| overlapping(found, near))
-            .map_err(|error| of_robot(py, &error))
+        found.map(|found| overlapping(found, near)).map_err(|error| of_robot(py, &error))
     }
 
     /// The nearest pairs in one configuration, nearest first, with the gradients of their distances; `None` for pairs
@@ -206,9 +198,7 @@ impl Proximity {
         let found = py.detach(|| self.0.gradients(&batch.values, k));
         let found = found.map_err(|error| of_robot(py, &error))?;
         let each = found.into_iter();
-        Ok(each
-            .map(|found| (near(&found.pair), found.gradient))
-            .collect())
+        Ok(each.map(|found| (near(&found.pair), found.gradient)).collect())
     }
 
     /// The nearest pairs in one configuration, nearest first.

@@ -156,9 +156,7 @@ impl Robot {
         let named = self.ask(py, |robot, _| Ok(robot.named_configurations()?.to_vec()))?;
         let array = |values: Vec<f64>| PyArray1::from_vec(py, values);
         let named = named.into_iter();
-        Ok(named
-            .map(|named| (named.name.to_string(), array(named.configuration)))
-            .collect())
+        Ok(named.map(|named| (named.name.to_string(), array(named.configuration))).collect())
     }
 
     /// The index of a link.
@@ -351,9 +349,7 @@ impl Robot {
 
     /// The shapes of a kind, prepared for distances.
     fn proximity(&self, py: Python<'_>, kind: &str) -> PyResult<Py<Proximity>> {
-        let kind = kind
-            .parse::<ShapeKind>()
-            .map_err(|error| of_robot(py, &error.into()))?;
+        let kind = kind.parse::<ShapeKind>().map_err(|error| of_robot(py, &error.into()))?;
         if let Some(known) = work::lock(py, &self.proximity)?.get(&kind) {
             return Ok(known.clone_ref(py));
         }

@@ -16,9 +16,7 @@ impl Robot {
     /// The shapes of a kind, each as a dictionary: `link`, `piece`, and `vertices` and `faces`, or `pose` and
     /// `half_extents`, or `centre` and `radius`.
     fn shapes<'py>(&self, py: Python<'py>, kind: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let kind = kind
-            .parse::<ShapeKind>()
-            .map_err(|error| of_robot(py, &error.into()))?;
+        let kind = kind.parse::<ShapeKind>().map_err(|error| of_robot(py, &error.into()))?;
         let shapes = self.ask(py, move |robot, _| robot.shapes(kind))?;
         let one = |shape: urdd_robot::LinkShape| {
             let found = PyDict::new(py);
@@ -70,27 +68,19 @@ impl Robot {
         Bound<'py, PyArray2<bool>>,
         Option<Bound<'py, PyArray2<u8>>>,
     )> {
-        let kind = kind
-            .parse::<ShapeKind>()
-            .map_err(|error| of_robot(py, &error.into()))?;
+        let kind = kind.parse::<ShapeKind>().map_err(|error| of_robot(py, &error.into()))?;
         let skips = self.ask(py, move |robot, _| robot.skips(kind))?;
         let count = skips.len();
         let pairs = || (0..count).flat_map(|i| (0..count).map(move |j| (i, j)));
-        let places = skips
-            .places()
-            .iter()
-            .flat_map(|(link, piece)| [*link, *piece]);
+        let places = skips.places().iter().flat_map(|(link, piece)| [*link, *piece]);
         let skipped = pairs().map(|(i, j)| skips.is_skipped(i, j));
-        let reasons: Option<Vec<u8>> = pairs()
-            .map(|(i, j)| skips.reason(i, j).map(number))
-            .collect();
+        let reasons: Option<Vec<u8>> =
+            pairs().map(|(i, j)| skips.reason(i, j).map(number)).collect();
         let reasons = reasons.filter(|_| count > 0);
         Ok((
             shaped(py, places.collect(), [count, 2])?,
             shaped(py, skipped.collect(), [count, count])?,
-            reasons
-                .map(|reasons| shaped(py, reasons, [count, count]))
-                .transpose()?,
+            reasons.map(|reasons| shaped(py, reasons, [count, count])).transpose()?,
         ))
     }
 }

@@ -39,11 +39,7 @@ pub fn pool() -> PyResult<Arc<ThreadPool>> {
         let count = wanted.map_or_else(String::new, |count| format!("{count} "));
         PyRuntimeError::new_err(format!("{count}threads cannot be started: {error}"))
     })?);
-    let old = made.replace(Made {
-        process,
-        wanted,
-        pool: Arc::clone(&pool),
-    });
+    let old = made.replace(Made { process, wanted, pool: Arc::clone(&pool) });
     if let Some(old) = old
         && old.process != process
     {

@@ -49,16 +49,13 @@ impl Options {
         }
         let codes = |words: &[String]| -> Result<Vec<Codes>, String> {
             let each = words.iter().map(|word| word.parse::<Codes>());
-            each.collect::<Result<_, _>>()
-                .map_err(|error| error.to_string())
+            each.collect::<Result<_, _>>().map_err(|error| error.to_string())
         };
         settings.selection.select.extend(codes(&self.select)?);
         settings.selection.ignore.extend(codes(&self.ignore)?);
         for pattern in &self.exclude {
             let exclude = Exclude::new(pattern);
-            settings
-                .excludes
-                .push(exclude.map_err(|error| format!("exclude: {error}"))?);
+            settings.excludes.push(exclude.map_err(|error| format!("exclude: {error}"))?);
         }
         settings.deep |= self.deep;
         Ok(settings)

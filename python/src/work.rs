@@ -33,11 +33,7 @@ impl<T, M> Teller<T, M> {
 
 /// Runs a job. Ctrl-C cancels it, and is raised after it has stopped.
 pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send) -> PyResult<T> {
-    run_and_tell(
-        py,
-        |(): ()| Ok(()),
-        move |cancellation, _| job(cancellation),
-    )
+    run_and_tell(py, |(): ()| Ok(()), move |cancellation, _| job(cancellation))
 }
 
 /// Like [`run`]; calls `hear` on the caller's thread with the job's messages. An error of `hear` cancels the job too.
@@ -88,9 +84,7 @@ fn crash(panic: &(dyn Any + Send)) -> PyErr {
     let words = panic.downcast_ref::<String>().cloned();
     let words = words.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
     let words = words.unwrap_or_else(|| "it crashed".to_owned());
-    PanicException::new_err(format!(
-        "{words}; this is a fault of the program, please report it"
-    ))
+    PanicException::new_err(format!("{words}; this is a fault of the program, please report it"))
 }
 
 /// Takes a lock, and lets other Python threads run while waiting for it.

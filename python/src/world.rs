@@ -194,9 +194,7 @@ impl WorldProximity {
         let batch = Batch::new(&configuration)?;
         self.check_memory(1)?;
         let found = py.detach(|| self.proximity.nearest(&batch.values, k));
-        found
-            .map(|pairs| pairs.iter().map(near).collect())
-            .map_err(|error| of_robot(py, &error))
+        found.map(|pairs| pairs.iter().map(near).collect()).map_err(|error| of_robot(py, &error))
     }
 
     /// The pairs that touch or overlap in one configuration: depth, direction, gradient.
@@ -207,9 +205,7 @@ impl WorldProximity {
     ) -> PyResult<Vec<Overlapping<Near>>> {
         let batch = Batch::new(&configuration)?;
         let found = py.detach(|| self.proximity.penetrations(&batch.values));
-        found
-            .map(|found| overlapping(found, near))
-            .map_err(|error| of_robot(py, &error))
+        found.map(|found| overlapping(found, near)).map_err(|error| of_robot(py, &error))
     }
 
     /// The nearest pairs in one configuration, nearest first, with the gradients of their distances; `None` for pairs
@@ -225,18 +221,10 @@ impl WorldProximity {
         let found = py.detach(|| self.proximity.gradients(&batch.values, k));
         let found = found.map_err(|error| of_robot(py, &error))?;
         let each = found.into_iter();
-        Ok(each
-            .map(|found| (near(&found.pair), found.gradient))
-            .collect())
+        Ok(each.map(|found| (near(&found.pair), found.gradient)).collect())
     }
 }
 
 fn near(pair: &ObstacleDistance) -> Near {
-    (
-        pair.link.to_string(),
-        pair.piece,
-        pair.obstacle_idx,
-        pair.distance,
-        pair.points,
-    )
+    (pair.link.to_string(), pair.piece, pair.obstacle_idx, pair.distance, pair.points)
 }

@@ -87,13 +87,8 @@ impl Chosen<'_> {
     fn at(&self, number: u64, dofs: usize) -> Cow<'_, [f64]> {
         match self {
             Chosen::Listed(list) => {
-                let start = usize::try_from(number)
-                    .unwrap_or(usize::MAX)
-                    .saturating_mul(dofs);
-                list.values
-                    .get(start..start + dofs)
-                    .unwrap_or_default()
-                    .into()
+                let start = usize::try_from(number).unwrap_or(usize::MAX).saturating_mul(dofs);
+                list.values.get(start..start + dofs).unwrap_or_default().into()
             }
             Chosen::Random(space, _) => space.random(number).into(),
         }
@@ -120,10 +115,7 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     let chosen = match (&arguments.configurations, arguments.random) {
         (Some(file), _) => Chosen::Listed(configurations::read(&robot, file)?),
         (None, Some(count)) => Chosen::Random(space, count),
-        (None, None) => Chosen::Listed(Listed {
-            values: space.zero(),
-            count: 1,
-        }),
+        (None, None) => Chosen::Listed(Listed { values: space.zero(), count: 1 }),
     };
     let proximity = robot.proximity(arguments.shapes.kind()).map_err(in_urdd)?;
     let sum = arguments.random.is_some_and(|count| count > FEW);
@@ -136,9 +128,7 @@ fn check(arguments: &CheckCollisionsArguments) -> Result<bool, String> {
     for number in 0..chosen.count() {
         let configuration = chosen.at(number, dofs);
         let touching = proximity.collisions(&configuration).map_err(in_urdd)?;
-        let nearest = proximity
-            .nearest(&configuration, arguments.nearest)
-            .map_err(in_urdd)?;
+        let nearest = proximity.nearest(&configuration, arguments.nearest).map_err(in_urdd)?;
         any |= !touching.is_empty();
         match arguments.format {
             Format::Text => as_text(&mut text, number, &touching, &nearest, of_pieces),
@@ -259,10 +249,8 @@ fn sum_up(
     let mut often: BTreeMap<String, usize> = BTreeMap::new();
     for start in (0..count).step_by(CHUNK as usize) {
         let numbers = start..count.min(start + CHUNK);
-        let values: Vec<f64> = numbers
-            .clone()
-            .flat_map(|number| chosen.at(number, dofs).into_owned())
-            .collect();
+        let values: Vec<f64> =
+            numbers.clone().flat_map(|number| chosen.at(number, dofs).into_owned()).collect();
         let answers = match dofs {
             // An empty slice does not determine the number of configurations.
             0 => {
@@ -280,10 +268,7 @@ fn sum_up(
         }
     }
     let share = 100.0 * colliding as f64 / count as f64;
-    let mut text = format!(
-        "{colliding} of {} configurations collide ({share:.1} %)\n",
-        count
-    );
+    let mut text = format!("{colliding} of {} configurations collide ({share:.1} %)\n", count);
     let mut often: Vec<(String, usize)> = often.into_iter().collect();
     often.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     for (links, count) in often.iter().take(WORST) {

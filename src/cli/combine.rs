@@ -86,10 +86,8 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     }
     let target = arguments.output.clone().unwrap_or_default();
     let source = arguments.from.as_ref().or(arguments.sources.first());
-    let job = Job {
-        source: source.cloned().unwrap_or_default(),
-        name: target.display().to_string(),
-    };
+    let job =
+        Job { source: source.cloned().unwrap_or_default(), name: target.display().to_string() };
     let validated = match arguments.no_cache {
         true => ValidatedParts::none(),
         false => ValidatedParts::new(|name| std::env::var_os(name)),

@@ -129,29 +129,21 @@ pub fn read(robot: &Robot, file: &Path) -> Result<Listed, String> {
 fn text(file: &Path) -> Result<String, String> {
     let mut bytes = Vec::new();
     let read = if file.as_os_str() == "-" {
-        std::io::stdin()
-            .lock()
-            .take(MAX_BYTES)
-            .read_to_end(&mut bytes)
+        std::io::stdin().lock().take(MAX_BYTES).read_to_end(&mut bytes)
     } else {
         let file = regular::open(file).map_err(|error| error.to_string())?;
         file.take(MAX_BYTES).read_to_end(&mut bytes)
     };
     read.map_err(|error| error.to_string())?;
     if bytes.len() as u64 == MAX_BYTES {
-        return Err(format!(
-            "it has more than {MAX_BYTES} bytes: split it into smaller files"
-        ));
+        return Err(format!("it has more than {MAX_BYTES} bytes: split it into smaller files"));
     }
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())
 }
 
 fn of_json(robot: &Robot, dofs: &[String], line: &str) -> Result<Vec<f64>, String> {
     let value: Value = serde_json::from_str(line).map_err(|error| {
-        format!(
-            "not JSON ({error}): give a list of {} values on each line",
-            dofs.len()
-        )
+        format!("not JSON ({error}): give a list of {} values on each line", dofs.len())
     })?;
     let number = |value: &Value| {
         value

@@ -27,10 +27,7 @@ pub struct Edited {
 impl Edited {
     /// Nothing changes.
     pub fn unchanged(told: String) -> Self {
-        Edited {
-            files: Files::new(),
-            told,
-        }
+        Edited { files: Files::new(), told }
     }
 }
 
@@ -47,9 +44,7 @@ pub fn edited(
         format!("{}: {error}", escape::line(&urdd.display().to_string()))
     };
     if !urdd.is_dir() {
-        return Err(of_urdd(
-            &"not a folder; edits are written into the folder of a URDD",
-        ));
+        return Err(of_urdd(&"not a folder; edits are written into the folder of a URDD"));
     }
     for _ in 0..MAX_TRIES {
         let before = state(urdd, kind).map_err(|error| of_urdd(&error))?;
@@ -63,15 +58,11 @@ pub fn edited(
         if state(urdd, kind).map_err(|error| of_urdd(&error))? != before {
             continue;
         }
-        replacement
-            .stage(&files)
-            .map_err(|error| error.to_string())?;
+        replacement.stage(&files).map_err(|error| error.to_string())?;
         replacement.commit().map_err(|error| error.to_string())?;
         return Ok(told);
     }
-    Err(of_urdd(
-        &"another program keeps writing into this folder; nothing was written",
-    ))
+    Err(of_urdd(&"another program keeps writing into this folder; nothing was written"))
 }
 
 /// The files that the edits depend on.

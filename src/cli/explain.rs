@@ -71,11 +71,7 @@ fn all() -> Vec<Explained> {
     let of_urdfs = urdd_lint::rules::all().into_iter();
     let of_urdfs = of_urdfs.map(|rule| (&rule.description, rule.on_by_default));
     let both = of_urdds.chain(of_urdfs);
-    both.map(|(rule, is_on_by_default)| Explained {
-        rule,
-        is_on_by_default,
-    })
-    .collect()
+    both.map(|(rule, is_on_by_default)| Explained { rule, is_on_by_default }).collect()
 }
 
 /// Explains a retired code. Any other word is a usage error.
@@ -110,9 +106,7 @@ fn list(rules: &[Explained]) -> String {
 fn in_full(explained: &Explained) -> String {
     let rule = explained.rule;
     let (code, name, since) = (rule.code, rule.name, rule.since);
-    let clause = rule
-        .clause
-        .map(|clause| format!("SPEC.md clause {clause}; "));
+    let clause = rule.clause.map(|clause| format!("SPEC.md clause {clause}; "));
     let clause = clause.unwrap_or_default();
     let severity = rule.severity.as_str();
     let off = match explained.is_on_by_default {

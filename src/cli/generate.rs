@@ -68,7 +68,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let is_batch = batch::is_batch(&robots);
     if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
         return Err(
-            "`-` cannot be part of a batch: it reads one robot from standard input".to_owned(),
+            "`-` cannot be part of a batch: it reads one robot from standard input".to_owned()
         );
     }
     let printer = Printer::new(
@@ -79,11 +79,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let failed = if is_batch {
         let mut jobs =
             batch::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
-        check_used(
-            arguments,
-            &settings,
-            jobs.iter().map(|job| job.source.as_path()),
-        )?;
+        check_used(arguments, &settings, jobs.iter().map(|job| job.source.as_path()))?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
         }
@@ -145,10 +141,7 @@ fn one(
         true => Some(standard_input()?),
         false => None,
     };
-    let job = Job {
-        source,
-        name: output.display().to_string(),
-    };
+    let job = Job { source, name: output.display().to_string() };
     let progress = printer.begin_robot(&job);
     let outcome = pool.install(|| {
         batch::caught(&job.source, || match piped {

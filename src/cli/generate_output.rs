@@ -52,17 +52,9 @@ struct Bars {
 
 impl Printer {
     pub(super) fn new(format: Format, is_batch: bool, is_terminal: bool) -> Self {
-        let bars = is_terminal.then(|| Bars {
-            all: MultiProgress::new(),
-            batch: ProgressBar::hidden(),
-        });
-        Printer {
-            format,
-            is_batch,
-            bars,
-            unprinted: Mutex::new(None),
-            totals: Mutex::default(),
-        }
+        let bars =
+            is_terminal.then(|| Bars { all: MultiProgress::new(), batch: ProgressBar::hidden() });
+        Printer { format, is_batch, bars, unprinted: Mutex::new(None), totals: Mutex::default() }
     }
 
     /// Begins a batch of `total` robots.
@@ -271,11 +263,7 @@ fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
     let mut lines = Vec::new();
     for (kind, notes) in by_kind {
         // Folding a single remaining note would not save a line.
-        let told = if notes.len() <= most + 1 {
-            notes.len()
-        } else {
-            most
-        };
+        let told = if notes.len() <= most + 1 { notes.len() } else { most };
         lines.extend(notes[..told].iter().map(|note| format!("note: {note}")));
         if told < notes.len() {
             let more = notes.len() - told;
@@ -329,9 +317,8 @@ fn combined_as_json(job: &Job, made: &Combined) -> Value {
         .map(|part| json!({ "id": part.id, "name": part.name, "links": part.links.len() }))
         .collect();
     let notes = made.notes.iter();
-    object["combine_notes"] = notes
-        .map(|note| json!({ "kind": note.kind, "message": note.to_string() }))
-        .collect();
+    object["combine_notes"] =
+        notes.map(|note| json!({ "kind": note.kind, "message": note.to_string() })).collect();
     object
 }
 

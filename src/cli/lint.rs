@@ -141,8 +141,7 @@ fn write(mended: &[Mended]) -> Result<(), String> {
     for one in mended {
         let Some(target) = target(one) else { continue };
         let shown = one.path.display().to_string();
-        one.check(target)
-            .map_err(|error| format!("{}: {error}", escape::line(&shown)))?;
+        one.check(target).map_err(|error| format!("{}: {error}", escape::line(&shown)))?;
         output::write_bytes(target, one.after.as_bytes())?;
         let places = match one.places {
             1 => "1 place".to_owned(),

@@ -163,10 +163,7 @@ impl MakingArguments {
                 stl: self.mesh_formats.contains(&MeshFormat::Stl),
                 obj: self.mesh_formats.contains(&MeshFormat::Obj),
             },
-            pieces: Pieces {
-                most: self.pieces,
-                tolerance: self.piece_tolerance,
-            },
+            pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
             model_effort: Effort::default(),
             xacro: self.xacro.settings(xacro_arguments),

@@ -136,9 +136,7 @@ pub fn run(words: Vec<OsString>, closed: bool) -> ExitCode {
 fn usage(error: clap::Error, words: &[OsString]) -> ExitCode {
     if error.use_stderr() {
         // Parses again with escaped words, so that no word adds a line to the message.
-        let words = words
-            .iter()
-            .map(|word| escape::line(&word.to_string_lossy()).into_owned());
+        let words = words.iter().map(|word| escape::line(&word.to_string_lossy()).into_owned());
         let error = Arguments::try_parse_from(words).err().unwrap_or(error);
         let text = error.render().to_string();
         let text = escape::lines(text.trim_end());

@@ -49,10 +49,8 @@ enum ConfigurationsCommand {
         positions: Vec<String>,
     },
     /// Import the group states of an SRDF as named configurations of a URDD.
-    #[command(
-        after_help = "States of several groups with one name become one configuration.\n\n\
-        Exit status: 0 imported; 2 nothing was written."
-    )]
+    #[command(after_help = "States of several groups with one name become one configuration.\n\n\
+        Exit status: 0 imported; 2 nothing was written.")]
     Import {
         /// The SRDF.
         #[arg(value_name = "FILE.srdf")]
@@ -83,11 +81,7 @@ enum ConfigurationsCommand {
 pub fn run(arguments: &ConfigurationsArguments) -> ExitCode {
     let text = match &arguments.command {
         ConfigurationsCommand::List { urdd } => list(urdd),
-        ConfigurationsCommand::Set {
-            urdd,
-            name,
-            positions,
-        } => set(urdd, name, positions),
+        ConfigurationsCommand::Set { urdd, name, positions } => set(urdd, name, positions),
         ConfigurationsCommand::Import { srdf, urdd, force } => import(srdf, urdd, *force),
         ConfigurationsCommand::Remove { urdd, name } => remove(urdd, name),
     };
@@ -103,9 +97,7 @@ fn list(urdd: &Path) -> Result<String, String> {
     let robot = shapes::open(urdd)?;
     // A folder that is no URDD has none either: say that.
     robot.dof_names().map_err(|error| of_urdd(&error))?;
-    let named = robot
-        .named_configurations()
-        .map_err(|error| of_urdd(&error))?;
+    let named = robot.named_configurations().map_err(|error| of_urdd(&error))?;
     if named.is_empty() {
         return Ok(format!("{}: no named configurations\n", shown(urdd)));
     }
@@ -121,20 +113,15 @@ fn list(urdd: &Path) -> Result<String, String> {
 fn set(urdd: &Path, name: &str, positions: &[String]) -> Result<String, String> {
     let wrong = "the name of a configuration is empty".to_owned();
     let name = ConfigurationName::new(name).ok_or(wrong)?;
-    let edit = ConfigurationEdit {
-        positions: parsed(positions)?,
-        name,
-    };
-    change(urdd, |edits| {
-        match edits.iter_mut().find(|other| other.name == edit.name) {
-            Some(there) => {
-                *there = edit.clone();
-                Ok("replaced")
-            }
-            None => {
-                edits.push(edit.clone());
-                Ok("added")
-            }
+    let edit = ConfigurationEdit { positions: parsed(positions)?, name };
+    change(urdd, |edits| match edits.iter_mut().find(|other| other.name == edit.name) {
+        Some(there) => {
+            *there = edit.clone();
+            Ok("replaced")
+        }
+        None => {
+            edits.push(edit.clone());
+            Ok("added")
         }
     })
 }
@@ -181,10 +168,7 @@ fn import(srdf: &Path, urdd: &Path, force: bool) -> Result<String, String> {
         }
         let edited = robot.with_named_configurations(&imported.configurations);
         let edited = edited.map_err(|error| of_urdd(&error))?;
-        Ok(Edited {
-            files: edited.files,
-            told,
-        })
+        Ok(Edited { files: edited.files, told })
     })
 }
 
@@ -204,10 +188,7 @@ fn change(
         let edited = robot.with_named_configurations(&edits);
         let edited = edited.map_err(|error| of_urdd(&error))?;
         let count = output::counted(edits.len(), "named configuration");
-        Ok(Edited {
-            files: edited.files,
-            told: format!("{}: {done}; {count}\n", shown(urdd)),
-        })
+        Ok(Edited { files: edited.files, told: format!("{}: {done}; {count}\n", shown(urdd)) })
     })
 }
 
@@ -220,19 +201,12 @@ fn parsed(words: &[String]) -> Result<Vec<DofPosition>, String> {
             .ok_or_else(|| format!("`{}` is not DOF=POSITION: elbow=1.57", escape::line(word)))?;
         let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
         let position = number.ok_or_else(|| {
-            format!(
-                "`{}`: `{}` is not a number, rad or m",
-                escape::line(word),
-                escape::line(value)
-            )
+            format!("`{}`: `{}` is not a number, rad or m", escape::line(word), escape::line(value))
         })?;
         if positions.iter().any(|before| before.dof_name == name) {
             return Err(format!("the DOF `{}` is given twice", escape::line(name)));
         }
-        positions.push(DofPosition {
-            dof_name: name.to_owned(),
-            position,
-        });
+        positions.push(DofPosition { dof_name: name.to_owned(), position });
     }
     Ok(positions)
 }

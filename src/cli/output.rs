@@ -81,11 +81,7 @@ fn inert(text: &str) -> String {
         out.push_str(margin);
         match rest.starts_with("::") || rest.starts_with("##[") {
             true => {
-                out.push_str(if rest.starts_with(':') {
-                    "\\u{3a}"
-                } else {
-                    "\\u{23}"
-                });
+                out.push_str(if rest.starts_with(':') { "\\u{3a}" } else { "\\u{23}" });
                 out.push_str(&rest[1..]);
             }
             false => out.push_str(rest),
@@ -100,9 +96,7 @@ fn safe(text: &str) -> String {
     let mut parts = text.split('\u{1b}');
     out.push_str(&inert(parts.next().unwrap_or_default()));
     for part in parts {
-        let style = STYLES
-            .iter()
-            .find(|style| part.starts_with(&style['\u{1b}'.len_utf8()..]));
+        let style = STYLES.iter().find(|style| part.starts_with(&style['\u{1b}'.len_utf8()..]));
         out.push_str(match style {
             Some(_) => "\u{1b}",
             None => "\\u{1b}",
@@ -195,11 +189,7 @@ pub fn write_files(files: &[(PathBuf, &[u8])]) -> Result<(), String> {
 }
 
 fn cannot_write(file: &Path, error: &io::Error) -> String {
-    format!(
-        "{}: cannot be written: {}",
-        escape::line(&file.display().to_string()),
-        reason(error)
-    )
+    format!("{}: cannot be written: {}", escape::line(&file.display().to_string()), reason(error))
 }
 
 /// New folders. Those that are empty are removed when this is dropped.
@@ -285,9 +275,7 @@ fn folder_of(file: &Path) -> &Path {
 /// # Errors
 /// A message with advice if the file has that name.
 pub fn check_name(file: &Path) -> Result<(), String> {
-    let marker = file
-        .file_name()
-        .is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA));
+    let marker = file.file_name().is_some_and(|name| name.eq_ignore_ascii_case(ROOT_METADATA));
     match marker {
         true => Err(format!(
             "{}: a file with this name makes its folder a URDD, which the next `urdd validate` would examine; \

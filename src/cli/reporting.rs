@@ -140,9 +140,7 @@ impl ReportArguments {
     ) -> Result<u8, String> {
         if run.report.urdds.is_empty() {
             let excluded = run.excluded;
-            return Err(format!(
-                "nothing to examine: everything found ({excluded}) is excluded"
-            ));
+            return Err(format!("nothing to examine: everything found ({excluded}) is excluded"));
         }
         let report = &run.report;
         let status = status(report);

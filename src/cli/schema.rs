@@ -61,11 +61,7 @@ struct Open {
 
 impl Open {
     fn variant(&self) -> Variant {
-        if self.open {
-            Variant::Open
-        } else {
-            Variant::Strict
-        }
+        if self.open { Variant::Open } else { Variant::Strict }
     }
 }
 
@@ -137,10 +133,7 @@ fn report(faults: &[SchemaFault], folder: &Path) -> String {
         text.push_str(&format!("{fault}\n"));
     }
     if faults.iter().any(SchemaFault::is_mended_by_export) {
-        text.push_str(&format!(
-            "repair: urdd schema export {}\n",
-            folder.display()
-        ));
+        text.push_str(&format!("repair: urdd schema export {}\n", folder.display()));
     }
     text
 }

@@ -49,10 +49,7 @@ impl Signals {
     /// # Errors
     /// If the operating system has no such signals.
     pub(super) fn listen() -> io::Result<Self> {
-        let signals = Signals {
-            flag: Arc::default(),
-            number: Arc::default(),
-        };
+        let signals = Signals { flag: Arc::default(), number: Arc::default() };
         for signal in asking() {
             // The order matters: at the first signal, the flag must not be set yet.
             flag::register_conditional_shutdown(

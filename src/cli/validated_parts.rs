@@ -126,10 +126,7 @@ fn read(file: &Path) -> Vec<String> {
 fn remember(file: &Path, mut passed: Vec<String>, key: String) {
     passed.push(key);
     let newest = passed.len().saturating_sub(MAX_PARTS);
-    let text: String = passed[newest..]
-        .iter()
-        .map(|key| format!("{key}\n"))
-        .collect();
+    let text: String = passed[newest..].iter().map(|key| format!("{key}\n")).collect();
     let write = || -> Option<()> {
         let folder = file.parent()?;
         fs::create_dir_all(folder).ok()?;
@@ -254,10 +251,7 @@ mod tests {
         };
         if cfg!(target_os = "linux") {
             assert_eq!(of(&[("HOME", "/home/a")]), Some("/home/a/.cache".into()));
-            assert_eq!(
-                of(&[("XDG_CACHE_HOME", "/c"), ("HOME", "/home/a")]),
-                Some("/c".into())
-            );
+            assert_eq!(of(&[("XDG_CACHE_HOME", "/c"), ("HOME", "/home/a")]), Some("/c".into()));
             assert_eq!(
                 of(&[("XDG_CACHE_HOME", "c"), ("HOME", "/home/a")]),
                 Some("/home/a/.cache".into())

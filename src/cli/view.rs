@@ -136,9 +136,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         (true, [robot]) => Some(Arc::clone(robot)),
         (true, several) => {
             let count = several.len();
-            return Err(usage(format!(
-                "--follow shows one robot, and there are {count}"
-            )));
+            return Err(usage(format!("--follow shows one robot, and there are {count}")));
         }
     };
     let collection = Arc::new(collection);
@@ -248,10 +246,8 @@ fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Fai
     let left = count - jobs.len();
     if left > 0 {
         let files = if left == 1 { "file" } else { "files" };
-        let told = format!(
-            "{}: left out {left} .urdf.xacro {files}; --xacro runs them",
-            path.display()
-        );
+        let told =
+            format!("{}: left out {left} .urdf.xacro {files}; --xacro runs them", path.display());
         match jobs.is_empty() {
             true => return Err(usage(told)),
             false => output::error(&escape::line(&told)),
@@ -276,10 +272,7 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
         let name = escape::line(&robot.name).into_owned();
         let _ = writeln!(std::io::stderr().lock(), "{name}");
     };
-    if folder
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("html"))
-    {
+    if folder.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
         let robots = collection.robots();
         let [robot] = robots.as_slice() else {
             let count = robots.len();

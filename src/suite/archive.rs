@@ -17,10 +17,7 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 ///
 /// # Errors
 /// If a file cannot be read, or a name is not UTF-8.
-#[allow(
-    dead_code,
-    reason = "build.rs reads it, and a debug build of the library"
-)]
+#[allow(dead_code, reason = "build.rs reads it, and a debug build of the library")]
 pub fn read_folder(folder: &Path) -> io::Result<Files> {
     let mut files = Files::new();
     let mut folders = vec![(folder.to_owned(), String::new())];
@@ -52,10 +49,7 @@ pub fn read_folder(folder: &Path) -> io::Result<Files> {
 ///
 /// # Errors
 /// If a name is too long.
-#[cfg_attr(
-    not(test),
-    allow(dead_code, reason = "build.rs packs, the library unpacks")
-)]
+#[cfg_attr(not(test), allow(dead_code, reason = "build.rs packs, the library unpacks"))]
 pub fn pack(files: &Files) -> io::Result<Vec<u8>> {
     let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::best()));
     let mut files: Vec<(&String, &Vec<u8>)> = files.iter().collect();

@@ -31,12 +31,7 @@ impl Core {
         let chain = chain_module(robot);
         let connections = connections_module(&chain);
         let bounds = bounds_module(robot, &dof);
-        Core {
-            dof,
-            chain,
-            connections,
-            bounds,
-        }
+        Core { dof, chain, connections, bounds }
     }
 }
 
@@ -54,9 +49,9 @@ pub fn dof_module(robot: &Robot) -> DofModule {
             _ if is_mimic(joint) => &[],
             JointType::Planar => &["/trans_x", "/trans_y", "/rot"],
             JointType::Spherical => &["/rot_x", "/rot_y", "/rot_z"],
-            JointType::Floating => &[
-                "/trans_x", "/trans_y", "/trans_z", "/rot_x", "/rot_y", "/rot_z",
-            ],
+            JointType::Floating => {
+                &["/trans_x", "/trans_y", "/trans_z", "/rot_x", "/rot_y", "/rot_z"]
+            }
             JointType::Fixed => &[],
             _ => &[""],
         };
@@ -67,11 +62,7 @@ pub fn dof_module(robot: &Robot) -> DofModule {
                 name: format!("{}{suffix}", joint.name),
                 joint_idx: JointIdx(idx as u32),
                 joint_name: joint.name.clone(),
-                quantity: if slides {
-                    Quantity::Length
-                } else {
-                    Quantity::Angle
-                },
+                quantity: if slides { Quantity::Length } else { Quantity::Angle },
             });
         }
         of_joint.push((first..dofs.len()).map(|i| DofIdx(i as u32)).collect());
@@ -180,21 +171,9 @@ fn origin(robot: &Robot, joint: &Joint) -> Transform {
 fn rotation_of_quaternion([x, y, z, w]: [f64; 4]) -> Rotation {
     let s = 2.0 / (x * x + y * y + z * z + w * w);
     [
-        [
-            1.0 - s * (y * y + z * z),
-            s * (x * y - z * w),
-            s * (x * z + y * w),
-        ],
-        [
-            s * (x * y + z * w),
-            1.0 - s * (x * x + z * z),
-            s * (y * z - x * w),
-        ],
-        [
-            s * (x * z - y * w),
-            s * (y * z + x * w),
-            1.0 - s * (x * x + y * y),
-        ],
+        [1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+        [s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)],
+        [s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)],
     ]
 }
 
@@ -213,9 +192,7 @@ pub fn connections_module(chain: &ChainModule) -> ConnectionsModule {
     let ancestor = |i: LinkIdx, j: LinkIdx| {
         let above_j: Vec<LinkIdx> = climb(j).into_iter().map(|(link, _)| link).collect();
         let mut above_i = climb(i).into_iter().map(|(link, _)| link);
-        above_i
-            .find(|link| above_j.contains(link))
-            .expect("one root")
+        above_i.find(|link| above_j.contains(link)).expect("one root")
     };
     let path = |i: LinkIdx, j: LinkIdx| {
         let top = ancestor(i, j);
@@ -242,10 +219,8 @@ pub fn connections_module(chain: &ChainModule) -> ConnectionsModule {
         depth(every[i]) + depth(every[j]) - 2 * depth(top) + 1
     };
     let all = 0..every.len();
-    let in_paths: usize = all
-        .clone()
-        .map(|i| all.clone().map(|j| of_pair(i, j)).sum::<usize>())
-        .sum();
+    let in_paths: usize =
+        all.clone().map(|i| all.clone().map(|j| of_pair(i, j)).sum::<usize>()).sum();
     let explicit = every.len() <= 300 && in_paths <= 2_000_000;
     ConnectionsModule {
         root_paths,
@@ -263,17 +238,9 @@ fn table<T>(every: &[LinkIdx], element: impl Fn(LinkIdx, LinkIdx) -> T) -> Vec<V
 // ---- bounds_module (6.5)
 
 pub fn bounds_module(robot: &Robot, dof: &DofModule) -> BoundsModule {
-    let joints: Vec<&Joint> = dof
-        .dofs
-        .iter()
-        .map(|d| &robot.urdf.joints[d.joint_idx.get()])
-        .collect();
-    let ends = |joint: &Joint| {
-        joint
-            .limit
-            .as_ref()
-            .map_or((None, None), |l| (l.lower, l.upper))
-    };
+    let joints: Vec<&Joint> =
+        dof.dofs.iter().map(|d| &robot.urdf.joints[d.joint_idx.get()]).collect();
+    let ends = |joint: &Joint| joint.limit.as_ref().map_or((None, None), |l| (l.lower, l.upper));
     let dof_limited: Vec<bool> = joints
         .iter()
         .map(|joint| {
@@ -292,9 +259,7 @@ pub fn bounds_module(robot: &Robot, dof: &DofModule) -> BoundsModule {
         })
         .collect();
     let single = |joint: &&Joint| num_dofs(joint.joint_type) == 1;
-    let limits = joints
-        .iter()
-        .map(|j| j.limit.as_ref().filter(|_| single(j)));
+    let limits = joints.iter().map(|j| j.limit.as_ref().filter(|_| single(j)));
     BoundsModule {
         dof_lower_bounds: bounds.iter().map(|b| b[0]).collect(),
         dof_upper_bounds: bounds.iter().map(|b| b[1]).collect(),
@@ -318,26 +283,14 @@ pub fn kinematics_samples_module(robot: &Robot, core: &Core) -> KinematicsSample
         }
         q
     };
-    let BoundsModule {
-        bounds,
-        dof_lower_bounds: lower,
-        dof_upper_bounds: upper,
-        ..
-    } = &core.bounds;
+    let BoundsModule { bounds, dof_lower_bounds: lower, dof_upper_bounds: upper, .. } =
+        &core.bounds;
     let middle = bounds.iter().map(|[l, u]| (l + u) / 2.0).collect();
     let mut configurations = vec![
         (ConfigurationKind::Zero, None, vec![0.0; bounds.len()]),
         (ConfigurationKind::Middle, None, with_vectors(middle, 0.0)),
-        (
-            ConfigurationKind::Lower,
-            None,
-            with_vectors(lower.clone(), -PI),
-        ),
-        (
-            ConfigurationKind::Upper,
-            None,
-            with_vectors(upper.clone(), PI),
-        ),
+        (ConfigurationKind::Lower, None, with_vectors(lower.clone(), -PI)),
+        (ConfigurationKind::Upper, None, with_vectors(upper.clone(), PI)),
     ];
     for k in 0..NUM_SAMPLED {
         let q = sampled_configuration(robot, core, k);
@@ -346,15 +299,10 @@ pub fn kinematics_samples_module(robot: &Robot, core: &Core) -> KinematicsSample
     let sample = |(kind, sample_idx, configuration): (_, _, Vec<f64>)| KinematicsSample {
         kind,
         sample_idx,
-        link_poses: link_transforms(robot, core, &configuration)
-            .iter()
-            .map(pose)
-            .collect(),
+        link_poses: link_transforms(robot, core, &configuration).iter().map(pose).collect(),
         configuration,
     };
-    KinematicsSamplesModule {
-        samples: configurations.into_iter().map(sample).collect(),
-    }
+    KinematicsSamplesModule { samples: configurations.into_iter().map(sample).collect() }
 }
 
 /// The first DOF of each rotation vector.
@@ -380,9 +328,8 @@ pub fn sampled_configuration(robot: &Robot, core: &Core, k: u32) -> Vec<f64> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     };
     let bounds = core.bounds.bounds.iter().enumerate();
-    let mut q: Vec<f64> = bounds
-        .map(|(i, [l, h])| l * (1.0 - uniform(i)) + h * uniform(i))
-        .collect();
+    let mut q: Vec<f64> =
+        bounds.map(|(i, [l, h])| l * (1.0 - uniform(i)) + h * uniform(i)).collect();
     for i in rotation_vectors(robot, &core.dof) {
         let [u1, u2, u3] = [uniform(i), uniform(i + 1), uniform(i + 2)];
         let (a, b) = (u1.sqrt(), (1.0 - u1).sqrt());
@@ -423,9 +370,7 @@ pub fn link_transforms(robot: &Robot, core: &Core, q: &[f64]) -> Vec<Transform> 
                 motion(robot, core, joint, q)
             });
             total = product(&moved, &total);
-            at = core.chain.joints_in_chain[joint.get()]
-                .parent_link_idx
-                .get();
+            at = core.chain.joints_in_chain[joint.get()].parent_link_idx.get();
         }
         total
     };
@@ -453,10 +398,9 @@ fn motion(robot: &Robot, core: &Core, joint_idx: JointIdx, q: &[f64]) -> Transfo
             let shift = [0, 1, 2].map(|row| own[0] * basis[row][0] + own[1] * basis[row][1]);
             transform(rotation_about(axis, own[2]), shift)
         }
-        JointType::Floating => transform(
-            rotation_by_vector([own[3], own[4], own[5]]),
-            [own[0], own[1], own[2]],
-        ),
+        JointType::Floating => {
+            transform(rotation_by_vector([own[3], own[4], own[5]]), [own[0], own[1], own[2]])
+        }
         JointType::Spherical => transform(rotation_by_vector([own[0], own[1], own[2]]), [0.0; 3]),
     }
 }

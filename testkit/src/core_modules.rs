@@ -42,11 +42,7 @@ impl Joint {
 
     pub fn follows(self, dof: Option<u32>, multiplier: f64, offset: f64) -> Self {
         let dof_idx = dof.map(DofIdx);
-        let mimic = Some(ResolvedMimic {
-            dof_idx,
-            multiplier,
-            offset,
-        });
+        let mimic = Some(ResolvedMimic { dof_idx, multiplier, offset });
         Joint { mimic, ..self }
     }
 }
@@ -101,21 +97,13 @@ pub fn chain_of(joints: &[Joint]) -> (ChainModule, DofModule) {
 
 fn chain_module(links: &[String], joints: &[Joint]) -> ChainModule {
     let above = |link: usize| joints.iter().position(|joint| joint.child == link);
-    let below = |link: usize| {
-        joints
-            .iter()
-            .enumerate()
-            .filter(move |(_, joint)| joint.parent == link)
-    };
-    let root = (0..links.len())
-        .find(|link| above(*link).is_none())
-        .unwrap();
+    let below =
+        |link: usize| joints.iter().enumerate().filter(move |(_, joint)| joint.parent == link);
+    let root = (0..links.len()).find(|link| above(*link).is_none()).unwrap();
     let mut hierarchy = vec![vec![LinkIdx(root as u32)]];
     while let Some(level) = hierarchy.last().filter(|level| !level.is_empty()) {
         let links = level.iter().flat_map(|link| below(link.get()));
-        let mut next: Vec<LinkIdx> = links
-            .map(|(_, joint)| LinkIdx(joint.child as u32))
-            .collect();
+        let mut next: Vec<LinkIdx> = links.map(|(_, joint)| LinkIdx(joint.child as u32)).collect();
         next.sort();
         hierarchy.push(next);
     }
@@ -144,10 +132,7 @@ fn chain_module(links: &[String], joints: &[Joint]) -> ChainModule {
                 child_link_name: links[joint.child].clone(),
                 child_link_idx: LinkIdx(joint.child as u32),
                 joint_type: joint.joint_type,
-                origin: Pose {
-                    position: joint.xyz,
-                    quaternion_wxyz: quaternion(joint.rpy),
-                },
+                origin: Pose { position: joint.xyz, quaternion_wxyz: quaternion(joint.rpy) },
                 axis: match joint.joint_type {
                     JointType::Fixed | JointType::Floating | JointType::Spherical => None,
                     _ => Some(unit(joint.axis)),

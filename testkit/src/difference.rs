@@ -14,8 +14,7 @@ pub fn difference(ours: &Value, theirs: &Value, at: &str) -> Option<String> {
             if keys[0] != keys[1] {
                 return Some(format!("{at}: keys {:?} or {:?}", keys[0], keys[1]));
             }
-            a.iter()
-                .find_map(|(key, value)| difference(value, &b[key], &format!("{at}/{key}")))
+            a.iter().find_map(|(key, value)| difference(value, &b[key], &format!("{at}/{key}")))
         }
         (Value::Array(a), Value::Array(b)) if at.ends_with("/quaternion_wxyz") => {
             let gap = |sign: f64| {
@@ -34,11 +33,7 @@ pub fn difference(ours: &Value, theirs: &Value, at: &str) -> Option<String> {
             let (a, b) = (number(ours), number(theirs));
             let in_pose = at.contains("/link_poses/") || at.contains("/origin/position/");
             let size = a.abs().max(b.abs());
-            let tolerance = if in_pose {
-                1e-9 * size.max(1.0)
-            } else {
-                1e-12 * size + 1e-14
-            };
+            let tolerance = if in_pose { 1e-9 * size.max(1.0) } else { 1e-12 * size + 1e-14 };
             let agree = (a - b).abs() <= tolerance;
             (!agree || ours.is_f64() != theirs.is_f64())
                 .then(|| format!("{at}: {ours} or {theirs}"))

@@ -14,9 +14,7 @@ impl<'a> Choices<'a> {
 
     /// A number below `count`.
     pub fn pick(&mut self, count: usize) -> usize {
-        self.rest
-            .next()
-            .map_or(0, |raw| usize::from(*raw) % count.max(1))
+        self.rest.next().map_or(0, |raw| usize::from(*raw) % count.max(1))
     }
 
     /// True once in `odds` times.
@@ -91,9 +89,7 @@ fn array(root: &Value, schema: &Value, choices: &mut Choices) -> Value {
     let least = bound("minItems").unwrap_or(0) as usize;
     let most = bound("maxItems").map_or(least + 3, |most| most as usize);
     let length = least + choices.pick(most - least + 1);
-    (0..length)
-        .map(|_| part(root, &schema["items"], choices))
-        .collect()
+    (0..length).map(|_| part(root, &schema["items"], choices)).collect()
 }
 
 fn string(schema: &Value, choices: &mut Choices) -> Value {
@@ -112,14 +108,7 @@ fn string(schema: &Value, choices: &mut Choices) -> Value {
 fn integer(schema: &Value, choices: &mut Choices) -> Value {
     assert_eq!(schema["minimum"], 0);
     assert_eq!(schema["maximum"], u32::MAX);
-    choices.one(&[
-        json!(0),
-        json!(1),
-        json!(7),
-        json!(u32::MAX),
-        json!(2.0),
-        json!(-0.0),
-    ])
+    choices.one(&[json!(0), json!(1), json!(7), json!(u32::MAX), json!(2.0), json!(-0.0)])
 }
 
 fn number(choices: &mut Choices) -> Value {
@@ -147,9 +136,7 @@ pub fn arbitrary_json(choices: &mut Choices, depth: usize) -> Value {
         3 => number(choices),
         4 => json!("text"),
         5 => json!([]),
-        6 => (0..choices.pick(4))
-            .map(|_| arbitrary_json(choices, depth - 1))
-            .collect(),
+        6 => (0..choices.pick(4)).map(|_| arbitrary_json(choices, depth - 1)).collect(),
         _ => (0..choices.pick(4))
             .map(|_| {
                 let key = choices.one(&["name", "bounds", "$schema", "x_y", "Mesh", "done"]);

@@ -74,10 +74,9 @@ fn json_value(value: &Value, depth: usize, out: &mut String) {
 fn yaml_block(value: &Value, depth: usize, out: &mut String) {
     let entries: Vec<(String, &Value)> = match value {
         Value::Array(items) => items.iter().map(|item| ("-".to_owned(), item)).collect(),
-        Value::Object(map) => map
-            .iter()
-            .map(|(key, item)| (format!("{}:", yaml_key(key)), item))
-            .collect(),
+        Value::Object(map) => {
+            map.iter().map(|(key, item)| (format!("{}:", yaml_key(key)), item)).collect()
+        }
         _ => Vec::new(),
     };
     for (lead, item) in entries {
@@ -117,11 +116,7 @@ fn yaml_key(key: &str) -> String {
         && key.bytes().all(|b| b.is_ascii_alphabetic() || b == b'_')
         && !["no", "on", "off", "yes", "null", "true", "false"]
             .contains(&key.to_ascii_lowercase().as_str());
-    if plain {
-        key.to_owned()
-    } else {
-        yaml_string(key)
-    }
+    if plain { key.to_owned() } else { yaml_string(key) }
 }
 
 /// Always in double quotes, which every reader interprets the same way.
@@ -152,10 +147,6 @@ fn yaml_number(number: &Number) -> String {
         return text;
     };
     let point = if mantissa.contains('.') { "" } else { ".0" };
-    let sign = if exponent.starts_with(['+', '-']) {
-        ""
-    } else {
-        "+"
-    };
+    let sign = if exponent.starts_with(['+', '-']) { "" } else { "+" };
     format!("{mantissa}{point}e{sign}{exponent}")
 }

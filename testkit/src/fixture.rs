@@ -90,22 +90,10 @@ impl Fixture {
             (ModuleKind::PlainMeshes, value(&meshes.plain)),
             (ModuleKind::ConvexHullMeshes, value(&meshes.hulls)),
             (ModuleKind::ConvexDecompositionMeshes, value(&meshes.pieces)),
-            (
-                ModuleKind::LinkShapesApproximations,
-                value(&shapes.approximations),
-            ),
-            (
-                ModuleKind::LinkShapesMaxDistanceFromOrigin,
-                value(&shapes.max_distances),
-            ),
-            (
-                ModuleKind::LinkShapesDistanceStatistics,
-                value(&shapes.statistics),
-            ),
-            (
-                ModuleKind::LinkShapesSimpleSkips,
-                value(&shapes.simple_skips),
-            ),
+            (ModuleKind::LinkShapesApproximations, value(&shapes.approximations)),
+            (ModuleKind::LinkShapesMaxDistanceFromOrigin, value(&shapes.max_distances)),
+            (ModuleKind::LinkShapesDistanceStatistics, value(&shapes.statistics)),
+            (ModuleKind::LinkShapesSimpleSkips, value(&shapes.simple_skips)),
             (ModuleKind::LinkShapesSkips, value(&shapes.skips)),
         ];
         Fixture::build(robot, documents, meshes.files, "Shapes")
@@ -116,10 +104,7 @@ impl Fixture {
     pub fn toy() -> Fixture {
         static TOY: std::sync::OnceLock<Fixture> = std::sync::OnceLock::new();
         let make = || {
-            let edits = vec![
-                edit("base", "tool/ü 1", true),
-                edit("base", "turret", false),
-            ];
+            let edits = vec![edit("base", "tool/ü 1", true), edit("base", "turret", false)];
             Fixture::full_with_edits(&toy_robot(), edits)
         };
         TOY.get_or_init(make).clone()
@@ -138,10 +123,7 @@ impl Fixture {
             (ModuleKind::Chain, value(&core.chain)),
             (ModuleKind::Connections, value(&core.connections)),
             (ModuleKind::Bounds, value(&core.bounds)),
-            (
-                ModuleKind::KinematicsSamples,
-                value(&kinematics_samples_module(robot, &core)),
-            ),
+            (ModuleKind::KinematicsSamples, value(&kinematics_samples_module(robot, &core))),
         ];
         modules.extend(more);
         let entries: Vec<Value> = modules
@@ -184,9 +166,7 @@ impl Fixture {
     fn key(&self, name: &str) -> String {
         let is_it = |key: &&String| *key == name || key.ends_with(&format!("/{name}"));
         let found = self.documents.keys().find(is_it);
-        found
-            .unwrap_or_else(|| panic!("no document {name:?}"))
-            .clone()
+        found.unwrap_or_else(|| panic!("no document {name:?}")).clone()
     }
 
     /// Folder of a module, by its name.
@@ -493,19 +473,14 @@ pub fn toy_robot() -> Robot {
     let mut robot = Robot::new("toy robot");
     robot.urdf.version = Some("1.2".to_owned());
     robot.meshes = BTreeMap::from([
-        (
-            "package://toy_description/meshes/turret.stl".to_owned(),
-            [0.2, 0.2, 0.1],
-        ),
+        ("package://toy_description/meshes/turret.stl".to_owned(), [0.2, 0.2, 0.1]),
         ("meshes/päckchen_1.obj".to_owned(), [100.0, 60.0, 40.0]),
     ]);
     let turret = mesh("package://toy_description/meshes/turret.stl", None);
     let tool = mesh("meshes/päckchen_1.obj", Some([0.001; 3]));
     let red = Material {
         name: Some("red".to_owned()),
-        color: Some(Color {
-            rgba: [0.8, 0.1, 0.1, 1.0],
-        }),
+        color: Some(Color { rgba: [0.8, 0.1, 0.1, 1.0] }),
         texture: None,
     };
     robot.urdf.materials.push(red);
@@ -519,38 +494,23 @@ pub fn toy_robot() -> Robot {
         ..link(name)
     };
     let mut base = shaped("base", [0.4, 0.4, 0.1], None);
-    base.collision.push(collision(
-        origin([0.0, 0.0, 0.01], [0.0; 3]),
-        cuboid([0.5, 0.5, 0.12]),
-    ));
+    base.collision.push(collision(origin([0.0, 0.0, 0.01], [0.0; 3]), cuboid([0.5, 0.5, 0.12])));
     let mut turret_link = link("turret");
     turret_link.inertial = Some(solid_box(0.5, [0.2, 0.2, 0.1]));
     turret_link.visual.push(Visual {
         name: Some("no".to_owned()),
-        material: Some(Material {
-            name: Some("red".to_owned()),
-            color: None,
-            texture: None,
-        }),
+        material: Some(Material { name: Some("red".to_owned()), color: None, texture: None }),
         ..visual(origin([0.0, 0.0, 0.05], [0.0, 0.0, 0.3]), turret.clone())
     });
     turret_link.collision.push(collision(None, turret));
     turret_link.unknown_elements = vec!["<sensor name='a/>b'/>".to_owned()];
     let mut tool_link = link("tool/ü 1");
-    tool_link
-        .visual
-        .push(visual(origin([0.05, 0.0, 0.0], [0.2, -0.4, 1.1]), tool));
+    tool_link.visual.push(visual(origin([0.05, 0.0, 0.0], [0.2, -0.4, 1.1]), tool));
     let mut bumper = link("1:30");
-    bumper
-        .collision
-        .push(collision(None, cuboid([0.05, 0.3, 0.05])));
+    bumper.collision.push(collision(None, cuboid([0.05, 0.3, 0.05])));
     let arm = origin([0.2, 0.0, 0.0], [0.0, 0.1, 0.0]);
     robot.urdf.links = vec![
-        shaped(
-            "finger_left",
-            [0.02, 0.02, 0.08],
-            origin([0.0, 0.0, 0.04], [0.0; 3]),
-        ),
+        shaped("finger_left", [0.02, 0.02, 0.08], origin([0.0, 0.0, 0.04], [0.0; 3])),
         base,
         turret_link,
         shaped("arm", [0.4, 0.06, 0.06], arm),
@@ -568,11 +528,7 @@ pub fn toy_robot() -> Robot {
     ];
     let axis = |xyz: [f64; 3]| Some(Axis { xyz: Some(xyz) });
     let mimic = |joint: &str, multiplier: Option<f64>, offset: Option<f64>| {
-        Some(Mimic {
-            joint: joint.to_owned(),
-            multiplier,
-            offset,
-        })
+        Some(Mimic { joint: joint.to_owned(), multiplier, offset })
     };
     use JointType::*;
     let mut joints = vec![
@@ -588,10 +544,7 @@ pub fn toy_robot() -> Robot {
             origin: origin([0.0, 0.0, 0.1], [0.0; 3]),
             axis: axis([0.0, 0.0, 2.0]),
             limit: limit(-2.5, 2.5),
-            dynamics: Some(Dynamics {
-                damping: Some(0.1),
-                friction: None,
-            }),
+            dynamics: Some(Dynamics { damping: Some(0.1), friction: None }),
             ..joint("turn", Revolute, "base", "turret")
         },
         Joint {
@@ -608,11 +561,7 @@ pub fn toy_robot() -> Robot {
         },
         // The rotation of the origin is missing, and so is the axis.
         Joint {
-            origin: Some(Origin {
-                xyz: Some([0.4, 0.0, 0.0]),
-                rpy: None,
-                quat_xyzw: None,
-            }),
+            origin: Some(Origin { xyz: Some([0.4, 0.0, 0.0]), rpy: None, quat_xyzw: None }),
             ..joint("flange", Fixed, "arm", "frame")
         },
         Joint {
@@ -635,11 +584,7 @@ pub fn toy_robot() -> Robot {
             ..joint("air", Floating, "base", "drone")
         },
         Joint {
-            origin: Some(Origin {
-                xyz: None,
-                rpy: Some([0.0, 0.5, 0.0]),
-                quat_xyzw: None,
-            }),
+            origin: Some(Origin { xyz: None, rpy: Some([0.0, 0.5, 0.0]), quat_xyzw: None }),
             ..joint("socket/ü", Spherical, "drone", "eye")
         },
         Joint {
@@ -684,10 +629,7 @@ pub fn toy_robot() -> Robot {
         },
     ];
     joints[1].unknown_elements = vec!["<gazebo/>".to_owned()];
-    joints[1].calibration = Some(Calibration {
-        rising: Some(0.0),
-        falling: None,
-    });
+    joints[1].calibration = Some(Calibration { rising: Some(0.0), falling: None });
     robot.urdf.joints = joints;
     robot.layout = Layout::Alternating;
     robot

@@ -22,10 +22,7 @@ impl Default for Folder {
 impl Folder {
     /// An empty folder.
     pub fn new() -> Folder {
-        Folder {
-            folder: crate::temporary::folder(),
-            holds: BTreeMap::new(),
-        }
+        Folder { folder: crate::temporary::folder(), holds: BTreeMap::new() }
     }
 
     /// Replaces the content of the folder by this URDD.

@@ -52,11 +52,7 @@ impl Solid {
         let place = transform(rotation_of_rpy(rpy), xyz);
         let corner = |number: usize| {
             let side = |bit: usize| {
-                if number >> bit & 1 == 0 {
-                    low[bit]
-                } else {
-                    high[bit]
-                }
+                if number >> bit & 1 == 0 { low[bit] } else { high[bit] }
             };
             apply(&place, [side(0), side(1), side(2)]).map(|c| f64::from(c as f32) + 0.0)
         };
@@ -99,9 +95,8 @@ impl Meshes {
     pub fn new(robot: &Robot) -> Meshes {
         let mut files = BTreeMap::new();
         let originals = original_meshes_module(robot, &mut files);
-        let solids: Vec<Option<LinkSolids>> = (0..robot.urdf.links.len())
-            .map(|idx| link_solids(robot, idx))
-            .collect();
+        let solids: Vec<Option<LinkSolids>> =
+            (0..robot.urdf.links.len()).map(|idx| link_solids(robot, idx)).collect();
         let mut link_meshes = Vec::new();
         let mut link_hulls = Vec::new();
         let mut link_pieces = Vec::new();
@@ -117,11 +112,8 @@ impl Meshes {
                 let path = |extension: &str| {
                     format!("{}/meshes/{extension}/{stem}.{extension}", kind.folder())
                 };
-                let named = MeshFiles {
-                    stl: Some(path("stl")),
-                    obj: Some(path("obj")),
-                    glb: path("glb"),
-                };
+                let named =
+                    MeshFiles { stl: Some(path("stl")), obj: Some(path("obj")), glb: path("glb") };
                 files.insert(path("stl"), stl(&solid.corners));
                 files.insert(path("obj"), obj(&solid.corners, None));
                 files.insert(named.glb.clone(), glb(&solid.corners, solids.color));
@@ -131,11 +123,7 @@ impl Meshes {
                 geometry: solids.geometry,
                 files: write(ModuleKind::PlainMeshes, &stem, &solids.whole),
             }));
-            link_hulls.push(Some(write(
-                ModuleKind::ConvexHullMeshes,
-                &stem,
-                &solids.whole,
-            )));
+            link_hulls.push(Some(write(ModuleKind::ConvexHullMeshes, &stem, &solids.whole)));
             let pieces = solids.pieces.iter().enumerate().map(|(i, piece)| {
                 let stem = format!("{stem}/{i}");
                 write(ModuleKind::ConvexDecompositionMeshes, &stem, piece)
@@ -144,10 +132,7 @@ impl Meshes {
         }
         Meshes {
             originals,
-            plain: PlainMeshesModule {
-                preferred_geometry: GeometryKind::Visual,
-                link_meshes,
-            },
+            plain: PlainMeshesModule { preferred_geometry: GeometryKind::Visual, link_meshes },
             hulls: ConvexHullMeshesModule { link_hulls },
             pieces: ConvexDecompositionMeshesModule {
                 method: DecompositionMethod {
@@ -226,10 +211,7 @@ fn original_meshes_module(
             }
         }
     }
-    OriginalMeshesModule {
-        references,
-        files: carried.into_values().collect(),
-    }
+    OriginalMeshesModule { references, files: carried.into_values().collect() }
 }
 
 /// A mesh file of a box in the format of its file extension, and the file that it references, if any.
@@ -259,10 +241,7 @@ type Element<'a> = (&'a Option<Origin>, &'a Option<Geometry>);
 fn elements_of(link: &Link) -> [(GeometryKind, Vec<Element<'_>>); 2] {
     let visual = link.visual.iter().map(|v| (&v.origin, &v.geometry));
     let collision = link.collision.iter().map(|c| (&c.origin, &c.geometry));
-    [
-        (GeometryKind::Visual, visual.collect()),
-        (GeometryKind::Collision, collision.collect()),
-    ]
+    [(GeometryKind::Visual, visual.collect()), (GeometryKind::Collision, collision.collect())]
 }
 
 // ---- Solids
@@ -296,21 +275,12 @@ fn link_solids(robot: &Robot, idx: usize) -> Option<LinkSolids> {
         ]
     };
     let color = link.visual.first().and_then(|visual| color(robot, visual));
-    Some(LinkSolids {
-        geometry,
-        color,
-        whole,
-        pieces,
-    })
+    Some(LinkSolids { geometry, color, whole, pieces })
 }
 
 fn color(robot: &Robot, visual: &Visual) -> Option<[f64; 4]> {
     let material = visual.material.as_ref()?;
-    let named = robot
-        .urdf
-        .materials
-        .iter()
-        .find(|m| m.name == material.name);
+    let named = robot.urdf.materials.iter().find(|m| m.name == material.name);
     let color = material.color.as_ref();
     let color = color.or_else(|| named.and_then(|m| m.color.as_ref()));
     color.map(|c| c.rgba)
@@ -326,8 +296,7 @@ pub fn stl(corners: &[Point; 8]) -> Vec<u8> {
         let [a, b, c] = [a, b, c].map(|i| corners[usize::from(i)]);
         let normal = super::transform::unit(cross(minus(b, a), minus(c, a)));
         for v in [normal, a, b, c] {
-            v.iter()
-                .for_each(|x| out.extend((*x as f32 + 0.0).to_le_bytes()));
+            v.iter().for_each(|x| out.extend((*x as f32 + 0.0).to_le_bytes()));
         }
         out.extend([0, 0]);
     }
@@ -404,9 +373,5 @@ pub fn dot(a: Point, b: Point) -> f64 {
 }
 
 pub fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -41,43 +41,21 @@ fn robot_with([turn, high]: [f64; 2]) -> Robot {
         robot.urdf.links.push(link);
     }
     for (name, joint_type, parent, child, at) in [
-        (
-            "shoulder",
-            JointType::Revolute,
-            "post",
-            "arm",
-            [0.0, 0.0, 0.3],
-        ),
+        ("shoulder", JointType::Revolute, "post", "arm", [0.0, 0.0, 0.3]),
         ("elbow", JointType::Revolute, "arm", "tip", [0.3, 0.0, 0.0]),
-        (
-            "slide",
-            JointType::Prismatic,
-            "post",
-            "slider",
-            [0.4, 0.0, 0.0],
-        ),
-        (
-            "socket",
-            JointType::Spherical,
-            "slider",
-            "ball",
-            [0.0, 0.0, 0.12],
-        ),
+        ("slide", JointType::Prismatic, "post", "slider", [0.4, 0.0, 0.0]),
+        ("socket", JointType::Spherical, "slider", "ball", [0.0, 0.0, 0.12]),
     ] {
         let mut joint = joint(name, joint_type, parent, child);
         joint.origin = origin(at, [0.0; 3]);
         match name {
             "slide" => {
-                joint.axis = Some(urdd_format::urdf::Axis {
-                    xyz: Some([0.0, 0.0, 1.0]),
-                });
+                joint.axis = Some(urdd_format::urdf::Axis { xyz: Some([0.0, 0.0, 1.0]) });
                 joint.limit = limit(-0.2, high);
             }
             "socket" => {}
             _ => {
-                joint.axis = Some(urdd_format::urdf::Axis {
-                    xyz: Some([0.0, 1.0, 0.0]),
-                });
+                joint.axis = Some(urdd_format::urdf::Axis { xyz: Some([0.0, 1.0, 0.0]) });
                 joint.limit = limit(-turn, turn);
             }
         }
@@ -99,11 +77,7 @@ pub struct Said {
 
 impl Default for Said {
     fn default() -> Self {
-        Said {
-            margin: 0.0,
-            reach: REACH,
-            by_heart: false,
-        }
+        Said { margin: 0.0, reach: REACH, by_heart: false }
     }
 }
 
@@ -118,16 +92,9 @@ pub fn fixture_with(said: Said) -> Fixture {
     let mut fixture = Fixture::full_with_edits(&robot, Vec::new());
     fixture.add_module(ModuleKind::SelfCollisionModel.folder(), Value::Null);
     let modules = fixture.doc_mut("urdd.json")["modules"].as_array_mut();
-    let own = modules
-        .and_then(|modules| modules.last_mut())
-        .expect("the module");
+    let own = modules.and_then(|modules| modules.last_mut()).expect("the module");
     let kind = ModuleKind::SelfCollisionModel;
-    own["depends_on"] = json!(
-        kind.depends_on()
-            .iter()
-            .map(|k| k.name())
-            .collect::<Vec<_>>()
-    );
+    own["depends_on"] = json!(kind.depends_on().iter().map(|k| k.name()).collect::<Vec<_>>());
     fixture.canonical = true;
     fixture.seal();
     let mut document = document(&robot, said);
@@ -140,25 +107,16 @@ pub fn fixture_with(said: Said) -> Fixture {
 
 /// The digest defined in SPEC 8.8.7.
 pub fn trained_on(fixture: &Fixture) -> String {
-    let documents = [
-        "dof_module",
-        "chain_module",
-        "bounds_module",
-        "link_shapes_skips_module",
-    ];
-    let mut files: Vec<String> = documents
-        .iter()
-        .map(|module| format!("{}/module.json", fixture.folder(module)))
-        .collect();
+    let documents = ["dof_module", "chain_module", "bounds_module", "link_shapes_skips_module"];
+    let mut files: Vec<String> =
+        documents.iter().map(|module| format!("{}/module.json", fixture.folder(module))).collect();
     let pieces = fixture.get("convex_decomposition_meshes_module", "/link_pieces");
     for piece in pieces.as_array().into_iter().flatten() {
         let glbs = piece.as_array().into_iter().flatten();
         files.extend(glbs.filter_map(|files| Some(files["glb"].as_str()?.to_owned())));
     }
-    let text: String = files
-        .iter()
-        .map(|path| size_and_hash(fixture.file(path)).1 + "\n")
-        .collect();
+    let text: String =
+        files.iter().map(|path| size_and_hash(fixture.file(path)).1 + "\n").collect();
     let digest = Sha256::digest(text);
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -193,10 +151,7 @@ fn layers() -> [Layer; 2] {
         vec![-0.125, 0.125, 0.25, 0.0],
         vec![-0.0625, 0.125, 0.375, 0.0],
     ];
-    [
-        (hidden, vec![0.125, -0.25, 0.0, 0.0]),
-        (outputs, vec![0.2, 0.15, 0.15, 0.1, 0.1]),
-    ]
+    [(hidden, vec![0.125, -0.25, 0.0, 0.0]), (outputs, vec![0.2, 0.15, 0.15, 0.1, 0.1])]
 }
 
 /// A model: its two layers and the margin of each pair.
@@ -209,9 +164,7 @@ impl Network {
     fn new(margin: f64) -> Self {
         Network {
             layers: layers(),
-            margins: [0.02, 0.03, 0.04, 0.05, 0.06]
-                .map(|of| of + margin)
-                .to_vec(),
+            margins: [0.02, 0.03, 0.04, 0.05, 0.06].map(|of| of + margin).to_vec(),
         }
     }
 
@@ -254,9 +207,7 @@ impl Network {
     }
 
     fn clears(&self, q: &[f64]) -> bool {
-        self.clearances(q)
-            .into_iter()
-            .all(|clearance| clearance > 0.0)
+        self.clearances(q).into_iter().all(|clearance| clearance > 0.0)
     }
 }
 
@@ -264,12 +215,7 @@ impl Network {
 fn inputs(q: &[f64]) -> Vec<f64> {
     let mut values: Vec<f64> = Vec::new();
     for angle in [q[0], q[1]] {
-        values.extend([
-            angle.sin(),
-            angle.cos(),
-            (2.0 * angle).sin(),
-            (2.0 * angle).cos(),
-        ]);
+        values.extend([angle.sin(), angle.cos(), (2.0 * angle).sin(), (2.0 * angle).cos()]);
     }
     values.push((q[2] - 0.2) / 0.4);
     let angle = norm([q[3], q[4], q[5]]);
@@ -290,11 +236,7 @@ struct Exact {
 
 impl Exact {
     fn new(robot: &Robot) -> Self {
-        Exact {
-            core: Core::new(robot),
-            meshes: Meshes::new(robot),
-            robot: robot.clone(),
-        }
+        Exact { core: Core::new(robot), meshes: Meshes::new(robot), robot: robot.clone() }
     }
 
     fn touch(&self, at: &[Transform], [a, b]: [usize; 2]) -> bool {
@@ -354,17 +296,14 @@ fn document(robot: &Robot, said: Said) -> Value {
     let judged = evaluation(said.reach);
     let mut network = Network::new(said.margin);
     if said.by_heart {
-        let missed = judged
-            .iter()
-            .filter(|(q, collides, _)| *collides && network.clears(q));
+        let missed = judged.iter().filter(|(q, collides, _)| *collides && network.clears(q));
         let missed: Vec<&Vec<f64>> = missed.map(|(q, ..)| q).collect();
         network = network.knowing(missed.into_iter());
     }
     let cleared: Vec<bool> = judged.par_iter().map(|(q, ..)| network.clears(q)).collect();
     let count = |wanted: fn(bool, bool, bool) -> bool| {
         let all = judged.iter().zip(&cleared);
-        all.filter(|((_, collides, near), clears)| wanted(*collides, *near, **clears))
-            .count()
+        all.filter(|((_, collides, near), clears)| wanted(*collides, *near, **clears)).count()
     };
     let pairs = PAIRS.iter().zip(&network.margins);
     let pairs =

@@ -87,9 +87,9 @@ impl Robot {
         let order: Vec<(bool, usize)> = match self.layout {
             Layout::LinksFirst => (0..links).map(|i| (true, i)).collect(),
             Layout::JointsFirst => (0..joints).map(|i| (false, i)).collect(),
-            Layout::Alternating => (0..joints.min(links))
-                .flat_map(|i| [(false, i), (true, i)])
-                .collect(),
+            Layout::Alternating => {
+                (0..joints.min(links)).flat_map(|i| [(false, i), (true, i)]).collect()
+            }
         };
         let rest = (0..links).map(|i| (true, i));
         let rest = rest.chain((0..joints).map(|i| (false, i)));
@@ -120,9 +120,7 @@ pub fn link(name: &str) -> Link {
 
 /// A joint with only the required parts.
 pub fn joint(name: &str, joint_type: JointType, parent: &str, child: &str) -> Joint {
-    let link_name = |link: &str| LinkName {
-        link: link.to_owned(),
-    };
+    let link_name = |link: &str| LinkName { link: link.to_owned() };
     Joint {
         name: name.to_owned(),
         joint_type,
@@ -141,11 +139,7 @@ pub fn joint(name: &str, joint_type: JointType, parent: &str, child: &str) -> Jo
 
 /// An `<origin>` with position and rotation.
 pub fn origin(xyz: [f64; 3], rpy: [f64; 3]) -> Option<Origin> {
-    Some(Origin {
-        xyz: Some(xyz),
-        rpy: Some(rpy),
-        quat_xyzw: None,
-    })
+    Some(Origin { xyz: Some(xyz), rpy: Some(rpy), quat_xyzw: None })
 }
 
 /// A `<limit>` with both limits, effort and velocity.
@@ -163,21 +157,12 @@ pub fn limit(lower: f64, upper: f64) -> Option<Limit> {
 
 /// A `<visual>` with this geometry.
 pub fn visual(origin: Option<Origin>, geometry: Geometry) -> Visual {
-    Visual {
-        name: None,
-        origin,
-        geometry: Some(geometry),
-        material: None,
-    }
+    Visual { name: None, origin, geometry: Some(geometry), material: None }
 }
 
 /// A `<collision>` with this geometry.
 pub fn collision(origin: Option<Origin>, geometry: Geometry) -> Collision {
-    Collision {
-        name: None,
-        origin,
-        geometry: Some(geometry),
-    }
+    Collision { name: None, origin, geometry: Some(geometry) }
 }
 
 /// A box.
@@ -187,10 +172,7 @@ pub fn cuboid(size: [f64; 3]) -> Geometry {
 
 /// A mesh.
 pub fn mesh(filename: &str, scale: Option<[f64; 3]>) -> Geometry {
-    Geometry::Mesh(Mesh {
-        filename: filename.to_owned(),
-        scale,
-    })
+    Geometry::Mesh(Mesh { filename: filename.to_owned(), scale })
 }
 
 /// The inertial of a solid box.
@@ -238,10 +220,7 @@ fn numbers<'a>(key: &'a str, values: Option<&[f64]>) -> Attribute<'a> {
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 struct Xml(String);
@@ -274,12 +253,7 @@ impl Xml {
     }
 
     fn origin(&mut self, origin: &Option<Origin>) {
-        if let Some(Origin {
-            xyz,
-            rpy,
-            quat_xyzw,
-        }) = origin
-        {
+        if let Some(Origin { xyz, rpy, quat_xyzw }) = origin {
             self.empty(
                 "origin",
                 [
@@ -302,18 +276,10 @@ impl Xml {
             Geometry::Box(Cuboid { size }) => self.empty("box", [numbers("size", Some(size))]),
             Geometry::Cylinder(Cylinder { radius, length }) => self.empty(
                 "cylinder",
-                [
-                    maybe("radius", Some(*radius)),
-                    maybe("length", Some(*length)),
-                ],
+                [maybe("radius", Some(*radius)), maybe("length", Some(*length))],
             ),
-            Geometry::Capsule(Capsule { radius, length }) => self.empty(
-                "capsule",
-                [
-                    maybe("radius", Some(*radius)),
-                    maybe("length", Some(*length)),
-                ],
-            ),
+            Geometry::Capsule(Capsule { radius, length }) => self
+                .empty("capsule", [maybe("radius", Some(*radius)), maybe("length", Some(*length))]),
             Geometry::Sphere(Sphere { radius }) => {
                 self.empty("sphere", [maybe("radius", Some(*radius))]);
             }
@@ -379,10 +345,7 @@ impl Xml {
 
     fn joint(&mut self, joint: &Joint) {
         let joint_type = joint.joint_type.as_str().to_lowercase();
-        self.open(
-            "joint",
-            [text("name", &joint.name), text("type", &joint_type)],
-        );
+        self.open("joint", [text("name", &joint.name), text("type", &joint_type)]);
         self.origin(&joint.origin);
         self.empty("parent", [text("link", &joint.parent.link)]);
         self.empty("child", [text("link", &joint.child.link)]);
@@ -404,10 +367,7 @@ impl Xml {
             );
         }
         if let Some(d) = &joint.dynamics {
-            self.empty(
-                "dynamics",
-                [maybe("damping", d.damping), maybe("friction", d.friction)],
-            );
+            self.empty("dynamics", [maybe("damping", d.damping), maybe("friction", d.friction)]);
         }
         if let Some(m) = &joint.mimic {
             self.empty(
@@ -431,10 +391,7 @@ impl Xml {
             );
         }
         if let Some(c) = &joint.calibration {
-            self.empty(
-                "calibration",
-                [maybe("rising", c.rising), maybe("falling", c.falling)],
-            );
+            self.empty("calibration", [maybe("rising", c.rising), maybe("falling", c.falling)]);
         }
         self.unknown(&joint.unknown_elements);
         self.close("joint");
@@ -457,10 +414,7 @@ pub fn arbitrary_box_robot() -> impl Strategy<Value = Robot> {
 }
 
 const FOUND: [(&str, [f64; 3]); 3] = [
-    (
-        "package://robot_description/meshes/part.stl",
-        [0.2, 0.1, 0.3],
-    ),
+    ("package://robot_description/meshes/part.stl", [0.2, 0.1, 0.3]),
     ("package://other/päckchen 1.STL", [1.0, 2.0, 0.5]),
     ("meshes/part.stl", [0.1, 0.1, 0.1]),
 ];
@@ -478,32 +432,15 @@ fn robots(
         prop::collection::vec(parts, 1..=most_links),
         prop::collection::vec(material(), 0..3),
         unknown(),
-        select(vec![
-            Layout::LinksFirst,
-            Layout::JointsFirst,
-            Layout::Alternating,
-        ]),
+        select(vec![Layout::LinksFirst, Layout::JointsFirst, Layout::Alternating]),
     )
-        .prop_map(
-            |(name, version, parts, materials, unknown_elements, layout)| {
-                let (links, joints) = parts.into_iter().unzip();
-                let (links, joints) = assemble(links, joints);
-                let urdf = UrdfModule {
-                    name,
-                    version,
-                    links,
-                    joints,
-                    materials,
-                    unknown_elements,
-                };
-                let meshes = FOUND.iter().map(|(f, s)| ((*f).to_owned(), *s)).collect();
-                Robot {
-                    urdf,
-                    layout,
-                    meshes,
-                }
-            },
-        )
+        .prop_map(|(name, version, parts, materials, unknown_elements, layout)| {
+            let (links, joints) = parts.into_iter().unzip();
+            let (links, joints) = assemble(links, joints);
+            let urdf = UrdfModule { name, version, links, joints, materials, unknown_elements };
+            let meshes = FOUND.iter().map(|(f, s)| ((*f).to_owned(), *s)).collect();
+            Robot { urdf, layout, meshes }
+        })
 }
 
 /// A joint before it has its position in a tree.
@@ -566,25 +503,15 @@ fn arbitrary_link(
     geometry: BoxedStrategy<Geometry>,
     most_elements: usize,
 ) -> impl Strategy<Value = (u32, Link)> {
-    let visual = (
-        option(name()),
-        option(arbitrary_origin()),
-        geometry.clone(),
-        option(material()),
-    )
+    let visual = (option(name()), option(arbitrary_origin()), geometry.clone(), option(material()))
         .prop_map(|(name, origin, geometry, material)| Visual {
             name,
             origin,
             geometry: Some(geometry),
             material,
         });
-    let collision = (option(name()), option(arbitrary_origin()), geometry).prop_map(
-        |(name, origin, geometry)| Collision {
-            name,
-            origin,
-            geometry: Some(geometry),
-        },
-    );
+    let collision = (option(name()), option(arbitrary_origin()), geometry)
+        .prop_map(|(name, origin, geometry)| Collision { name, origin, geometry: Some(geometry) });
     let lone_missing = most_elements == 1;
     (
         any::<u32>(),
@@ -629,12 +556,7 @@ fn arbitrary_joint() -> impl Strategy<Value = LooseJoint> {
         .prop_map(|(damping, friction)| Dynamics { damping, friction });
     let safety_controller = prop::array::uniform4(option(number())).prop_map(|v| {
         let [soft_lower_limit, soft_upper_limit, k_position, k_velocity] = v;
-        SafetyController {
-            soft_lower_limit,
-            soft_upper_limit,
-            k_position,
-            k_velocity,
-        }
+        SafetyController { soft_lower_limit, soft_upper_limit, k_position, k_velocity }
     });
     let calibration = (option(number()), option(number()))
         .prop_map(|(rising, falling)| Calibration { rising, falling });
@@ -737,11 +659,7 @@ fn vector() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn arbitrary_origin() -> impl Strategy<Value = Origin> {
-    (option(vector()), option(vector())).prop_map(|(xyz, rpy)| Origin {
-        xyz,
-        rpy,
-        quat_xyzw: None,
-    })
+    (option(vector()), option(vector())).prop_map(|(xyz, rpy)| Origin { xyz, rpy, quat_xyzw: None })
 }
 
 /// The origin of a joint: with a rotation in one of the two forms, or none.
@@ -749,15 +667,13 @@ fn joint_origin() -> impl Strategy<Value = Origin> {
     let quaternion = prop::array::uniform4(number())
         .prop_filter("a length", |q| q.iter().any(|c| c.abs() > 1e-3))
         .prop_map(Some);
-    (
-        arbitrary_origin(),
-        prop_oneof![2 => Just(None), 1 => quaternion],
-    )
-        .prop_map(|(origin, quat_xyzw)| Origin {
+    (arbitrary_origin(), prop_oneof![2 => Just(None), 1 => quaternion]).prop_map(
+        |(origin, quat_xyzw)| Origin {
             rpy: origin.rpy.filter(|_| quat_xyzw.is_none()),
             quat_xyzw,
             ..origin
-        })
+        },
+    )
 }
 
 fn axis() -> impl Strategy<Value = Option<Axis>> {
@@ -837,18 +753,12 @@ fn any_geometry(round: bool) -> impl Strategy<Value = Geometry> {
         (positive(), positive())
             .prop_map(|(radius, length)| Geometry::Capsule(Capsule { radius, length })),
     ];
-    if round {
-        prop_oneof![1 => angular, 1 => rounded].boxed()
-    } else {
-        angular.boxed()
-    }
+    if round { prop_oneof![1 => angular, 1 => rounded].boxed() } else { angular.boxed() }
 }
 
 fn material() -> impl Strategy<Value = Material> {
     let color = prop::array::uniform4(0.0..1.0f64).prop_map(|rgba| Color { rgba });
-    let texture = name().prop_map(|name| Texture {
-        filename: format!("{name}.png"),
-    });
+    let texture = name().prop_map(|name| Texture { filename: format!("{name}.png") });
     (name(), option(color), rarely(texture)).prop_map(|(name, color, texture)| Material {
         name: Some(name),
         color,

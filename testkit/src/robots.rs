@@ -14,19 +14,8 @@ pub fn our_robots() -> Vec<(String, PathBuf)> {
     let entries = std::fs::read_dir(folder).expect("our robots");
     let mut robots: Vec<(String, PathBuf)> = entries
         .map(|entry| entry.expect("an entry").path())
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension == "urdf")
-        })
-        .map(|path| {
-            (
-                path.file_stem()
-                    .expect("a name")
-                    .to_string_lossy()
-                    .into_owned(),
-                path,
-            )
-        })
+        .filter(|path| path.extension().is_some_and(|extension| extension == "urdf"))
+        .map(|path| (path.file_stem().expect("a name").to_string_lossy().into_owned(), path))
         .collect();
     robots.sort();
     assert_eq!(robots.len(), 9);

@@ -66,9 +66,7 @@ impl Group {
     fn new(meshes: &Meshes, pick: impl Fn(&super::meshes::LinkSolids) -> Vec<Solid>) -> Group {
         let of_link = meshes.solids.iter();
         Group {
-            of_link: of_link
-                .map(|solids| solids.as_ref().map(&pick).unwrap_or_default())
-                .collect(),
+            of_link: of_link.map(|solids| solids.as_ref().map(&pick).unwrap_or_default()).collect(),
         }
     }
 
@@ -79,9 +77,7 @@ impl Group {
 
     fn each<T>(&self, make: impl Fn(&Solid) -> T) -> Vec<Vec<T>> {
         let links = self.of_link.iter();
-        links
-            .map(|solids| solids.iter().map(&make).collect())
-            .collect()
+        links.map(|solids| solids.iter().map(&make).collect()).collect()
     }
 
     /// The link, piece and solid of each shape index.
@@ -108,21 +104,12 @@ fn obb(solid: &Solid) -> Obb {
             *half = along.abs().max(*half);
         }
     }
-    Obb {
-        half_extents,
-        offset_xyz: solid.centre,
-        offset_rpy: solid.rpy,
-    }
+    Obb { half_extents, offset_xyz: solid.centre, offset_rpy: solid.rpy }
 }
 
 fn sphere(solid: &Solid) -> BoundingSphere {
-    let radii = solid
-        .corners
-        .map(|corner| norm(minus(corner, solid.centre)));
-    BoundingSphere {
-        radius: radii.into_iter().fold(0.0, f64::max),
-        offset_xyz: solid.centre,
-    }
+    let radii = solid.corners.map(|corner| norm(minus(corner, solid.centre)));
+    BoundingSphere { radius: radii.into_iter().fold(0.0, f64::max), offset_xyz: solid.centre }
 }
 
 fn obb_corners(obb: &Obb) -> [Point; 8] {
@@ -135,10 +122,7 @@ fn obb_corners(obb: &Obb) -> [Point; 8] {
 }
 
 fn farthest(corners: &[Point; 8]) -> f64 {
-    corners
-        .iter()
-        .map(|corner| norm(*corner))
-        .fold(0.0, f64::max)
+    corners.iter().map(|corner| norm(*corner)).fold(0.0, f64::max)
 }
 
 fn obb_reach(solid: &Solid) -> f64 {
@@ -151,9 +135,7 @@ fn sphere_reach(solid: &Solid) -> f64 {
 
 /// At most the reach of the box and of the sphere, even in the last digit.
 fn hull_reach(solid: &Solid) -> f64 {
-    farthest(&solid.corners)
-        .min(obb_reach(solid))
-        .min(sphere_reach(solid))
+    farthest(&solid.corners).min(obb_reach(solid)).min(sphere_reach(solid))
 }
 
 // ---- Distance statistics
@@ -164,9 +146,8 @@ fn statistics(
     full: &Group,
     pieces: &Group,
 ) -> LinkShapesDistanceStatisticsModule {
-    let configurations: Vec<Vec<f64>> = (0..NUM_SAMPLES)
-        .map(|k| sampled_configuration(robot, core, k))
-        .collect();
+    let configurations: Vec<Vec<f64>> =
+        (0..NUM_SAMPLES).map(|k| sampled_configuration(robot, core, k)).collect();
     statistics_over(robot, core, full, pieces, &configurations)
 }
 
@@ -177,10 +158,8 @@ fn statistics_over(
     pieces: &Group,
     configurations: &[Vec<f64>],
 ) -> LinkShapesDistanceStatisticsModule {
-    let poses: Vec<Vec<Transform>> = configurations
-        .iter()
-        .map(|q| link_transforms(robot, core, q))
-        .collect();
+    let poses: Vec<Vec<Transform>> =
+        configurations.iter().map(|q| link_transforms(robot, core, q)).collect();
     let [full_convex_hulls, full_obbs, full_bounding_spheres] = three_kinds(full, &poses);
     let [piece_hulls, piece_obbs, piece_spheres] = three_kinds(pieces, &poses);
     let piece_shape = |&(link, piece, _): &(usize, usize, _)| PieceShape {
@@ -233,10 +212,8 @@ fn over_poses<S, T>(
     place: impl Fn(&[Transform], &S) -> T,
     distance: impl Fn(&T, &T) -> f64,
 ) -> DistanceStatistics {
-    let placed: Vec<Vec<T>> = poses
-        .iter()
-        .map(|at| shapes.iter().map(|shape| place(at, shape)).collect())
-        .collect();
+    let placed: Vec<Vec<T>> =
+        poses.iter().map(|at| shapes.iter().map(|shape| place(at, shape)).collect()).collect();
     let n = shapes.len();
     let zeros = || vec![vec![0.0; n]; n];
     let (mut mean, mut min, mut max) = (zeros(), zeros(), zeros());
@@ -253,11 +230,7 @@ fn over_poses<S, T>(
             }
         }
     }
-    DistanceStatistics {
-        mean_distances: mean,
-        min_distances: min,
-        max_distances: max,
-    }
+    DistanceStatistics { mean_distances: mean, min_distances: min, max_distances: max }
 }
 
 /// Distance between two boxes, given by their corners; 0 in contact.
@@ -291,18 +264,14 @@ pub fn box_distance(a: &[Point; 8], b: &[Point; 8]) -> f64 {
 pub fn boxes_touch(a: &[Point; 8], b: &[Point; 8]) -> bool {
     let sides = |c: &[Point; 8]| [1, 2, 4].map(|i| unit(minus(c[i], c[0])));
     let (sides_a, sides_b) = (sides(a), sides(b));
-    let crossed = sides_a
-        .iter()
-        .flat_map(|x| sides_b.iter().map(move |y| cross(*x, *y)));
+    let crossed = sides_a.iter().flat_map(|x| sides_b.iter().map(move |y| cross(*x, *y)));
     let axes = sides_a.iter().chain(&sides_b).copied().chain(crossed);
     let apart = |axis: Point| {
         let range = |corners: &[Point; 8]| {
             let along = corners.map(|corner| dot(corner, axis));
             along
                 .into_iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                    (l.min(x), h.max(x))
-                })
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
         };
         let ((low_a, high_a), (low_b, high_b)) = (range(a), range(b));
         low_a > high_b || low_b > high_a
@@ -341,11 +310,7 @@ fn point_to_inside(p: Point, [a, b, c]: [Point; 3]) -> f64 {
     let inside = [(a, b), (b, c), (c, a)]
         .into_iter()
         .all(|(from, to)| dot(cross(minus(to, from), minus(p, from)), normal) >= 0.0);
-    if inside {
-        dot(minus(p, a), normal).abs()
-    } else {
-        f64::INFINITY
-    }
+    if inside { dot(minus(p, a), normal).abs() } else { f64::INFINITY }
 }
 
 // ---- Skips
@@ -363,18 +328,12 @@ fn simple_skips(
     let pieces: Vec<LinkIdx> = s.decomposition_shapes.iter().map(|p| p.link_idx).collect();
     let of = |d: &DistanceStatistics, default: &DistanceStatistics, links: &[LinkIdx]| {
         let reasons: Vec<Vec<SkipReason>> = (0..links.len())
-            .map(|i| {
-                (0..links.len())
-                    .map(|j| reason(core, (d, default), links, i, j))
-                    .collect()
-            })
+            .map(|i| (0..links.len()).map(|j| reason(core, (d, default), links, i, j)).collect())
             .collect();
         let skips: Vec<Vec<bool>> = reasons
             .iter()
             .map(|row| {
-                row.iter()
-                    .map(|r| matches!(r, SkipReason::SameLink | SkipReason::Always))
-                    .collect()
+                row.iter().map(|r| matches!(r, SkipReason::SameLink | SkipReason::Always)).collect()
             })
             .collect();
         (skips, reasons)
@@ -386,21 +345,14 @@ fn simple_skips(
     let (full_hulls, full_hull_reasons) =
         of(&s.full_convex_hulls, &at_default.full_convex_hulls, &full);
     let (full_obbs, full_obb_reasons) = of(&s.full_obbs, &at_default.full_obbs, &full);
-    let (full_spheres, full_sphere_reasons) = of(
-        &s.full_bounding_spheres,
-        &at_default.full_bounding_spheres,
-        &full,
-    );
-    let (piece_hulls, piece_hull_reasons) = maybe(
-        &s.decomposition_convex_hulls,
-        &at_default.decomposition_convex_hulls,
-    );
+    let (full_spheres, full_sphere_reasons) =
+        of(&s.full_bounding_spheres, &at_default.full_bounding_spheres, &full);
+    let (piece_hulls, piece_hull_reasons) =
+        maybe(&s.decomposition_convex_hulls, &at_default.decomposition_convex_hulls);
     let (piece_obbs, piece_obb_reasons) =
         maybe(&s.decomposition_obbs, &at_default.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) = maybe(
-        &s.decomposition_bounding_spheres,
-        &at_default.decomposition_bounding_spheres,
-    );
+    let (piece_spheres, piece_sphere_reasons) =
+        maybe(&s.decomposition_bounding_spheres, &at_default.decomposition_bounding_spheres);
     LinkShapesSimpleSkipsModule {
         full_shapes: s.full_shapes.clone(),
         decomposition_shapes: s.decomposition_shapes.clone(),

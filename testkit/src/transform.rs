@@ -9,12 +9,8 @@ pub type Rotation = [[f64; 3]; 3];
 /// A rigid transform in row-major order.
 pub type Transform = [[f64; 4]; 4];
 
-pub const IDENTITY: Transform = [
-    [1.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0],
-    [0.0, 0.0, 0.0, 1.0],
-];
+pub const IDENTITY: Transform =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 pub fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
@@ -23,11 +19,7 @@ pub fn norm(v: [f64; 3]) -> f64 {
 /// The unit vector along v; v itself if it is zero.
 pub fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = norm(v);
-    if length > 0.0 {
-        v.map(|c| c / length)
-    } else {
-        v
-    }
+    if length > 0.0 { v.map(|c| c / length) } else { v }
 }
 
 /// Rodrigues' formula.
@@ -93,12 +85,7 @@ pub fn apply(t: &Transform, p: [f64; 3]) -> [f64; 3] {
 /// Position and quaternion of a transform, computed from the largest quaternion component for accuracy.
 pub fn pose(t: &Transform) -> Pose {
     let [xx, yy, zz] = [t[0][0], t[1][1], t[2][2]];
-    let mut q = [
-        1.0 + xx + yy + zz,
-        1.0 + xx - yy - zz,
-        1.0 - xx + yy - zz,
-        1.0 - xx - yy + zz,
-    ];
+    let mut q = [1.0 + xx + yy + zz, 1.0 + xx - yy - zz, 1.0 - xx + yy - zz, 1.0 - xx - yy + zz];
     let largest = (0..4).max_by(|a, b| q[*a].total_cmp(&q[*b])).expect("four");
     let [wx, wy, wz] = [t[2][1] - t[1][2], t[0][2] - t[2][0], t[1][0] - t[0][1]];
     let [xy, xz, yz] = [t[1][0] + t[0][1], t[0][2] + t[2][0], t[2][1] + t[1][2]];

@@ -33,9 +33,7 @@ pub fn read(text: &str) -> (Vec<String>, Vec<Joint>) {
         })
         .collect();
     let nodes: Vec<Node> = named("joint").map(|(_, node)| node).collect();
-    let resolved: Vec<_> = (0..joints.len())
-        .map(|idx| resolve(&nodes, &joints, idx))
-        .collect();
+    let resolved: Vec<_> = (0..joints.len()).map(|idx| resolve(&nodes, &joints, idx)).collect();
     for (joint, resolved) in joints.iter_mut().zip(resolved) {
         joint.mimic = joint.mimic.take().map(|_| resolved);
     }
@@ -47,23 +45,13 @@ fn resolve(nodes: &[Node], joints: &[Joint], idx: usize) -> ResolvedMimic {
     let Some(mimic) = child(nodes[idx], "mimic") else {
         let moves = dof_count(&joints[idx]) > 0;
         let dof_idx = moves.then(|| DofIdx(first_dofs(joints)[idx]));
-        return ResolvedMimic {
-            dof_idx,
-            multiplier: 1.0,
-            offset: 0.0,
-        };
+        return ResolvedMimic { dof_idx, multiplier: 1.0, offset: 0.0 };
     };
-    let number = |name, absent| {
-        mimic
-            .attribute(name)
-            .map_or(absent, |text| text.trim().parse().unwrap())
-    };
+    let number =
+        |name, absent| mimic.attribute(name).map_or(absent, |text| text.trim().parse().unwrap());
     let (multiplier, offset): (f64, f64) = (number("multiplier", 1.0), number("offset", 0.0));
     let driver = mimic.attribute("joint").unwrap();
-    let driver = joints
-        .iter()
-        .position(|joint| joint.name == driver)
-        .unwrap();
+    let driver = joints.iter().position(|joint| joint.name == driver).unwrap();
     let driver = resolve(nodes, joints, driver);
     ResolvedMimic {
         dof_idx: driver.dof_idx,
@@ -84,16 +72,11 @@ fn numbers(node: Option<Node>, name: &str, absent: [f64; 3]) -> [f64; 3] {
     let Some(text) = node.and_then(|node| node.attribute(name)) else {
         return absent;
     };
-    let numbers: Vec<f64> = text
-        .split_whitespace()
-        .map(|word| word.parse().unwrap())
-        .collect();
+    let numbers: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
     numbers.try_into().unwrap()
 }
 
 fn joint_type(word: &str) -> JointType {
-    let joint_type = JointType::ALL
-        .iter()
-        .find(|known| known.as_str().eq_ignore_ascii_case(word));
+    let joint_type = JointType::ALL.iter().find(|known| known.as_str().eq_ignore_ascii_case(word));
     *joint_type.unwrap()
 }

@@ -106,11 +106,7 @@ fn each_field<'a>(
     see: &mut impl FnMut(&Field<'a>),
 ) {
     let has = |keyword: &str| field.schema.get(keyword).is_some();
-    let field = Field {
-        unit: field.unit || has(UNIT),
-        frame: field.frame || has(FRAME),
-        ..field
-    };
+    let field = Field { unit: field.unit || has(UNIT), frame: field.frame || has(FRAME), ..field };
     see(&field);
     let inside = |key: String, schema: &'a Value| Field {
         subject: field.subject,
@@ -123,9 +119,7 @@ fn each_field<'a>(
         // A schema within itself: once is enough.
         if !open.contains(&reference) {
             open.push(reference);
-            let target = root
-                .pointer(reference.trim_start_matches('#'))
-                .expect("a definition");
+            let target = root.pointer(reference.trim_start_matches('#')).expect("a definition");
             each_field(inside(field.key.clone(), target), root, open, see);
             open.pop();
         }
@@ -146,23 +140,15 @@ fn each_field<'a>(
 fn each_field_of_all(mut see: impl FnMut(&Field<'_>)) {
     for subject in Subject::all().filter(|subject| subject.is_version_1()) {
         let schema = subject.schema(Variant::Strict);
-        let root = Field {
-            subject,
-            key: String::new(),
-            schema: &schema,
-            unit: false,
-            frame: false,
-        };
+        let root =
+            Field { subject, key: String::new(), schema: &schema, unit: false, frame: false };
         each_field(root, &schema, &mut Vec::new(), &mut see);
     }
 }
 
 fn is(schema: &Value, kind: &str) -> bool {
     let kinds = &schema["type"];
-    kinds == kind
-        || kinds
-            .as_array()
-            .is_some_and(|kinds| kinds.contains(&json!(kind)))
+    kinds == kind || kinds.as_array().is_some_and(|kinds| kinds.contains(&json!(kind)))
 }
 
 #[test]
@@ -196,30 +182,15 @@ fn every_field_says_unit_frame_index_and_length() {
                 lacks(FRAME);
             }
         }
-        let faults = schema
-            .as_object()
-            .map(annotations::faults)
-            .unwrap_or_default();
+        let faults = schema.as_object().map(annotations::faults).unwrap_or_default();
         assert!(faults.is_empty(), "{name}: {faults:?}");
         seen += KEYWORDS.iter().filter(|keyword| has(keyword)).count();
     });
-    assert_eq!(
-        missing,
-        BTreeSet::new(),
-        "annotate them in crates/urdd-format/src"
-    );
-    assert_eq!(
-        free,
-        FREE.iter()
-            .map(|name| (*name).to_owned())
-            .collect::<BTreeSet<String>>()
-    );
+    assert_eq!(missing, BTreeSet::new(), "annotate them in crates/urdd-format/src");
+    assert_eq!(free, FREE.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<String>>());
     assert_eq!(
         unframed,
-        NOT_FRAMED
-            .iter()
-            .map(|name| (*name).to_owned())
-            .collect::<BTreeSet<String>>()
+        NOT_FRAMED.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<String>>()
     );
     assert!(seen > 150, "{seen} annotations");
 }
@@ -229,11 +200,7 @@ fn other_schemas_have_none() {
     for subject in Subject::all().filter(|subject| !subject.is_version_1()) {
         let text = subject.text(Variant::Strict);
         for keyword in KEYWORDS {
-            assert!(
-                !text.contains(&format!("\"{keyword}\"")),
-                "{}",
-                subject.id()
-            );
+            assert!(!text.contains(&format!("\"{keyword}\"")), "{}", subject.id());
         }
     }
 }
@@ -261,16 +228,9 @@ fn the_annotations_are_true_of_the_suites_bases() {
         for (subject, document) in &urdd.documents {
             let schema = subject.schema(Variant::Strict);
             for place in walk(&schema, document) {
-                let shown = || {
-                    format!(
-                        "{} {} {}: {place:?}",
-                        urdd.name,
-                        subject.name(),
-                        place.pointer
-                    )
-                };
-                *met.entry(format!("{} {}", subject.name(), place.schema))
-                    .or_default() += 1;
+                let shown =
+                    || format!("{} {} {}: {place:?}", urdd.name, subject.name(), place.pointer);
+                *met.entry(format!("{} {}", subject.name(), place.schema)).or_default() += 1;
                 let Some(numbers) = numbers(&place, &of_this_robot(&place), urdd) else {
                     continue;
                 };
@@ -302,10 +262,7 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
         let subject =
             Subject::all().find(|subject| subject.name() == *name && subject.is_version_1());
         let folder = format!("x_own_{name}");
-        let schema = subject
-            .expect("a module")
-            .schema(Variant::Strict)
-            .to_string();
+        let schema = subject.expect("a module").schema(Variant::Strict).to_string();
         fixture.put_file(&format!("{folder}/schema.json"), schema);
         fixture.add_module(&folder, document.clone());
     }
@@ -323,11 +280,7 @@ fn as_extensions(urdd: &Urdd, documents: &BTreeMap<&str, Value>) -> BTreeSet<(St
         let others = finding.places.into_iter();
         let others = others.map(|place| (place.file, place.pointer));
         for (file, pointer) in others.chain([(finding.file, finding.pointer)]) {
-            let place = format!(
-                "{} {}",
-                file.unwrap_or_default(),
-                pointer.unwrap_or_default()
-            );
+            let place = format!("{} {}", file.unwrap_or_default(), pointer.unwrap_or_default());
             found.insert((finding.code.clone(), place));
         }
     }
@@ -400,44 +353,23 @@ fn the_specification_lists_every_word() {
     let begin = spec.find("**11.4 Words.**").expect("11.4");
     let clause = &spec[begin..begin + spec[begin..].find("**11.5**").expect("11.5")];
     let rows = |columns: usize| -> Vec<Vec<String>> {
-        let rows = clause
-            .lines()
-            .filter(|line| line.starts_with("| `") && !line.contains("`x-"));
+        let rows = clause.lines().filter(|line| line.starts_with("| `") && !line.contains("`x-"));
         let cells = rows.map(|row| {
-            row.split('|')
-                .skip(1)
-                .map(|cell| cell.trim().trim_matches('`').to_owned())
-                .collect()
+            row.split('|').skip(1).map(|cell| cell.trim().trim_matches('`').to_owned()).collect()
         });
-        cells
-            .filter(|row: &Vec<String>| row.len() == columns + 1)
-            .collect()
+        cells.filter(|row: &Vec<String>| row.len() == columns + 1).collect()
     };
     let frames: Vec<String> = rows(2).into_iter().map(|row| row[0].clone()).collect();
     assert_eq!(frames, annotations::FRAMES);
-    let things: Vec<(String, String)> = rows(4)
-        .into_iter()
-        .map(|row| (row[0].clone(), row[1].clone()))
-        .collect();
+    let things: Vec<(String, String)> =
+        rows(4).into_iter().map(|row| (row[0].clone(), row[1].clone())).collect();
     let all = annotations::THINGS.iter();
     let all = all.map(|(thing, ..)| {
-        (
-            thing.index().to_owned(),
-            thing.length().unwrap_or_default().to_owned(),
-        )
+        (thing.index().to_owned(), thing.length().unwrap_or_default().to_owned())
     });
     assert_eq!(things, all.collect::<Vec<_>>());
-    let symbols = clause
-        .lines()
-        .find(|line| line.starts_with("The symbols are"))
-        .expect("symbols");
-    let symbols: Vec<&str> = symbols
-        .split('.')
-        .next()
-        .unwrap_or_default()
-        .split('`')
-        .skip(1)
-        .step_by(2)
-        .collect();
+    let symbols = clause.lines().find(|line| line.starts_with("The symbols are")).expect("symbols");
+    let symbols: Vec<&str> =
+        symbols.split('.').next().unwrap_or_default().split('`').skip(1).step_by(2).collect();
     assert_eq!(symbols, annotations::UNITS);
 }

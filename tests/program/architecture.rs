@@ -45,17 +45,10 @@ fn all_say_one_version_of_the_program() {
 
 #[test]
 fn the_wall_between_generate_and_validate_stands() {
-    for (name, other) in [
-        ("urdd-generate", "urdd-validate"),
-        ("urdd-validate", "urdd-generate"),
-    ] {
+    for (name, other) in [("urdd-generate", "urdd-validate"), ("urdd-validate", "urdd-generate")] {
         let manifest = repository().join("crates").join(name).join("Cargo.toml");
         let text = fs::read_to_string(&manifest).expect("a manifest");
-        assert!(
-            text.contains("urdd-format"),
-            "{}: another form",
-            manifest.display()
-        );
+        assert!(text.contains("urdd-format"), "{}: another form", manifest.display());
         assert!(
             !text.contains(other),
             "{} names `{other}`: each must be written from SPEC.md alone",
@@ -97,8 +90,7 @@ fn no_test_and_no_example_is_left_out() {
 fn has_example(source: &str) -> bool {
     let documentation = source.lines().filter_map(|line| {
         let line = line.trim_start();
-        line.strip_prefix("///")
-            .or_else(|| line.strip_prefix("//!"))
+        line.strip_prefix("///").or_else(|| line.strip_prefix("//!"))
     });
     let fences = documentation.filter_map(|line| line.trim_start().strip_prefix("```"));
     // Every second one ends a block.
@@ -115,16 +107,8 @@ fn files_stay_small() {
     let rules = rules_folder();
     for (file, text) in sources().iter().flat_map(|folder| rust_files(folder)) {
         let lines = text.lines().count();
-        let limit = if file.starts_with(&rules) {
-            LONGEST_RULE
-        } else {
-            LONGEST_FILE
-        };
-        assert!(
-            lines <= limit,
-            "{} has {lines} lines; split it (at most {limit})",
-            file.display()
-        );
+        let limit = if file.starts_with(&rules) { LONGEST_RULE } else { LONGEST_FILE };
+        assert!(lines <= limit, "{} has {lines} lines; split it (at most {limit})", file.display());
     }
 }
 
@@ -143,20 +127,15 @@ fn every_rule_on_disk_is_registered() {
             .expect("a code after the documentation");
         assert!(on_disk.insert(code.to_owned()), "{code} is declared twice");
     }
-    let mut registered: BTreeSet<String> = rules::all()
-        .iter()
-        .map(|rule| rule.code.to_string())
-        .collect();
+    let mut registered: BTreeSet<String> =
+        rules::all().iter().map(|rule| rule.code.to_string()).collect();
     registered.insert("TST001".to_owned());
     assert_eq!(on_disk, registered);
     // The crate's own tests hold these to its files.
     let of_urdfs = urdd_lint::rules::all().into_iter();
     registered.extend(of_urdfs.map(|rule| rule.description.code.to_string()));
     let codes: BTreeSet<String> = Code::ALL.iter().map(|code| code.to_string()).collect();
-    assert_eq!(
-        codes, registered,
-        "crates/urdd-validate/src/code.rs and the rules differ"
-    );
+    assert_eq!(codes, registered, "crates/urdd-validate/src/code.rs and the rules differ");
 }
 
 #[test]
@@ -167,23 +146,11 @@ fn every_rule_is_documented_for_a_stranger() {
     for rule in of_urdds.chain(of_urdfs.map(|rule| &rule.description)) {
         let code = rule.code;
         let paragraphs = rule.explanation().split("\n\n").count();
-        assert!(
-            paragraphs >= 2,
-            "{code}: say what is wrong, why it matters, and what to do"
-        );
-        assert!(
-            rule.summary().ends_with('.'),
-            "{code}: the first paragraph is a sentence"
-        );
-        let kebab = rule
-            .name
-            .bytes()
-            .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
+        assert!(paragraphs >= 2, "{code}: say what is wrong, why it matters, and what to do");
+        assert!(rule.summary().ends_with('.'), "{code}: the first paragraph is a sentence");
+        let kebab =
+            rule.name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
         assert!(kebab, "{code}: `{}` is not kebab-case", rule.name);
-        assert!(
-            names.insert(rule.name),
-            "{code}: the name `{}` is taken",
-            rule.name
-        );
+        assert!(names.insert(rule.name), "{code}: the name `{}` is taken", rule.name);
     }
 }

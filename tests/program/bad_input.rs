@@ -152,11 +152,7 @@ fn as_plain_user(command: &mut Command) -> &mut Command {
         fs::set_permissions(closed.path(), fs::Permissions::from_mode(0o000)).expect("closed");
         fs::read_dir(closed.path()).is_ok()
     };
-    if may_read_all {
-        command.uid(65534).gid(65534)
-    } else {
-        command
-    }
+    if may_read_all { command.uid(65534).gid(65534) } else { command }
 }
 
 /// A folder among URDDs that cannot be listed may contain URDDs: skipping it would make a pass meaningless.
@@ -180,12 +176,7 @@ fn a_closed_folder_among_urdds() {
             .expect("the program")
     };
     let before = run();
-    assert_eq!(
-        before.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&before.stderr)
-    );
+    assert_eq!(before.status.code(), Some(0), "{}", String::from_utf8_lossy(&before.stderr));
     fs::set_permissions(&closed, fs::Permissions::from_mode(0o000)).expect("closed");
     let output = run();
     fs::set_permissions(&closed, fs::Permissions::from_mode(0o755)).expect("open");
@@ -203,11 +194,7 @@ fn a_folder_too_deep_to_search() {
         fs::create_dir_all(root.join("a/".repeat(40))).expect("folders");
     });
     assert_eq!(outcome.status, 2);
-    assert!(
-        outcome.stdout.contains("deeper than 32"),
-        "{}",
-        outcome.stdout
-    );
+    assert!(outcome.stdout.contains("deeper than 32"), "{}", outcome.stdout);
 }
 
 #[test]
@@ -280,9 +267,7 @@ fn files_of_a_tebibyte_are_not_read() {
             let file = root.join("kinematics_samples_module").join(file);
             let file = fs::OpenOptions::new().write(true).open(file).expect("open");
             // If the file system does not allow files of that size, one just beyond the limit is used.
-            file.set_len(1 << 40)
-                .or_else(|_| file.set_len(1 << 33))
-                .expect("a sparse file");
+            file.set_len(1 << 40).or_else(|_| file.set_len(1 << 33)).expect("a sparse file");
         });
         assert_findings(&outcome, &["DIR014", "DIR023"]);
     }
@@ -317,12 +302,7 @@ mod unix {
             symlink("..", root.join("dof_module/up")).expect("a link");
         });
         let codes = outcome.codes();
-        assert!(
-            codes
-                .iter()
-                .any(|code| code == "DIR004" || code == "DIR023"),
-            "{codes:?}"
-        );
+        assert!(codes.iter().any(|code| code == "DIR004" || code == "DIR023"), "{codes:?}");
         assert_eq!(outcome.status, 1);
 
         // A collection whose folders link back to it.
@@ -395,14 +375,7 @@ mod unix {
 
 #[test]
 fn odd_robot_names() {
-    for name in [
-        "a/b",
-        "../../etc/passwd",
-        ".",
-        "a b\u{1F916}ü",
-        "C:\\robot",
-        "-rf",
-    ] {
+    for name in ["a/b", "../../etc/passwd", ".", "a b\u{1F916}ü", "C:\\robot", "-rf"] {
         let outcome = examine(|root| {
             let mut toy = Fixture::toy();
             toy.set(ROOT, "/robot_name", json!(name));
@@ -458,55 +431,29 @@ fn hostile_annotations_of_extensions() {
     }
     let words = vec!["link"; 100_000].join(" or ");
     let many = json!(
-        (0..2000)
-            .map(|i| (format!("a{i}"), is_link.clone()))
-            .collect::<serde_json::Map<_, _>>()
+        (0..2000).map(|i| (format!("a{i}"), is_link.clone())).collect::<serde_json::Map<_, _>>()
     );
     let cases = [
         // Very many wrong indices: one is named.
-        (
-            json!({"items": is_link}),
-            json!(vec![4_000_000_000_u32; 200_000]),
-            "EXT003",
-        ),
-        (
-            json!({"x-length": "links"}),
-            json!(vec![0; 200_000]),
-            "EXT004",
-        ),
+        (json!({"items": is_link}), json!(vec![4_000_000_000_u32; 200_000]), "EXT003"),
+        (json!({"x-length": "links"}), json!(vec![0; 200_000]), "EXT004"),
         // Every level of lists has the wrong length.
-        (
-            json!({"x-length": "links", "items": {"$ref": "#"}}),
-            deep.clone(),
-            "EXT004",
-        ),
-        (
-            json!({"$ref": "#", "x-index": "link"}),
-            json!(1e300),
-            "EXT003",
-        ),
+        (json!({"x-length": "links", "items": {"$ref": "#"}}), deep.clone(), "EXT004"),
+        (json!({"$ref": "#", "x-index": "link"}), json!(1e300), "EXT003"),
         (json!({"x-index": words}), json!(-1), "EXT003"),
         (
             json!({"$dynamicAnchor": "a", "items": {"$dynamicRef": "#a"}, "x-index": "link"}),
             json!([[[-1]]]),
             "EXT003",
         ),
-        (
-            json!({"unevaluatedProperties": is_link}),
-            json!({"a": -1}),
-            "EXT003",
-        ),
+        (json!({"unevaluatedProperties": is_link}), json!({"a": -1}), "EXT003"),
         (json!({"contains": is_link}), json!([-1]), "EXT003"),
         (
             json!({"dependentSchemas": {"a": {"properties": {"b": is_link}}}}),
             json!({"a": 0, "b": -1}),
             "EXT003",
         ),
-        (
-            json!({"properties": many}),
-            json!({"a7": -1, "a1999": 0}),
-            "EXT003",
-        ),
+        (json!({"properties": many}), json!({"a7": -1, "a1999": 0}), "EXT003"),
         (json!({"x-unit": "m*".repeat(400_000)}), json!(1), "EXT001"),
         (json!({"x-frame": {"deep": deep}}), json!(1), "EXT001"),
     ];

@@ -4,11 +4,7 @@ use std::fs;
 use std::process::{Command, Output, Stdio};
 
 fn urdd(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_urdd"))
-        .arg("schema")
-        .args(arguments)
-        .output()
-        .unwrap()
+    Command::new(env!("CARGO_BIN_EXE_urdd")).arg("schema").args(arguments).output().unwrap()
 }
 
 fn stdout(output: &Output) -> String {
@@ -57,22 +53,14 @@ fn checks_what_it_exports_and_says_how_to_mend_it() {
     let path = folder.to_str().unwrap();
     let check = || urdd(&["check", path]);
 
-    assert_eq!(
-        check().status.code(),
-        Some(2),
-        "a folder that does not exist"
-    );
+    assert_eq!(check().status.code(), Some(2), "a folder that does not exist");
     assert!(urdd(&["export", path]).status.success());
     assert_eq!(check().status.code(), Some(0), "{}", stdout(&check()));
 
     let chain = folder.join("chain_module/1.0.0.json");
     let text = fs::read_to_string(&chain).unwrap();
     fs::write(&chain, text.replace('\n', "\r\n")).unwrap();
-    assert_eq!(
-        check().status.code(),
-        Some(0),
-        "line ends of another system"
-    );
+    assert_eq!(check().status.code(), Some(0), "line ends of another system");
 
     fs::write(&chain, "{}").unwrap();
     fs::remove_file(folder.join("dof_module/1.0.0.json")).unwrap();
@@ -122,11 +110,7 @@ fn the_bundle_holds_every_module_of_version_1() {
         for entry in fs::read_dir(&examples).expect("a URDD") {
             let path = entry.expect("an entry").path();
             let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-            let file = if path.is_dir() {
-                path.join("module.json")
-            } else {
-                path.clone()
-            };
+            let file = if path.is_dir() { path.join("module.json") } else { path.clone() };
             if name.ends_with("_module") || name == "urdd.json" {
                 let text = fs::read_to_string(file).expect("a document");
                 urdd.insert(name, serde_json::from_str(&text).expect("JSON"));
@@ -134,10 +118,7 @@ fn the_bundle_holds_every_module_of_version_1() {
         }
         assert!(urdd.len() >= 7, "{}", urdd.len());
         let mut urdd = serde_json::Value::Object(urdd);
-        let errors: Vec<String> = validator
-            .iter_errors(&urdd)
-            .map(|e| e.to_string())
-            .collect();
+        let errors: Vec<String> = validator.iter_errors(&urdd).map(|e| e.to_string()).collect();
         assert_eq!(errors, [""; 0]);
         let properties = bundle["properties"].as_object().expect("properties");
         assert!(properties.len() >= 16, "{}", properties.len());

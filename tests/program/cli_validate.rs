@@ -87,10 +87,9 @@ fn fail_on() {
 fn class() {
     let folder = collection();
     let mut core = Fixture::toy();
-    for (module, class) in [
-        ("original_meshes_module", "Geometry"),
-        ("link_shapes_skips_module", "Core"),
-    ] {
+    for (module, class) in
+        [("original_meshes_module", "Geometry"), ("link_shapes_skips_module", "Core")]
+    {
         core.remove_module(module);
         core.set(ROOT, "/conformance_class", json!(class));
     }
@@ -114,21 +113,14 @@ fn class() {
     assert_eq!(status(&["core", "--class", "huge"]), 2);
     let report = report(folder.path(), &["core", "--class", "geometry"]);
     let finding = &report["urdds"][0]["findings"][0];
-    assert_eq!(
-        (&finding["code"], &finding["count"]),
-        (&json!("DIR019"), &json!(4))
-    );
+    assert_eq!((&finding["code"], &finding["count"]), (&json!("DIR019"), &json!(4)));
 }
 
 #[test]
 fn crashes_are_told() {
     let folder = collection();
     let output = validate(folder.path(), &["good", "--with-crashing-rule"]);
-    assert!(
-        stdout(&output).contains("INCOMPLETE"),
-        "{}",
-        stdout(&output)
-    );
+    assert!(stdout(&output).contains("INCOMPLETE"), "{}", stdout(&output));
     assert!(stdout(&output).contains("TST001"));
     assert_eq!(stderr(&output), "");
     let report = report(folder.path(), &["good", "--with-crashing-rule"]);
@@ -141,11 +133,7 @@ fn json_reports_fit_their_schema() {
     let schema =
         serde_json::to_value(schemars::schema_for!(urdd_format::report::Report)).expect("a value");
     let schema = jsonschema::draft202012::new(&schema).expect("a schema");
-    for arguments in [
-        &["."] as &[&str],
-        &["good"],
-        &["bad", "--with-crashing-rule"],
-    ] {
+    for arguments in [&["."] as &[&str], &["good"], &["bad", "--with-crashing-rule"]] {
         let report = report(folder.path(), arguments);
         let errors: Vec<String> = schema.iter_errors(&report).map(|e| e.to_string()).collect();
         assert_eq!(errors, [""; 0]);
@@ -159,16 +147,8 @@ fn json_reports_fit_their_schema() {
         .collect();
     let expected = [("bad", "fail"), ("good", "pass"), ("odd", "pass")];
     let expected = expected.map(|(path, verdict)| (json!(path), json!(verdict)));
-    assert!(
-        verdicts
-            .iter()
-            .map(|(p, v)| (*p, *v))
-            .eq(expected.iter().map(|(p, v)| (p, v)))
-    );
-    assert_eq!(
-        report["totals"],
-        json!({"urdds": 3, "error": 1, "warning": 1, "info": 0})
-    );
+    assert!(verdicts.iter().map(|(p, v)| (*p, *v)).eq(expected.iter().map(|(p, v)| (p, v))));
+    assert_eq!(report["totals"], json!({"urdds": 3, "error": 1, "warning": 1, "info": 0}));
 }
 
 #[test]
@@ -180,10 +160,7 @@ fn a_report_file_beside_the_text() {
     let file = fs::read_to_string(folder.path().join("report.json")).expect("a report");
     let written: Value = serde_json::from_str(&file).expect("JSON");
     assert_eq!(written, report(folder.path(), &["bad"]));
-    assert_eq!(
-        status(folder.path(), &["good", "--output", "no/such/folder.json"]),
-        2
-    );
+    assert_eq!(status(folder.path(), &["good", "--output", "no/such/folder.json"]), 2);
 }
 
 #[test]
@@ -194,10 +171,7 @@ fn settings_are_read_up_to_a_limit() {
     let output = validate(folder.path(), &["good"]);
     assert_eq!(output.status.code(), Some(2));
     let words = stderr(&output);
-    assert!(
-        words.contains("urdd.toml: it is longer than 1 MiB"),
-        "{words}"
-    );
+    assert!(words.contains("urdd.toml: it is longer than 1 MiB"), "{words}");
 }
 
 #[cfg(target_os = "linux")]
@@ -227,62 +201,33 @@ fn settings() {
         ("[severity]\nDIR020 = \"fatal\"", "fatal"),
         ("class = \"huge\"", "huge"),
         ("[[ignore]]\ncode = \"DIR020\"\npath = \"**\"", "reason"),
-        (
-            "[[ignore]]\ncode = \"DIR020\"\npath = \"**\"\nreason = \" \"",
-            "reason",
-        ),
-        (
-            "[[ignore]]\ncode = \"DIR020\"\npath = \"[\"\nreason = \"x\"",
-            "pattern",
-        ),
+        ("[[ignore]]\ncode = \"DIR020\"\npath = \"**\"\nreason = \" \"", "reason"),
+        ("[[ignore]]\ncode = \"DIR020\"\npath = \"[\"\nreason = \"x\"", "pattern"),
         ("fail-on = ", "urdd.toml"),
     ] {
         let output = with(wrong, &["good"]);
         assert_eq!(output.status.code(), Some(2), "{wrong}");
-        assert!(
-            stderr(&output).contains(part),
-            "{wrong}: {}",
-            stderr(&output)
-        );
-        assert!(
-            stderr(&output).contains("urdd.toml"),
-            "{wrong}: {}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains(part), "{wrong}: {}", stderr(&output));
+        assert!(stderr(&output).contains("urdd.toml"), "{wrong}: {}", stderr(&output));
     }
     let status = |text: &str, arguments: &[&str]| with(text, arguments).status.code();
-    assert_eq!(
-        status("[severity]\nDIR020 = \"warning\"", &["bad"]),
-        Some(0)
-    );
+    assert_eq!(status("[severity]\nDIR020 = \"warning\"", &["bad"]), Some(0));
     assert_eq!(status("[severity]\nDIR010 = \"error\"", &["odd"]), Some(1));
     assert_eq!(status("fail-on = \"warning\"", &["odd"]), Some(1));
-    assert_eq!(
-        status("fail-on = \"warning\"", &["odd", "--fail-on", "error"]),
-        Some(0)
-    );
+    assert_eq!(status("fail-on = \"warning\"", &["odd", "--fail-on", "error"]), Some(0));
 
     let ignore = "[[ignore]]\ncode = \"DIR020\"\npath = \"bad/*\"\nreason = \"renamed soon\"\n";
     let output = with(ignore, &["."]);
     assert_eq!(output.status.code(), Some(0), "{}", stdout(&output));
     let checks = report(folder.path(), &["."]);
-    let checks = checks["urdds"][0]["checks"]
-        .as_array()
-        .expect("a list")
-        .clone();
-    let check = checks
-        .iter()
-        .find(|check| check["code"] == "DIR020")
-        .expect("a check");
+    let checks = checks["urdds"][0]["checks"].as_array().expect("a list").clone();
+    let check = checks.iter().find(|check| check["code"] == "DIR020").expect("a check");
     assert_eq!(check["reason"], "ignored: renamed soon");
     // For another URDD: it matches nothing, and a message says so.
     let output = with(&ignore.replace("bad/", "ba/"), &["."]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stdout(&output).contains("`ba/*`"), "{}", stdout(&output));
-    assert_eq!(
-        report(folder.path(), &["."])["stale_ignores"][0]["code"],
-        "DIR020"
-    );
+    assert_eq!(report(folder.path(), &["."])["stale_ignores"][0]["code"], "DIR020");
 
     fs::remove_file(folder.path().join("urdd.toml")).expect("removed");
     fs::write(folder.path().join("ours.toml"), ignore).expect("written");
@@ -300,27 +245,16 @@ fn same_input_same_bytes() {
     for format in ["json", "human"] {
         let run = |folder: &Path, threads: &str| {
             let mut command = command(folder, &[".", "--format", format]);
-            command
-                .env("RAYON_NUM_THREADS", threads)
-                .output()
-                .expect("the program")
-                .stdout
+            command.env("RAYON_NUM_THREADS", threads).output().expect("the program").stdout
         };
         let first = run(folder.path(), "1");
         assert!(!first.is_empty());
-        assert!(
-            first == run(folder.path(), "2"),
-            "{format}: with two threads"
-        );
+        assert!(first == run(folder.path(), "2"), "{format}: with two threads");
         assert!(first == run(&copy, "2"), "{format}: in another folder");
     }
     let by_path = |path: &Path| {
         let path = path.join("bad");
-        validate(
-            folder.path(),
-            &["--format", "json", path.to_str().expect("UTF-8")],
-        )
-        .stdout
+        validate(folder.path(), &["--format", "json", path.to_str().expect("UTF-8")]).stdout
     };
     assert!(by_path(folder.path()) == by_path(&copy), "by absolute path");
 }
@@ -348,11 +282,7 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
     toy.write_to(&root);
     let rehash = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
-        command
-            .args(["rehash", "robot"])
-            .current_dir(folder.path())
-            .output()
-            .expect("the program")
+        command.args(["rehash", "robot"]).current_dir(folder.path()).output().expect("the program")
     };
     let metadata = || fs::read(root.join(ROOT)).expect("urdd.json");
     let before = metadata();
@@ -364,10 +294,7 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
     let text = fs::read_to_string(&module).expect("module.json");
     fs::write(&module, text + "\n").expect("written");
     assert_eq!(status(folder.path(), &["robot"]), 1);
-    assert_eq!(
-        stdout(&rehash()),
-        "robot: updated\n  dof_module/module.json\n"
-    );
+    assert_eq!(stdout(&rehash()), "robot: updated\n  dof_module/module.json\n");
     assert_eq!(status(folder.path(), &["robot"]), 0);
 
     fs::remove_file(root.join("dof_module/VERSION")).expect("removed");
@@ -385,10 +312,7 @@ fn rehash_brings_sizes_and_hashes_up_to_date_and_nothing_else() {
 /// The findings of one URDD.
 fn findings(folder: &Path, arguments: &[&str]) -> Vec<Value> {
     let report = report(folder, arguments);
-    report["urdds"][0]["findings"]
-        .as_array()
-        .expect("a list")
-        .clone()
+    report["urdds"][0]["findings"].as_array().expect("a list").clone()
 }
 
 #[test]
@@ -396,20 +320,13 @@ fn machines_get_every_place_and_people_the_worst() {
     let folder = testkit::temporary::folder();
     let mut toy = Fixture::toy();
     // Each DOF's bounds are off by a different amount, the third by most.
-    let dofs = toy
-        .get("bounds_module", "/bounds")
-        .as_array()
-        .expect("a list")
-        .len();
+    let dofs = toy.get("bounds_module", "/bounds").as_array().expect("a list").len();
     assert!(dofs > 5, "{dofs}");
     for dof in 0..dofs {
         let by = if dof == 2 { 100.0 } else { dof as f64 + 1.0 };
         for (list, index) in [("dof_lower_bounds", dof), ("dof_upper_bounds", dof)] {
             let pointer = format!("/{list}/{index}");
-            let old = toy
-                .get("bounds_module", &pointer)
-                .as_f64()
-                .expect("a number");
+            let old = toy.get("bounds_module", &pointer).as_f64().expect("a number");
             toy.set("bounds_module", &pointer, json!(old - by));
         }
     }
@@ -418,11 +335,7 @@ fn machines_get_every_place_and_people_the_worst() {
     let found = findings(folder.path(), &["robot", "--select", "BND"]);
     let lower = found
         .iter()
-        .find(|f| {
-            f["pointer"]
-                .as_str()
-                .is_some_and(|p| p.starts_with("/dof_lower"))
-        })
+        .find(|f| f["pointer"].as_str().is_some_and(|p| p.starts_with("/dof_lower")))
         .expect("a finding");
     let places = lower["places"].as_array().expect("a list");
     assert_eq!((places.len(), &lower["count"]), (dofs, &json!(dofs)));
@@ -436,11 +349,7 @@ fn machines_get_every_place_and_people_the_worst() {
     assert!(off.is_sorted_by(|a, b| a >= b), "{off:?}");
     assert!((off[0] - 100.0).abs() < 1e-9);
     for place in places {
-        let dof = place["pointer"]
-            .as_str()
-            .expect("a pointer")
-            .rsplit('/')
-            .next();
+        let dof = place["pointer"].as_str().expect("a pointer").rsplit('/').next();
         let subject = place["subject"].as_str().expect("a name");
         assert!(subject.starts_with(&format!("DOF {} of joint `", dof.expect("an index"))));
         assert!(place["line"].as_u64().is_some());
@@ -451,14 +360,8 @@ fn machines_get_every_place_and_people_the_worst() {
     };
     let three = lines(&["robot", "--select", "BND"]);
     assert_eq!(lines(&["robot", "--select", "BND", "--max-places", "1"]), 0);
-    assert_eq!(
-        lines(&["robot", "--select", "BND", "--max-places", "4"]),
-        three / 2 * 3
-    );
-    let log = validate(
-        folder.path(),
-        &["robot", "--select", "BND", "--format", "sarif"],
-    );
+    assert_eq!(lines(&["robot", "--select", "BND", "--max-places", "4"]), three / 2 * 3);
+    let log = validate(folder.path(), &["robot", "--select", "BND", "--format", "sarif"]);
     let log: Value = serde_json::from_slice(&log.stdout).expect("JSON");
     let related = log["runs"][0]["results"][0]["relatedLocations"].as_array();
     assert_eq!(related.expect("a list").len(), dofs - 1);
@@ -475,10 +378,7 @@ fn an_unknown_key_is_reported_at_its_own_line() {
     assert_eq!(found[0]["pointer"], "/no~1key");
     let file = folder.path().join("robot/dof_module/module.json");
     let text = fs::read_to_string(file).expect("a module");
-    let line = 1 + text
-        .lines()
-        .position(|line| line.contains("no/key"))
-        .expect("the key");
+    let line = 1 + text.lines().position(|line| line.contains("no/key")).expect("the key");
     assert_eq!(found[0]["line"], json!(line));
 }
 
@@ -489,11 +389,7 @@ fn many_urdds_are_summed_up() {
     for number in 0..12 {
         let mut toy = Fixture::toy();
         if number % 2 == 0 {
-            toy.set(
-                "bounds_module",
-                "/dof_lower_bounds/0",
-                json!(-77.0 - f64::from(number)),
-            );
+            toy.set("bounds_module", "/dof_lower_bounds/0", json!(-77.0 - f64::from(number)));
         }
         if number % 3 == 0 {
             toy.remove_file("dof_module/module.yaml");
@@ -508,15 +404,8 @@ fn many_urdds_are_summed_up() {
     let output = validate(root, &["."]);
     assert_eq!(output.status.code(), Some(1));
     let text = stdout(&output);
-    assert!(
-        text.lines().count() < 45,
-        "{} lines:\n{text}",
-        text.lines().count()
-    );
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 130),
-        "{text}"
-    );
+    assert!(text.lines().count() < 45, "{} lines:\n{text}", text.lines().count());
+    assert!(text.lines().all(|line| line.chars().count() <= 130), "{text}");
     let row = |name: &str| text.lines().find(|line| line.starts_with(name));
     // What could not be checked is not shown as valid.
     let broken = row("robot05").expect("a row");
@@ -525,15 +414,9 @@ fn many_urdds_are_summed_up() {
     assert!(warned.contains("1w"), "{warned}");
     assert_eq!(row("robot01"), None);
     let sound = [1, 7, 11].len();
-    assert!(
-        text.contains(&format!("{sound} URDDs more without findings")),
-        "{text}"
-    );
+    assert!(text.contains(&format!("{sound} URDDs more without findings")), "{text}");
     // One cause for all URDDs, and motion before format.
-    let cause = text
-        .lines()
-        .filter(|line| line.contains("6 times in 6 URDDs"))
-        .count();
+    let cause = text.lines().filter(|line| line.contains("6 times in 6 URDDs")).count();
     assert_eq!(cause, 1, "{text}");
     let motion = text.find("  wrong motion").expect("motion");
     let format = text.find("  format").expect("format");
@@ -555,20 +438,13 @@ fn a_urdf_by_itself_is_judged_as_a_source() {
     };
     fs::write(root.join("good.urdf"), urdf(&mass(1.0))).expect("written");
     fs::write(root.join("odd.URDF"), urdf(&mass(-1.0))).expect("written");
-    fs::write(
-        root.join("two.urdf"),
-        urdf(&(mass(1.0) + "<link name=\"b\"/>")),
-    )
-    .expect("written");
+    fs::write(root.join("two.urdf"), urdf(&(mass(1.0) + "<link name=\"b\"/>"))).expect("written");
     fs::write(root.join("broken.urdf"), "<robot name=\"r\"><link").expect("written");
     let codes = |name: &str| -> Vec<String> {
         let report = report(root, &[name]);
         assert_eq!(report["urdds"][0]["kind"], "urdf");
         let found = report["urdds"][0]["findings"].as_array().expect("a list");
-        found
-            .iter()
-            .map(|f| f["code"].as_str().expect("a code").to_owned())
-            .collect()
+        found.iter().map(|f| f["code"].as_str().expect("a code").to_owned()).collect()
     };
     assert_eq!(codes("good.urdf"), [""; 0]);
     assert_eq!(codes("odd.URDF"), ["SRC003"]);
@@ -581,11 +457,7 @@ fn a_urdf_by_itself_is_judged_as_a_source() {
     assert!(text.contains("urdd generate"), "{text}");
     // Other reports give the file itself as its location.
     let log = validate(root, &["two.urdf", "--format", "github"]);
-    assert!(
-        stdout(&log).contains("::error file=two.urdf,line=1"),
-        "{}",
-        stdout(&log)
-    );
+    assert!(stdout(&log).contains("::error file=two.urdf,line=1"), "{}", stdout(&log));
 }
 
 #[test]
@@ -617,16 +489,10 @@ fn folders_are_excluded() {
     let paths = |arguments: &[&str]| -> Vec<String> {
         let report = report(root, arguments);
         let urdds = report["urdds"].as_array().expect("a list");
-        urdds
-            .iter()
-            .map(|urdd| urdd["path"].as_str().expect("a path").to_owned())
-            .collect()
+        urdds.iter().map(|urdd| urdd["path"].as_str().expect("a path").to_owned()).collect()
     };
     assert_eq!(paths(&[".", "--exclude", "bad"]), ["good", "odd"]);
-    assert_eq!(
-        paths(&[".", "--exclude", "b*/", "--exclude", "odd"]),
-        ["good"]
-    );
+    assert_eq!(paths(&[".", "--exclude", "b*/", "--exclude", "odd"]), ["good"]);
     fs::create_dir(root.join("old")).expect("a folder");
     copy_folder(&root.join("bad"), &root.join("old/deeper/bad"));
     assert_eq!(paths(&[".", "--exclude", "old"]), ["bad", "good", "odd"]);
@@ -651,10 +517,7 @@ fn an_ignore_without_a_code_is_for_all_rules() {
     assert_eq!(status(root, &["bad"]), 2);
     write("[[ignore]]\npath = \"nobody/**\"\nreason = \"x\"\n");
     let text = stdout(&validate(root, &["bad"]));
-    assert!(
-        text.contains("ignore of all rules at `nobody/**`"),
-        "{text}"
-    );
+    assert!(text.contains("ignore of all rules at `nobody/**`"), "{text}");
 }
 
 #[test]
@@ -667,13 +530,7 @@ fn some_rules_only() {
     assert_eq!(status(root, &["bad", "--ignore", "dir020"]), 0);
     assert_eq!(status(root, &["bad", "--select", "NOPE"]), 2);
     let checks = report(root, &["bad", "--select", "DIR020"]);
-    assert_eq!(
-        checks["urdds"][0]["checks"]
-            .as_array()
-            .expect("a list")
-            .len(),
-        1
-    );
+    assert_eq!(checks["urdds"][0]["checks"].as_array().expect("a list").len(), 1);
 }
 
 #[test]
@@ -691,14 +548,8 @@ fn colours_on_request() {
     assert!(run(&["bad", "--color", "always"], &[("NO_COLOR", "1")]));
     assert!(run(&["bad"], &[("CLICOLOR_FORCE", "1")]));
     assert!(!run(&["bad"], &[("CLICOLOR_FORCE", "0")]));
-    assert!(!run(
-        &["bad"],
-        &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]
-    ));
-    assert!(!run(
-        &["bad", "--color", "never"],
-        &[("CLICOLOR_FORCE", "1")]
-    ));
+    assert!(!run(&["bad"], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]));
+    assert!(!run(&["bad", "--color", "never"], &[("CLICOLOR_FORCE", "1")]));
     assert!(!run(&["bad", "--color", "always", "--format", "json"], &[]));
 }
 
@@ -712,31 +563,20 @@ fn workflow_commands_hold_no_others() {
     toy.write_to(&folder.path().join("::add-mask::robot,1"));
     let output = validate(folder.path(), &[".", "--format", "github"]);
     let text = stdout(&output);
-    let commands: Vec<&str> = text
-        .lines()
-        .filter(|line| line.trim_start().starts_with("::"))
-        .collect();
+    let commands: Vec<&str> =
+        text.lines().filter(|line| line.trim_start().starts_with("::")).collect();
     assert!(commands.len() >= 2, "{text}");
     for command in &commands {
         let known = ["::error file=", "::warning file=", "::notice file="];
-        assert!(
-            known.iter().any(|start| command.starts_with(start)),
-            "{command}"
-        );
+        assert!(known.iter().any(|start| command.starts_with(start)), "{command}");
         let properties = command.split("::").nth(1).expect("properties");
-        assert!(
-            properties.contains("%3A%3Aadd-mask%3A%3Arobot%2C1"),
-            "{command}"
-        );
+        assert!(properties.contains("%3A%3Aadd-mask%3A%3Arobot%2C1"), "{command}");
     }
     let unescaped = |command: &&str| command.contains("a%0A");
     assert!(!commands.iter().any(unescaped), "a percent sign is escaped");
     // Nor does the human-readable report, which is printed in workflows too.
     let text = stdout(&validate(folder.path(), &["."]));
-    assert!(
-        !text.lines().any(|line| line.trim_start().starts_with("::")),
-        "{text}"
-    );
+    assert!(!text.lines().any(|line| line.trim_start().starts_with("::")), "{text}");
 }
 
 #[test]
@@ -754,12 +594,7 @@ fn explanations_as_json_and_completions() {
     assert_eq!(explained(&["DOF003"])["name"], "dof-mappings-disagree");
     let family = explained(&["DOF"]);
     let family = family.as_array().expect("a list");
-    assert!(
-        family.len() > 5
-            && family
-                .iter()
-                .all(|rule| rule["consequence"] == "wrong-motion")
-    );
+    assert!(family.len() > 5 && family.iter().all(|rule| rule["consequence"] == "wrong-motion"));
     assert!(explained(&[]).as_array().expect("a list").len() > 100);
     for shell in ["bash", "zsh", "fish"] {
         let script = stdout(&run(&["completions", shell]));

@@ -63,14 +63,8 @@ struct Types<'a> {
 fn types() -> String {
     let bundle = bundle(Variant::Strict);
     let definitions = bundle["$defs"].as_object().expect("definitions");
-    let mut types = Types {
-        definitions,
-        begun: Vec::new(),
-        text: HEAD.to_owned(),
-    };
-    let objects = definitions
-        .iter()
-        .filter(|(_, definition)| is_object(definition));
+    let mut types = Types { definitions, begun: Vec::new(), text: HEAD.to_owned() };
+    let objects = definitions.iter().filter(|(_, definition)| is_object(definition));
     types.text.push('\n');
     for (name, _) in objects {
         let _ = writeln!(types.text, "struct {name};");
@@ -134,10 +128,7 @@ impl<'a> Types<'a> {
         }
         text.push_str("    /// Other keys: `x_` and those of later minor versions. An object, or null.\n    Json extra;\n\n");
         if let Some(kind) = module_of(definition) {
-            let depends_on = kind
-                .depends_on()
-                .iter()
-                .map(|kind| format!("\"{}\"", kind.name()));
+            let depends_on = kind.depends_on().iter().map(|kind| format!("\"{}\"", kind.name()));
             let depends_on = depends_on.collect::<Vec<_>>();
             let _ = writeln!(
                 text,
@@ -168,10 +159,7 @@ impl<'a> Types<'a> {
         let words = words.iter().map(|word| word.as_str().expect("a word"));
         let words = words.collect::<Vec<_>>();
         let members = words.iter().map(|word| member(word)).collect::<Vec<_>>();
-        let quoted = words
-            .iter()
-            .map(|word| format!("\"{word}\""))
-            .collect::<Vec<_>>();
+        let quoted = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>();
         let _ = writeln!(
             self.text,
             "enum class {name} {{ {} }};\n\n\
@@ -188,10 +176,7 @@ impl<'a> Types<'a> {
 fn module_of(definition: &Value) -> Option<ModuleKind> {
     let title = definition["title"].as_str()?;
     let name = snake(title);
-    ModuleKind::ALL
-        .iter()
-        .copied()
-        .find(|kind| kind.name() == name)
+    ModuleKind::ALL.iter().copied().find(|kind| kind.name() == name)
 }
 
 fn references<'a>(schema: &'a Value, found: &mut Vec<&'a str>) {
@@ -238,10 +223,7 @@ fn type_of(schema: &Value) -> String {
     for keyword in ["anyOf", "oneOf"] {
         if let Some(choices) = schema[keyword].as_array() {
             let is_null = |choice: &&Value| choice["type"] == "null";
-            let kinds = choices
-                .iter()
-                .filter(|choice| !is_null(choice))
-                .map(type_of);
+            let kinds = choices.iter().filter(|choice| !is_null(choice)).map(type_of);
             let kinds = kinds.collect::<Vec<_>>();
             let of = match kinds.as_slice() {
                 [only] if choices.len() > 1 => only.clone(),

@@ -36,8 +36,7 @@ fn pack(files: &BTreeMap<String, Vec<u8>>, prefix: &str) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (path, bytes) in files {
         let options = SimpleFileOptions::default();
-        zip.start_file(format!("{prefix}{path}"), options)
-            .expect("an entry");
+        zip.start_file(format!("{prefix}{path}"), options).expect("an entry");
         zip.write_all(bytes).expect("written");
     }
     zip.finish().expect("an archive").into_inner()
@@ -84,13 +83,8 @@ fn an_archive_has_the_findings_of_its_folder() {
     let mut urdd_files = arm();
     let bounds = urdd_files.get_mut("bounds_module/module.json").expect("it");
     let text = String::from_utf8(bounds.clone()).expect("UTF-8");
-    *bounds = text
-        .replacen(
-            "\"dof_lower_bounds\": [",
-            "\"dof_lower_bounds\": [0.25, ",
-            1,
-        )
-        .into_bytes();
+    *bounds =
+        text.replacen("\"dof_lower_bounds\": [", "\"dof_lower_bounds\": [0.25, ", 1).into_bytes();
     urdd_files.insert("dof_module/notes.txt".to_owned(), b"stray".to_vec());
     let folder = testkit::temporary::folder();
     let root = folder.path().join("arm");
@@ -100,10 +94,7 @@ fn an_archive_has_the_findings_of_its_folder() {
         fs::write(file, bytes).expect("written");
     }
     let expected = findings(&urdd(&["validate", "--format", "json"], &root));
-    assert!(
-        expected.as_array().expect("a list").len() >= 3,
-        "{expected}"
-    );
+    assert!(expected.as_array().expect("a list").len() >= 3, "{expected}");
     for prefix in ["", "arm/"] {
         let zip = folder.path().join("robot.zip");
         fs::write(&zip, pack(&urdd_files, prefix)).expect("written");
@@ -152,15 +143,9 @@ fn sources_list_and_read_alike() {
         assert_eq!(root.read("none", 10), Err(ReadError::Missing));
         assert_eq!(root.read("urdd.json/x", 10), Err(ReadError::Missing));
         assert_eq!(root.read("dof_module", 10), Err(ReadError::NotAFile));
-        assert!(matches!(
-            root.read("../arm/urdd.json", 10),
-            Err(ReadError::Path(_))
-        ));
+        assert!(matches!(root.read("../arm/urdd.json", 10), Err(ReadError::Path(_))));
         let too_large = root.read("urdd.json", 10);
-        assert!(matches!(
-            too_large,
-            Err(ReadError::TooLarge { limit: 10, .. })
-        ));
+        assert!(matches!(too_large, Err(ReadError::TooLarge { limit: 10, .. })));
     }
 }
 
@@ -191,10 +176,7 @@ fn an_archive_cut_anywhere_is_refused() {
     let whole = pack(&arm(), "");
     for at in (0..whole.len()).step_by(whole.len() / 50) {
         let fault = refused(whole[..at].to_vec());
-        assert!(
-            matches!(fault, ArchiveFault::Broken { .. }),
-            "{at}: {fault}"
-        );
+        assert!(matches!(fault, ArchiveFault::Broken { .. }), "{at}: {fault}");
     }
 }
 
@@ -214,11 +196,7 @@ fn renamed(from: &str, to: &str) -> Vec<u8> {
     let places: Vec<usize> = (0..bytes.len() - from.len())
         .filter(|at| bytes[*at..].starts_with(from.as_bytes()))
         .collect();
-    assert_eq!(
-        places.len(),
-        2,
-        "in its own header and in the archive's list"
-    );
+    assert_eq!(places.len(), 2, "in its own header and in the archive's list");
     for at in places {
         bytes[at..at + to.len()].copy_from_slice(to.as_bytes());
     }
@@ -242,10 +220,7 @@ fn names_that_leave_the_archive_are_refused() {
 
 #[test]
 fn names_that_are_there_twice_are_refused() {
-    assert_eq!(
-        entry_fault(renamed("urdd.jsom", "urdd.json")),
-        EntryFault::Duplicate
-    );
+    assert_eq!(entry_fault(renamed("urdd.jsom", "urdd.json")), EntryFault::Duplicate);
     // A file and a folder.
     let two = [("urdd.json", ""), ("a", "x"), ("a/b", "y")];
     let files = two.map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec()));
@@ -265,9 +240,8 @@ fn set_in_both(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
 
 /// Like [`set_in_both`], only in the central directory.
 fn set_in_list(bytes: &mut [u8], name: &str, offset: usize, value: &[u8]) {
-    let at = (0..bytes.len())
-        .rfind(|at| bytes[*at..].starts_with(name.as_bytes()))
-        .expect("the name");
+    let at =
+        (0..bytes.len()).rfind(|at| bytes[*at..].starts_with(name.as_bytes())).expect("the name");
     let header = at - 46;
     assert!(bytes[header..].starts_with(b"PK\x01\x02"));
     bytes[header + offset..header + offset + value.len()].copy_from_slice(value);
@@ -288,16 +262,10 @@ fn entries_that_are_not_what_is_stated_are_refused() {
     };
     damaged(change(16, &[1, 2, 3, 4]), "checksum");
     damaged(change(24, &100_u32.to_le_bytes()), "longer than stated");
-    damaged(
-        change(24, &1_000_000_u32.to_le_bytes()),
-        "shorter than stated",
-    );
+    damaged(change(24, &1_000_000_u32.to_le_bytes()), "shorter than stated");
     damaged(change(20, &u32::MAX.to_le_bytes()[..3]), "beyond");
     let too_large = change(24, &0xFFFF_FFF0_u32.to_le_bytes());
-    assert!(
-        matches!(too_large, EntryFault::TooLarge { .. }),
-        "{too_large}"
-    );
+    assert!(matches!(too_large, EntryFault::TooLarge { .. }), "{too_large}");
 }
 
 /// Some programs trust the central directory, others the headers.
@@ -350,29 +318,17 @@ fn two_archives_in_one_file_are_refused() {
     other([one.clone(), two.clone()].concat(), "one after another");
     let mut moved = two.clone();
     move_list(&mut moved, one.len());
-    other(
-        [one.clone(), moved].concat(),
-        "the second one knows of the first",
-    );
+    other([one.clone(), moved].concat(), "the second one knows of the first");
     let mut commented = one.clone();
     let length = u16::try_from(two.len()).expect("short");
     let end = commented.len() - 2;
     commented[end..].copy_from_slice(&length.to_le_bytes());
-    other(
-        [commented, two.clone()].concat(),
-        "the second one is a comment of the first",
-    );
-    other(
-        [b"#!/bin/sh\n".to_vec(), one.clone()].concat(),
-        "something before",
-    );
+    other([commented, two.clone()].concat(), "the second one is a comment of the first");
+    other([b"#!/bin/sh\n".to_vec(), one.clone()].concat(), "something before");
     other([one.clone(), b"\n".to_vec()].concat(), "something after");
     let mut prefixed = one.clone();
     move_list(&mut prefixed, 10);
-    other(
-        [b"#!/bin/sh\n".to_vec(), prefixed].concat(),
-        "something before, known of",
-    );
+    other([b"#!/bin/sh\n".to_vec(), prefixed].concat(), "something before, known of");
     // An archive inside an archive is a file like any other.
     let mut files = arm();
     files.insert("dof_module/notes.zip".to_owned(), two);
@@ -395,18 +351,12 @@ fn names_that_no_file_system_takes_are_refused() {
         (["n"; 2049].join("/"), true),
         ("n".repeat(60_000), true),
     ] {
-        let two = [
-            ("urdd.json".to_owned(), b"{}".to_vec()),
-            (name.clone(), Vec::new()),
-        ];
+        let two = [("urdd.json".to_owned(), b"{}".to_vec()), (name.clone(), Vec::new())];
         let archive = Archive::new("robot", pack(&two.into(), ""));
         match archive {
             Ok(_) => assert!(!is_too_long, "{} bytes", name.len()),
             Err(ArchiveFault::Entry { fault, .. }) => {
-                assert!(
-                    is_too_long && matches!(fault, EntryFault::LongName { .. }),
-                    "{fault}"
-                );
+                assert!(is_too_long && matches!(fault, EntryFault::LongName { .. }), "{fault}");
             }
             Err(fault) => panic!("{fault}"),
         }
@@ -426,9 +376,7 @@ fn bombs_are_refused_before_they_are_inflated() {
     let bytes = zip.finish().expect("an archive").into_inner();
     assert!(bytes.len() < 500_000);
     let fault = refused(bytes);
-    let ArchiveFault::Inflates { size, limit } = fault else {
-        panic!("{fault}")
-    };
+    let ArchiveFault::Inflates { size, limit } = fault else { panic!("{fault}") };
     assert_eq!(size, 400 << 20);
     assert!(limit < 200 << 20);
 }
@@ -438,8 +386,7 @@ fn an_archive_of_too_many_entries_is_refused() {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default();
     for i in 0..100_001 {
-        zip.start_file(format!("urdf_module/{i}"), options)
-            .expect("an entry");
+        zip.start_file(format!("urdf_module/{i}"), options).expect("an entry");
     }
     let mut bytes = zip.finish().expect("an archive").into_inner();
     assert_eq!(refused(bytes.clone()), ArchiveFault::Zip64);
@@ -450,13 +397,7 @@ fn an_archive_of_too_many_entries_is_refused() {
     bytes[end + 8..end + 12].copy_from_slice(&[0xA1, 0x86, 0xA1, 0x86]);
     let fault = refused(bytes);
     assert!(
-        matches!(
-            fault,
-            ArchiveFault::Count {
-                listed: 100_001,
-                ..
-            } | ArchiveFault::OtherBytes
-        ),
+        matches!(fault, ArchiveFault::Count { listed: 100_001, .. } | ArchiveFault::OtherBytes),
         "{fault}"
     );
 }
@@ -464,17 +405,11 @@ fn an_archive_of_too_many_entries_is_refused() {
 #[test]
 fn which_urdd_is_meant_must_be_clear() {
     let one = |path: &str| BTreeMap::from([(path.to_owned(), b"{}".to_vec())]);
-    assert_eq!(
-        refused(pack(&one("a/b/urdd.json"), "")),
-        ArchiveFault::NoUrdd
-    );
+    assert_eq!(refused(pack(&one("a/b/urdd.json"), "")), ArchiveFault::NoUrdd);
     assert_eq!(refused(pack(&one("readme.txt"), "")), ArchiveFault::NoUrdd);
     let mut two = one("a/urdd.json");
     two.extend(one("b/dof_module/module.json"));
-    assert!(matches!(
-        refused(pack(&two, "")),
-        ArchiveFault::ManyUrdds { .. }
-    ));
+    assert!(matches!(refused(pack(&two, "")), ArchiveFault::ManyUrdds { .. }));
     let mut beside = one("a/urdd.json");
     beside.extend(one("__MACOSX/a/._urdd.json"));
     beside.extend(one("docs/readme.txt"));

@@ -5,9 +5,7 @@ use std::path::Path;
 
 /// Runs a target on every file of its folder.
 fn replay(name: &str, target: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/data/fuzz")
-        .join(name);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/fuzz").join(name);
     let mut files: Vec<_> = fs::read_dir(&folder)
         .expect("a folder of inputs")
         .map(|entry| entry.expect("an entry").path())

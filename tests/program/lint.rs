@@ -27,15 +27,10 @@ fn slide() -> tempfile::TempDir {
 
 /// The codes that `urdd lint` finds in a folder.
 fn codes(folder: &Path, arguments: &[&str]) -> Vec<String> {
-    let output = output(
-        &[&["lint", ".", "--format", "json"], arguments].concat(),
-        folder,
-    );
+    let output = output(&[&["lint", ".", "--format", "json"], arguments].concat(), folder);
     let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     let findings = report["urdds"][0]["findings"].as_array().expect("a list");
-    let codes = findings
-        .iter()
-        .map(|finding| finding["code"].as_str().expect("a code"));
+    let codes = findings.iter().map(|finding| finding["code"].as_str().expect("a code"));
     codes.map(ToOwned::to_owned).collect()
 }
 
@@ -68,10 +63,7 @@ fn urdd_toml_names_a_baseline() {
     let missing = output(&["lint", "."], folder);
     assert_eq!(missing.status.code(), Some(2));
     let words = String::from_utf8_lossy(&missing.stderr);
-    assert!(
-        words.contains("known.json: there is no such file"),
-        "{words}"
-    );
+    assert!(words.contains("known.json: there is no such file"), "{words}");
 }
 
 #[test]
@@ -99,10 +91,8 @@ mod fix {
 
     /// Runs `urdd lint` on `home`, and returns what it says of files, with its exit status.
     fn fix(folder: &Path, arguments: &[&str]) -> (String, Option<i32>) {
-        let output = output(
-            &[&["lint", "--quiet", "--fail-on", "warning"], arguments].concat(),
-            folder,
-        );
+        let output =
+            output(&[&["lint", "--quiet", "--fail-on", "warning"], arguments].concat(), folder);
         let said = String::from_utf8(output.stderr).expect("UTF-8");
         (said, output.status.code())
     }
@@ -133,16 +123,12 @@ mod fix {
         link("/", "all.urdf");
         link("..", "inner/up");
         link("../robots", "elsewhere");
-        let pipe = std::process::Command::new("mkfifo")
-            .arg(root.join("home/pipe.urdf"))
-            .status();
+        let pipe = std::process::Command::new("mkfifo").arg(root.join("home/pipe.urdf")).status();
         assert!(pipe.expect("mkfifo").success());
         for changed in ["--diff", "--fix"] {
             let (said, status) = fix(root, &["home", changed]);
-            let led = said
-                .lines()
-                .filter(|line| line.contains("home/led.urdf"))
-                .collect::<Vec<_>>();
+            let led =
+                said.lines().filter(|line| line.contains("home/led.urdf")).collect::<Vec<_>>();
             assert_eq!(led.len(), 1, "{said}");
             assert!(
                 led[0].contains("left as it is: the link leads to")
@@ -158,11 +144,7 @@ mod fix {
         let is_link = |name: &str| root.join("home").join(name).is_symlink();
         assert!(is_link("inner.urdf") && is_link("led.urdf") && is_link("endless.urdf"));
         // No option leads out. The link by its name, or the file's folder, does.
-        assert!(
-            fix(root, &["home", "--fix", "--force"])
-                .0
-                .contains("outside of what was named")
-        );
+        assert!(fix(root, &["home", "--fix", "--force"]).0.contains("outside of what was named"));
         assert!(!is_mended(&outside));
         fix(root, &["home/led.urdf", "--fix"]);
         assert!(is_mended(&outside) && is_link("led.urdf"));
@@ -262,10 +244,7 @@ pub mod xacro {
             let json = lint(folder.path(), &[&file, "--format", "json"]);
             let report: Value = serde_json::from_str(&json).expect("JSON");
             let findings = report["urdds"][0]["findings"].as_array().expect("a list");
-            let axis = findings
-                .iter()
-                .find(|one| one["code"] == "LNT012")
-                .expect("it");
+            let axis = findings.iter().find(|one| one["code"] == "LNT012").expect("it");
             let written = &axis["places"][0]["written_at"];
             assert_eq!(written["file"], "parts/finger.xacro");
             assert_eq!(written["line"], 4);

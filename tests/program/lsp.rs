@@ -132,9 +132,7 @@ fn it_ends_when_its_input_does_or_is_no_message() {
     assert_eq!(Server::start().end().0, Some(1));
     let mut server = Server::start();
     let input = server.input.as_mut().expect("open");
-    input
-        .write_all(b"GET / HTTP/1.1\r\n\r\nhello")
-        .expect("a server");
+    input.write_all(b"GET / HTTP/1.1\r\n\r\nhello").expect("a server");
     assert_eq!(server.end(), (Some(2), String::new()));
 }
 
@@ -142,14 +140,8 @@ fn it_ends_when_its_input_does_or_is_no_message() {
 fn a_message_beyond_the_bound_is_refused_before_it_is_read() {
     let endless = format!("X: {}", "x".repeat(1 << 20));
     for (header, words) in [
-        (
-            "Content-Length: 99999999999\r\n\r\n",
-            "99999999999 bytes; at most 134217728",
-        ),
-        (
-            "Content-Length: 134217729\r\n\r\n",
-            "134217729 bytes; at most 134217728",
-        ),
+        ("Content-Length: 99999999999\r\n\r\n", "99999999999 bytes; at most 134217728"),
+        ("Content-Length: 134217729\r\n\r\n", "134217729 bytes; at most 134217728"),
         (endless.as_str(), "a header has more than 4096 bytes"),
     ] {
         let mut server = Command::new(env!("CARGO_BIN_EXE_urdd"))
@@ -189,11 +181,7 @@ mod xacro {
         item["text"] = json!(text);
         server.send(json!({"method": "textDocument/didOpen", "params": {"textDocument": item}}));
         let before = server.receive();
-        assert_eq!(
-            before["params"]["diagnostics"],
-            json!([]),
-            "before it is saved"
-        );
+        assert_eq!(before["params"]["diagnostics"], json!([]), "before it is saved");
         server
             .send(json!({"method": "textDocument/didSave", "params": {"textDocument": document}}));
         let mut after = server.receive();
@@ -201,9 +189,7 @@ mod xacro {
         while server.receive()["id"] != 2 {}
         server.send(json!({"method": "exit"}));
         assert_eq!(server.end().0, Some(0));
-        let Value::Array(found) = after["params"]["diagnostics"].take() else {
-            panic!("{after}")
-        };
+        let Value::Array(found) = after["params"]["diagnostics"].take() else { panic!("{after}") };
         found
     }
 
@@ -211,37 +197,16 @@ mod xacro {
     fn a_finding_in_an_included_macro_is_shown_at_the_include_with_its_place() {
         let folder = hand("hand");
         let found = saved(folder.path(), "hand/hand.urdf.xacro");
-        let axis = found
-            .iter()
-            .find(|one| one["code"] == "LNT012")
-            .expect("LNT012");
-        assert_eq!(
-            axis["range"]["start"],
-            json!({"line": 1, "character": 0}),
-            "{axis}"
-        );
+        let axis = found.iter().find(|one| one["code"] == "LNT012").expect("LNT012");
+        assert_eq!(axis["range"]["start"], json!({"line": 1, "character": 0}), "{axis}");
         let message = axis["message"].as_str().expect("a message");
         let words = "(written at parts/finger.xacro:4, in the macro `finger`)";
-        assert!(
-            message.contains("`left_slide`") && message.contains(words),
-            "{message}"
-        );
+        assert!(message.contains("`left_slide`") && message.contains(words), "{message}");
         let place = &axis["relatedInformation"][0]["location"];
-        assert!(
-            place["uri"]
-                .as_str()
-                .expect("it")
-                .ends_with("/hand/parts/finger.xacro")
-        );
+        assert!(place["uri"].as_str().expect("it").ends_with("/hand/parts/finger.xacro"));
         assert_eq!(place["range"]["start"]["line"], 3);
-        let link = found
-            .iter()
-            .find(|one| one["code"] == "LNT006")
-            .expect("LNT006");
-        assert!(
-            !link["message"].as_str().expect("it").contains("written"),
-            "{link}"
-        );
+        let link = found.iter().find(|one| one["code"] == "LNT006").expect("LNT006");
+        assert!(!link["message"].as_str().expect("it").contains("written"), "{link}");
     }
 
     #[test]
@@ -266,11 +231,8 @@ mod xacro {
         let text = std::fs::read_to_string(&path).expect("a file");
         let text = text.replace("<robot ", "<robot name=\"finger\" ");
         std::fs::write(&path, text).expect("written");
-        std::fs::write(
-            folder.path().join("hand/expanded"),
-            "<robot name=\"finger\"/>\n",
-        )
-        .expect("written");
+        std::fs::write(folder.path().join("hand/expanded"), "<robot name=\"finger\"/>\n")
+            .expect("written");
         assert_eq!(saved(folder.path(), "hand/parts/finger.xacro"), [""; 0]);
     }
 }

@@ -52,10 +52,7 @@ fn an_extension_that_is_added_passes() {
     };
     let stiffness = read("x_acme_gripper_module/module.json")["joint_stiffness"].clone();
     let joints = read("urdf_module/module.json")["joints"].clone();
-    assert_eq!(
-        stiffness.as_array().unwrap().len(),
-        joints.as_array().unwrap().len()
-    );
+    assert_eq!(stiffness.as_array().unwrap().len(), joints.as_array().unwrap().len());
 
     // It is checked: its index and its length by the annotations.
     let file = root.join("x_acme_gripper_module/module.json");
@@ -77,17 +74,11 @@ fn an_extension_in_a_folder_passes_when_it_is_listed() {
     assert!(output.status.success(), "{}", stderr(&output));
     let written = files::below(&folder.path().join("x_acme_gripper_module"));
     let names: Vec<&String> = written.keys().collect();
-    assert_eq!(
-        names,
-        ["VERSION", "module.json", "module.yaml", "schema.json"]
-    );
+    assert_eq!(names, ["VERSION", "module.json", "module.yaml", "schema.json"]);
 
     let mut toy = Fixture::toy();
     let document = serde_json::from_slice(&written["module.json"]).unwrap();
-    toy.put_file(
-        "x_acme_gripper_module/schema.json",
-        written["schema.json"].clone(),
-    );
+    toy.put_file("x_acme_gripper_module/schema.json", written["schema.json"].clone());
     toy.add_module("x_acme_gripper_module", document);
     toy.canonical = true;
     toy.seal();
@@ -114,21 +105,13 @@ fn nothing_is_overwritten() {
     fs::create_dir(root.join("x_acme_camera_module")).unwrap();
     let output = new_extension("acme_camera", &root);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("exists, and is left as it is"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("exists, and is left as it is"), "{}", stderr(&output));
     assert!(files::below(&root) == before);
 
     // A URDD that cannot be changed.
     for broken in ["{", "{}", "{\"modules\": 7}"] {
         fs::write(root.join("urdd.json"), broken).unwrap();
-        assert_eq!(
-            new_extension("acme_arm", &root).status.code(),
-            Some(2),
-            "{broken}"
-        );
+        assert_eq!(new_extension("acme_arm", &root).status.code(), Some(2), "{broken}");
         assert!(!root.join("x_acme_arm_module").exists());
         assert_eq!(fs::read_to_string(root.join("urdd.json")).unwrap(), broken);
     }
@@ -153,19 +136,11 @@ fn names_that_no_extension_may_have_are_refused() {
     ] {
         let output = new_extension(name, folder.path());
         assert_eq!(output.status.code(), Some(2), "{name}");
-        assert!(
-            stderr(&output).contains("such as acme_gripper"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains("such as acme_gripper"), "{}", stderr(&output));
         assert!(!stderr(&output).contains('\u{1b}'));
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let output = new_extension("acme_gripper", &folder.path().join("nowhere"));
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("is not a folder"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("is not a folder"), "{}", stderr(&output));
 }

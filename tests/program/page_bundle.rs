@@ -40,12 +40,7 @@ fn the_committed_page_is_made_of_these_sources() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: BTreeMap<String, Vec<u8>> = FILES
         .iter()
-        .map(|file| {
-            (
-                (*file).to_owned(),
-                fs::read(root.join(file)).expect("a file"),
-            )
-        })
+        .map(|file| ((*file).to_owned(), fs::read(root.join(file)).expect("a file")))
         .collect();
     for folder in FOLDERS {
         let below = testkit::files::below(&root.join(folder)).into_iter();

@@ -35,10 +35,7 @@ fn clean(folder: &Path, arguments: &[&str]) -> String {
     for stream in [&output.stdout, &output.stderr] {
         let text = String::from_utf8(stream.clone()).expect("UTF-8");
         let found: Vec<char> = text.chars().filter(|c| acts(*c)).collect();
-        assert!(
-            found.is_empty(),
-            "{arguments:?} printed {found:?}: {text:?}"
-        );
+        assert!(found.is_empty(), "{arguments:?} printed {found:?}: {text:?}");
         let forged = text.lines().find(|line| line.starts_with("FORGED"));
         assert_eq!(forged, None, "{arguments:?} printed a line of a name's own");
         all += &text;
@@ -86,24 +83,16 @@ fn hostile_urdds(folder: &Path) -> usize {
         // All at once, and each kind of field alone: a document that does not match its schema is not read further.
         let mut kinds = std::collections::BTreeSet::new();
         for pointer in &pointers {
-            let kind: String = pointer
-                .split('/')
-                .filter(|part| part.parse::<usize>().is_err())
-                .collect();
+            let kind: String =
+                pointer.split('/').filter(|part| part.parse::<usize>().is_err()).collect();
             if kinds.insert(kind) && (kinds.len() % 3 == 1 || trials(1) > 1) {
                 write(&|f| f.set(name, pointer, json!(HOSTILE)), name != ROOT);
             }
         }
         write(&|f| f.doc_mut(name)[HOSTILE] = json!(HOSTILE), true);
     }
-    write(
-        &|f| f.put_file("dof_module/module.json", format!("{{\"{HOSTILE}\"")),
-        false,
-    );
-    write(
-        &|f| f.put_file("dof_module/module.yaml", format!("{HOSTILE}: [&x !y")),
-        false,
-    );
+    write(&|f| f.put_file("dof_module/module.json", format!("{{\"{HOSTILE}\"")), false);
+    write(&|f| f.put_file("dof_module/module.yaml", format!("{HOSTILE}: [&x !y")), false);
     write(&|f| f.put_file("dof_module/VERSION", HOSTILE), false);
     write(&|f| f.put_file(URDF, format!("<{HOSTILE}")), false);
     write(
@@ -113,12 +102,7 @@ fn hostile_urdds(folder: &Path) -> usize {
         true,
     );
     // glTF: a version that is text.
-    let glb = toy
-        .files
-        .keys()
-        .find(|path| path.ends_with(".glb"))
-        .expect("a .glb")
-        .clone();
+    let glb = toy.files.keys().find(|path| path.ends_with(".glb")).expect("a .glb").clone();
     let mut json = format!("{{\"asset\":{{\"version\":{}}}}}", json!(HOSTILE)).into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut bytes = b"glTF\x02\0\0\0".to_vec();
@@ -149,30 +133,20 @@ fn nothing_that_a_terminal_would_act_upon() {
     clean(root, &["rehash", "."]);
     // Every format, in one run.
     let files = ["--output", "a.sarif", "--output", "a.xml", "--output", "a"];
-    let text = clean(
-        root,
-        &[&["validate", ".", "--full"] as &[&str], &files].concat(),
-    );
+    let text = clean(root, &[&["validate", ".", "--full"] as &[&str], &files].concat());
     assert!(text.contains("FORGED"), "the names are shown");
     for file in ["a.sarif", "a.xml", "a"] {
         let text = fs::read_to_string(root.join(file)).expect("a report");
         assert!(!text.contains(|c| c != '\n' && acts(c)), "{file}");
         assert!(text.contains("FORGED"), "{file}: the names are there");
-        assert!(
-            !text.lines().any(|line| line.starts_with("FORGED")),
-            "{file}"
-        );
+        assert!(!text.lines().any(|line| line.starts_with("FORGED")), "{file}");
     }
     // JSON contains the names unchanged.
     let report = fs::read_to_string(root.join("a")).expect("a report");
     let report: Value = serde_json::from_str(&report).expect("JSON");
     let paths = report["urdds"].as_array().expect("a list").iter();
     let hostile = format!("{HOSTILE}/{HOSTILE}");
-    assert!(
-        paths
-            .map(|urdd| &urdd["path"])
-            .any(|path| *path == json!(hostile))
-    );
+    assert!(paths.map(|urdd| &urdd["path"]).any(|path| *path == json!(hostile)));
 }
 
 #[test]
@@ -194,14 +168,8 @@ fn nothing_from_the_command_line_or_the_settings() {
     let nowhere = format!("{HOSTILE}/x.json");
     clean(root, &["validate", "good", "--output", &nowhere]);
     clean(root, &["generate", HOSTILE, "-o", "out"]);
-    clean(
-        root,
-        &["generate", "good", "-o", "out", "--modules", HOSTILE],
-    );
-    clean(
-        root,
-        &["generate", "good", "-o", "out", "--package", HOSTILE],
-    );
+    clean(root, &["generate", "good", "-o", "out", "--modules", HOSTILE]);
+    clean(root, &["generate", "good", "-o", "out", "--package", HOSTILE]);
     let quoted = json!(HOSTILE).to_string().replace("\\b", "\\u0008");
     for settings in [
         format!("class = {quoted}"),
@@ -230,14 +198,8 @@ fn nothing_from_a_urdf() {
     );
     for (file, text) in [
         ("a.urdf", format!("<robot name=\"{name}\">{link}</robot>")),
-        (
-            "b.urdf",
-            format!("<robot name=\"{name}\">{link}<link name=\"b\"/>{joint}</robot>"),
-        ),
-        (
-            "c.urdf",
-            format!("<robot name=\"{name}\">{link}{link}</robot>"),
-        ),
+        ("b.urdf", format!("<robot name=\"{name}\">{link}<link name=\"b\"/>{joint}</robot>")),
+        ("c.urdf", format!("<robot name=\"{name}\">{link}{link}</robot>")),
         ("d.urdf", format!("<{HOSTILE}")),
         (
             "e.urdf",
@@ -257,10 +219,7 @@ fn nothing_from_a_urdf() {
     fs::copy(root.join("a.urdf"), root.join("many").join(&path)).expect("a copy");
     fs::copy(root.join("b.urdf"), root.join("many/b.urdf")).expect("a copy");
     for format in ["human", "json"] {
-        clean(
-            root,
-            &["generate", "many", "-o", "made", "--format", format],
-        );
+        clean(root, &["generate", "many", "-o", "made", "--format", format]);
     }
     clean(root, &["validate", "made"]);
     clean(root, &["generate", "a.urdf", "-o", HOSTILE]);
@@ -386,13 +345,7 @@ fn a_report_file_is_whole_or_what_it_was() {
     let names = || {
         let entries = fs::read_dir(root).expect("a folder");
         let mut names: Vec<String> = entries
-            .map(|entry| {
-                entry
-                    .expect("an entry")
-                    .file_name()
-                    .into_string()
-                    .expect("UTF-8")
-            })
+            .map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8"))
             .collect();
         names.sort();
         names
@@ -403,26 +356,14 @@ fn a_report_file_is_whole_or_what_it_was() {
     // If there is room, it is replaced; its permissions are kept, and a link remains a link.
     fs::set_permissions(root.join("kept.json"), fs::Permissions::from_mode(0o640)).expect("set");
     symlink("kept.json", root.join("link.json")).expect("a link");
-    assert_eq!(
-        urdd(root, &["validate", "good", "--output", "link.json"])
-            .status
-            .code(),
-        Some(0)
-    );
-    assert!(
-        fs::symlink_metadata(root.join("link.json"))
-            .expect("a link")
-            .is_symlink()
-    );
+    assert_eq!(urdd(root, &["validate", "good", "--output", "link.json"]).status.code(), Some(0));
+    assert!(fs::symlink_metadata(root.join("link.json")).expect("a link").is_symlink());
     let metadata = fs::metadata(root.join("kept.json")).expect("a file");
     assert_eq!(metadata.permissions().mode() & 0o777, 0o640);
     let report = fs::read(root.join("kept.json")).expect("a file");
     serde_json::from_slice::<Value>(&report).expect("JSON");
     // A device is written to, not replaced.
-    let output = urdd(
-        root,
-        &["validate", "good", "--quiet", "--output", "/dev/stderr"],
-    );
+    let output = urdd(root, &["validate", "good", "--quiet", "--output", "/dev/stderr"]);
     serde_json::from_slice::<Value>(&output.stderr).expect("JSON");
 }
 
@@ -431,12 +372,7 @@ fn no_report_makes_a_folder_a_urdd() {
     let folder = good();
     let root = folder.path();
     fs::create_dir(root.join("reports")).expect("a folder");
-    for name in [
-        "urdd.json",
-        "reports/urdd.json",
-        "reports/URDD.Json",
-        "./urdd.json",
-    ] {
+    for name in ["urdd.json", "reports/urdd.json", "reports/URDD.Json", "./urdd.json"] {
         let output = urdd(root, &["validate", "good", "--output", name]);
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{name}: {said}");

@@ -21,16 +21,11 @@ fn on_the_toy() {
 #[test]
 #[ignore = "needs python3; .ci/run runs it"]
 fn on_arbitrary_robots() {
-    let config = Config {
-        cases: 50,
-        failure_persistence: None,
-        max_shrink_iters: 60,
-        ..Config::default()
-    };
+    let config =
+        Config { cases: 50, failure_persistence: None, max_shrink_iters: 60, ..Config::default() };
     let mut runner = TestRunner::new(config);
-    let outcome = runner.run(&arbitrary_robot(), |robot| {
-        compare(&robot).map_err(TestCaseError::fail)
-    });
+    let outcome =
+        runner.run(&arbitrary_robot(), |robot| compare(&robot).map_err(TestCaseError::fail));
     outcome.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
@@ -116,10 +111,7 @@ fn our_robots_are_what_their_script_writes() {
     let written = testkit::files::below(folder.path());
     for (name, bytes) in &written {
         let ours = fs::read(robots.join(name)).unwrap_or_default();
-        assert!(
-            ours == *bytes,
-            "{name} is not what the script writes: run it"
-        );
+        assert!(ours == *bytes, "{name} is not what the script writes: run it");
     }
     assert!(written.len() >= 20, "{} files", written.len());
 }

@@ -19,9 +19,5 @@ pub fn output(arguments: &[&str], folder: &Path) -> Output {
 pub fn urdd(arguments: &[&str], folder: &Path) -> (i32, String, String) {
     let output = output(arguments, folder);
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
-    (
-        output.status.code().expect("a status"),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    (output.status.code().expect("a status"), text(output.stdout), text(output.stderr))
 }

@@ -39,9 +39,7 @@ fn reads_every_published_module() {
 
         let text = std::fs::read_to_string(file).unwrap();
         let value: Value = serde_json::from_str(&text).unwrap();
-        let document = spec
-            .read(&value)
-            .unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let document = spec.read(&value).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
         let written = serde_json::to_value(&document).unwrap();
         assert_eq!(spec.read(&written).unwrap(), document, "{}", file.display());
 
@@ -76,16 +74,10 @@ fn legacy_robots_move_as_their_urdfs_do() {
             let other = &poses[0][legacy.link(link).unwrap()];
             let apart = (pose.translation.vector - other.translation.vector).norm();
             assert!(apart < 1e-9, "{name}: {link} is {apart} m off");
-            assert!(
-                pose.rotation.angle_to(&other.rotation) < 1e-7,
-                "{name}: {link}"
-            );
+            assert!(pose.rotation.angle_to(&other.rotation) < 1e-7, "{name}: {link}");
         }
         let proximity = legacy.proximity(ShapeKind::Hulls).unwrap();
         assert!(proximity.num_pairs() > 0, "{name}");
-        assert_eq!(
-            proximity.closest_points(&q).unwrap().len(),
-            proximity.num_pairs()
-        );
+        assert_eq!(proximity.closest_points(&q).unwrap().len(), proximity.num_pairs());
     }
 }

@@ -30,10 +30,7 @@ fn every_schema_is_released() {
     listed.sort_unstable();
     let mut known: Vec<String> = Subject::all().map(Subject::id).collect();
     known.sort_unstable();
-    assert_eq!(
-        listed, known,
-        "each schema is in released.json, or above while it may change"
-    );
+    assert_eq!(listed, known, "each schema is in released.json, or above while it may change");
 }
 
 #[test]
@@ -42,20 +39,13 @@ fn every_schema_is_a_valid_one_with_an_id_a_title_and_a_text_of_its_own() {
     for subject in Subject::all() {
         for variant in [Variant::Strict, Variant::Open] {
             let schema = subject.schema(variant);
-            assert!(
-                jsonschema::draft202012::meta::is_valid(&schema),
-                "{}",
-                subject.id()
-            );
+            assert!(jsonschema::draft202012::meta::is_valid(&schema), "{}", subject.id());
             assert!(schema["title"].is_string());
             assert!(schema["description"].is_string());
             assert!(ids.insert(schema["$id"].to_string()));
             let text = subject.text(variant);
             assert!(text.ends_with("}\n") && !text.ends_with("\n\n"));
-            assert_eq!(
-                text.contains("additionalProperties"),
-                variant == Variant::Strict
-            );
+            assert_eq!(text.contains("additionalProperties"), variant == Variant::Strict);
         }
         assert_eq!(Subject::find(&subject.id()).unwrap().id(), subject.id());
     }
@@ -77,10 +67,7 @@ fn annotations_do_not_count_and_names_that_look_like_them_do() {
     assert_eq!(validating_part(&one), validating_part(&same));
     assert_eq!(validating_hash(&one), validating_hash(&same));
     assert_ne!(validating_hash(&one), validating_hash(&other));
-    assert_eq!(
-        validating_part(&one)["properties"]["title"],
-        json!({ "type": "string" })
-    );
+    assert_eq!(validating_part(&one)["properties"]["title"], json!({ "type": "string" }));
 }
 
 #[test]

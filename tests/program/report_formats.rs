@@ -27,9 +27,7 @@ fn results(log: &Value) -> &Vec<Value> {
 }
 
 fn uri(result: &Value) -> &str {
-    result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
-        .as_str()
-        .expect("a URI")
+    result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"].as_str().expect("a URI")
 }
 
 /// A repository with robots in it: a valid one; an invalid one, whose name every format must escape; and one with a
@@ -83,10 +81,7 @@ fn sarif_finds_the_files_in_the_repository() {
     assert!(uri(&results(&sarif(&within, &["."]))[0]).starts_with("dof_module"));
     let beside = root.join("robots/good");
     let log = sarif(&beside, &[within.to_str().expect("UTF-8")]);
-    assert!(
-        uri(&results(&log)[0]).starts_with("odd/"),
-        "no absolute path"
-    );
+    assert!(uri(&results(&log)[0]).starts_with("odd/"), "no absolute path");
 }
 
 #[test]
@@ -111,14 +106,8 @@ fn sarif_says_what_the_report_says() {
         assert_eq!(finding["severity"], result["level"]);
         assert_eq!(finding["count"], result["occurrenceCount"]);
         let place = &result["locations"][0];
-        assert_eq!(
-            finding["line"],
-            place["physicalLocation"]["region"]["startLine"]
-        );
-        assert_eq!(
-            finding["column"],
-            place["physicalLocation"]["region"]["startColumn"]
-        );
+        assert_eq!(finding["line"], place["physicalLocation"]["region"]["startLine"]);
+        assert_eq!(finding["column"], place["physicalLocation"]["region"]["startColumn"]);
         let pointer = &place["logicalLocations"][0]["fullyQualifiedName"];
         assert_eq!(&finding["pointer"], pointer);
         let message = result["message"]["text"].as_str().expect("a text");
@@ -127,9 +116,7 @@ fn sarif_says_what_the_report_says() {
     let invocation = &run["invocations"][0];
     assert_eq!(invocation["exitCode"], 101);
     assert_eq!(invocation["executionSuccessful"], false);
-    let crashes = invocation["toolExecutionNotifications"]
-        .as_array()
-        .expect("a list");
+    let crashes = invocation["toolExecutionNotifications"].as_array().expect("a list");
     assert_eq!(crashes.len(), 3);
     assert_eq!(crashes[0]["associatedRule"]["id"], "TST001");
     let invocation = &sarif(repository.path(), &["robots"])["runs"][0]["invocations"][0];
@@ -144,11 +131,7 @@ fn fingerprints_outlive_shifted_lines() {
     let fingerprints = |folder: &Path| -> BTreeSet<String> {
         let log = sarif(folder, &["robots"]);
         let of = |result: &Value| result["partialFingerprints"].to_string() + uri(result);
-        results(&log)
-            .iter()
-            .filter(|result| result["ruleId"] == "DIR020")
-            .map(of)
-            .collect()
+        results(&log).iter().filter(|result| result["ruleId"] == "DIR020").map(of).collect()
     };
     let repository = repository();
     let before = fingerprints(repository.path());
@@ -178,15 +161,9 @@ fn junit_counts_what_it_holds() {
             node.descendants().filter(|n| n.has_tag_name(name)).count()
         };
         let said = |node: roxmltree::Node, name: &str| -> usize {
-            node.attribute(name)
-                .expect("a total")
-                .parse()
-                .expect("a number")
+            node.attribute(name).expect("a total").parse().expect("a number")
         };
-        for node in document
-            .descendants()
-            .filter(|n| n.has_tag_name("testsuite") || *n == root)
-        {
+        for node in document.descendants().filter(|n| n.has_tag_name("testsuite") || *n == root) {
             assert_eq!(said(node, "tests"), of(node, "testcase"));
             assert_eq!(said(node, "failures"), of(node, "failure"));
             assert_eq!(said(node, "errors"), of(node, "error"));
@@ -194,11 +171,7 @@ fn junit_counts_what_it_holds() {
                 assert_eq!(said(node, "skipped"), of(node, "skipped"));
             }
         }
-        assert_eq!(
-            (of(root, "failure"), of(root, "error")),
-            (failures, errors),
-            "{arguments:?}"
-        );
+        assert_eq!((of(root, "failure"), of(root, "error")), (failures, errors), "{arguments:?}");
         // The suite fails exactly when the run does.
         let status = validate(repository.path(), arguments).status.code();
         assert_eq!(status != Some(0), failures + errors > 0);
@@ -217,16 +190,9 @@ fn junit_says_hostile_names_as_far_as_xml_can() {
         .collect();
     assert_eq!(
         names,
-        BTreeSet::from([
-            "robots/arms/odd",
-            "robots/good",
-            "robots/né #1\\u{1} <\"&'>"
-        ])
+        BTreeSet::from(["robots/arms/odd", "robots/good", "robots/né #1\\u{1} <\"&'>"])
     );
-    let failure = document
-        .descendants()
-        .find(|n| n.has_tag_name("failure"))
-        .expect("a failure");
+    let failure = document.descendants().find(|n| n.has_tag_name("failure")).expect("a failure");
     let text = failure.text().expect("a text");
     assert!(text.contains("a\\u{1}<b>&\\\"]]>\\u{fffe}[x](y)"), "{text}");
     // A case has the same name whether it passes or not, so that it can be followed through runs.
@@ -310,8 +276,5 @@ fn a_finding_says_what_to_see_besides_and_what_mends_it() {
     assert_eq!(change["replacements"][0]["deletedRegion"], deleted);
 
     let human = text(folder.path(), "human", &["r.urdf"]);
-    assert!(
-        human.contains("see 7:5: the first, which counts"),
-        "{human}"
-    );
+    assert!(human.contains("see 7:5: the first, which counts"), "{human}");
 }

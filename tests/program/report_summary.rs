@@ -52,10 +52,7 @@ fn faults_that_mean_the_same_are_one_cause() {
         urdd.write_to(&folder.path().join(format!("robot{number}")));
     }
     let text = urdd(folder.path(), &["validate", "."]);
-    let causes: Vec<&str> = text
-        .lines()
-        .filter(|line| line.contains("error SHP006"))
-        .collect();
+    let causes: Vec<&str> = text.lines().filter(|line| line.contains("error SHP006")).collect();
     assert_eq!(causes.len(), 1, "{text}");
     assert!(causes[0].contains("12 times in 4 URDDs"), "{text}");
 }
@@ -63,10 +60,7 @@ fn faults_that_mean_the_same_are_one_cause() {
 #[test]
 fn the_color_of_a_link_is_not_motion() {
     let explained = urdd(Path::new("."), &["explain", "URD014", "--format", "json"]);
-    assert!(
-        explained.contains("\"consequence\": \"appearance\""),
-        "{explained}"
-    );
+    assert!(explained.contains("\"consequence\": \"appearance\""), "{explained}");
 }
 
 #[test]
@@ -87,9 +81,7 @@ fn geometry_that_is_not_verified_is_named_in_every_format() {
     let links = |urdd: usize| -> Vec<u64> {
         let links = report["urdds"][urdd]["geometry_not_verified"].as_array();
         let links = links.expect("a list").iter();
-        links
-            .map(|link| link["link"].as_u64().expect("an index"))
-            .collect()
+        links.map(|link| link["link"].as_u64().expect("an index")).collect()
     };
     assert_eq!(links(0), [1, 2]);
     assert_eq!(links(1), [0_u64; 0]);
@@ -143,19 +135,12 @@ fn a_model_that_is_not_verified_is_named_in_every_format() {
         stale.write_to(&root.join(copy));
     }
     let summary = urdd(root, &["validate", "."]);
-    assert!(
-        summary.contains(&format!("{WORDS}, in 4 URDDs")),
-        "{summary}"
-    );
+    assert!(summary.contains(&format!("{WORDS}, in 4 URDDs")), "{summary}");
 
     // `urdd info` says it too, with the rates.
     let info = |name: &str| urdd(root, &["info", name]);
     assert!(info("true").contains("rates verified"), "{}", info("true"));
-    assert!(
-        info("stale").contains("rates NOT TRUE: LRN006 found a fault"),
-        "{}",
-        info("stale")
-    );
+    assert!(info("stale").contains("rates NOT TRUE: LRN006 found a fault"), "{}", info("stale"));
     assert!(info("true").contains(" % of ") || info("true").contains(" %) of "));
     assert!(!info("without").contains("rates"));
 }

@@ -14,14 +14,7 @@ const END: &str = "<!-- end of results -->";
 /// Values that do not depend on the machine: columns of tables whose first column is the robot.
 const FACTS: [&str; 5] = ["links", "DOFs", "triangles", "pieces", "pairs"];
 /// Folders with pages, as in `benches/results.py`.
-const FOLDERS: [&str; 6] = [
-    "",
-    "docs",
-    "conformance",
-    "python",
-    "wasm",
-    "benches/evaluation/lint",
-];
+const FOLDERS: [&str; 6] = ["", "docs", "conformance", "python", "wasm", "benches/evaluation/lint"];
 /// Pages that state measurements.
 const MEASURED: [&str; 2] = ["README.md", "docs/evaluation.md"];
 
@@ -49,10 +42,8 @@ fn parts() -> BTreeMap<String, Value> {
 
 /// The pages that may hold results, as `benches/results.py` finds them: path and text.
 fn pages() -> Vec<(String, String)> {
-    let mut paths: Vec<PathBuf> = FOLDERS
-        .iter()
-        .flat_map(|folder| markdown_in(&root().join(folder)))
-        .collect();
+    let mut paths: Vec<PathBuf> =
+        FOLDERS.iter().flat_map(|folder| markdown_in(&root().join(folder))).collect();
     let mut folders = vec![root().join("tests/figures")];
     while let Some(folder) = folders.pop() {
         paths.extend(markdown_in(&folder));
@@ -61,9 +52,7 @@ fn pages() -> Vec<(String, String)> {
         folders.extend(entries.filter(|path| path.is_dir()));
     }
     let read = |path: PathBuf| {
-        let name = path
-            .strip_prefix(root())
-            .expect("a page of this repository");
+        let name = path.strip_prefix(root()).expect("a page of this repository");
         let name = name.to_string_lossy().replace('\\', "/");
         (name, fs::read_to_string(path).expect("text"))
     };
@@ -74,9 +63,7 @@ fn markdown_in(folder: &Path) -> Vec<PathBuf> {
     let entries =
         fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
     let paths = entries.map(|entry| entry.expect("an entry").path());
-    paths
-        .filter(|path| path.extension().is_some_and(|end| end == "md"))
-        .collect()
+    paths.filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
 }
 
 /// The content between markers, by the name of the item.
@@ -86,12 +73,9 @@ type Shown<'a> = Vec<(&'a str, &'a str)>;
 fn marked(text: &str) -> Result<(Shown<'_>, String), String> {
     let (mut found, mut rest, mut without) = (Vec::new(), text, String::new());
     while let Some((before, after)) = rest.split_once(BEGIN) {
-        let (name, after) = after
-            .split_once(" -->")
-            .ok_or("a marker that does not end")?;
-        let (shown, after) = after
-            .split_once(END)
-            .ok_or_else(|| format!("{name}: {END} is missing"))?;
+        let (name, after) = after.split_once(" -->").ok_or("a marker that does not end")?;
+        let (shown, after) =
+            after.split_once(END).ok_or_else(|| format!("{name}: {END} is missing"))?;
         if shown.contains("<!--") {
             return Err(format!("{name}: another marker begins before {END}"));
         }
@@ -110,9 +94,7 @@ fn marked(text: &str) -> Result<(Shown<'_>, String), String> {
 }
 
 fn word<'a>(value: &'a Value, key: &str) -> &'a str {
-    value[key]
-        .as_str()
-        .unwrap_or_else(|| panic!("`{key}` is not text: {value}"))
+    value[key].as_str().unwrap_or_else(|| panic!("`{key}` is not text: {value}"))
 }
 
 fn words(value: &Value) -> Vec<&str> {
@@ -137,28 +119,18 @@ fn row(cells: &[&str]) -> String {
 
 fn markdown(table: &Value) -> String {
     let columns = words(&table["columns"]);
-    let rows: Vec<Vec<&str>> = table["rows"]
-        .as_array()
-        .expect("rows")
-        .iter()
-        .map(words)
-        .collect();
+    let rows: Vec<Vec<&str>> = table["rows"].as_array().expect("rows").iter().map(words).collect();
     for row in &rows {
         assert_eq!(row.len(), columns.len(), "cells of {row:?}");
-        assert!(
-            row.iter().all(|cell| !cell.is_empty()),
-            "an empty cell: {row:?}"
-        );
+        assert!(row.iter().all(|cell| !cell.is_empty()), "an empty cell: {row:?}");
     }
     let right = |column: usize| {
-        let digits = rows
-            .iter()
-            .filter(|row| row[column].starts_with(|c: char| c.is_ascii_digit()));
+        let digits =
+            rows.iter().filter(|row| row[column].starts_with(|c: char| c.is_ascii_digit()));
         column > 0 && digits.count() * 2 > rows.len()
     };
-    let rule: Vec<&str> = (0..columns.len())
-        .map(|column| if right(column) { "---:" } else { "---" })
-        .collect();
+    let rule: Vec<&str> =
+        (0..columns.len()).map(|column| if right(column) { "---:" } else { "---" }).collect();
     let lines = [row(&columns), row(&rule)].into_iter();
     let lines: Vec<String> = lines.chain(rows.iter().map(|cells| row(cells))).collect();
     lines.join("\n")
@@ -167,17 +139,13 @@ fn markdown(table: &Value) -> String {
 /// The required content of a page for a name.
 fn expected(parts: &BTreeMap<String, Value>, name: &str) -> Result<String, String> {
     let (part, item) = name.split_once('/').ok_or("a marker names part/item")?;
-    let results = parts
-        .get(part)
-        .ok_or(format!("benches/results/{part}.json is missing"))?;
+    let results = parts.get(part).ok_or(format!("benches/results/{part}.json is missing"))?;
     Ok(match (item, &results["items"][item]) {
         ("made", _) => format!("\n{}\n", origin(&results["made"])),
         (_, Value::String(text)) => text.clone(),
         (_, table @ Value::Object(_)) => format!("\n{}\n", markdown(table)),
         _ => {
-            return Err(format!(
-                "benches/results/{part}.json does not have `{item}`"
-            ));
+            return Err(format!("benches/results/{part}.json does not have `{item}`"));
         }
     })
 }
@@ -192,16 +160,12 @@ fn faults(parts: &BTreeMap<String, Value>, text: &str) -> Vec<String> {
     for (name, shown_text) in &shown {
         match expected(parts, name) {
             Ok(expected) if expected == *shown_text => {}
-            Ok(expected) => faults.push(format!(
-                "{name}: results:\n{expected}\npage:\n{shown_text}\n{WRITE_IT}"
-            )),
+            Ok(expected) => faults
+                .push(format!("{name}: results:\n{expected}\npage:\n{shown_text}\n{WRITE_IT}")),
             Err(fault) => faults.push(format!("{name}: {fault}")),
         }
         let part = name.split('/').next().expect("a part");
-        if !shown
-            .iter()
-            .any(|(other, _)| *other == format!("{part}/made"))
-        {
+        if !shown.iter().any(|(other, _)| *other == format!("{part}/made")) {
             faults.push(format!(
                 "{name}: {part}/made is not on the page, so nothing says where it comes from"
             ));
@@ -248,9 +212,7 @@ fn facts(table: &Value) -> Vec<((String, String), String)> {
             Some(at) if column == "pairs" => format!("{}, {}", row[0], row[at]),
             _ => row[0].clone(),
         };
-        facts
-            .map(|(column, value)| ((of(column), (*column).to_owned()), value))
-            .collect::<Vec<_>>()
+        facts.map(|(column, value)| ((of(column), (*column).to_owned()), value)).collect::<Vec<_>>()
     };
     rows.iter().flat_map(of_row).collect()
 }
@@ -265,9 +227,8 @@ fn facts_of_a_robot_are_the_same_in_every_table() {
             }
             for (fact, value) in facts(table) {
                 let here = format!("{part}/{item}");
-                let (place, other) = known
-                    .entry(fact.clone())
-                    .or_insert((here.clone(), value.clone()));
+                let (place, other) =
+                    known.entry(fact.clone()).or_insert((here.clone(), value.clone()));
                 assert_eq!(
                     *other, value,
                     "{} of {}: {place} and {here} differ; measure again",
@@ -276,38 +237,19 @@ fn facts_of_a_robot_are_the_same_in_every_table() {
             }
         }
     }
-    assert!(
-        known.len() > 20,
-        "hardly any facts were compared: {known:?}"
-    );
+    assert!(known.len() > 20, "hardly any facts were compared: {known:?}");
 }
 
 /// A number with a unit of measurement beside it, outside code.
 fn measured_number(line: &str) -> Option<String> {
-    const UNITS: [&str; 12] = [
-        "s",
-        "ms",
-        "us",
-        "µs",
-        "microseconds",
-        "seconds",
-        "minutes",
-        "MB",
-        "GB",
-        "kB",
-        "%",
-        "mm",
-    ];
+    const UNITS: [&str; 12] =
+        ["s", "ms", "us", "µs", "microseconds", "seconds", "minutes", "MB", "GB", "kB", "%", "mm"];
     let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join(" ");
-    let clean = |word: &str| {
-        word.trim_matches(|c: char| !c.is_alphanumeric() && c != '%')
-            .to_owned()
-    };
+    let clean =
+        |word: &str| word.trim_matches(|c: char| !c.is_alphanumeric() && c != '%').to_owned();
     let words: Vec<String> = prose.split_whitespace().map(clean).collect();
     let number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
-    let found = words
-        .windows(2)
-        .find(|pair| number(&pair[0]) && UNITS.contains(&pair[1].as_str()));
+    let found = words.windows(2).find(|pair| number(&pair[0]) && UNITS.contains(&pair[1].as_str()));
     found.map(|pair| pair.join(" "))
 }
 
@@ -344,11 +286,7 @@ fn a_page_that_differs_is_noticed() {
         ("2026-11-22", "2026-11-23", "p/made"),
         ("p/table", "p/other", "does not have `other`"),
         ("p/text", "q/text", "q.json is missing"),
-        (
-            "<!-- end of results --> here",
-            "here",
-            "another marker begins",
-        ),
+        ("<!-- end of results --> here", "here", "another marker begins"),
         ("It takes <!--", "It takes\n<!--", "may not begin a line"),
         (
             "<!-- results: p/made -->\n*`python x.py`, 2026-11-22: commit abc; urdd 1; M; idle.*\n<!-- end of results -->\n",
@@ -361,13 +299,7 @@ fn a_page_that_differs_is_noticed() {
         let found = faults(&parts, &bad).join("\n");
         assert!(found.contains(fault), "{to}: {found:?}");
     }
-    assert_eq!(
-        measured_number("it takes 0.4 s here").as_deref(),
-        Some("0.4 s")
-    );
-    assert_eq!(
-        measured_number("up to 300 links, `5 s`, 2 s.").as_deref(),
-        Some("2 s")
-    );
+    assert_eq!(measured_number("it takes 0.4 s here").as_deref(), Some("0.4 s"));
+    assert_eq!(measured_number("up to 300 links, `5 s`, 2 s.").as_deref(), Some("2 s"));
     assert_eq!(measured_number("up to 300 links, `5 s`"), None);
 }

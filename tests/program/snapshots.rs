@@ -10,11 +10,7 @@ const SHOWN: &str = "$ urdd validate examples/urdds\n";
 
 fn urdd(arguments: &[&str]) -> String {
     let output = crate::program::output(arguments, testkit::repository());
-    assert!(
-        output.stderr.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
@@ -46,11 +42,7 @@ fn every_word_of_the_command_line() {
 
 /// The long options of a command, and then its subcommands.
 fn words(command: &mut Vec<String>, lines: &mut Vec<String>) {
-    let arguments: Vec<&str> = command
-        .iter()
-        .map(String::as_str)
-        .chain(["--help"])
-        .collect();
+    let arguments: Vec<&str> = command.iter().map(String::as_str).chain(["--help"]).collect();
     let help = urdd(&arguments);
     let mut section = "";
     let (mut options, mut commands) = (Vec::<String>::new(), Vec::new());

@@ -23,10 +23,8 @@ fn codes_by_clause(text: &str) -> BTreeMap<String, Vec<(String, String)>> {
     let mut clause = String::new();
     for paragraph in text.split("\n\n") {
         if let Some(rest) = paragraph.trim_start().strip_prefix("**") {
-            let number: String = rest
-                .chars()
-                .take_while(|c| c.is_ascii_digit() || *c == '.')
-                .collect();
+            let number: String =
+                rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
             if !number.is_empty() {
                 clause = number.trim_end_matches('.').to_owned();
             }
@@ -39,10 +37,7 @@ fn codes_by_clause(text: &str) -> BTreeMap<String, Vec<(String, String)>> {
             let word = &paragraph[place + 1..place + end];
             if Code::parse(word).is_some_and(|code| code.as_str() == word) {
                 let sentence = paragraph[before..place].to_owned();
-                codes
-                    .entry(word.to_owned())
-                    .or_default()
-                    .push((clause.clone(), sentence));
+                codes.entry(word.to_owned()).or_default().push((clause.clone(), sentence));
                 before = place + end + 1;
             }
         }
@@ -88,16 +83,12 @@ fn severities_follow_the_words_of_the_specification() {
         let should = sentence.contains("SHOULD");
         let must = sentence.contains("MUST");
         match rule.severity {
-            Severity::Error => assert!(
-                !should || must,
-                "{}: an error, but SPEC.md says SHOULD",
-                rule.code
-            ),
-            Severity::Warning => assert!(
-                !must || should,
-                "{}: a warning, but SPEC.md says MUST",
-                rule.code
-            ),
+            Severity::Error => {
+                assert!(!should || must, "{}: an error, but SPEC.md says SHOULD", rule.code)
+            }
+            Severity::Warning => {
+                assert!(!must || should, "{}: a warning, but SPEC.md says MUST", rule.code)
+            }
             Severity::Info => assert!(!must, "{}: an info, but SPEC.md says MUST", rule.code),
         }
     }
@@ -116,12 +107,7 @@ fn the_table_of_modules_is_the_registry() {
         .iter()
         .map(|row| {
             let cell = |i: usize| {
-                row.split('|')
-                    .nth(i)
-                    .unwrap_or_default()
-                    .trim()
-                    .trim_matches('`')
-                    .to_owned()
+                row.split('|').nth(i).unwrap_or_default().trim().trim_matches('`').to_owned()
             };
             (cell(1), cell(2))
         })

@@ -34,10 +34,7 @@ fn toy_holds_what_it_promises() {
         .filter(|kind| find(**kind, SPEC_VERSION).is_some());
     // And `urdd.json`.
     assert_eq!(toy.documents.len(), kinds.count() + 1);
-    let reasons = toy.get(
-        "link_shapes_simple_skips_module",
-        "/reasons/full_convex_hulls",
-    );
+    let reasons = toy.get("link_shapes_simple_skips_module", "/reasons/full_convex_hulls");
     let rows = reasons.as_array().into_iter().flatten();
     let words: BTreeSet<&str> = rows
         .flat_map(|row| row.as_array().into_iter().flatten())
@@ -50,11 +47,7 @@ fn toy_holds_what_it_promises() {
     let simple = toy.get("link_shapes_simple_skips_module", "/full_obbs_simple_skips");
     let edited = toy.get("link_shapes_skips_module", "/full_obbs_skips");
     assert_ne!(simple, edited);
-    let types = toy
-        .get("urdf_module", "/joints")
-        .as_array()
-        .into_iter()
-        .flatten();
+    let types = toy.get("urdf_module", "/joints").as_array().into_iter().flatten();
     let types: BTreeSet<_> = types.map(|joint| joint["joint_type"].to_string()).collect();
     assert_eq!(types.len(), 7);
 }
@@ -74,10 +67,7 @@ fn sealing_follows_edits_and_spares_what_is_kept() {
     urdd.keep_hash(URDF);
     urdd.remove_file("connections_module/module.yaml");
     urdd.seal();
-    let changed = urdd
-        .files
-        .iter()
-        .filter(|(path, bytes)| before.files.get(*path) != Some(*bytes));
+    let changed = urdd.files.iter().filter(|(path, bytes)| before.files.get(*path) != Some(*bytes));
     let changed: Vec<&str> = changed.map(|(path, _)| path.as_str()).collect();
     assert_eq!(
         changed,
@@ -127,11 +117,7 @@ fn any_box() -> impl Strategy<Value = [Point; 8]> {
         let place = transform(rotation_of_rpy(turn), place);
         std::array::from_fn(|number| {
             let side = |bit: usize| {
-                if number >> bit & 1 == 0 {
-                    -sides[bit]
-                } else {
-                    sides[bit]
-                }
+                if number >> bit & 1 == 0 { -sides[bit] } else { sides[bit] }
             };
             apply(&place, [side(0), side(1), side(2)].map(|s| s / 2.0))
         })
@@ -141,10 +127,7 @@ fn any_box() -> impl Strategy<Value = [Point; 8]> {
 /// Bounds of the distance of two convex hulls, by another method: the Frank-Wolfe descent to the point of their
 /// difference that is nearest to 0, and the plane behind that point.
 fn distance_bounds(a: &[Point; 8], b: &[Point; 8]) -> (f64, f64) {
-    let corners: Vec<Point> = a
-        .iter()
-        .flat_map(|p| b.iter().map(|q| minus(*p, *q)))
-        .collect();
+    let corners: Vec<Point> = a.iter().flat_map(|p| b.iter().map(|q| minus(*p, *q))).collect();
     let mut at = corners[0];
     let (mut least, mut most) = (0.0f64, norm(at));
     for _ in 0..2000 {
@@ -175,9 +158,7 @@ fn check(urdd: &Fixture) {
             let name = folder.rsplit('/').next().unwrap_or_default();
             let kind = ModuleKind::ALL.iter().find(|kind| kind.name() == name);
             let module = find(*kind.expect("a module"), "1.0.0").expect("a version");
-            module
-                .read(document)
-                .unwrap_or_else(|e| panic!("{folder}: {e}"));
+            module.read(document).unwrap_or_else(|e| panic!("{folder}: {e}"));
             let yaml = urdd.file(&format!("{folder}/module.yaml"));
             let read: Value =
                 serde_yaml::from_slice(yaml).unwrap_or_else(|e| panic!("{folder}: {e}"));
@@ -188,9 +169,7 @@ fn check(urdd: &Fixture) {
         assert_eq!(&read, document, "{folder}");
     }
     let modules = urdd.get(ROOT, "/modules").as_array().expect("a list");
-    let files = modules
-        .iter()
-        .flat_map(|m| m["files"].as_array().into_iter().flatten());
+    let files = modules.iter().flat_map(|m| m["files"].as_array().into_iter().flatten());
     let listed: BTreeSet<&str> = files.filter_map(|file| file["path"].as_str()).collect();
     let there: BTreeSet<&str> = urdd.files.keys().map(String::as_str).collect();
     let unlisted: Vec<_> = there.difference(&listed).copied().collect();

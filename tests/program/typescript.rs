@@ -66,11 +66,7 @@ fn declaration(name: &str, definition: &Value, text: &mut String) {
     let required = definition["required"].as_array().expect("what is required");
     for (name, schema) in properties {
         comment(schema, "  ", text);
-        let mark = if required.contains(&name.as_str().into()) {
-            ""
-        } else {
-            "?"
-        };
+        let mark = if required.contains(&name.as_str().into()) { "" } else { "?" };
         let _ = writeln!(text, "  {}{mark}: {};", key(name), type_of(schema));
     }
     text.push_str("}\n");
@@ -98,11 +94,7 @@ fn type_of(schema: &Value) -> String {
         }
     }
     if let Some(words) = schema["enum"].as_array() {
-        return words
-            .iter()
-            .map(Value::to_string)
-            .collect::<Vec<_>>()
-            .join(" | ");
+        return words.iter().map(Value::to_string).collect::<Vec<_>>().join(" | ");
     }
     let kinds = match &schema["type"] {
         Value::Array(kinds) => kinds.iter().filter_map(Value::as_str).collect(),

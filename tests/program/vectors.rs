@@ -16,26 +16,14 @@ use serde::Deserialize;
 const FILES: &[(&str, &str)] = &[
     ("boxes_and_spheres.json", "tests/program/vectors/solids.rs"),
     ("distances.json", "tests/program/vectors/solids.rs"),
-    (
-        "forward_kinematics.json",
-        "crates/urdd-validate/tests/validate/kinematics_figures.rs",
-    ),
+    ("forward_kinematics.json", "crates/urdd-validate/tests/validate/kinematics_figures.rs"),
     ("hulls.json", "tests/program/vectors/solids.rs"),
-    (
-        "in_plane_bases.json",
-        "tests/program/vectors/conventions.rs",
-    ),
+    ("in_plane_bases.json", "tests/program/vectors/conventions.rs"),
     ("inertia.json", "tests/program/vectors/core_modules.rs"),
     ("mimics.json", "tests/program/vectors/core_modules.rs"),
     ("rotations.json", "tests/program/vectors/conventions.rs"),
-    (
-        "sampled_configurations.json",
-        "crates/urdd-validate/tests/validate/kinematics_figures.rs",
-    ),
-    (
-        "self_collision_model.json",
-        "tests/program/vectors/learned.rs",
-    ),
+    ("sampled_configurations.json", "crates/urdd-validate/tests/validate/kinematics_figures.rs"),
+    ("self_collision_model.json", "tests/program/vectors/learned.rs"),
 ];
 
 fn folder() -> PathBuf {
@@ -53,10 +41,7 @@ fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, place: &str) {
     assert_eq!(found.len(), expected.len(), "{place}");
     for (found_one, expected_one) in found.iter().zip(expected) {
         let off = (found_one - expected_one).abs();
-        assert!(
-            off <= tolerance,
-            "{place}: {found:?}, expected {expected:?}: {off:e} off"
-        );
+        assert!(off <= tolerance, "{place}: {found:?}, expected {expected:?}: {off:e} off");
     }
 }
 
@@ -71,10 +56,7 @@ fn every_file_is_held_to_and_described() {
     assert_eq!(there, known);
     let readme = fs::read_to_string(folder().join("README.md")).unwrap();
     for (name, test) in FILES {
-        assert!(
-            readme.contains(&format!("## {name}")),
-            "{name} is not in the README"
-        );
+        assert!(readme.contains(&format!("## {name}")), "{name} is not in the README");
         let test = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(test)).unwrap();
         assert!(test.contains(name), "no test reads {name}");
     }

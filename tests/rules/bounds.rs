@@ -66,18 +66,12 @@ pub fn cases() -> Vec<Case> {
         }),
         invalid(BND003, "degrees", |f| bound(f, 0, -143.0, 143.0)),
         invalid(BND003, "ends-swapped", |f| bound(f, 0, 2.5, -2.5)),
-        invalid(BND003, "locked-joint-widened", |f| {
-            bound(f, 17, 0.25, 0.25 + 1e-7)
-        }),
+        invalid(BND003, "locked-joint-widened", |f| bound(f, 17, 0.25, 0.25 + 1e-7)),
         near_miss(BND003, "rounded", |f| {
             bound(f, 0, -2.500_000_000_001, 2.500_000_000_001);
         }),
-        valid(BND003, "one-limit-alone", || {
-            limited(JointType::Revolute, Some(-1.0), None)
-        }),
-        valid(BND003, "locked", || {
-            limited(JointType::Prismatic, Some(0.3), Some(0.3))
-        }),
+        valid(BND003, "one-limit-alone", || limited(JointType::Revolute, Some(-1.0), None)),
+        valid(BND003, "locked", || limited(JointType::Prismatic, Some(0.3), Some(0.3))),
         invalid(BND004, "continuous-said-to-be-limited", |f| {
             f.set(BOUNDS, "/dof_limited/15", json!(true));
         }),
@@ -94,27 +88,18 @@ pub fn cases() -> Vec<Case> {
             f.set(BOUNDS, "/dof_effort_limits/15", json!(0.0));
         }),
         invalid(BND005, "another-number", |f| {
-            let old = f
-                .get(BOUNDS, "/dof_effort_limits/1")
-                .as_f64()
-                .expect("a number");
+            let old = f.get(BOUNDS, "/dof_effort_limits/1").as_f64().expect("a number");
             f.set(BOUNDS, "/dof_effort_limits/1", json!(old * 1.001));
         }),
-        valid(
-            BND005,
-            "velocity-of-a-floating-joint-and-a-limit-of-0",
-            || {
-                let mut robot = limited(JointType::Floating, None, None);
-                let mut other = star(&[("k", JointType::Revolute)]);
-                other.joint_mut("k").limit = Some(Limit {
-                    velocity: Some(0.0),
-                    ..limit(-1.0, 1.0).expect("a limit")
-                });
-                robot.urdf.links.extend(other.urdf.links.drain(1..));
-                robot.urdf.joints.append(&mut other.urdf.joints);
-                robot
-            },
-        ),
+        valid(BND005, "velocity-of-a-floating-joint-and-a-limit-of-0", || {
+            let mut robot = limited(JointType::Floating, None, None);
+            let mut other = star(&[("k", JointType::Revolute)]);
+            other.joint_mut("k").limit =
+                Some(Limit { velocity: Some(0.0), ..limit(-1.0, 1.0).expect("a limit") });
+            robot.urdf.links.extend(other.urdf.links.drain(1..));
+            robot.urdf.joints.append(&mut other.urdf.joints);
+            robot
+        }),
         invalid(BND006, "frozen", |f| bound(f, 15, 0.0, 1e-7)),
         invalid(BND006, "whole-turns", |f| {
             bound(f, 15, -std::f64::consts::TAU, std::f64::consts::TAU);
@@ -123,8 +108,6 @@ pub fn cases() -> Vec<Case> {
             bound(f, 3, -std::f64::consts::PI, std::f64::consts::PI);
         }),
         #[expect(clippy::approx_constant, reason = "pi as others round it")]
-        near_miss(BND006, "pi-rounded", |f| {
-            bound(f, 15, -3.141_592_653_6, 3.141_592_653_6)
-        }),
+        near_miss(BND006, "pi-rounded", |f| bound(f, 15, -3.141_592_653_6, 3.141_592_653_6)),
     ]
 }

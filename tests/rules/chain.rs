@@ -21,21 +21,14 @@ fn nudge(fixture: &mut Fixture, pointer: &str, by: f64) {
 
 fn negate(fixture: &mut Fixture, pointer: &str) {
     let numbers = fixture.get(CHAIN, pointer).as_array().expect("a list");
-    let numbers: Vec<f64> = numbers
-        .iter()
-        .map(|x| -x.as_f64().expect("a number"))
-        .collect();
+    let numbers: Vec<f64> = numbers.iter().map(|x| -x.as_f64().expect("a number")).collect();
     fixture.set(CHAIN, pointer, json!(numbers));
 }
 
 /// A robot of two links, connected by a joint with this rotation.
 pub fn turned(rpy: [f64; 3]) -> Fixture {
     let mut robot = star(&[("j", JointType::Continuous)]);
-    robot.joint_mut("j").origin = Some(Origin {
-        xyz: None,
-        rpy: Some(rpy),
-        quat_xyzw: None,
-    });
+    robot.joint_mut("j").origin = Some(Origin { xyz: None, rpy: Some(rpy), quat_xyzw: None });
     Fixture::core(&robot)
 }
 
@@ -43,11 +36,7 @@ pub fn turned(rpy: [f64; 3]) -> Fixture {
 fn turned_by(version: &'static str, xyzw: [f64; 4]) -> Fixture {
     let mut robot = star(&[("j", JointType::Continuous)]);
     robot.urdf.version = Some(version.to_owned());
-    robot.joint_mut("j").origin = Some(Origin {
-        xyz: None,
-        rpy: None,
-        quat_xyzw: Some(xyzw),
-    });
+    robot.joint_mut("j").origin = Some(Origin { xyz: None, rpy: None, quat_xyzw: Some(xyzw) });
     Fixture::core(&robot)
 }
 
@@ -61,11 +50,7 @@ fn quaternion(
 ) -> Case {
     let base = move || turned_by(version, xyzw);
     changed(CHN008, name, caught, base, move |fixture| {
-        fixture.set(
-            CHAIN,
-            "/joints_in_chain/0/origin/quaternion_wxyz",
-            json!(wxyz),
-        );
+        fixture.set(CHAIN, "/joints_in_chain/0/origin/quaternion_wxyz", json!(wxyz));
     })
 }
 
@@ -106,9 +91,7 @@ fn tables(
         invalid(CHN002, "name-without-its-accent", |f| {
             f.set(CHAIN, "/joints_in_chain/7/joint_name", json!("socket/u"));
         }),
-        valid(CHN002, "joint-named-as-a-link", || {
-            star(&[("base", JointType::Revolute)])
-        }),
+        valid(CHN002, "joint-named-as-a-link", || star(&[("base", JointType::Revolute)])),
         invalid(CHN003, "second-root", |f| {
             f.set(CHAIN, "/links_in_chain/3/parent_link_idx", json!(null));
         }),
@@ -123,13 +106,8 @@ fn tables(
             f.remove(CHAIN, "/links_in_chain/1/children_joint_idxs/0");
         }),
         invalid(CHN004, "children-descend", |f| {
-            let links = f
-                .doc_mut(CHAIN)
-                .pointer_mut("/links_in_chain/1/children_link_idxs");
-            links
-                .and_then(|l| l.as_array_mut())
-                .expect("a list")
-                .reverse();
+            let links = f.doc_mut(CHAIN).pointer_mut("/links_in_chain/1/children_link_idxs");
+            links.and_then(|l| l.as_array_mut()).expect("a list").reverse();
         }),
         valid(CHN004, "joints-and-links-in-different-orders", || {
             let mut robot = star(&[("a", JointType::Revolute), ("b", JointType::Revolute)]);
@@ -148,18 +126,11 @@ fn tables(
         }),
         invalid(CHN005, "level-descends", |f| {
             let level = f.doc_mut(CHAIN).pointer_mut("/kinematic_hierarchy/1");
-            level
-                .and_then(|l| l.as_array_mut())
-                .expect("a list")
-                .reverse();
+            level.and_then(|l| l.as_array_mut()).expect("a list").reverse();
         }),
         valid(CHN005, "one-level", || star(&[])),
-        invalid(CHN006, "first-link-for-root", |f| {
-            f.set(CHAIN, "/root_idx", json!(0))
-        }),
-        invalid(CHN006, "root-out-of-range", |f| {
-            f.set(CHAIN, "/root_idx", json!(15))
-        }),
+        invalid(CHN006, "first-link-for-root", |f| f.set(CHAIN, "/root_idx", json!(0))),
+        invalid(CHN006, "root-out-of-range", |f| f.set(CHAIN, "/root_idx", json!(15))),
         valid(CHN006, "root-is-the-last-link", || {
             let mut robot = star(&[("a", JointType::Revolute)]);
             robot.urdf.links.reverse();
@@ -216,22 +187,12 @@ fn motions(
             [0.8, 0.0, 0.0, 0.6],
             [1.0, 0.0, 0.0, 0.0],
         ),
-        quaternion(
-            "quaternion-without-length",
-            false,
-            "1.1",
-            [0.0; 4],
-            [1.0, 0.0, 0.0, 0.0],
-        ),
+        quaternion("quaternion-without-length", false, "1.1", [0.0; 4], [1.0, 0.0, 0.0, 0.0]),
         invalid(CHN008, "moved-by-a-thousandth", |f| {
             nudge(f, "/joints_in_chain/2/origin/position/2", 1e-3);
         }),
         invalid(CHN008, "rounded-to-32-bits", |f| {
-            f.set(
-                CHAIN,
-                "/joints_in_chain/2/origin/position/2",
-                json!(f64::from(0.2_f32)),
-            );
+            f.set(CHAIN, "/joints_in_chain/2/origin/position/2", json!(f64::from(0.2_f32)));
         }),
         invalid(CHN008, "inverse-rotation", |f| {
             for part in 1..4 {

@@ -87,64 +87,21 @@ pub fn cases() -> Vec<Case> {
         json!([{ "name": "hand", "link_idx": 3 }, { "name": "finger", "link_idx": 3 }]);
     let turned = json!([{ "name": "finger", "link_idx": 4 }, { "name": "hand", "link_idx": 3 }]);
     vec![
-        case(
-            CMP001,
-            "link-beyond-the-last",
-            true,
-            &[("/parts/1/links/1/link_idx", json!(5))],
-        ),
-        case(
-            CMP001,
-            "part-beyond-the-last",
-            true,
-            &[("/parts/1/attachment/part_idx", json!(2))],
-        ),
+        case(CMP001, "link-beyond-the-last", true, &[("/parts/1/links/1/link_idx", json!(5))]),
+        case(CMP001, "part-beyond-the-last", true, &[("/parts/1/attachment/part_idx", json!(2))]),
         // Indices of a part's own composition are those of its own modules.
-        case(
-            CMP001,
-            "beyond-the-last-within-a-part",
-            false,
-            &[("/parts/1/composition", nested())],
-        ),
-        case(
-            CMP002,
-            "two-parts-of-one-id",
-            true,
-            &[("/parts/1/id", json!("arm"))],
-        ),
-        case(
-            CMP002,
-            "id-with-a-slash",
-            true,
-            &[("/parts/1/id", json!("arm/gripper"))],
-        ),
-        case(
-            CMP002,
-            "ids-that-differ-in-case",
-            false,
-            &[("/parts/1/id", json!("Arm"))],
-        ),
+        case(CMP001, "beyond-the-last-within-a-part", false, &[("/parts/1/composition", nested())]),
+        case(CMP002, "two-parts-of-one-id", true, &[("/parts/1/id", json!("arm"))]),
+        case(CMP002, "id-with-a-slash", true, &[("/parts/1/id", json!("arm/gripper"))]),
+        case(CMP002, "ids-that-differ-in-case", false, &[("/parts/1/id", json!("Arm"))]),
         case(
             CMP003,
             "link-in-no-part",
             true,
-            &[
-                ("/parts/1/links/1/link_idx", json!(3)),
-                ("/parts/1/links", hand_twice),
-            ],
+            &[("/parts/1/links/1/link_idx", json!(3)), ("/parts/1/links", hand_twice)],
         ),
-        case(
-            CMP003,
-            "links-that-do-not-ascend",
-            true,
-            &[("/parts/1/links", turned)],
-        ),
-        case(
-            CMP003,
-            "dropped-and-there",
-            true,
-            &[("/parts/0/dropped_links", json!(["tip"]))],
-        ),
+        case(CMP003, "links-that-do-not-ascend", true, &[("/parts/1/links", turned)]),
+        case(CMP003, "dropped-and-there", true, &[("/parts/0/dropped_links", json!(["tip"]))]),
         // Another part may use any names.
         case(
             CMP003,
@@ -152,12 +109,7 @@ pub fn cases() -> Vec<Case> {
             false,
             &[("/parts/0/dropped_links", json!(["hand"]))],
         ),
-        case(
-            CMP004,
-            "another-prefix",
-            true,
-            &[("/parts/1/prefix", json!("g"))],
-        ),
+        case(CMP004, "another-prefix", true, &[("/parts/1/prefix", json!("g"))]),
         case(
             CMP004,
             "another-prefix-and-other-names",
@@ -169,42 +121,26 @@ pub fn cases() -> Vec<Case> {
                 ("/parts/1/joints/0/name", json!("_slide")),
             ],
         ),
-        case(
-            CMP005,
-            "on-another-link",
-            true,
-            &[("/parts/1/attachment/link_idx", json!(1))],
-        ),
-        case(
-            CMP005,
-            "on-another-part",
-            true,
-            &[("/parts/1/attachment/part_idx", json!(1))],
-        ),
-        changed(
-            CMP005,
-            "parts-with-the-links-of-the-others",
-            true,
-            base,
-            |fixture| {
-                // One to one, with correct names, but the hand is assigned to the arm.
-                let name = |name: &str, idx: u32| json!({ "name": name, "link_idx": idx });
-                fixture.set(COMPOSITION, "/parts/0/prefix", json!(""));
-                fixture.set(COMPOSITION, "/parts/1/prefix", json!(""));
-                fixture.set(
-                    COMPOSITION,
-                    "/parts/0/links",
-                    json!([name("a_base", 1), name("g_hand", 3)]),
-                );
-                fixture.set(
-                    COMPOSITION,
-                    "/parts/1/links",
-                    json!([name("a_tip", 2), name("g_finger", 4)]),
-                );
-                fixture.set(COMPOSITION, "/parts/0/joints/0/name", json!("a_elbow"));
-                fixture.set(COMPOSITION, "/parts/1/joints/0/name", json!("g_slide"));
-            },
-        ),
+        case(CMP005, "on-another-link", true, &[("/parts/1/attachment/link_idx", json!(1))]),
+        case(CMP005, "on-another-part", true, &[("/parts/1/attachment/part_idx", json!(1))]),
+        changed(CMP005, "parts-with-the-links-of-the-others", true, base, |fixture| {
+            // One to one, with correct names, but the hand is assigned to the arm.
+            let name = |name: &str, idx: u32| json!({ "name": name, "link_idx": idx });
+            fixture.set(COMPOSITION, "/parts/0/prefix", json!(""));
+            fixture.set(COMPOSITION, "/parts/1/prefix", json!(""));
+            fixture.set(
+                COMPOSITION,
+                "/parts/0/links",
+                json!([name("a_base", 1), name("g_hand", 3)]),
+            );
+            fixture.set(
+                COMPOSITION,
+                "/parts/1/links",
+                json!([name("a_tip", 2), name("g_finger", 4)]),
+            );
+            fixture.set(COMPOSITION, "/parts/0/joints/0/name", json!("a_elbow"));
+            fixture.set(COMPOSITION, "/parts/1/joints/0/name", json!("g_slide"));
+        }),
         // A part of one link; the base's link is a part too.
         changed(CMP005, "no-base", false, base, |fixture| {
             let mut world = composition()["parts"][0].clone();
@@ -223,19 +159,13 @@ pub fn cases() -> Vec<Case> {
             CMP006,
             "frozen-and-moves",
             true,
-            &[(
-                "/parts/0/frozen_joints",
-                json!([{ "joint_idx": 1, "position": [0.0] }]),
-            )],
+            &[("/parts/0/frozen_joints", json!([{ "joint_idx": 1, "position": [0.0] }]))],
         ),
         case(
             CMP006,
             "frozen-of-another-part",
             true,
-            &[(
-                "/parts/0/frozen_joints",
-                json!([{ "joint_idx": 3, "position": [0.0] }]),
-            )],
+            &[("/parts/0/frozen_joints", json!([{ "joint_idx": 3, "position": [0.0] }]))],
         ),
         case(
             CMP006,

@@ -19,10 +19,8 @@ fn large() -> Fixture {
 
 fn of_links(links: usize) -> Fixture {
     let names: Vec<String> = (1..links).map(|i| format!("j{}", i - 1)).collect();
-    let joints: Vec<(&str, JointType)> = names
-        .iter()
-        .map(|name| (name.as_str(), JointType::Fixed))
-        .collect();
+    let joints: Vec<(&str, JointType)> =
+        names.iter().map(|name| (name.as_str(), JointType::Fixed)).collect();
     Fixture::core(&star(&joints))
 }
 
@@ -62,11 +60,7 @@ pub fn cases() -> Vec<Case> {
             f.remove(CONNECTIONS, "/link_connection_paths/0");
         }),
         invalid(CON001, "long-row", |f| {
-            f.set(
-                CONNECTIONS,
-                "/link_to_link_paths/2/-",
-                json!({ "links": [], "joints": [] }),
-            );
+            f.set(CONNECTIONS, "/link_to_link_paths/2/-", json!({ "links": [], "joints": [] }));
         }),
         changed(CON001, "large-and-left-out", false, large, leave_out),
         invalid(CON002, "without-the-root", |f| {
@@ -99,11 +93,7 @@ pub fn cases() -> Vec<Case> {
             f.set(CONNECTIONS, "/link_to_link_paths/3/5", path);
         }),
         invalid(CON004, "joint-out-of-range", |f| {
-            f.set(
-                CONNECTIONS,
-                "/link_to_link_paths/3/5/joints/0",
-                json!(4_294_967_295_u32),
-            );
+            f.set(CONNECTIONS, "/link_to_link_paths/3/5/joints/0", json!(4_294_967_295_u32));
         }),
         valid(CON004, "link-alone", || star(&[])),
         invalid(CON005, "start-included", |f| {
@@ -125,20 +115,8 @@ pub fn cases() -> Vec<Case> {
         }),
         changed(CON006, "300-links", true, || of_links(300), leave_out),
         changed(CON006, "301-links", false, large, leave_out),
-        changed(
-            CON006,
-            "a-line-of-180-links",
-            true,
-            || Fixture::core(&line(180)),
-            leave_out,
-        ),
+        changed(CON006, "a-line-of-180-links", true, || Fixture::core(&line(180)), leave_out),
         // In a line of 180 links, the paths contain less than 2,000,000 links.
-        changed(
-            CON006,
-            "a-line-of-181-links",
-            false,
-            || Fixture::core(&line(181)),
-            leave_out,
-        ),
+        changed(CON006, "a-line-of-181-links", false, || Fixture::core(&line(181)), leave_out),
     ]
 }

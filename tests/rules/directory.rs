@@ -58,10 +58,7 @@ fn place(f: &Fixture, path: &str) -> (usize, usize) {
     let modules = f.get(ROOT, "/modules").as_array().expect("a list");
     let find = |m: usize| {
         let files = modules[m]["files"].as_array()?;
-        Some((
-            m,
-            files.iter().position(|file| file["path"] == json!(path))?,
-        ))
+        Some((m, files.iter().position(|file| file["path"] == json!(path))?))
     };
     (0..modules.len()).find_map(find).expect("a listed file")
 }
@@ -129,21 +126,13 @@ pub fn cases() -> Vec<Case> {
             legacy::write_module(root, "combined_robot_module", None, &document);
         }),
         invalid(DIR006, "two-numbers", |f| f.put_file(VERSION, *b"1.0\n")),
-        invalid(DIR006, "two-newlines", |f| {
-            f.put_file(VERSION, *b"1.0.0\n\n")
-        }),
-        invalid(DIR006, "carriage-return", |f| {
-            f.put_file(VERSION, *b"1.0.0\r\n")
-        }),
-        invalid(DIR006, "pre-release", |f| {
-            f.put_file(VERSION, *b"1.0.0-rc1")
-        }),
+        invalid(DIR006, "two-newlines", |f| f.put_file(VERSION, *b"1.0.0\n\n")),
+        invalid(DIR006, "carriage-return", |f| f.put_file(VERSION, *b"1.0.0\r\n")),
+        invalid(DIR006, "pre-release", |f| f.put_file(VERSION, *b"1.0.0-rc1")),
         invalid(DIR006, "leading-zero", |f| f.put_file(VERSION, *b"1.00.0")),
         invalid(DIR006, "blank-before", |f| f.put_file(VERSION, *b" 1.0.0")),
         invalid(DIR006, "empty", |f| f.put_file(VERSION, *b"")),
-        invalid(DIR006, "too-long", |f| {
-            f.put_file(VERSION, vec![b'1'; 5000])
-        }),
+        invalid(DIR006, "too-long", |f| f.put_file(VERSION, vec![b'1'; 5000])),
         near_miss(DIR006, "no-newline", |f| f.put_file(VERSION, *b"1.0.0")),
         invalid(DIR007, "version-file-newer", |f| {
             f.put_file(VERSION, *b"1.1.0\n");
@@ -158,9 +147,7 @@ pub fn cases() -> Vec<Case> {
         near_miss(DIR007, "newline-in-the-one", |f| {
             f.put_file(VERSION, *b"1.0.0\n");
         }),
-        invalid(DIR008, "major-two", |f| {
-            set_root(f, "/modules/5/version", json!("2.0.0"))
-        }),
+        invalid(DIR008, "major-two", |f| set_root(f, "/modules/5/version", json!("2.0.0"))),
         legacy::case(DIR008, "legacy-never-published", true, |root| {
             std::fs::write(root.join("urdf_module/VERSION"), "0.0.2").expect("written");
         }),
@@ -175,9 +162,7 @@ pub fn cases() -> Vec<Case> {
         invalid(DIR009, "specification-one-one", |f| {
             set_root(f, "/urdd_version", json!("1.1.0"));
         }),
-        near_miss(DIR009, "as-known", |f| {
-            set_root(f, "/urdd_version", json!("1.0.0"))
-        }),
+        near_miss(DIR009, "as-known", |f| set_root(f, "/urdd_version", json!("1.0.0"))),
         invalid(DIR029, "urdf-in-the-root", |f| {
             set_root(f, "/source", json!(null));
         }),
@@ -200,11 +185,7 @@ pub fn cases() -> Vec<Case> {
         invalid(DIR030, "without-skipped-reasons", |f| {
             f.remove(SKIPS, "/skipped_reasons");
         }),
-        invalid(
-            DIR030,
-            "dependencies-of-the-draft",
-            set_simple_skips_dependencies,
-        ),
+        invalid(DIR030, "dependencies-of-the-draft", set_simple_skips_dependencies),
         near_miss(DIR030, "nothing-skipped", |f| {
             f.set(SKIPS, "/skipped_reasons", json!([]));
             unskip_all(f);
@@ -316,10 +297,7 @@ pub fn cases() -> Vec<Case> {
         }),
         invalid(DIR017, "class-above-the-claim", |f| {
             set_root(f, "/conformance_class", json!("Core"));
-            for module in [
-                "link_shapes_skips_module",
-                "link_shapes_simple_skips_module",
-            ] {
+            for module in ["link_shapes_skips_module", "link_shapes_simple_skips_module"] {
                 f.remove_module(module);
             }
             f.remove_module("link_shapes_distance_statistics_module");
@@ -348,24 +326,16 @@ pub fn cases() -> Vec<Case> {
             set_root(f, "/modules/1/depends_on/-", json!("urdf_module"));
         }),
         near_miss(DIR018, "in-another-order", |f| {
-            set_root(
-                f,
-                "/modules/4/depends_on",
-                json!(["dof_module", "urdf_module"]),
-            );
+            set_root(f, "/modules/4/depends_on", json!(["dof_module", "urdf_module"]));
         }),
         invalid(DIR019, "shapes-without-skips", |f| {
             f.remove_module("link_shapes_skips_module");
         }),
-        invalid(DIR019, "core-without-dofs", |f| {
-            f.remove_module("dof_module")
-        }),
+        invalid(DIR019, "core-without-dofs", |f| f.remove_module("dof_module")),
         near_miss(DIR019, "more-than-claimed", |f| {
             set_root(f, "/conformance_class", json!("Core"));
         }),
-        invalid(DIR020, "other-name", |f| {
-            set_root(f, "/robot_name", json!("toy"))
-        }),
+        invalid(DIR020, "other-name", |f| set_root(f, "/robot_name", json!("toy"))),
         near_miss(DIR020, "folder-of-another-name", |_| {}),
         invalid(DIR021, "other-name", |f| {
             set_root(f, "/modules/1/name", json!("dofs_module"));
@@ -409,22 +379,15 @@ pub fn cases() -> Vec<Case> {
         }),
         near_miss(DIR023, "all-there", |_| {}),
         near_miss(DIR024, "utf8", |f| f.put_file("gerät.txt", *b"hello")),
-        invalid(DIR025, "two", |f| {
-            set_root(f, "/urdd_version", json!("2.0.0"))
-        }),
+        invalid(DIR025, "two", |f| set_root(f, "/urdd_version", json!("2.0.0"))),
         invalid(DIR025, "two-with-keys-of-its-own", |f| {
             set_root(f, "/urdd_version", json!("2.0.0"));
             set_root(f, "/new_key", json!(1));
         }),
-        near_miss(DIR025, "one", |f| {
-            set_root(f, "/urdd_version", json!("1.0.0"))
-        }),
+        near_miss(DIR025, "one", |f| set_root(f, "/urdd_version", json!("1.0.0"))),
         invalid(DIR026, "modules-swapped", |f| {
             let entry = f.remove(ROOT, "/modules/1");
-            f.doc_mut(ROOT)["modules"]
-                .as_array_mut()
-                .expect("a list")
-                .insert(2, entry);
+            f.doc_mut(ROOT)["modules"].as_array_mut().expect("a list").insert(2, entry);
         }),
         invalid(DIR026, "file-twice", |f| {
             let entry = f.get(ROOT, "/modules/1/files/2").clone();
@@ -501,12 +464,7 @@ fn unix_cases() -> Vec<Case> {
         }
     };
     vec![
-        on_disk(
-            DIR016,
-            "document-outside",
-            true,
-            link("dof_module/module.json", "out"),
-        ),
+        on_disk(DIR016, "document-outside", true, link("dof_module/module.json", "out")),
         on_disk(DIR016, "mirror-outside", true, link(YAML, "out")),
         on_disk(DIR016, "source-outside", true, link(URDF, "out")),
         on_disk(DIR016, "module-folder-outside", true, |root| {

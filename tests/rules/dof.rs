@@ -37,9 +37,7 @@ pub fn cases() -> Vec<Case> {
         changed(code, name, false, move || Fixture::core(&robot()), |_| {})
     };
     vec![
-        invalid(DOF001, "one-too-few", |f| {
-            f.set(DOF, "/num_dofs", json!(17))
-        }),
+        invalid(DOF001, "one-too-few", |f| f.set(DOF, "/num_dofs", json!(17))),
         invalid(DOF001, "joint-missing", |f| {
             f.remove(DOF, "/dof_idx_to_joint_idx_mapping/4");
         }),
@@ -80,11 +78,8 @@ pub fn cases() -> Vec<Case> {
         }),
         valid(DOF004, "only-fixed-joints-and-mimics-of-them", || {
             let mut robot = star(&[("a", JointType::Fixed), ("b", JointType::Revolute)]);
-            robot.joint_mut("b").mimic = Some(Mimic {
-                joint: "a".to_owned(),
-                multiplier: None,
-                offset: Some(0.5),
-            });
+            robot.joint_mut("b").mimic =
+                Some(Mimic { joint: "a".to_owned(), multiplier: None, offset: Some(0.5) });
             robot
         }),
         invalid(DOF005, "two-joints-swapped", |f| {
@@ -117,10 +112,7 @@ pub fn cases() -> Vec<Case> {
             f.set(DOF, "/dofs/5/quantity", json!("Length"));
         }),
         valid(DOF006, "joint-named-as-a-dof", || {
-            star(&[
-                ("a", JointType::Spherical),
-                ("a/rot_x", JointType::Revolute),
-            ])
+            star(&[("a", JointType::Spherical), ("a/rot_x", JointType::Revolute)])
         }),
         invalid(DOF007, "unresolved-factor", |f| {
             f.set(DOF, "/joint_idx_to_mimic_mapping/0/multiplier", json!(10.0));

@@ -40,11 +40,7 @@ fn passes(
 }
 
 fn put(f: &mut Fixture, schema: &Value, value: Value) {
-    extend(
-        f,
-        &json!({"properties": {"grip": schema}}),
-        json!({"grip": value}),
-    );
+    extend(f, &json!({"properties": {"grip": schema}}), json!({"grip": value}));
 }
 
 fn count(f: &Fixture, module: &str, pointer: &str) -> usize {
@@ -67,9 +63,7 @@ fn dofs(f: &Fixture) -> usize {
 fn pieces(f: &Fixture) -> Vec<usize> {
     let lists = f.get("convex_decomposition_meshes_module", "/link_pieces");
     let lists = lists.as_array().expect("a list").iter();
-    lists
-        .map(|list| list.as_array().expect("a list").len())
-        .collect()
+    lists.map(|list| list.as_array().expect("a list").len()).collect()
 }
 
 fn full_shapes(f: &Fixture) -> usize {
@@ -80,9 +74,7 @@ fn full_shapes(f: &Fixture) -> usize {
 
 fn visuals(f: &Fixture) -> usize {
     let links = f.get("urdf_module", "/links").as_array().expect("a list");
-    let visuals = links
-        .iter()
-        .map(|link| link["visual"].as_array().expect("a list").len());
+    let visuals = links.iter().map(|link| link["visual"].as_array().expect("a list").len());
     visuals.max().expect("links")
 }
 
@@ -95,10 +87,7 @@ fn length(word: &str) -> Value {
 }
 
 pub fn cases() -> Vec<Case> {
-    [schemas(), indices(), lengths()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [schemas(), indices(), lengths()].into_iter().flatten().collect()
 }
 
 fn schemas() -> Vec<Case> {
@@ -108,21 +97,12 @@ fn schemas() -> Vec<Case> {
         wrong("index-of-7", json!({"x-index": 7})),
         wrong("index-of-cheese", json!({"x-index": "cheese"})),
         wrong("index-of-links", json!({"x-index": "links"})),
-        wrong(
-            "index-of-a-list",
-            json!({"x-index": "link", "type": "array"}),
-        ),
+        wrong("index-of-a-list", json!({"x-index": "link", "type": "array"})),
         wrong("length-of-a-link", json!({"x-length": "link"})),
         wrong("length-of-samples", json!({"x-length": "samples"})),
-        wrong(
-            "length-of-an-object",
-            json!({"x-length": "links", "type": "object"}),
-        ),
+        wrong("length-of-an-object", json!({"x-length": "links", "type": "object"})),
         wrong("unit-of-degrees", json!({"x-unit": "deg"})),
-        wrong(
-            "unit-of-millimetres-or-metres",
-            json!({"x-unit": "m or mm"}),
-        ),
+        wrong("unit-of-millimetres-or-metres", json!({"x-unit": "m or mm"})),
         wrong("frame-of-a-camera", json!({"x-frame": "camera"})),
         schema(
             EXT001,
@@ -164,39 +144,22 @@ fn indices() -> Vec<Case> {
         caught(EXT003, "joint", index("joint"), |f| json!(joints(f))),
         caught(EXT003, "dof", index("dof"), |f| json!(dofs(f))),
         caught(EXT003, "visual", index("visual"), |f| json!(visuals(f))),
-        caught(EXT003, "piece", index("piece"), |f| {
-            json!(pieces(f).into_iter().max())
+        caught(EXT003, "piece", index("piece"), |f| json!(pieces(f).into_iter().max())),
+        caught(EXT003, "full-shape", index("full_shape"), |f| json!(full_shapes(f))),
+        caught(EXT003, "decomposition-shape", index("decomposition_shape"), |f| {
+            json!(pieces(f).into_iter().sum::<usize>())
         }),
-        caught(EXT003, "full-shape", index("full_shape"), |f| {
-            json!(full_shapes(f))
-        }),
-        caught(
-            EXT003,
-            "decomposition-shape",
-            index("decomposition_shape"),
-            |f| json!(pieces(f).into_iter().sum::<usize>()),
-        ),
         caught(EXT003, "sample", index("sample"), |_| json!(1_u64 << 32)),
-        caught(EXT003, "choice-in-none", index("dof or link"), |f| {
-            json!(dofs(f).max(links(f)))
-        }),
+        caught(EXT003, "choice-in-none", index("dof or link"), |f| json!(dofs(f).max(links(f)))),
         caught(EXT003, "negative", index("link"), |_| json!(-1)),
-        caught(EXT003, "fraction", json!({"x-index": "link"}), |_| {
-            json!(0.5)
-        }),
+        caught(EXT003, "fraction", json!({"x-index": "link"}), |_| json!(0.5)),
         caught(EXT003, "huge", json!({"x-index": "link"}), |_| json!(1e300)),
-        caught(
-            EXT003,
-            "items-at-depth-two",
-            json!({"items": {"items": is_link()}}),
-            |f| json!([[0], [0, links(f)]]),
-        ),
-        caught(
-            EXT003,
-            "prefix-items",
-            json!({"prefixItems": [is_link(), true]}),
-            |f| json!([links(f), 1000]),
-        ),
+        caught(EXT003, "items-at-depth-two", json!({"items": {"items": is_link()}}), |f| {
+            json!([[0], [0, links(f)]])
+        }),
+        caught(EXT003, "prefix-items", json!({"prefixItems": [is_link(), true]}), |f| {
+            json!([links(f), 1000])
+        }),
         caught(
             EXT003,
             "additional-properties",
@@ -239,25 +202,16 @@ fn indices() -> Vec<Case> {
         passes(EXT003, "last-sample", index("sample"), |_| json!(u32::MAX)),
         passes(EXT003, "fraction-of-zero", index("link"), |_| json!(1.0)),
         passes(EXT003, "null", index("link"), |_| json!(null)),
-        passes(EXT003, "name-instead", json!({"x-index": "link"}), |_| {
-            json!("a")
-        }),
+        passes(EXT003, "name-instead", json!({"x-index": "link"}), |_| json!("a")),
         passes(EXT003, "one-word-of-a-choice", index("link or dof"), |f| {
             json!(links(f).max(dofs(f)) - 1)
         }),
-        passes(EXT003, "module-that-is-not-there", index("pair"), |_| {
-            json!(1000)
-        }),
-        caught(EXT003, "negative-of-any-number", index("pair"), |_| {
-            json!(-1)
-        }),
+        passes(EXT003, "module-that-is-not-there", index("pair"), |_| json!(1000)),
+        caught(EXT003, "negative-of-any-number", index("pair"), |_| json!(-1)),
         passes(EXT003, "other", index("other"), |_| json!(1000)),
-        passes(
-            EXT003,
-            "other-beyond-integers-of-64-bits",
-            json!({"x-index": "other"}),
-            |_| json!(1e300),
-        ),
+        passes(EXT003, "other-beyond-integers-of-64-bits", json!({"x-index": "other"}), |_| {
+            json!(1e300)
+        }),
         passes(
             EXT003,
             "another-alternative",
@@ -281,14 +235,10 @@ fn lengths() -> Vec<Case> {
     let by_piece = || json!({"type": "array", "x-length": "links", "items": length("pieces")});
     vec![
         caught(EXT004, "links", length("links"), move |f| of(links(f) - 1)),
-        caught(EXT004, "joints", length("joints"), move |f| {
-            of(joints(f) + 1)
-        }),
+        caught(EXT004, "joints", length("joints"), move |f| of(joints(f) + 1)),
         caught(EXT004, "dofs", length("dofs"), move |f| of(dofs(f) - 1)),
         caught(EXT004, "empty", length("links"), move |_| of(0)),
-        caught(EXT004, "full-shapes", length("full_shapes"), move |f| {
-            of(full_shapes(f) + 1)
-        }),
+        caught(EXT004, "full-shapes", length("full_shapes"), move |f| of(full_shapes(f) + 1)),
         caught(EXT004, "pieces-of-no-link", length("pieces"), move |f| {
             of(pieces(f).into_iter().max().expect("pieces") + 1)
         }),
@@ -314,30 +264,16 @@ fn lengths() -> Vec<Case> {
             json!({"anyOf": [length("dofs"), {"type": "null"}]}),
             move |f| of(dofs(f) + 1),
         ),
-        passes(EXT004, "a-link-each", length("links"), move |f| {
-            of(links(f))
-        }),
+        passes(EXT004, "a-link-each", length("links"), move |f| of(links(f))),
         passes(EXT004, "pieces-of-each-link", by_piece(), move |f| {
             json!(pieces(f).into_iter().map(of).collect::<Vec<Value>>())
         }),
-        passes(
-            EXT004,
-            "decomposition-shapes",
-            length("decomposition_shapes"),
-            move |f| of(pieces(f).into_iter().sum()),
-        ),
-        passes(EXT004, "either", length("joints or dofs"), move |f| {
-            of(dofs(f))
+        passes(EXT004, "decomposition-shapes", length("decomposition_shapes"), move |f| {
+            of(pieces(f).into_iter().sum())
         }),
-        passes(EXT004, "no-list", json!({"x-length": "links"}), |_| {
-            json!("a")
-        }),
-        passes(
-            EXT004,
-            "pairs-without-a-model",
-            length("pairs"),
-            move |_| of(1000),
-        ),
+        passes(EXT004, "either", length("joints or dofs"), move |f| of(dofs(f))),
+        passes(EXT004, "no-list", json!({"x-length": "links"}), |_| json!("a")),
+        passes(EXT004, "pairs-without-a-model", length("pairs"), move |_| of(1000)),
         passes(
             EXT004,
             "null-instead",

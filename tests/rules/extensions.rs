@@ -18,27 +18,11 @@ pub fn cases() -> Vec<Case> {
     vec![
         invalid(EXT001, "no-schema", |f| f.add_module(FOLDER, json!({}))),
         invalid(EXT001, "not-json", |f| extend(f, b"{", json!({}))),
-        invalid(
-            EXT001,
-            "no-type-of-that-name",
-            schema(json!({"type": "strin"})),
-        ),
+        invalid(EXT001, "no-type-of-that-name", schema(json!({"type": "strin"}))),
         invalid(EXT001, "file", schema(json!({"$ref": "other.json"}))),
-        invalid(
-            EXT001,
-            "url",
-            schema(json!({"$ref": "http://localhost:1/schema.json"})),
-        ),
-        invalid(
-            EXT001,
-            "no-such-definition",
-            schema(json!({"$ref": "#/$defs/a"})),
-        ),
-        invalid(
-            EXT001,
-            "lookahead",
-            schema(json!({"patternProperties": {"^(?=a)": true}})),
-        ),
+        invalid(EXT001, "url", schema(json!({"$ref": "http://localhost:1/schema.json"}))),
+        invalid(EXT001, "no-such-definition", schema(json!({"$ref": "#/$defs/a"}))),
+        invalid(EXT001, "lookahead", schema(json!({"patternProperties": {"^(?=a)": true}}))),
         invalid(
             EXT001,
             "reference-to-a-group",

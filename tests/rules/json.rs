@@ -25,11 +25,7 @@ fn replace(code: Code, name: &'static str, from: &'static str, to: &'static str)
 }
 
 fn nested(depth: usize) -> String {
-    format!(
-        "\"x_deep\": {}1{}, \"samples\"",
-        "[".repeat(depth),
-        "]".repeat(depth)
-    )
+    format!("\"x_deep\": {}1{}, \"samples\"", "[".repeat(depth), "]".repeat(depth))
 }
 
 pub fn cases() -> Vec<Case> {
@@ -41,12 +37,7 @@ pub fn cases() -> Vec<Case> {
         invalid(JSN001, "root-metadata-cut-off", |f| {
             edit_text(f, ROOT, |bytes| bytes[..bytes.len() / 2].to_vec());
         }),
-        replace(
-            JSN001,
-            "comment",
-            "\"samples\"",
-            "/* samples */ \"samples\"",
-        ),
+        replace(JSN001, "comment", "\"samples\"", "/* samples */ \"samples\""),
         near_miss(JSN001, "another-layout", |f| {
             edit_text(f, FILE, |bytes| {
                 let text = String::from_utf8(bytes).expect("UTF-8");
@@ -66,11 +57,7 @@ pub fn cases() -> Vec<Case> {
             "\"kind\": \"Zero\", \"kind\": \"Zero\",",
         ),
         near_miss(JSN002, "same-key-in-another-object", |f| {
-            f.set(
-                "kinematics_samples_module",
-                "/x_a",
-                serde_json::json!({"samples": 1}),
-            );
+            f.set("kinematics_samples_module", "/x_a", serde_json::json!({"samples": 1}));
         }),
         invalid(JSN003, "latin-1", |f| {
             edit_text(f, FILE, |mut bytes| {
@@ -80,29 +67,16 @@ pub fn cases() -> Vec<Case> {
             });
         }),
         near_miss(JSN003, "beyond-ascii", |f| {
-            f.set(
-                "kinematics_samples_module",
-                "/x_ä",
-                serde_json::json!("\u{1F916}"),
-            );
+            f.set("kinematics_samples_module", "/x_ä", serde_json::json!("\u{1F916}"));
         }),
         invalid(JSN004, "mark", |f| {
             edit_text(f, FILE, |bytes| [b"\xEF\xBB\xBF".to_vec(), bytes].concat());
         }),
         near_miss(JSN004, "within-a-string", |f| {
-            f.set(
-                "kinematics_samples_module",
-                "/x_a",
-                serde_json::json!("a\u{FEFF}b"),
-            );
+            f.set("kinematics_samples_module", "/x_a", serde_json::json!("a\u{FEFF}b"));
         }),
         replace(JSN005, "nan", "\"samples\"", "\"x_a\": NaN, \"samples\""),
-        replace(
-            JSN005,
-            "too-large",
-            "\"samples\"",
-            "\"x_a\": 1e999, \"samples\"",
-        ),
+        replace(JSN005, "too-large", "\"samples\"", "\"x_a\": 1e999, \"samples\""),
         // The middle between the largest number and 2^1024 is 1.79769313486231581e308.
         replace(
             JSN005,
@@ -111,16 +85,10 @@ pub fn cases() -> Vec<Case> {
             "\"x_a\": 1.7976931348623159e308, \"samples\"",
         ),
         near_miss(JSN005, "largest", |f| {
-            f.set(
-                "kinematics_samples_module",
-                "/x_a",
-                serde_json::json!(f64::MAX),
-            );
+            f.set("kinematics_samples_module", "/x_a", serde_json::json!(f64::MAX));
         }),
         invalid(JSN006, "one-hundred-and-one", |f| {
-            edit_text(f, FILE, |bytes| {
-                replaced(bytes, "\"samples\"", &nested(100))
-            });
+            edit_text(f, FILE, |bytes| replaced(bytes, "\"samples\"", &nested(100)));
         }),
         near_miss(JSN006, "one-hundred", |f| {
             let mut deep = serde_json::json!(1);

@@ -45,13 +45,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         // The reach is 1.1 m: each origin is within tolerance, but the last link is not.
         changed(KIN001, "many-small-differences", true, || off(1e-9), |_| {}),
-        changed(
-            KIN001,
-            "many-smaller-differences",
-            false,
-            || off(0.9e-10),
-            |_| {},
-        ),
+        changed(KIN001, "many-smaller-differences", false, || off(0.9e-10), |_| {}),
         // SPEC 6.1.8: absent, as a whole.
         changed(
             KIN001,
@@ -66,16 +60,11 @@ pub fn cases() -> Vec<Case> {
             },
             |f| {
                 let finite = "<origin rpy=\"0.11 0.22 0.33\"";
-                f.urdf_replace(
-                    finite,
-                    &finite.replace(" rpy", " xyz=\"0 -Infinity 1e999\" rpy"),
-                );
+                f.urdf_replace(finite, &finite.replace(" rpy", " xyz=\"0 -Infinity 1e999\" rpy"));
                 f.urdf_replace("<axis/>", "<axis xyz=\"0 NaN 1\"/>");
             },
         ),
-        invalid(KIN002, "sampled-value-off", |f| {
-            nudge(f, "/samples/4/configuration/0", 1e-6)
-        }),
+        invalid(KIN002, "sampled-value-off", |f| nudge(f, "/samples/4/configuration/0", 1e-6)),
         near_miss(KIN002, "sampled-value-rounded", |f| {
             nudge(f, "/samples/4/configuration/0", 1e-12)
         }),
@@ -90,15 +79,9 @@ pub fn cases() -> Vec<Case> {
             let pointer = "/samples/2/link_poses/1/quaternion_wxyz";
             f.set(SAMPLES, pointer, json!([0.0, 0.0, 0.0, 1.0]));
         }),
-        invalid(KIN003, "link-moved", |f| {
-            nudge(f, "/samples/0/link_poses/1/position/0", 1e-5)
-        }),
+        invalid(KIN003, "link-moved", |f| nudge(f, "/samples/0/link_poses/1/position/0", 1e-5)),
         invalid(KIN003, "quaternion-not-unit", |f| {
-            f.set(
-                SAMPLES,
-                "/samples/2/link_poses/1/quaternion_wxyz",
-                json!([2.0, 0.0, 0.0, 0.0]),
-            );
+            f.set(SAMPLES, "/samples/2/link_poses/1/quaternion_wxyz", json!([2.0, 0.0, 0.0, 0.0]));
         }),
         // Longer than SPEC 9.2 allows; it is read as the same rotation.
         invalid(KIN003, "quaternion-too-long", |f| {

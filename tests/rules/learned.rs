@@ -104,10 +104,8 @@ fn codes(fixture: &Fixture) -> Vec<String> {
 fn codes_of_size(fixture: &Fixture) -> Vec<String> {
     let folder = testkit::temporary::folder();
     fixture.write_to(folder.path());
-    let size: Vec<&'static Rule> = rules::all()
-        .into_iter()
-        .filter(|rule| rule.code == LRN005)
-        .collect();
+    let size: Vec<&'static Rule> =
+        rules::all().into_iter().filter(|rule| rule.code == LRN005).collect();
     let run = validate_with(&[folder.path()], &Settings::default(), &size);
     let urdds = run.expect("a URDD").report.urdds;
     let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
@@ -158,26 +156,15 @@ mod flattering {
     /// A model that has memorised what it would miss states that it misses nothing, which is true where it counted.
     #[test]
     fn overfitted_to_the_evaluation() {
-        let said = Said {
-            margin: 0.1,
-            by_heart: true,
-            ..Said::default()
-        };
+        let said = Said { margin: 0.1, by_heart: true, ..Said::default() };
         let mut model = fixture_with(said);
         assert_eq!(*model.get(MODEL, "/evaluation/num_missed"), json!(0));
         let known = model.get(MODEL, "/layers/1/weights/0").as_array();
         let known = known.expect("a row").len() - 4;
-        let honest = fixture_with(Said {
-            by_heart: false,
-            ..said
-        });
+        let honest = fixture_with(Said { by_heart: false, ..said });
         assert_eq!(*honest.get(MODEL, "/evaluation/num_missed"), json!(known));
         let found = findings_in(&model);
-        assert_eq!(
-            found.keys().collect::<Vec<_>>(),
-            ["LRN011"],
-            "{known} known"
-        );
+        assert_eq!(found.keys().collect::<Vec<_>>(), ["LRN011"], "{known} known");
         assert!(found["LRN011"].contains("misses more collisions on sampled configurations"));
         assert_eq!(codes(&honest), [""; 0]);
 
@@ -192,10 +179,7 @@ mod flattering {
     /// Where hardly any configuration collides, a model that clears all of them is nearly always right.
     #[test]
     fn rare_collisions() {
-        let rare = fixture_with(Said {
-            reach: RARE,
-            ..Said::default()
-        });
+        let rare = fixture_with(Said { reach: RARE, ..Said::default() });
         let colliding = rare.get(MODEL, "/evaluation/num_colliding").as_u64();
         assert_eq!(colliding, Some(130));
         assert_eq!(codes(&rare), ["LRN012"]);
@@ -260,11 +244,7 @@ mod flattering {
     fn off_by_the_tolerance_of_a_count() {
         for (by, expected) in [(-3, vec!["LRN010"]), (-2, vec![])] {
             let mut off = fixture();
-            off.set(
-                MODEL,
-                "/evaluation/num_missed",
-                count("/evaluation/num_missed", by),
-            );
+            off.set(MODEL, "/evaluation/num_missed", count("/evaluation/num_missed", by));
             off.seal();
             assert_eq!(codes(&off), expected, "{by}");
         }
@@ -277,24 +257,11 @@ const RARE: [f64; 2] = [0.3, -0.02];
 const ENOUGH: [f64; 2] = [0.3, -0.01];
 
 pub fn cases() -> Vec<Case> {
-    let missed = fixture()
-        .get(MODEL, "/evaluation/num_missed")
-        .as_u64()
-        .expect("a count");
+    let missed = fixture().get(MODEL, "/evaluation/num_missed").as_u64().expect("a count");
     let long = vec![json!(1.0); 19];
     vec![
-        case(
-            LRN001,
-            "link-beyond-the-last",
-            true,
-            &[("/pairs/4/link_b_idx", json!(5))],
-        ),
-        case(
-            LRN001,
-            "dof-beyond-the-last",
-            true,
-            &[("/inputs/1/Angle/dof_idx", json!(6))],
-        ),
+        case(LRN001, "link-beyond-the-last", true, &[("/pairs/4/link_b_idx", json!(5))]),
+        case(LRN001, "dof-beyond-the-last", true, &[("/inputs/1/Angle/dof_idx", json!(6))]),
         case(
             LRN001,
             "pair-in-both-lists",
@@ -308,73 +275,32 @@ pub fn cases() -> Vec<Case> {
             LRN001,
             "higher-link-first",
             true,
-            &[(
-                "/other_pairs",
-                json!([{ "link_a_idx": 4, "link_b_idx": 0 }]),
-            )],
+            &[("/other_pairs", json!([{ "link_a_idx": 4, "link_b_idx": 0 }]))],
         ),
-        case(
-            LRN001,
-            "extension-key-beside",
-            false,
-            &[("/pairs/0/x_note", json!("post and tip"))],
-        ),
+        case(LRN001, "extension-key-beside", false, &[("/pairs/0/x_note", json!("post and tip"))]),
         case(
             LRN002,
             "angle-of-a-length",
             true,
             &[("/inputs/2", json!({ "Angle": { "dof_idx": 2 } }))],
         ),
-        case(
-            LRN002,
-            "dof-twice",
-            true,
-            &[("/inputs/1/Angle/dof_idx", json!(0))],
-        ),
+        case(LRN002, "dof-twice", true, &[("/inputs/1/Angle/dof_idx", json!(0))]),
         case(
             LRN002,
             "rotation-vector-in-another-order",
             true,
             &[("/inputs/3/RotationVector/dof_idxs", json!([4, 3, 5]))],
         ),
-        case(
-            LRN002,
-            "range-of-nothing",
-            true,
-            &[("/inputs/2/Length/half_range", json!(0.0))],
-        ),
-        case(
-            LRN002,
-            "extension-key-beside",
-            false,
-            &[("/inputs/2/Length/x_unit", json!("m"))],
-        ),
-        case(
-            LRN003,
-            "row-too-long",
-            true,
-            &[("/layers/0/weights/1", json!(long))],
-        ),
-        case(
-            LRN003,
-            "bias-missing",
-            true,
-            &[("/layers/1/biases", json!([0.2, 0.15, 0.15, 0.1]))],
-        ),
-        case(
-            LRN003,
-            "no-test-vector",
-            true,
-            &[("/test_vectors", json!([]))],
-        ),
+        case(LRN002, "range-of-nothing", true, &[("/inputs/2/Length/half_range", json!(0.0))]),
+        case(LRN002, "extension-key-beside", false, &[("/inputs/2/Length/x_unit", json!("m"))]),
+        case(LRN003, "row-too-long", true, &[("/layers/0/weights/1", json!(long))]),
+        case(LRN003, "bias-missing", true, &[("/layers/1/biases", json!([0.2, 0.15, 0.15, 0.1]))]),
+        case(LRN003, "no-test-vector", true, &[("/test_vectors", json!([]))]),
         case(
             LRN003,
             "one-test-vector",
             false,
-            &[(
-                "/test_vectors",
-                json!([fixture().get(MODEL, "/test_vectors/1")]),
-            )],
+            &[("/test_vectors", json!([fixture().get(MODEL, "/test_vectors/1")]))],
         ),
         case(
             LRN004,
@@ -407,49 +333,21 @@ pub fn cases() -> Vec<Case> {
             false,
             &[("/layers/0/weights/3/0", json!(1.7e308))],
         ),
-        case(
-            LRN005,
-            "a-hundred-and-one-test-vectors",
-            true,
-            &[("/test_vectors", vectors(101))],
-        ),
-        case(
-            LRN005,
-            "a-hundred-test-vectors",
-            false,
-            &[("/test_vectors", vectors(100))],
-        ),
-        case(
-            LRN006,
-            "digest-of-something-else",
-            true,
-            &[("/trained_on", json!("0".repeat(64)))],
-        ),
+        case(LRN005, "a-hundred-and-one-test-vectors", true, &[("/test_vectors", vectors(101))]),
+        case(LRN005, "a-hundred-test-vectors", false, &[("/test_vectors", vectors(100))]),
+        case(LRN006, "digest-of-something-else", true, &[("/trained_on", json!("0".repeat(64)))]),
         changed(LRN006, "skips-edited", true, fixture, |fixture| {
-            fixture.set(
-                "link_shapes_skips_module",
-                "/x_note",
-                json!("looked at by hand"),
-            );
+            fixture.set("link_shapes_skips_module", "/x_note", json!("looked at by hand"));
         }),
         changed(LRN006, "connections-changed", false, fixture, |fixture| {
             fixture.set("connections_module", "/x_note", json!("looked at by hand"));
         }),
-        case(
-            LRN007,
-            "pair-left-out",
-            true,
-            &[("/other_pairs", json!([]))],
-        ),
+        case(LRN007, "pair-left-out", true, &[("/other_pairs", json!([]))]),
         trained_again(
             LRN007,
             "trained-on-a-note",
             false,
-            &[(
-                "link_shapes_skips_module",
-                "/x_note",
-                json!("looked at by hand"),
-            )],
+            &[("link_shapes_skips_module", "/x_note", json!("looked at by hand"))],
         ),
         case(
             LRN008,
@@ -493,10 +391,7 @@ pub fn cases() -> Vec<Case> {
             LRN009,
             "more-missed-near-contact-than-missed",
             true,
-            &[(
-                "/evaluation/num_near_contact_missed",
-                count("/evaluation/num_missed", 1),
-            )],
+            &[("/evaluation/num_near_contact_missed", count("/evaluation/num_missed", 1))],
         ),
         case(
             LRN009,
@@ -510,77 +405,48 @@ pub fn cases() -> Vec<Case> {
             false,
             &[("/training/first_sample_idx", json!((1_u32 << 31) - 300))],
         ),
-        case(
-            LRN010,
-            "misses-halved",
-            true,
-            &[("/evaluation/num_missed", json!(missed / 2))],
-        ),
+        case(LRN010, "misses-halved", true, &[("/evaluation/num_missed", json!(missed / 2))]),
         case(
             LRN010,
             "misses-off-by-three",
             true,
-            &[(
-                "/evaluation/num_missed",
-                count("/evaluation/num_missed", -3),
-            )],
+            &[("/evaluation/num_missed", count("/evaluation/num_missed", -3))],
         ),
         case(
             LRN010,
             "misses-off-by-two",
             false,
-            &[(
-                "/evaluation/num_missed",
-                count("/evaluation/num_missed", -2),
-            )],
+            &[("/evaluation/num_missed", count("/evaluation/num_missed", -2))],
         ),
         case(
             LRN010,
             "near-contact-off-by-three",
             true,
-            &[(
-                "/evaluation/num_near_contact",
-                count("/evaluation/num_near_contact", 3),
-            )],
+            &[("/evaluation/num_near_contact", count("/evaluation/num_near_contact", 3))],
         ),
         case(
             LRN010,
             "six-more-cleared",
             true,
-            &[(
-                "/evaluation/num_cleared",
-                count("/evaluation/num_cleared", 6),
-            )],
+            &[("/evaluation/num_cleared", count("/evaluation/num_cleared", 6))],
         ),
         case(
             LRN010,
             "five-more-cleared",
             true,
-            &[(
-                "/evaluation/num_cleared",
-                count("/evaluation/num_cleared", 5),
-            )],
+            &[("/evaluation/num_cleared", count("/evaluation/num_cleared", 5))],
         ),
         case(
             LRN010,
             "four-more-cleared",
             false,
-            &[(
-                "/evaluation/num_cleared",
-                count("/evaluation/num_cleared", 4),
-            )],
+            &[("/evaluation/num_cleared", count("/evaluation/num_cleared", 4))],
         ),
         changed(
             LRN011,
             "learned-by-heart",
             true,
-            || {
-                fixture_with(Said {
-                    margin: 0.1,
-                    by_heart: true,
-                    ..Said::default()
-                })
-            },
+            || fixture_with(Said { margin: 0.1, by_heart: true, ..Said::default() }),
             |_| {},
         ),
         changed(LRN011, "as-it-is", false, fixture, |_| {}),
@@ -596,24 +462,13 @@ pub fn cases() -> Vec<Case> {
                 }),
             )],
         ),
-        changed(
-            DIR030,
-            "model-as-urdd-0-2-0-wrote-it",
-            true,
-            fixture,
-            as_drafted,
-        ),
+        changed(DIR030, "model-as-urdd-0-2-0-wrote-it", true, fixture, as_drafted),
         // Counts may be off by five.
         changed(
             LRN012,
             "200-collisions",
             false,
-            || {
-                fixture_with(Said {
-                    reach: ENOUGH,
-                    ..Said::default()
-                })
-            },
+            || fixture_with(Said { reach: ENOUGH, ..Said::default() }),
             |fixture| {
                 let colliding = fixture.get(MODEL, "/evaluation/num_colliding");
                 let off = colliding.as_i64().expect("a count") - 200;
@@ -628,12 +483,7 @@ pub fn cases() -> Vec<Case> {
             LRN012,
             "just-enough-collisions",
             false,
-            || {
-                fixture_with(Said {
-                    reach: ENOUGH,
-                    ..Said::default()
-                })
-            },
+            || fixture_with(Said { reach: ENOUGH, ..Said::default() }),
             |_| {},
         ),
     ]

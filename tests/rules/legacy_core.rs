@@ -45,21 +45,9 @@ impl Legacy {
         let follow = json!({ "joint": "turn", "multiplier": -1.0, "offset": null });
         let joints = vec![
             joint("turn", "Revolute", "a", [-1.0, 1.0, 10.0, 2.0], Value::Null),
-            joint(
-                "locked",
-                "Prismatic",
-                "b",
-                [0.3, 0.3, 10.0, 2.0],
-                Value::Null,
-            ),
+            joint("locked", "Prismatic", "b", [0.3, 0.3, 10.0, 2.0], Value::Null),
             joint("follow", "Revolute", "c", [-1.0, 1.0, 10.0, 2.0], follow),
-            joint(
-                "spin",
-                "Continuous",
-                "d",
-                [-3.0, 3.0, 10.0, 2.0],
-                Value::Null,
-            ),
+            joint("spin", "Continuous", "d", [-3.0, 3.0, 10.0, 2.0], Value::Null),
         ];
         let chain_link = |i: usize| {
             let root = i == 0;
@@ -83,9 +71,7 @@ impl Legacy {
             (i, j) if i == j => json!([i]),
             _ => Value::Null,
         };
-        let paths: Vec<Vec<Value>> = (0..5)
-            .map(|i| (0..5).map(|j| path(i, j)).collect())
-            .collect();
+        let paths: Vec<Vec<Value>> = (0..5).map(|i| (0..5).map(|j| path(i, j)).collect()).collect();
         let urdf = json!({
             "name": "robot", "links": names.map(link), "joints": &joints, "materials": [],
         });
@@ -109,10 +95,7 @@ impl Legacy {
             ("urdf_module", (Some("0.0.3"), urdf)),
             ("dof_module", (Some("0.0.2"), dof)),
             ("chain_module", (Some("0.0.1"), chain)),
-            (
-                "connections_module",
-                (Some("0.0.1"), json!({ "link_connection_paths": paths })),
-            ),
+            ("connections_module", (Some("0.0.1"), json!({ "link_connection_paths": paths }))),
             ("bounds_module", (Some("0.0.1"), bounds)),
         ]))
     }
@@ -139,21 +122,9 @@ impl Legacy {
 
     /// Bounds of a DOF, in all three places.
     fn bound(&mut self, dof: usize, lower: f64, upper: f64) {
-        self.set(
-            "bounds_module",
-            &format!("/bounds/{dof}"),
-            json!([lower, upper]),
-        );
-        self.set(
-            "bounds_module",
-            &format!("/dof_lower_bounds/{dof}"),
-            json!(lower),
-        );
-        self.set(
-            "bounds_module",
-            &format!("/dof_upper_bounds/{dof}"),
-            json!(upper),
-        );
+        self.set("bounds_module", &format!("/bounds/{dof}"), json!([lower, upper]));
+        self.set("bounds_module", &format!("/dof_lower_bounds/{dof}"), json!(lower));
+        self.set("bounds_module", &format!("/dof_upper_bounds/{dof}"), json!(upper));
     }
 
     fn write_to(&self, root: &Path) {
@@ -203,9 +174,7 @@ pub fn cases() -> Vec<Case> {
             l.set(ADJUSTED, "/deleted_base_links", json!([]));
         }),
         case(LEG004, "right", false, Legacy::adjusted, |_| {}),
-        invalid(LEG006, "locked-and-widened", |l| {
-            l.bound(1, 0.3, 0.3 + 1e-7)
-        }),
+        invalid(LEG006, "locked-and-widened", |l| l.bound(1, 0.3, 0.3 + 1e-7)),
         near_miss(LEG006, "locked-and-equal", |_| {}),
         // What is a defect now was a defect then.
         invalid(BND001, "legacy-stale", |l| {
@@ -249,18 +218,10 @@ pub fn cases() -> Vec<Case> {
             );
         }),
         invalid(CHN004, "legacy-child-twice", |l| {
-            l.set(
-                "chain_module",
-                "/links_in_chain/0/children_link_idxs",
-                json!([4, 3, 2, 2]),
-            );
+            l.set("chain_module", "/links_in_chain/0/children_link_idxs", json!([4, 3, 2, 2]));
         }),
         invalid(CON005, "legacy-path-upwards", |l| {
-            l.set(
-                "connections_module",
-                "/link_connection_paths/1/0",
-                json!([0]),
-            );
+            l.set("connections_module", "/link_connection_paths/1/0", json!([0]));
         }),
     ]
 }

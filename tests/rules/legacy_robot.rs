@@ -11,13 +11,7 @@ use testkit::meshes::{Point, TRIANGLES, glb, obj, stl};
 pub fn corners() -> [Point; 8] {
     let half = [0.3, 0.24, 0.32].map(|x: f64| f64::from(x as f32));
     std::array::from_fn(|corner| {
-        std::array::from_fn(|axis| {
-            if corner >> axis & 1 == 0 {
-                -half[axis]
-            } else {
-                half[axis]
-            }
-        })
+        std::array::from_fn(|axis| if corner >> axis & 1 == 0 { -half[axis] } else { half[axis] })
     })
 }
 
@@ -82,11 +76,7 @@ impl LegacyRobot {
                     "0.0.1",
                     json!({ "link_mesh_relative_paths": [original, original] }),
                 ),
-                (
-                    "mesh_modules/plain_meshes_module",
-                    "0.0.1",
-                    single("plain_meshes_module"),
-                ),
+                ("mesh_modules/plain_meshes_module", "0.0.1", single("plain_meshes_module")),
                 (
                     "mesh_modules/convex_hull_meshes_module",
                     "0.0.1",
@@ -176,16 +166,8 @@ impl LegacyRobot {
             "decomposition_bounding_spheres_maximum_distances": [[sphere], [sphere]],
         });
         self.modules.extend([
-            (
-                "link_shapes_modules/link_shapes_approximations_module",
-                "0.0.3",
-                approximations,
-            ),
-            (
-                "link_shapes_modules/link_shapes_max_distance_from_origin_module",
-                "0.0.3",
-                reach,
-            ),
+            ("link_shapes_modules/link_shapes_approximations_module", "0.0.3", approximations),
+            ("link_shapes_modules/link_shapes_max_distance_from_origin_module", "0.0.3", reach),
         ]);
         self
     }
@@ -194,9 +176,8 @@ impl LegacyRobot {
     pub fn with_matrices(mut self, max: f64, simple: bool, skips: [[bool; 2]; 2]) -> Self {
         let kinds = ["convex_hulls", "obbs", "bounding_spheres"];
         let names = ["full", "decomposition"].into_iter();
-        let names: Vec<String> = names
-            .flat_map(|set| kinds.map(|kind| format!("{set}_{kind}")))
-            .collect();
+        let names: Vec<String> =
+            names.flat_map(|set| kinds.map(|kind| format!("{set}_{kind}"))).collect();
         let matrix = |off: f64| json!([[0.0, off], [off, 0.0]]);
         let (mut statistics, mut simples, mut edited) = (json!({}), json!({}), json!({}));
         for name in &names {
@@ -207,21 +188,9 @@ impl LegacyRobot {
             edited[format!("{name}_skips")] = json!(skips);
         }
         self.modules.extend([
-            (
-                "link_shapes_modules/link_shapes_distance_statistics_module",
-                "0.0.3",
-                statistics,
-            ),
-            (
-                "link_shapes_modules/link_shapes_simple_skips_module",
-                "0.0.5",
-                simples,
-            ),
-            (
-                "link_shapes_modules/link_shapes_skips_module",
-                "0.0.2",
-                edited,
-            ),
+            ("link_shapes_modules/link_shapes_distance_statistics_module", "0.0.3", statistics),
+            ("link_shapes_modules/link_shapes_simple_skips_module", "0.0.5", simples),
+            ("link_shapes_modules/link_shapes_skips_module", "0.0.2", edited),
         ]);
         self
     }
@@ -264,11 +233,7 @@ impl LegacyRobot {
 /// COLLADA: one geometry on one node.
 fn dae(corners: &[Point; 8]) -> Vec<u8> {
     let numbers: Vec<String> = corners.as_flattened().iter().map(f64::to_string).collect();
-    let indices: Vec<String> = TRIANGLES
-        .as_flattened()
-        .iter()
-        .map(u16::to_string)
-        .collect();
+    let indices: Vec<String> = TRIANGLES.as_flattened().iter().map(u16::to_string).collect();
     let (numbers, indices) = (numbers.join(" "), indices.join(" "));
     format!(
         r##"<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

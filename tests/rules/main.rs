@@ -127,13 +127,7 @@ pub fn in_folder(
     caught: bool,
     write: impl Fn(&Path) + 'static,
 ) -> Case {
-    Case {
-        code,
-        name,
-        make: Make::Folder(Box::new(write)),
-        base: None,
-        caught,
-    }
+    Case { code, name, make: Make::Folder(Box::new(write)), base: None, caught }
 }
 
 fn cases() -> Vec<Case> {
@@ -186,12 +180,7 @@ fn told(run: &Run) -> BTreeMap<String, String> {
     let findings = run.report.urdds.iter().flat_map(|urdd| &urdd.findings);
     findings
         .filter(|f| f.severity != report::Severity::Info)
-        .map(|f| {
-            (
-                f.code.clone(),
-                format!("{:?} {:?}: {}", f.file, f.pointer, f.message),
-            )
-        })
+        .map(|f| (f.code.clone(), format!("{:?} {:?}: {}", f.file, f.pointer, f.message)))
         .collect()
 }
 
@@ -211,10 +200,7 @@ fn every_rule_has_an_invalid_case_and_a_near_miss() {
     let cases = cases();
     for rule in rules::all() {
         for (caught, kind) in [(true, "invalid case"), (false, "near miss")] {
-            if !cases
-                .iter()
-                .any(|case| case.code == rule.code && case.caught == caught)
-            {
+            if !cases.iter().any(|case| case.code == rule.code && case.caught == caught) {
                 untested.insert(format!("{}: no {kind}", rule.code));
             }
         }
@@ -226,11 +212,6 @@ fn every_rule_has_an_invalid_case_and_a_near_miss() {
 fn case_names_are_unique() {
     let mut names = BTreeSet::new();
     for case in cases() {
-        assert!(
-            names.insert((case.code, case.name)),
-            "{} {}",
-            case.code,
-            case.name
-        );
+        assert!(names.insert((case.code, case.name)), "{} {}", case.code, case.name);
     }
 }

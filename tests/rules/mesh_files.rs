@@ -39,8 +39,7 @@ pub fn read(f: &Fixture, module: &str, link: usize) -> Mesh {
         match kind {
             Some("v") => {
                 let numbers: Vec<f64> = words.map(|w| w.parse().expect("a number")).collect();
-                mesh.vertices
-                    .push(numbers.try_into().expect("three numbers"));
+                mesh.vertices.push(numbers.try_into().expect("three numbers"));
             }
             Some("f") => {
                 let corners: Vec<u32> = words.map(|w| w.parse().expect("an index")).collect();
@@ -83,8 +82,7 @@ fn up(x: f64) -> f64 {
 /// Two boxes; the second names a file without a surface.
 pub fn bare() -> Fixture {
     let mut bare = link("b");
-    bare.visual
-        .push(visual(None, mesh("package://robot/bare.stl", None)));
+    bare.visual.push(visual(None, mesh("package://robot/bare.stl", None)));
     let mut fixture = Fixture::full(&robot_of(vec![boxy("a"), bare]));
     let path = format!("mesh_modules/{ORIGINAL}/meshes/bare.stl");
     fixture.put_file(&path, vec![0; 84]);
@@ -139,16 +137,8 @@ pub fn grow_piece(f: &mut Fixture, factor: f64) {
     }
     let half = mesh.vertices[0].map(f64::abs);
     let reach = half.iter().map(|h| h * h).sum::<f64>().sqrt();
-    f.set(
-        APPROXIMATIONS,
-        "/decomposition_obbs/1/0/half_extents",
-        json!(half),
-    );
-    f.set(
-        APPROXIMATIONS,
-        "/decomposition_bounding_spheres/1/0/radius",
-        json!(reach),
-    );
+    f.set(APPROXIMATIONS, "/decomposition_obbs/1/0/half_extents", json!(half));
+    f.set(APPROXIMATIONS, "/decomposition_bounding_spheres/1/0/radius", json!(reach));
     for list in ["convex_hulls", "obbs", "bounding_spheres"] {
         let pointer = format!("/decomposition_{list}_maximum_distances/1/0");
         f.set(REACH, &pointer, json!(reach));
@@ -323,36 +313,22 @@ fn cut_face(f: &mut Fixture, cut: [[u32; 3]; 4]) {
     let mut mesh = read(f, PLAIN, 6);
     add(&mut mesh.vertices);
     mesh.triangles.truncate(10);
-    mesh.triangles
-        .extend(cut.map(|triangle| triangle.map(|corner| l[corner as usize])));
+    mesh.triangles.extend(cut.map(|triangle| triangle.map(|corner| l[corner as usize])));
     mesh.triangles.extend([[8, 7, 10], [8, 10, 9]]);
     for format in ALL {
         put(f, PLAIN, 6, format, &mesh);
     }
     let text = String::from_utf8(f.file(&original).to_vec()).expect("text");
     let corner = |line: &str| -> [f64; 3] {
-        let numbers = line
-            .split(' ')
-            .skip(1)
-            .map(|word| word.parse().expect("a number"));
-        numbers
-            .collect::<Vec<_>>()
-            .try_into()
-            .expect("three numbers")
+        let numbers = line.split(' ').skip(1).map(|word| word.parse().expect("a number"));
+        numbers.collect::<Vec<_>>().try_into().expect("three numbers")
     };
-    let mut vertices: Vec<[f64; 3]> = text
-        .lines()
-        .filter(|line| line.starts_with("v "))
-        .map(corner)
-        .collect();
+    let mut vertices: Vec<[f64; 3]> =
+        text.lines().filter(|line| line.starts_with("v ")).map(corner).collect();
     add(&mut vertices);
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     lines.truncate(lines.len() - 2);
-    lines.extend(
-        vertices[8..]
-            .iter()
-            .map(|[x, y, z]| format!("v {x} {y} {z}")),
-    );
+    lines.extend(vertices[8..].iter().map(|[x, y, z]| format!("v {x} {y} {z}")));
     lines.extend(["f 5 6 9 10 11 7".to_owned(), "f 9 8 11 10".to_owned()]);
     f.put_file(&original, lines.join("\n") + "\n");
 }
@@ -501,16 +477,10 @@ fn bodies() -> Vec<Case> {
         changed(MSH023, "barely-larger-than-the-link", true, lone_box, |f| {
             grow_piece(f, 1.01);
         }),
-        changed(
-            MSH023,
-            "larger-by-rounding-of-voxels",
-            false,
-            lone_box,
-            |f| {
-                // 15 micrometres of a hull that is 0.37 m across.
-                grow_piece(f, 1.0001);
-            },
-        ),
+        changed(MSH023, "larger-by-rounding-of-voxels", false, lone_box, |f| {
+            // 15 micrometres of a hull that is 0.37 m across.
+            grow_piece(f, 1.0001);
+        }),
         near_miss(MSH021, "rounded-otherwise", |f| {
             rewrite(f, PIECES, ALL, |mesh| {
                 mesh.vertices[7] = mesh.vertices[7].map(up);

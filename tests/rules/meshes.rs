@@ -32,10 +32,7 @@ pub fn robot_of(links: Vec<Link>) -> Robot {
 
 /// A link that shows a box.
 pub fn boxy(name: &str) -> Link {
-    Link {
-        visual: vec![visual(None, cuboid([0.1, 0.2, 0.3]))],
-        ..link(name)
-    }
+    Link { visual: vec![visual(None, cuboid([0.1, 0.2, 0.3]))], ..link(name) }
 }
 
 /// A URDD of class Shapes without any shape.
@@ -47,12 +44,8 @@ pub fn without_shapes() -> Fixture {
 fn with_urdf_of(modules: &Robot, urdf: &Robot) -> Fixture {
     let mut fixture = Fixture::full(modules);
     let other = Fixture::core(urdf);
-    fixture
-        .documents
-        .insert("urdf_module".to_owned(), other.doc("urdf_module").clone());
-    fixture
-        .files
-        .insert(URDF.to_owned(), other.file(URDF).to_vec());
+    fixture.documents.insert("urdf_module".to_owned(), other.doc("urdf_module").clone());
+    fixture.files.insert(URDF.to_owned(), other.file(URDF).to_vec());
     fixture
 }
 
@@ -110,13 +103,7 @@ fn files() -> Vec<Case> {
             list.expect("a list").push(Value::Null);
             robot
         }),
-        changed(
-            MSH001,
-            "one-link",
-            false,
-            || Fixture::full(&robot_of(vec![boxy("a")])),
-            |_| {},
-        ),
+        changed(MSH001, "one-link", false, || Fixture::full(&robot_of(vec![boxy("a")])), |_| {}),
         invalid(MSH002, "gone-and-not-listed", |f| {
             let path = text(f, HULLS, "/link_hulls/1/obj");
             f.remove_file(&path);
@@ -251,17 +238,13 @@ fn links() -> Vec<Case> {
     let collision_only = || {
         let mut links = vec![link("a"), link("b")];
         for link in &mut links {
-            link.collision
-                .push(collision(None, cuboid([0.1, 0.1, 0.2])));
+            link.collision.push(collision(None, cuboid([0.1, 0.1, 0.2])));
         }
         Fixture::full(&robot_of(links))
     };
     // A link "b" that has this geometry, in a URDD without a mesh of it.
     let unseen = |geometry: Geometry| {
-        let shown = Link {
-            visual: vec![visual(None, geometry)],
-            ..link("b")
-        };
+        let shown = Link { visual: vec![visual(None, geometry)], ..link("b") };
         let without = robot_of(vec![boxy("a"), link("b")]);
         with_urdf_of(&without, &robot_of(vec![boxy("a"), shown]))
     };
@@ -310,23 +293,14 @@ fn links() -> Vec<Case> {
         }),
         legacy(MSH009, "several-meshes", false, || {
             let mut robot = LegacyRobot::new("robot", 0.0);
-            let module = robot
-                .modules
-                .iter_mut()
-                .find(|(f, ..)| f.ends_with(ORIGINAL));
+            let module = robot.modules.iter_mut().find(|(f, ..)| f.ends_with(ORIGINAL));
             let module = module.expect("the module");
             module.1 = "0.0.2";
             let list = module.2["link_mesh_relative_paths"].clone();
             module.2["link_mesh_relative_paths"] = json!([[list[0]], [list[1]]]);
             robot
         }),
-        changed(
-            MSH011,
-            "box-without-mesh",
-            true,
-            move || unseen(cuboid([0.1; 3])),
-            |_| {},
-        ),
+        changed(MSH011, "box-without-mesh", true, move || unseen(cuboid([0.1; 3])), |_| {}),
         changed(
             MSH011,
             "mesh-of-nothing",
@@ -344,13 +318,7 @@ fn links() -> Vec<Case> {
             move || unseen(Geometry::Sphere(Sphere { radius: 0.0 })),
             |_| {},
         ),
-        changed(
-            MSH011,
-            "carried-file-without-a-surface",
-            false,
-            crate::mesh_files::bare,
-            |_| {},
-        ),
+        changed(MSH011, "carried-file-without-a-surface", false, crate::mesh_files::bare, |_| {}),
         invalid(MSH012, "file-not-listed", |f| {
             f.set(ORIGINAL, "/references/1/path", json!("nothing.stl"));
         }),
@@ -360,9 +328,7 @@ fn links() -> Vec<Case> {
         }),
         invalid(MSH012, "side-file-not-named", |f| {
             let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
-            let with = files
-                .iter()
-                .position(|file| file["side_files"] != json!([]));
+            let with = files.iter().position(|file| file["side_files"] != json!([]));
             let pointer = format!("/files/{}/side_files/0", with.expect("a side file"));
             f.remove(ORIGINAL, &pointer);
         }),

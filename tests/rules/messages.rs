@@ -57,13 +57,7 @@ const CASES: &[Case] = &[
     ),
     (
         "CON005",
-        |urdd| {
-            urdd.set(
-                "connections_module",
-                "/link_connection_paths/1/1",
-                json!([0, 1]),
-            )
-        },
+        |urdd| urdd.set("connections_module", "/link_connection_paths/1/1", json!([0, 1])),
         [
             "/link_connection_paths/1/1",
             "the path of a link to itself is that link alone",

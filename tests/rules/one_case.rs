@@ -33,19 +33,14 @@ fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
         Stand::Itself => return rule,
         Stand::Mute => |_: &_, _: &mut Findings| Some(()),
         Stand::Alarm => |_: &_, findings: &mut Findings| {
-            findings.report(Finding::in_directory(
-                "URDD_RULE=alarm: this rule always finds something",
-            ));
+            findings
+                .report(Finding::in_directory("URDD_RULE=alarm: this rule always finds something"));
             Some(())
         },
     };
     // A few, in a test.
     let description = Description { ..rule.description };
-    Box::leak(Box::new(Rule {
-        check,
-        description,
-        ..*rule
-    }))
+    Box::leak(Box::new(Rule { check, description, ..*rule }))
 }
 
 /// What is wrong with the judgement of a case; `None` if nothing is.
@@ -91,11 +86,8 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
     for finding in findings {
         let file = finding.file.as_deref().unwrap_or("the directory");
         let pointer = finding.pointer.as_deref().unwrap_or_default();
-        let _ = write!(
-            text,
-            "\n    {} {file} {pointer}\n        {}",
-            finding.code, finding.message
-        );
+        let _ =
+            write!(text, "\n    {} {file} {pointer}\n        {}", finding.code, finding.message);
         let expected = finding.expected.iter().map(|text| ("expected", text));
         let actual = finding.actual.iter().map(|text| ("actual", text));
         for (what, words) in expected.chain(actual) {

@@ -12,12 +12,8 @@ pub fn cases() -> Vec<Case> {
         invalid(SCH001, "unknown-key", |f| {
             f.set("dof_module", "/nums_dofs", json!(1));
         }),
-        invalid(SCH001, "wrong-type", |f| {
-            f.set("dof_module", "/num_dofs", json!("1"))
-        }),
-        invalid(SCH001, "fraction", |f| {
-            f.set("dof_module", "/num_dofs", json!(1.5))
-        }),
+        invalid(SCH001, "wrong-type", |f| f.set("dof_module", "/num_dofs", json!("1"))),
+        invalid(SCH001, "fraction", |f| f.set("dof_module", "/num_dofs", json!(1.5))),
         invalid(SCH001, "negative-index", |f| {
             f.set("chain_module", "/root_idx", json!(-1));
         }),

@@ -70,9 +70,7 @@ fn sliding(apart: f64, lower: f64, upper: f64) -> Fixture {
     let mut robot = robot_of(vec![boxy("a"), link("b"), boxy("c")]);
     robot.urdf.joints[1] = Joint {
         origin: origin([apart - 1.0, 0.0, 0.0], [0.0; 3]),
-        axis: Some(Axis {
-            xyz: Some([1.0, 0.0, 0.0]),
-        }),
+        axis: Some(Axis { xyz: Some([1.0, 0.0, 0.0]) }),
         limit: limit(lower, upper),
         ..joint("slide", JointType::Prismatic, "b", "c")
     };
@@ -85,23 +83,12 @@ fn just_never(f: &mut Fixture) {
     assert!((0.001..0.004).contains(&min), "{min}");
     let near = 0.001_005;
     if min - near < 2e-5 {
-        set_pair(
-            f,
-            STATISTICS,
-            "/full_obbs/min_distances",
-            (0, 1),
-            json!(near),
-        );
+        set_pair(f, STATISTICS, "/full_obbs/min_distances", (0, 1), json!(near));
     }
 }
 
 fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
-    SkipEdit {
-        link_a: link_a.to_owned(),
-        link_b: link_b.to_owned(),
-        skip,
-        reason: String::new(),
-    }
+    SkipEdit { link_a: link_a.to_owned(), link_b: link_b.to_owned(), skip, reason: String::new() }
 }
 
 pub fn cases() -> Vec<Case> {
@@ -135,11 +122,7 @@ fn lists() -> Vec<Case> {
             scale(f, APPROXIMATIONS, "/full_obbs/1/half_extents/2", -1.0);
         }),
         invalid(SHP003, "no-extent", |f| {
-            f.set(
-                APPROXIMATIONS,
-                "/full_obbs/1/half_extents",
-                json!([0, 0, 0]),
-            );
+            f.set(APPROXIMATIONS, "/full_obbs/1/half_extents", json!([0, 0, 0]));
         }),
         invalid(SHP003, "no-radius", |f| {
             let pointer = "/decomposition_bounding_spheres/0/1/radius";
@@ -150,10 +133,8 @@ fn lists() -> Vec<Case> {
             "very-thin",
             false,
             || {
-                let thin = Link {
-                    visual: vec![visual(None, cuboid([0.1, 0.2, 1e-6]))],
-                    ..link("a")
-                };
+                let thin =
+                    Link { visual: vec![visual(None, cuboid([0.1, 0.2, 1e-6]))], ..link("a") };
                 Fixture::full(&robot_of(vec![thin, boxy("b")]))
             },
             |_| {},
@@ -244,21 +225,13 @@ fn matrices() -> Vec<Case> {
         }),
         invalid(SHP008, "mean-above-largest", |f| {
             let (i, j) = pair_that_is(f, "Never");
-            let max = number(
-                f,
-                STATISTICS,
-                &format!("/full_convex_hulls/max_distances/{i}/{j}"),
-            );
+            let max = number(f, STATISTICS, &format!("/full_convex_hulls/max_distances/{i}/{j}"));
             let matrix = "/full_convex_hulls/mean_distances";
             set_pair(f, STATISTICS, matrix, (i, j), json!(max * (1.0 + 1e-10)));
         }),
         invalid(SHP008, "smallest-above-mean", |f| {
             let (i, j) = pair_that_is(f, "Never");
-            let max = number(
-                f,
-                STATISTICS,
-                &format!("/full_convex_hulls/max_distances/{i}/{j}"),
-            );
+            let max = number(f, STATISTICS, &format!("/full_convex_hulls/max_distances/{i}/{j}"));
             let matrix = "/full_convex_hulls/min_distances";
             set_pair(f, STATISTICS, matrix, (i, j), json!(max * 1.1));
         }),
@@ -269,23 +242,11 @@ fn matrices() -> Vec<Case> {
         }),
         invalid(SHP009, "depth", |f| {
             let pair = pair_that_is(f, "None");
-            set_pair(
-                f,
-                STATISTICS,
-                "/full_convex_hulls/min_distances",
-                pair,
-                json!(-0.01),
-            );
+            set_pair(f, STATISTICS, "/full_convex_hulls/min_distances", pair, json!(-0.01));
         }),
         near_miss(SHP009, "negative-zero", |f| {
             let pair = pair_that_is(f, "None");
-            set_pair(
-                f,
-                STATISTICS,
-                "/full_convex_hulls/min_distances",
-                pair,
-                json!(-0.0),
-            );
+            set_pair(f, STATISTICS, "/full_convex_hulls/min_distances", pair, json!(-0.0));
         }),
         invalid(SHP010, "links-exchanged", |f| {
             f.set(SIMPLE, "/full_shapes/0", json!(1));
@@ -323,23 +284,11 @@ fn skips() -> Vec<Case> {
     vec![
         invalid(SHP011, "skip-too-many", |f| {
             let pair = pair_that_is(f, "None");
-            set_pair(
-                f,
-                SIMPLE,
-                "/full_convex_hulls_simple_skips",
-                pair,
-                json!(true),
-            );
+            set_pair(f, SIMPLE, "/full_convex_hulls_simple_skips", pair, json!(true));
         }),
         invalid(SHP011, "skip-too-few", |f| {
             let pair = pair_that_is(f, "Always");
-            set_pair(
-                f,
-                SIMPLE,
-                "/full_convex_hulls_simple_skips",
-                pair,
-                json!(false),
-            );
+            set_pair(f, SIMPLE, "/full_convex_hulls_simple_skips", pair, json!(false));
         }),
         invalid(SHP011, "pieces-of-one-link", |f| {
             let matrix = "/decomposition_obbs_simple_skips";
@@ -362,23 +311,11 @@ fn skips() -> Vec<Case> {
         ),
         invalid(SHP012, "never-for-none", |f| {
             let pair = pair_that_is(f, "None");
-            set_pair(
-                f,
-                SIMPLE,
-                "/reasons/full_convex_hulls",
-                pair,
-                json!("Never"),
-            );
+            set_pair(f, SIMPLE, "/reasons/full_convex_hulls", pair, json!("Never"));
         }),
         invalid(SHP012, "adjacent-for-always", |f| {
             let pair = pair_that_is(f, "Always");
-            set_pair(
-                f,
-                SIMPLE,
-                "/reasons/full_convex_hulls",
-                pair,
-                json!("Adjacent"),
-            );
+            set_pair(f, SIMPLE, "/reasons/full_convex_hulls", pair, json!("Adjacent"));
         }),
         invalid(SHP012, "diagonal", |f| {
             f.set(SIMPLE, "/reasons/full_obbs/2/2", json!("Always"));
@@ -449,13 +386,7 @@ fn skips() -> Vec<Case> {
                 set_pair(f, SKIPS, "/full_obbs_skips", (0, 1), json!(false));
             },
         ),
-        changed(
-            SHP026,
-            "just-touching-at-zero",
-            false,
-            || sliding(0.10095, -0.3, 0.3),
-            |_| {},
-        ),
+        changed(SHP026, "just-touching-at-zero", false, || sliding(0.10095, -0.3, 0.3), |_| {}),
         // Apart by 1.005 mm and 5 mm more.
         changed(
             SHP012,
@@ -467,13 +398,7 @@ fn skips() -> Vec<Case> {
                 set_pair(f, SIMPLE, "/reasons/full_obbs", (0, 1), json!("None"));
             },
         ),
-        changed(
-            SHP012,
-            "just-never",
-            false,
-            || sliding(0.101005, 0.0, 0.005),
-            just_never,
-        ),
+        changed(SHP012, "just-never", false, || sliding(0.101005, 0.0, 0.005), just_never),
         // 0 is out of bounds: at the nearest bound, the boxes are in contact.
         changed(
             SHP026,
@@ -497,10 +422,7 @@ fn skips() -> Vec<Case> {
         }),
         invalid(SHP013, "skipped-without-an-edit", |f| {
             let pair = pair_that_is(f, "None");
-            let old = f.get(
-                SKIPS,
-                &format!("/full_convex_hulls_skips/{}/{}", pair.0, pair.1),
-            );
+            let old = f.get(SKIPS, &format!("/full_convex_hulls_skips/{}/{}", pair.0, pair.1));
             let new = json!(!old.as_bool().expect("a skip"));
             set_pair(f, SKIPS, "/full_convex_hulls_skips", pair, new);
         }),
@@ -544,28 +466,13 @@ fn legacy_cases() -> Vec<Case> {
     vec![
         legacy(SHP004, "legacy-sphere-too-small", true, reach(0.49)),
         legacy(SHP004, "legacy-sphere-too-large", true, reach(0.501)),
-        legacy(
-            SHP004,
-            "legacy-sphere-just-too-small",
-            true,
-            reach(0.5 - 0.5 * 0.00503),
-        ),
-        legacy(
-            SHP004,
-            "legacy-sphere-just-tessellated",
-            false,
-            reach(0.5 - 0.5 * 0.00497),
-        ),
+        legacy(SHP004, "legacy-sphere-just-too-small", true, reach(0.5 - 0.5 * 0.00503)),
+        legacy(SHP004, "legacy-sphere-just-tessellated", false, reach(0.5 - 0.5 * 0.00497)),
         legacy(SHP004, "legacy-sphere-tessellated", false, reach(0.499)),
         legacy(SHP006, "legacy-edit-of-one-element", true, {
             matrices(0.3, false, [[true, true], [false, true]])
         }),
-        legacy(
-            SHP011,
-            "legacy-skip-too-few",
-            true,
-            matrices(-0.01, false, edited),
-        ),
+        legacy(SHP011, "legacy-skip-too-few", true, matrices(-0.01, false, edited)),
         legacy(SHP011, "legacy-depth", false, matrices(-0.01, true, edited)),
         legacy(SHP009, "legacy-depth", false, matrices(-0.01, true, edited)),
         legacy(SHP013, "legacy-edit", false, matrices(0.3, false, edited)),

@@ -33,12 +33,7 @@ pub fn cases() -> Vec<Case> {
 
 /// Up to 1.
 fn limit_of(lower: f64, effort: Option<f64>, velocity: Option<f64>) -> Option<Limit> {
-    Some(Limit {
-        upper: Some(1.0),
-        effort,
-        velocity,
-        ..limit_from(Some(lower))?
-    })
+    Some(Limit { upper: Some(1.0), effort, velocity, ..limit_from(Some(lower))? })
 }
 
 fn limit_from(lower: Option<f64>) -> Option<Limit> {
@@ -54,11 +49,7 @@ fn limit_from(lower: Option<f64>) -> Option<Limit> {
 }
 
 fn mimic(joint: &str, multiplier: f64, offset: f64) -> Option<Mimic> {
-    Some(Mimic {
-        joint: joint.to_owned(),
-        multiplier: Some(multiplier),
-        offset: Some(offset),
-    })
+    Some(Mimic { joint: joint.to_owned(), multiplier: Some(multiplier), offset: Some(offset) })
 }
 
 fn limits() -> Vec<Case> {

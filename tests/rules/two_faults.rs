@@ -24,10 +24,7 @@ fn damaged_limit(urdd: &mut Fixture) {
 }
 
 fn limit_of(joint: &str) -> String {
-    format!(
-        "/joints/{}/limit/upper",
-        JOINTS.iter().position(|name| *name == joint).unwrap()
-    )
+    format!("/joints/{}/limit/upper", JOINTS.iter().position(|name| *name == joint).unwrap())
 }
 
 /// The toy's first joints, in order.
@@ -35,19 +32,11 @@ const JOINTS: [&str; 5] = ["tip", "turn", "shoulder", "flange", "slide"];
 
 fn upper_bound(urdd: &mut Fixture, dof: usize, upper: f64) {
     urdd.set("bounds_module", &format!("/bounds/{dof}/1"), json!(upper));
-    urdd.set(
-        "bounds_module",
-        &format!("/dof_upper_bounds/{dof}"),
-        json!(upper),
-    );
+    urdd.set("bounds_module", &format!("/dof_upper_bounds/{dof}"), json!(upper));
 }
 
 fn moved_origin(urdd: &mut Fixture) {
-    urdd.set(
-        "chain_module",
-        "/joints_in_chain/1/origin/position/0",
-        json!(7.0),
-    );
+    urdd.set("chain_module", "/joints_in_chain/1/origin/position/0", json!(7.0));
 }
 
 const CASES: &[Case] = &[
@@ -127,11 +116,7 @@ const CASES: &[Case] = &[
         "a sample that is wrong beside a damaged limit",
         |urdd| {
             damaged_limit(urdd);
-            urdd.set(
-                "kinematics_samples_module",
-                "/samples/0/link_poses/3/position/0",
-                json!(9.0),
-            );
+            urdd.set("kinematics_samples_module", "/samples/0/link_poses/3/position/0", json!(9.0));
         },
         &["KIN003", "URD001"],
     ),

@@ -27,8 +27,7 @@ fn faulty(
     invalid(code, name, move |urdd| {
         let mut robot = toy_robot();
         change(&mut robot);
-        urdd.files
-            .insert(URDF.to_owned(), robot.to_urdf_xml().into_bytes());
+        urdd.files.insert(URDF.to_owned(), robot.to_urdf_xml().into_bytes());
         *urdd.doc_mut("urdf_module") = value(&robot.urdf);
     })
 }
@@ -115,9 +114,7 @@ fn against_the_urdf() -> Vec<Case> {
             urdd.urdf_mut(|xml| {
                 let moved = "<link name=\"frame\">\n</link>\n";
                 assert!(xml.contains(moved));
-                *xml = xml
-                    .replace(moved, "")
-                    .replace("</robot>", &format!("{moved}</robot>"));
+                *xml = xml.replace(moved, "").replace("</robot>", &format!("{moved}</robot>"));
             });
         }),
         invalid(URD001, "joint-renamed", |urdd| {
@@ -133,24 +130,17 @@ fn against_the_urdf() -> Vec<Case> {
             set_joint(urdd, "bolt", "/axis", json!({"xyz": [1.0, 0.0, 0.0]}));
         }),
         near_miss(URD001, "same-numbers-otherwise-written", |urdd| {
-            urdd.urdf_replace(
-                "xyz=\"0.05 0 0.2\"",
-                "xyz='\n\t+5.E-2\r\n -0 .20000000000 '",
-            );
+            urdd.urdf_replace("xyz=\"0.05 0 0.2\"", "xyz='\n\t+5.E-2\r\n -0 .20000000000 '");
             urdd.urdf_replace("rpy=\"0.3 -1.2 2\"", "rpy=\"0.30000000001 -1.2 2\"");
         }),
-        near_miss(
-            URD001,
-            "namespaces-comments-and-attributes-of-others",
-            |urdd| {
-                urdd.urdf_replace("<robot ", "<robot xmlns=\"urn:a\" xmlns:xacro=\"urn:b\" ");
-                urdd.urdf_replace(
-                    "<joint name=\"turn\"",
-                    "<joint xacro:name=\"no\" speed=\"9\" name=\"turn\"",
-                );
-                urdd.urdf_replace("<axis", "<!-- <axis xyz=\"0 0 0\"/> --><axis");
-            },
-        ),
+        near_miss(URD001, "namespaces-comments-and-attributes-of-others", |urdd| {
+            urdd.urdf_replace("<robot ", "<robot xmlns=\"urn:a\" xmlns:xacro=\"urn:b\" ");
+            urdd.urdf_replace(
+                "<joint name=\"turn\"",
+                "<joint xacro:name=\"no\" speed=\"9\" name=\"turn\"",
+            );
+            urdd.urdf_replace("<axis", "<!-- <axis xyz=\"0 0 0\"/> --><axis");
+        }),
         invalid(URD013, "collision-origin-lost", |urdd| {
             set_link(urdd, "base", "/collision/0/origin", Value::Null);
         }),
@@ -172,12 +162,7 @@ fn against_the_urdf() -> Vec<Case> {
             urdd.urdf_replace("rgba=\"0.8", "rgba=\"8e-1");
         }),
         invalid(URD013, "scale-forgotten", |urdd| {
-            set_link(
-                urdd,
-                "tool/ü 1",
-                "/visual/0/geometry/Mesh/scale",
-                Value::Null,
-            );
+            set_link(urdd, "tool/ü 1", "/visual/0/geometry/Mesh/scale", Value::Null);
         }),
         invalid(URD013, "unknown-element-changed", |urdd| {
             urdd.urdf_replace("<gazebo/>", "<gazebo />");
@@ -192,10 +177,7 @@ fn against_the_urdf() -> Vec<Case> {
             urdd.urdf_mut(|xml| *xml = xml.replace('\n', "\r\n"));
         }),
         near_miss(URD013, "mass-in-another-notation", |urdd| {
-            urdd.urdf_replace(
-                "<mass value=\"0.5\"/>",
-                "<mass value=\" 5.0000000001e-1 \"/>",
-            );
+            urdd.urdf_replace("<mass value=\"0.5\"/>", "<mass value=\" 5.0000000001e-1 \"/>");
         }),
     ]
 }
@@ -212,24 +194,9 @@ fn there_without_what_it_is_for() -> Vec<Case> {
         "<inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial>";
     let origin = |xyz: Value| json!({"origin": {"xyz": xyz, "rpy": null, "quat_xyzw": null}, "mass": null, "inertia": null});
     let rows = [
-        (
-            "inertial-with-nothing-in-it",
-            "<inertial/>",
-            nothing(),
-            Value::Null,
-        ),
-        (
-            "mass-without-value",
-            "<inertial><mass/></inertial>",
-            nothing(),
-            Value::Null,
-        ),
-        (
-            "inertia-of-three-elements",
-            diagonal,
-            inertia(Value::Null),
-            inertia(json!(0.0)),
-        ),
+        ("inertial-with-nothing-in-it", "<inertial/>", nothing(), Value::Null),
+        ("mass-without-value", "<inertial><mass/></inertial>", nothing(), Value::Null),
+        ("inertia-of-three-elements", diagonal, inertia(Value::Null), inertia(json!(0.0))),
         (
             "origin-with-nothing-in-it",
             "<inertial><origin/></inertial>",
@@ -244,16 +211,14 @@ fn there_without_what_it_is_for() -> Vec<Case> {
         ),
     ];
     let rows = rows.into_iter().flat_map(|(name, xml, right, other)| {
-        [
-            (name, right, false),
-            (format!("{name}-taken-otherwise").leak(), other, true),
-        ]
-        .map(|(name, said, caught)| {
-            changed(URD013, name, caught, Fixture::toy, move |urdd| {
-                urdd.urdf_replace(FRAME, &format!("{FRAME}{xml}"));
-                set_link(urdd, "frame", "/inertial", said.clone());
-            })
-        })
+        [(name, right, false), (format!("{name}-taken-otherwise").leak(), other, true)].map(
+            |(name, said, caught)| {
+                changed(URD013, name, caught, Fixture::toy, move |urdd| {
+                    urdd.urdf_replace(FRAME, &format!("{FRAME}{xml}"));
+                    set_link(urdd, "frame", "/inertial", said.clone());
+                })
+            },
+        )
     });
     rows.collect()
 }
@@ -340,11 +305,7 @@ fn trees() -> Vec<Case> {
 }
 
 fn mimic(joint: &str) -> Option<Mimic> {
-    Some(Mimic {
-        joint: joint.to_owned(),
-        multiplier: None,
-        offset: None,
-    })
+    Some(Mimic { joint: joint.to_owned(), multiplier: None, offset: None })
 }
 
 fn axis(xyz: [f64; 3]) -> Option<Axis> {
@@ -402,9 +363,7 @@ fn mimics_and_axes() -> Vec<Case> {
 
 fn readable() -> Vec<Case> {
     vec![
-        invalid(URD011, "not-closed", |urdd| {
-            urdd.urdf_replace("</robot>", "")
-        }),
+        invalid(URD011, "not-closed", |urdd| urdd.urdf_replace("</robot>", "")),
         invalid(URD011, "another-root", |urdd| {
             urdd.urdf_mut(|xml| *xml = "<sdf version=\"1.7\"/>".to_owned());
         }),
@@ -466,10 +425,7 @@ fn readable() -> Vec<Case> {
             urdd.urdf_replace("<!--", "<!DOCTYPE robot [%a;]><!--");
         }),
         near_miss(URD011, "entity-in-a-comment", |urdd| {
-            urdd.urdf_replace(
-                "<!--",
-                "<!DOCTYPE robot [<!-- <!ENTITY a \"0\"> -->]><!-- &#0; ",
-            );
+            urdd.urdf_replace("<!--", "<!DOCTYPE robot [<!-- <!ENTITY a \"0\"> -->]><!-- &#0; ");
         }),
         near_miss(URD011, "utf-8-declared-otherwise", |urdd| {
             urdd.urdf_replace("encoding=\"utf-8\"", "encoding='UTF8'");
@@ -520,10 +476,7 @@ fn readable() -> Vec<Case> {
             |_| {},
         ),
         near_miss(URD011, "elements-that-say-nothing", |urdd| {
-            urdd.urdf_replace(
-                "<link name=\"frame\">\n",
-                "<link name=\"frame\"><!-- <link/> -->\n",
-            );
+            urdd.urdf_replace("<link name=\"frame\">\n", "<link name=\"frame\"><!-- <link/> -->\n");
             urdd.urdf_replace("<color ", "<texture/><color ");
         }),
     ]

@@ -29,9 +29,7 @@ fn written(
 ) -> Case {
     let change = move |f: &mut testkit::fixture::Fixture| {
         f.set("dof_module", "/x_a", value.clone());
-        edit_text(f, FILE, |bytes| {
-            replaced(bytes, &format!("x_a: {from}"), &format!("x_a: {to}"))
-        });
+        edit_text(f, FILE, |bytes| replaced(bytes, &format!("x_a: {from}"), &format!("x_a: {to}")));
     };
     match caught {
         true => invalid(code, name, change),
@@ -46,42 +44,23 @@ pub fn cases() -> Vec<Case> {
             edit_text(f, FILE, |bytes| [bytes, b"---\n{}\n".to_vec()].concat());
         }),
         invalid(YML001, "directive", |f| {
-            edit_text(f, FILE, |bytes| {
-                [b"%YAML 1.1\n---\n".to_vec(), bytes].concat()
-            });
+            edit_text(f, FILE, |bytes| [b"%YAML 1.1\n---\n".to_vec(), bytes].concat());
         }),
         invalid(YML001, "byte-order-mark", |f| {
             edit_text(f, FILE, |bytes| [b"\xEF\xBB\xBF".to_vec(), bytes].concat());
         }),
         near_miss(YML001, "comments", |f| {
-            edit_text(f, FILE, |bytes| {
-                [b"# toy\n".to_vec(), bytes, b"# end\n".to_vec()].concat()
-            });
+            edit_text(f, FILE, |bytes| [b"# toy\n".to_vec(), bytes, b"# end\n".to_vec()].concat());
         }),
         replace(YML002, "integer-tag", "num_dofs: ", "num_dofs: !!int "),
-        same(
-            YML002,
-            "exclamation-mark-in-a-comment",
-            "num_dofs: ",
-            "# !a\nnum_dofs: ",
-        ),
+        same(YML002, "exclamation-mark-in-a-comment", "num_dofs: ", "# !a\nnum_dofs: "),
         replace(YML003, "anchor", "num_dofs: ", "num_dofs: &n "),
-        same(
-            YML003,
-            "ampersand-in-a-comment",
-            "num_dofs: ",
-            "# &a *a\nnum_dofs: ",
-        ),
+        same(YML003, "ampersand-in-a-comment", "num_dofs: ", "# &a *a\nnum_dofs: "),
         replace(YML004, "merge", "num_dofs: ", "<<: {}\nnum_dofs: "),
         near_miss(YML004, "quoted", |f| {
             f.set("dof_module", "/x_a", json!({"<<": 1}));
         }),
-        replace(
-            YML005,
-            "same-value",
-            "num_dofs: 18\n",
-            "num_dofs: 18\nnum_dofs: 18\n",
-        ),
+        replace(YML005, "same-value", "num_dofs: 18\n", "num_dofs: 18\nnum_dofs: 18\n"),
         near_miss(YML005, "same-key-in-another-mapping", |f| {
             f.set("dof_module", "/x_a", json!({"num_dofs": 1}));
         }),
@@ -90,50 +69,15 @@ pub fn cases() -> Vec<Case> {
             edit_text(f, FILE, |bytes| replaced(bytes, "1.0e-7", "1e-7"));
         }),
         written(YML006, "letter-y", true, json!("y"), "\"y\"", "y"),
-        written(
-            YML006,
-            "no-digit-after-a-sign",
-            true,
-            json!(-0.5),
-            "-0.5",
-            "-.5",
-        ),
+        written(YML006, "no-digit-after-a-sign", true, json!(-0.5), "-0.5", "-.5"),
         written(YML006, "octal", true, json!(17), "17", "017"),
-        written(
-            YML006,
-            "no-digit-before-the-point",
-            false,
-            json!(0.5),
-            "0.5",
-            ".5",
-        ),
+        written(YML006, "no-digit-before-the-point", false, json!(0.5), "0.5", ".5"),
         written(YML006, "hexadecimal-number", false, json!(31), "31", "0x1F"),
-        written(
-            YML007,
-            "hexadecimal-for-a-string",
-            true,
-            json!("0x1"),
-            "\"0x1\"",
-            "0x1",
-        ),
-        written(
-            YML006,
-            "underscore",
-            true,
-            json!("1_000"),
-            "\"1_000\"",
-            "1_000",
-        ),
+        written(YML007, "hexadecimal-for-a-string", true, json!("0x1"), "\"0x1\"", "0x1"),
+        written(YML006, "underscore", true, json!("1_000"), "\"1_000\"", "1_000"),
         written(YML006, "minutes", true, json!("1:30"), "\"1:30\"", "1:30"),
         written(YML006, "no-in-capitals", true, json!("NO"), "\"NO\"", "NO"),
-        written(
-            YML007,
-            "infinity-for-a-string",
-            true,
-            json!(".inf"),
-            "\".inf\"",
-            ".inf",
-        ),
+        written(YML007, "infinity-for-a-string", true, json!(".inf"), "\".inf\"", ".inf"),
         written(YML007, "tilde-for-a-string", true, json!("~"), "\"~\"", "~"),
         written(YML007, "tilde-for-null", false, json!(null), "null", "~"),
         near_miss(YML006, "quoted", |f| {
@@ -150,9 +94,7 @@ pub fn cases() -> Vec<Case> {
         }),
         near_miss(YML007, "another-layout", |f| {
             f.set("dof_module", "/x_a", json!(1.5e22));
-            edit_text(f, FILE, |bytes| {
-                replaced(bytes, "1.5e+22", "+15000000000000000000000.00")
-            });
+            edit_text(f, FILE, |bytes| replaced(bytes, "1.5e+22", "+15000000000000000000000.00"));
         }),
         in_folder(YML007, "legacy", true, |root| {
             legacy::write_legacy(root);

@@ -204,9 +204,7 @@ fn meshes(part: &Urdd, kind: ModuleKind) -> Option<Value> {
                 let mut of_format = paths.iter().filter(|path| path.format == Some(format));
                 of_format.find(|path| is_there(path))
             };
-            let read = [Format::Stl, Format::Obj, Format::Glb]
-                .into_iter()
-                .find_map(of);
+            let read = [Format::Stl, Format::Obj, Format::Glb].into_iter().find_map(of);
             json!({
                 "glb": of(Format::Glb).and_then(|path| own(path)),
                 "read": read.or(paths.first()).and_then(|path| own(path)),

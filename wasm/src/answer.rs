@@ -14,9 +14,7 @@ pub fn bytes(bytes: &[u8]) -> *mut u8 {
         // SAFETY: the allocation has space for the length and the bytes, and is not shared yet.
         unsafe {
             pointer.copy_from_nonoverlapping(length.to_le_bytes().as_ptr(), 4);
-            pointer
-                .add(4)
-                .copy_from_nonoverlapping(bytes.as_ptr(), bytes.len());
+            pointer.add(4).copy_from_nonoverlapping(bytes.as_ptr(), bytes.len());
         }
     }
     pointer

@@ -53,14 +53,12 @@ impl Body {
         let made = match &self.form {
             Form::Box { half_extents } => Obstacle::cuboid(name, pose, *half_extents),
             Form::Sphere { radius } => Obstacle::sphere(name, self.position, *radius),
-            Form::Capsule {
-                radius,
-                half_length,
-            } => Obstacle::capsule(name, pose, *radius, *half_length),
-            Form::Cylinder {
-                radius,
-                half_length,
-            } => Obstacle::cylinder(name, pose, *radius, *half_length),
+            Form::Capsule { radius, half_length } => {
+                Obstacle::capsule(name, pose, *radius, *half_length)
+            }
+            Form::Cylinder { radius, half_length } => {
+                Obstacle::cylinder(name, pose, *radius, *half_length)
+            }
             Form::Hull { points } => Obstacle::hull(name, pose, points),
         };
         let made = made.map_err(|error| error.to_string())?;

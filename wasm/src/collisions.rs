@@ -53,21 +53,14 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(pair).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge {
-                start,
-                end,
-                margin,
-                resolution,
-            } => {
+            About::BlockedEdge { start, end, margin, resolution } => {
                 let (margin, resolution) = (*margin, *resolution);
                 let settings = EdgeSettings { margin, resolution };
                 shapes.blocked_edge(start, end, &settings)?.into()
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
-                found
-                    .map(|found| with(pair(&found.pair), found.gradient))
-                    .collect()
+                found.map(|found| with(pair(&found.pair), found.gradient)).collect()
             }
             About::Penetrations { q } => overlaps(shapes.penetrations(q)?, pair),
         })
@@ -79,21 +72,14 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(to_obstacle).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge {
-                start,
-                end,
-                margin,
-                resolution,
-            } => {
+            About::BlockedEdge { start, end, margin, resolution } => {
                 let (margin, resolution) = (*margin, *resolution);
                 let settings = EdgeSettings { margin, resolution };
                 shapes.blocked_edge(start, end, &settings)?.into()
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
-                found
-                    .map(|found| with(to_obstacle(&found.pair), found.gradient))
-                    .collect()
+                found.map(|found| with(to_obstacle(&found.pair), found.gradient)).collect()
             }
             About::Penetrations { q } => overlaps(shapes.penetrations(q)?, to_obstacle),
         })

@@ -13,9 +13,7 @@ use crate::{answer, memory};
 pub unsafe extern "C" fn urdd_explain(code: *const u8, length: usize) -> *mut u8 {
     // SAFETY: guaranteed by the caller.
     let code = String::from_utf8_lossy(unsafe { memory::bytes(code, length) });
-    let rule = rules::all()
-        .into_iter()
-        .find(|rule| rule.code.to_string() == code);
+    let rule = rules::all().into_iter().find(|rule| rule.code.to_string() == code);
     answer::result(match rule {
         None => Err(format!("there is no rule `{}`", code.escape_debug())),
         Some(rule) => Ok(json!({

@@ -46,16 +46,8 @@ impl Source for Shared {
             }
             entries.insert(path.clone(), (EntryKind::File, *size));
         }
-        let entry = |(path, (kind, size))| Entry {
-            path,
-            kind,
-            size,
-            utf8: true,
-        };
-        Ok(Listing {
-            entries: entries.into_iter().map(entry).collect(),
-            ..Listing::default()
-        })
+        let entry = |(path, (kind, size))| Entry { path, kind, size, utf8: true };
+        Ok(Listing { entries: entries.into_iter().map(entry).collect(), ..Listing::default() })
     }
 
     fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
@@ -78,9 +70,7 @@ impl Files {
             return Err(format!("it has {size} bytes, more than {limit}"));
         }
         let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
-        file.take(limit)
-            .read_to_end(&mut bytes)
-            .map_err(|error| error.to_string())?;
+        file.take(limit).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
         Ok(bytes)
     }
 }
@@ -93,10 +83,7 @@ impl Files {
 pub unsafe extern "C" fn urdd_files_new(name: *const u8, length: usize) -> *mut Files {
     // SAFETY: guaranteed by the caller.
     let name = String::from_utf8_lossy(unsafe { memory::bytes(name, length) }).into_owned();
-    let given = Arc::new(Given {
-        name,
-        files: Mutex::default(),
-    });
+    let given = Arc::new(Given { name, files: Mutex::default() });
     Box::into_raw(Box::new(Files {
         root: Root::of(Shared(Arc::clone(&given))),
         given: Some(given),
@@ -136,13 +123,8 @@ pub unsafe extern "C" fn urdd_files_give(
     length: usize,
 ) {
     // SAFETY: guaranteed by the caller.
-    let (files, path, data) = unsafe {
-        (
-            &*files,
-            memory::bytes(path, path_length),
-            memory::bytes(data, length),
-        )
-    };
+    let (files, path, data) =
+        unsafe { (&*files, memory::bytes(path, path_length), memory::bytes(data, length)) };
     if let Some(given) = &files.given {
         let path = String::from_utf8_lossy(path).into_owned();
         let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
@@ -164,10 +146,7 @@ pub unsafe extern "C" fn urdd_files_of_zip(
     // SAFETY: guaranteed by the caller.
     let (name, zip) = unsafe { (memory::bytes(name, name_length), memory::bytes(zip, length)) };
     match Archive::new(&String::from_utf8_lossy(name), Arc::from(zip)) {
-        Ok(archive) => Box::into_raw(Box::new(Files {
-            root: Root::of(archive),
-            given: None,
-        })),
+        Ok(archive) => Box::into_raw(Box::new(Files { root: Root::of(archive), given: None })),
         Err(_) => std::ptr::null_mut(),
     }
 }

@@ -77,7 +77,6 @@ impl InverseQuestion {
     /// The DOFs that may not change: they keep their values in `q`.
     fn locked(&self) -> Vec<usize> {
         let all = 0..self.q.len();
-        all.filter(|dof| self.dofs.as_ref().is_some_and(|free| !free.contains(dof)))
-            .collect()
+        all.filter(|dof| self.dofs.as_ref().is_some_and(|free| !free.contains(dof))).collect()
     }
 }

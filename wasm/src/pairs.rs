@@ -29,12 +29,7 @@ impl Pairs {
         let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
         let (mut full, mut pieces) = (HashMap::new(), HashMap::new());
         if let Some((links, shapes)) = part.document(STATISTICS).and_then(shape_lists) {
-            full.extend(
-                links
-                    .iter()
-                    .enumerate()
-                    .map(|(k, link)| ((link.get(), 0), k)),
-            );
+            full.extend(links.iter().enumerate().map(|(k, link)| ((link.get(), 0), k)));
             let place = |(k, shape): (usize, &urdd_format::shapes::PieceShape)| {
                 ((shape.link_idx.get(), shape.piece_idx.get()), k)
             };

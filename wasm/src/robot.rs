@@ -199,9 +199,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
             Ok(json!(q))
         }
         Question::InverseKinematics(question) => {
-            let Handle {
-                proximity, robot, ..
-            } = handle;
+            let Handle { proximity, robot, .. } = handle;
             let free_of = match question.free_of {
                 Some(kind) => Some(prepared(proximity, robot, kind)?),
                 None => None,
@@ -269,11 +267,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
             let skips = handle.robot.skips(kind).map_err(said)?;
             Ok(pairs(handle)?.skips(kind, &skips))
         }
-        Question::EditSkips {
-            kind: Kind(kind),
-            edits,
-            skipped_reasons,
-        } => {
+        Question::EditSkips { kind: Kind(kind), edits, skipped_reasons } => {
             let edited = handle.robot.with_skip_edits(edits, skipped_reasons);
             let edited = edited.map_err(said)?;
             let skips = handle.robot.skips(kind).map_err(said)?;
@@ -324,10 +318,7 @@ fn shapes(robot: &Robot, kind: ShapeKind) -> Result<Value, RobotError> {
     let shape = |shape: &LinkShape| {
         let solid = match &shape.solid {
             Solid::Mesh(_) => Value::Null,
-            Solid::Box {
-                pose: at,
-                half_extents,
-            } => {
+            Solid::Box { pose: at, half_extents } => {
                 let mut solid = pose(at);
                 solid["half_extents"] = json!(half_extents);
                 solid

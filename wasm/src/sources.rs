@@ -77,13 +77,7 @@ fn one(
 
 /// The colour of a visual element: its own, or that of the robot's material that it references.
 fn rgba(urdf: &UrdfModule, link: usize, element: usize) -> Option<[f64; 4]> {
-    let own = urdf
-        .links
-        .get(link)?
-        .visual
-        .get(element)?
-        .material
-        .as_ref()?;
+    let own = urdf.links.get(link)?.visual.get(element)?.material.as_ref()?;
     let of = |material: &Material| material.color.as_ref().map(|color| color.rgba);
     of(own).or_else(|| {
         let name = own.name.as_ref()?;

@@ -20,10 +20,7 @@ const TESTS: &[(&str, &str)] = &[
         "architecture::every_rule_on_disk",
         "list the rule in the family's mod.rs, and its code in crates/urdd-validate/src/code.rs",
     ),
-    (
-        "architecture::",
-        "see the message; CONTRIBUTING.md says how a rule is written",
-    ),
+    ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
     ("snapshots::", UPDATE),
     ("conformance::cases::the_pages_say", UPDATE),
     (
@@ -43,10 +40,7 @@ const TESTS: &[(&str, &str)] = &[
         "write the case in tests/rules: each rule has one that it catches, and one that comes near and passes",
     ),
     ("case_names_are_unique", "give the case another name"),
-    (
-        "a_case_that_is_asked_for",
-        "see the message, and `urdd explain` of the rule",
-    ),
+    ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
     ("published_schemas::the_committed_schemas", UPDATE),
     (
         "published_schemas::",
@@ -66,15 +60,9 @@ const TESTS: &[(&str, &str)] = &[
         "generate::core::what_is_asked_for",
         "see the message; crates/urdd-generate/src/stages.rs lists what `urdd generate` makes",
     ),
-    (
-        "links::",
-        "mend the link: the file or heading that it names is not there",
-    ),
+    ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
-    (
-        "results::",
-        "python3 benches/results.py: figures on the pages come from benches/results",
-    ),
+    ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
     (
         PAGE,
         "needs Node, npm and the target wasm32-unknown-unknown: .ci/page, and commit crates/urdd-view/dist. Without them say so in the pull request; a maintainer does it",
@@ -86,12 +74,8 @@ const UPDATE: &str = "cargo xtask update, and read what it wrote";
 const PAGE: &str = "page_bundle::";
 
 /// Folders and files in which a scaffold leaves a TODO.
-const SCAFFOLDED: &[&str] = &[
-    "SPEC.md",
-    "crates/urdd-format/src",
-    "crates/urdd-validate/src/rules",
-    "tests/rules",
-];
+const SCAFFOLDED: &[&str] =
+    &["SPEC.md", "crates/urdd-format/src", "crates/urdd-validate/src/rules", "tests/rules"];
 
 /// Runs every check; returns whether all passed.
 ///
@@ -117,15 +101,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
-    let tests = [
-        "test",
-        "--locked",
-        "--no-fail-fast",
-        "--test",
-        "program",
-        "--test",
-        "rules",
-    ];
+    let tests = ["test", "--locked", "--no-fail-fast", "--test", "program", "--test", "rules"];
     let failed = |error| format!("cargo cannot be run: {error}");
     // In view: it takes long. What cargo prints after tests that failed is left out.
     let built = cargo(root).args(tests).arg("--no-run").status();
@@ -242,10 +218,7 @@ mod tests {
         fs::create_dir_all(&rules).expect("a folder");
         fs::write(rules.join("a.rs"), "one\n  todo!(\"x\")\n").expect("written");
         fs::write(folder.path().join("SPEC.md"), "TODO: say it\n").expect("written");
-        let places = [
-            "SPEC.md:1: TODO: say it",
-            "tests/rules/a.rs:2: todo!(\"x\")",
-        ];
+        let places = ["SPEC.md:1: TODO: say it", "tests/rules/a.rs:2: todo!(\"x\")"];
         assert_eq!(left_to_write(folder.path()), places);
     }
 }

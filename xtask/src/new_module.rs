@@ -40,9 +40,8 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
     )?;
     let selection = edits.read(SELECTION)?;
     let list = "NOT_SELECTABLE: &[ModuleKind] = &[";
-    let place = selection
-        .find(list)
-        .ok_or(format!("{SELECTION} is not as expected: no {list:?}"))?;
+    let place =
+        selection.find(list).ok_or(format!("{SELECTION} is not as expected: no {list:?}"))?;
     let (head, tail) = selection.split_at(place + list.len());
     edits.set(SELECTION, format!("{head}ModuleKind::{kind}, {tail}"));
     let clause = next_clause(&edits.read(SPEC)?)?;
@@ -73,14 +72,9 @@ pub fn make(root: &Path, name: &str) -> Result<String, String> {
 fn check_name(stem: &str) -> Result<(), String> {
     let words = stem.split('_').all(|word| {
         !word.is_empty()
-            && word
-                .bytes()
-                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
+            && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
     });
-    let begins = stem
-        .bytes()
-        .next()
-        .is_some_and(|byte| byte.is_ascii_lowercase());
+    let begins = stem.bytes().next().is_some_and(|byte| byte.is_ascii_lowercase());
     match words && begins {
         true => Ok(()),
         false => Err(format!(
@@ -109,6 +103,5 @@ fn next_clause(spec: &str) -> Result<String, String> {
         number.split(' ').next()?.parse::<u32>().ok()
     });
     let last = numbers.max();
-    last.map(|last| format!("6.{}", last + 1))
-        .ok_or(format!("{SPEC} has no clauses 6.x"))
+    last.map(|last| format!("6.{}", last + 1)).ok_or(format!("{SPEC} has no clauses 6.x"))
 }

@@ -49,9 +49,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let room = match (room_of(root, family)?, new.family) {
         (Some(room), None) => room,
         (Some(room), Some(_)) => {
-            return Err(format!(
-                "{family} is the family of {RULES}/{room}: leave out --family"
-            ));
+            return Err(format!("{family} is the family of {RULES}/{room}: leave out --family"));
         }
         (None, _) if family == OF_LINT => {
             return Err(format!(
@@ -99,9 +97,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         "cargo xtask check        (says what is left; before you send, .ci/quick runs it)".to_owned(),
     ]);
     let lines = steps.iter().enumerate();
-    Ok(lines
-        .map(|(number, step)| format!("{}. {step}\n", number + 1))
-        .collect())
+    Ok(lines.map(|(number, step)| format!("{}. {step}\n", number + 1)).collect())
 }
 
 /// Adds a family without rules: its folder, the first code's place, and its file of cases. Families of modules come
@@ -117,26 +113,12 @@ fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
         false => "TODO: what the rules are about".to_owned(),
     };
     edits.insert_before(CODES, "    LEG001 ", &format!("    {code}\n"))?;
-    edits.create(
-        &format!("{RULES}/{room}/mod.rs"),
-        family_list(family, &about),
-    )?;
+    edits.create(&format!("{RULES}/{room}/mod.rs"), family_list(family, &about))?;
     edits.insert_module(ALL, &format!("pub mod {room};"))?;
-    edits.insert_before(
-        ALL,
-        "        legacy::rules(),",
-        &format!("        {room}::rules(),\n"),
-    )?;
-    edits.create(
-        &format!("tests/rules/{room}.rs"),
-        family_cases(edits, family, room),
-    )?;
+    edits.insert_before(ALL, "        legacy::rules(),", &format!("        {room}::rules(),\n"))?;
+    edits.create(&format!("tests/rules/{room}.rs"), family_cases(edits, family, room))?;
     edits.insert_module(CASES, &format!("mod {room};"))?;
-    edits.insert_before(
-        CASES,
-        "        legacy::cases(),",
-        &format!("        {room}::cases(),\n"),
-    )
+    edits.insert_before(CASES, "        legacy::cases(),", &format!("        {room}::cases(),\n"))
 }
 
 /// Whether a family is about a module of version 1 that has its type in a file of that name.
@@ -176,23 +158,18 @@ fn family(code: &str) -> Result<&str, String> {
         && code.bytes().skip(3).all(|byte| byte.is_ascii_digit());
     match right {
         true => Ok(&code[..3]),
-        false => Err(format!(
-            "{code} is not a code; write three capitals and three digits: SRC009"
-        )),
+        false => {
+            Err(format!("{code} is not a code; write three capitals and three digits: SRC009"))
+        }
     }
 }
 
 fn check_name(name: &str) -> Result<(), String> {
     let word = |word: &str| {
         !word.is_empty()
-            && word
-                .bytes()
-                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
+            && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
     };
-    let begins = name
-        .bytes()
-        .next()
-        .is_some_and(|byte| byte.is_ascii_lowercase());
+    let begins = name.bytes().next().is_some_and(|byte| byte.is_ascii_lowercase());
     match begins && name.split('-').all(word) {
         true => Ok(()),
         false => Err(format!(
@@ -209,16 +186,12 @@ fn add_code(text: &str, code: &str) -> Result<String, String> {
         .and_then(|(before, rest)| Some((before.len(), before.len() + rest.find("\n}")?)))
         .ok_or(format!("{CODES} has no list of codes"))?;
     let list = &text[start..end + "\ncodes! {".len()];
-    let known: Vec<&str> = list
-        .split_whitespace()
-        .filter(|word| word.starts_with(family))
-        .collect();
+    let known: Vec<&str> =
+        list.split_whitespace().filter(|word| word.starts_with(family)).collect();
     if known == [code] {
         return Ok(text.to_owned());
     }
-    let last = known
-        .last()
-        .ok_or(format!("{CODES} has no family {family}"))?;
+    let last = known.last().ok_or(format!("{CODES} has no family {family}"))?;
     let next = last[3..].parse::<u32>().unwrap_or(0) + 1;
     if number.parse::<u32>() != Ok(next) {
         return Err(format!(
@@ -276,17 +249,11 @@ fn family_list(family: &str, about: &str) -> String {
 
 /// Appends a placeholder sentence to the clause in SPEC.md.
 fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
-    let start = text
-        .find(&format!("\n**{clause}**"))
-        .ok_or(format!("{SPEC} has no clause {clause}"))?;
-    let length = text[start + 1..]
-        .find("\n\n")
-        .unwrap_or(text.len() - start - 1);
+    let start =
+        text.find(&format!("\n**{clause}**")).ok_or(format!("{SPEC} has no clause {clause}"))?;
+    let length = text[start + 1..].find("\n\n").unwrap_or(text.len() - start - 1);
     let (head, tail) = text.split_at(start + 1 + length);
-    Ok(format!(
-        "{} TODO: say what MUST or SHOULD be. [{code}]{tail}",
-        head.trim_end()
-    ))
+    Ok(format!("{} TODO: say what MUST or SHOULD be. [{code}]{tail}", head.trim_end()))
 }
 
 fn rule(code: &str, name: &str, severity: &str, clause: &str, module: Option<&str>) -> String {
@@ -365,17 +332,11 @@ fn add_cases(text: &str, code: &str, path: &str) -> Result<String, String> {
         "the-fault",
         "so that exactly this rule catches it: `urdd.set(module, pointer, value)`",
     );
-    let near = case(
-        false,
-        "what-comes-near",
-        "so that it comes near the fault, and is right",
-    );
+    let near = case(false, "what-comes-near", "so that it comes near the fault, and is right");
     if let Some(head) = function.strip_suffix("    ]") {
         Ok(format!("{head}{invalid}{near}    ]{tail}"))
     } else if let Some(head) = function.strip_suffix("    cases") {
-        Ok(format!(
-            "{head}    cases.extend([\n{invalid}{near}    ]);\n    cases{tail}"
-        ))
+        Ok(format!("{head}    cases.extend([\n{invalid}{near}    ]);\n    cases{tail}"))
     } else {
         Err(unexpected())
     }

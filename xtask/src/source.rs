@@ -45,9 +45,8 @@ impl<'a> Edits<'a> {
     /// Inserts text before the last place of `anchor` in a file.
     pub fn insert_before(&mut self, path: &str, anchor: &str, new: &str) -> Result<(), String> {
         let text = self.read(path)?;
-        let place = text
-            .rfind(anchor)
-            .ok_or(format!("{path} is not as expected: no {anchor:?}"))?;
+        let place =
+            text.rfind(anchor).ok_or(format!("{path} is not as expected: no {anchor:?}"))?;
         let (head, tail) = text.split_at(place);
         self.set(path, format!("{head}{new}{tail}"));
         Ok(())
@@ -76,10 +75,8 @@ impl<'a> Edits<'a> {
 /// A text with one more line in its sorted list of modules.
 pub fn with_module(text: &str, line: &str, path: &str) -> Result<String, String> {
     let name = |line: &str| line.trim_start_matches("pub ").to_owned();
-    let modules: Vec<&str> = text
-        .lines()
-        .filter(|line| name(line).starts_with("mod ") && line.ends_with(';'))
-        .collect();
+    let modules: Vec<&str> =
+        text.lines().filter(|line| name(line).starts_with("mod ") && line.ends_with(';')).collect();
     let before = modules.iter().rev().find(|other| name(other) < name(line));
     match (before, modules.first()) {
         (Some(before), _) => Ok(text.replacen(before, &format!("{before}\n{line}"), 1)),
@@ -122,14 +119,8 @@ mod tests {
     fn lists_of_modules_stay_sorted() {
         let list = "//! Doc.\n\n#[cfg(unix)]\nmod b;\npub mod d;\n";
         let with = |line| with_module(list, line, "list.rs").expect("a list");
-        assert_eq!(
-            with("mod a;"),
-            "//! Doc.\n\nmod a;\n#[cfg(unix)]\nmod b;\npub mod d;\n"
-        );
-        assert_eq!(
-            with("mod c;"),
-            "//! Doc.\n\n#[cfg(unix)]\nmod b;\nmod c;\npub mod d;\n"
-        );
+        assert_eq!(with("mod a;"), "//! Doc.\n\nmod a;\n#[cfg(unix)]\nmod b;\npub mod d;\n");
+        assert_eq!(with("mod c;"), "//! Doc.\n\n#[cfg(unix)]\nmod b;\nmod c;\npub mod d;\n");
         let empty = with_module("//! Doc.\n\nuse x;\n", "mod a;", "list.rs");
         assert_eq!(empty.as_deref(), Ok("//! Doc.\n\nmod a;\n\nuse x;\n"));
         assert!(with_module("use x;\n", "mod a;", "list.rs").is_err());

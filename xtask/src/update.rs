@@ -38,9 +38,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
     let before = texts(root);
     let failed = |error| format!("cargo cannot be run: {error}");
     let schemas = cargo(root)
-        .args([
-            "run", "--quiet", "--locked", "--bin", "urdd", "--", "schema", "export", "schema",
-        ])
+        .args(["run", "--quiet", "--locked", "--bin", "urdd", "--", "schema", "export", "schema"])
         .output()
         .map_err(failed)?;
     let mut right = schemas.status.success();
@@ -54,15 +52,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
     // The cases first: their number appears on the pages.
     for (target, tests) in [("rules", &WRITERS[..1]), ("program", &WRITERS[1..])] {
         let tests = cargo(root)
-            .args([
-                "test",
-                "--quiet",
-                "--locked",
-                "--no-fail-fast",
-                "--test",
-                target,
-                "--",
-            ])
+            .args(["test", "--quiet", "--locked", "--no-fail-fast", "--test", target, "--"])
             .args(tests)
             .env("URDD_UPDATE", "1")
             .env("INSTA_UPDATE", "always")
@@ -77,10 +67,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
     }
     let after = texts(root);
     let mut changed = 0;
-    for path in before
-        .keys()
-        .chain(after.keys().filter(|path| !before.contains_key(*path)))
-    {
+    for path in before.keys().chain(after.keys().filter(|path| !before.contains_key(*path))) {
         let word = match (before.get(path), after.get(path)) {
             (before, after) if before == after => continue,
             (None, _) => "new",

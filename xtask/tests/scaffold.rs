@@ -58,9 +58,7 @@ fn text(root: &Path, path: &str) -> String {
 /// The next free code of a family.
 fn next(root: &Path, family: &str) -> String {
     let codes = text(root, "crates/urdd-validate/src/code.rs");
-    let of_family = codes
-        .split_whitespace()
-        .filter(|word| word.starts_with(family));
+    let of_family = codes.split_whitespace().filter(|word| word.starts_with(family));
     let numbers = of_family.filter_map(|word| word.get(3..)?.parse::<u32>().ok());
     format!("{family}{:03}", numbers.max().expect("a code") + 1)
 }
@@ -70,33 +68,15 @@ fn a_rule_gets_all_of_its_files() {
     let folder = source();
     let root = folder.path();
     let code = next(root, "SRC");
-    let output = new_rule(
-        root,
-        &[
-            &code,
-            "made-of-cheese",
-            "--clause",
-            "6.1.7",
-            "--severity",
-            "warning",
-        ],
-    );
+    let output =
+        new_rule(root, &[&code, "made-of-cheese", "--clause", "6.1.7", "--severity", "warning"]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(said.contains(&format!("URDD_CASE={code}")), "{said}");
 
-    let rule = text(
-        root,
-        "crates/urdd-validate/src/rules/source/made_of_cheese.rs",
-    );
+    let rule = text(root, "crates/urdd-validate/src/rules/source/made_of_cheese.rs");
     assert!(
-        rule.contains(&format!(
-            "{code} \"made-of-cheese\", Warning, clause \"6.1.7\""
-        )),
+        rule.contains(&format!("{code} \"made-of-cheese\", Warning, clause \"6.1.7\"")),
         "{rule}"
     );
     let list = text(root, "crates/urdd-validate/src/rules/source/mod.rs");
@@ -114,10 +94,7 @@ fn a_rule_gets_all_of_its_files() {
         .split("\n\n")
         .find(|clause| clause.trim_start().starts_with("**6.1.7**"))
         .expect("the clause");
-    assert!(
-        clause.trim_end().ends_with(&format!("[{code}]")),
-        "{clause}"
-    );
+    assert!(clause.trim_end().ends_with(&format!("[{code}]")), "{clause}");
     // In the list of the family's cases, which is in the list of all.
     let test = text(root, "tests/rules/source.rs");
     let cases = test.split("pub fn cases()").nth(1).expect("the cases");
@@ -140,33 +117,19 @@ fn a_rule_gets_all_of_its_files() {
 
 #[test]
 fn every_family_can_have_another_rule() {
-    let codes = text(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join(".."),
-        "crates/urdd-validate/src/code.rs",
-    );
+    let codes =
+        text(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."), "crates/urdd-validate/src/code.rs");
     let list = codes.split_once("\ncodes! {").expect("the list").1;
     let list = list.split_once("\n}").expect("its end").0;
-    let mut families: Vec<&str> = list
-        .split_whitespace()
-        .filter_map(|code| code.get(..3))
-        .collect();
+    let mut families: Vec<&str> =
+        list.split_whitespace().filter_map(|code| code.get(..3)).collect();
     families.dedup();
     let folder = source();
     let mut made = 0;
-    for family in families
-        .into_iter()
-        .filter(|family| !["TST", "LNT"].contains(family))
-    {
+    for family in families.into_iter().filter(|family| !["TST", "LNT"].contains(family)) {
         let code = next(folder.path(), family);
-        let output = new_rule(
-            folder.path(),
-            &[&code, &format!("odd-{}", family.to_lowercase())],
-        );
-        assert!(
-            output.status.success(),
-            "{code}: {}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        let output = new_rule(folder.path(), &[&code, &format!("odd-{}", family.to_lowercase())]);
+        assert!(output.status.success(), "{code}: {}", String::from_utf8_lossy(&output.stderr));
         made += 1;
     }
     assert!(made > 10);
@@ -186,60 +149,26 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
     let clause = format!("6.{}", modules + 1);
     let first = format!("{clause}.1");
     succeeds("new-module", &["battery_pack"]);
-    succeeds(
-        "new-rule",
-        &[
-            "BAT001",
-            "no-values",
-            "--family",
-            "battery_pack",
-            "--clause",
-            &first,
-        ],
-    );
+    succeeds("new-rule", &["BAT001", "no-values", "--family", "battery_pack", "--clause", &first]);
     succeeds("new-rule", &["BAT002", "odd-values", "--clause", &first]);
 
     for (path, words) in [
-        (
-            "crates/urdd-format/src/battery_pack.rs",
-            "pub struct BatteryPackModule {",
-        ),
-        (
-            "crates/urdd-format/src/lib.rs",
-            "pub mod battery_pack;\npub mod bounds;",
-        ),
+        ("crates/urdd-format/src/battery_pack.rs", "pub struct BatteryPackModule {"),
+        ("crates/urdd-format/src/lib.rs", "pub mod battery_pack;\npub mod bounds;"),
         (
             "crates/urdd-format/src/registry.rs",
             "BatteryPack(battery_pack::BatteryPackModule): BatteryPack @ \"1.0.0\", V1;\n    OriginalMeshes(",
         ),
-        (
-            "crates/urdd-generate/src/selection.rs",
-            "&[ModuleKind::BatteryPack, ",
-        ),
-        (
-            "SPEC.md",
-            &format!("### {clause} `battery_pack_module`\n\n**{clause}.1** TODO"),
-        ),
-        (
-            "SPEC.md",
-            "[BAT001] TODO: say what MUST or SHOULD be. [BAT002]\n\n## 7 ",
-        ),
+        ("crates/urdd-generate/src/selection.rs", "&[ModuleKind::BatteryPack, "),
+        ("SPEC.md", &format!("### {clause} `battery_pack_module`\n\n**{clause}.1** TODO")),
+        ("SPEC.md", "[BAT001] TODO: say what MUST or SHOULD be. [BAT002]\n\n## 7 "),
         (
             "SPEC.md",
             "|\n| `battery_pack_module` | `battery_pack_module` | (optional) | `urdf_module` |\n| `original_meshes_module` |",
         ),
-        (
-            "crates/urdd-validate/src/code.rs",
-            "    BAT001 BAT002\n    LEG001",
-        ),
-        (
-            "crates/urdd-validate/src/rules/mod.rs",
-            "pub mod battery_pack;\npub mod bounds;",
-        ),
-        (
-            "crates/urdd-validate/src/rules/battery_pack/mod.rs",
-            "mod no_values;\nmod odd_values;",
-        ),
+        ("crates/urdd-validate/src/code.rs", "    BAT001 BAT002\n    LEG001"),
+        ("crates/urdd-validate/src/rules/mod.rs", "pub mod battery_pack;\npub mod bounds;"),
+        ("crates/urdd-validate/src/rules/battery_pack/mod.rs", "mod no_values;\nmod odd_values;"),
         (
             "crates/urdd-validate/src/rules/battery_pack/mod.rs",
             "rules! {\n    no_values, odd_values,\n}",
@@ -249,10 +178,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
             "needs [ModuleV1(Kind::BatteryPack)]",
         ),
         ("tests/rules/main.rs", "mod battery_pack;\nmod bounds;"),
-        (
-            "tests/rules/main.rs",
-            "battery_pack::cases(),\n        legacy::cases(),",
-        ),
+        ("tests/rules/main.rs", "battery_pack::cases(),\n        legacy::cases(),"),
         ("tests/rules/battery_pack.rs", "ModuleKind::BatteryPack"),
     ] {
         let text = text(root, path);
@@ -285,23 +211,14 @@ fn what_does_not_fit_writes_nothing() {
         (&["LNT999", "a-name"], "crates/urdd-lint/src/rules"),
         (&["ABC002", "a-name", "--family", "abc"], "is ABC001"),
         (&["ABC001", "a-name", "--family", "a b"], "is not a name"),
-        (
-            &["ABC001", "a-name", "--family", "source"],
-            "is there already",
-        ),
-        (
-            &[&next, "a-name", "--family", "source"],
-            "leave out --family",
-        ),
+        (&["ABC001", "a-name", "--family", "source"], "is there already"),
+        (&[&next, "a-name", "--family", "source"], "leave out --family"),
         (&["src009", "a-name"], "is not a code"),
         (&["SRC01é", "a-name"], "is not a code"),
         (&[&next, "A Name"], "is not a name"),
         (&[&next, "crossed-limits"], "is there already"),
         (&[&next, "a-name", "--clause", "99.9"], "no clause 99.9"),
-        (
-            &[&next, "a-name", "--severity", "grave"],
-            "write error, warning or info",
-        ),
+        (&[&next, "a-name", "--severity", "grave"], "write error, warning or info"),
         (&[&next], "cargo xtask new-rule"),
     ] {
         let output = new_rule(root, arguments);

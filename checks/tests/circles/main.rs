@@ -39,12 +39,7 @@ fn circles<'a>(ties: &Ties<'a>) -> BTreeSet<Circle<'a>> {
 
 /// The names that connect the files of a cycle, one line each.
 fn ties_of(circle: &Circle<'_>, ties: &Ties<'_>, folder: &Path) -> String {
-    let short = |file: &Path| {
-        file.strip_prefix(folder)
-            .unwrap_or(file)
-            .display()
-            .to_string()
-    };
+    let short = |file: &Path| file.strip_prefix(folder).unwrap_or(file).display().to_string();
     let mut lines = String::new();
     for from in circle {
         for (to, names) in ties[from].iter().filter(|(to, _)| circle.contains(*to)) {
@@ -96,9 +91,7 @@ fn planted(files: &[(&str, &str)]) -> String {
     let ties = ties(&read);
     let source = package.path().join("src");
     let circles = circles(&ties).into_iter();
-    circles
-        .map(|circle| ties_of(&circle, &ties, &source))
-        .collect()
+    circles.map(|circle| ties_of(&circle, &ties, &source)).collect()
 }
 
 #[test]
@@ -147,10 +140,7 @@ fn circles_are_found_however_names_are_written() {
     // A parent uses its child, which uses the parent's item: in code, and through a macro that lists children.
     let child = ("a/child.rs", "use super::helper; pub fn run() { helper() }");
     for (parent, name) in [
-        (
-            "mod child; fn helper() {} pub fn run() { child::run() }",
-            "run",
-        ),
+        ("mod child; fn helper() {} pub fn run() { child::run() }", "run"),
         ("mod child; fn helper() {} list! { child }", "child"),
     ] {
         let ties = planted(&[("lib.rs", "mod a;"), ("a/mod.rs", parent), child]);
@@ -169,25 +159,16 @@ fn what_is_no_circle_is_not_found() {
             "use super::b::B; pub struct A(B);",
             "pub struct B; #[cfg(test)] mod tests { use super::super::a::A; }",
         ),
-        (
-            "use super::b::B; pub struct A(B);",
-            "#[cfg(test)] use super::a::A; pub struct B;",
-        ),
+        ("use super::b::B; pub struct A(B);", "#[cfg(test)] use super::a::A; pub struct B;"),
         // In words.
-        (
-            "use super::b::B; pub struct A(B);",
-            "/// See [`super::a::A`].\npub struct B;",
-        ),
+        ("use super::b::B; pub struct A(B);", "/// See [`super::a::A`].\npub struct B;"),
         // Another crate's name, taken from there.
         (
             "use super::b::B; pub use other::Name; pub struct A(B);",
             "use other::Name; pub struct B(Name);",
         ),
         // Fields and methods.
-        (
-            "use super::b::B; pub struct A(B);",
-            "pub struct B; fn f(b: B) { b.a.A() }",
-        ),
+        ("use super::b::B; pub struct A(B);", "pub struct B; fn f(b: B) { b.a.A() }"),
     ] {
         let ties = planted(&[("lib.rs", "mod a; mod b;"), ("a.rs", a), ("b.rs", b)]);
         assert_eq!(ties, "", "{a} {b}");
@@ -195,10 +176,7 @@ fn what_is_no_circle_is_not_found() {
     // A parent that re-exports what its children define.
     let files = [
         ("lib.rs", "mod a;"),
-        (
-            "a/mod.rs",
-            "mod x; mod y; pub use x::X; pub fn f() -> y::Y { y::Y }",
-        ),
+        ("a/mod.rs", "mod x; mod y; pub use x::X; pub fn f() -> y::Y { y::Y }"),
         ("a/x.rs", "pub struct X;"),
         ("a/y.rs", "use super::X; pub struct Y(X);"),
     ];

@@ -59,12 +59,7 @@ impl Crate {
 
     fn add(&mut self, file: PathBuf, folder: PathBuf, parent: usize, code: TokenStream) -> usize {
         let index = self.modules.len();
-        self.modules.push(Module {
-            file,
-            folder,
-            parent,
-            ..Module::default()
-        });
+        self.modules.push(Module { file, folder, parent, ..Module::default() });
         self.scan(index, code, true);
         index
     }
@@ -222,9 +217,7 @@ impl Crate {
 }
 
 /// The words before the name of an item.
-const DEFINING: [&str; 8] = [
-    "const", "enum", "fn", "static", "struct", "trait", "type", "union",
-];
+const DEFINING: [&str; 8] = ["const", "enum", "fn", "static", "struct", "trait", "type", "union"];
 
 /// The content of the attribute that the tokens begin with.
 fn attribute(tokens: &[TokenTree]) -> Option<TokenStream> {

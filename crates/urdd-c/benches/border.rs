@@ -53,9 +53,7 @@ fn row(what: &str, mut c: impl FnMut(usize), mut rust: impl FnMut(usize)) {
 }
 
 fn main() {
-    let word = std::env::args()
-        .skip(1)
-        .find(|word| !word.starts_with("--"));
+    let word = std::env::args().skip(1).find(|word| !word.starts_with("--"));
     let arm = testkit::repository().join("conformance/robots/welding_arm.urdf");
     let (_guard, path) = match word {
         Some(path) => (None, PathBuf::from(path)),
@@ -94,14 +92,7 @@ fn main() {
         // SAFETY: as the header says.
         |k| unsafe {
             let at = q(k).as_ptr();
-            ok(urdd_robot_link_poses(
-                handle,
-                at,
-                1,
-                dofs,
-                out.as_mut_ptr(),
-                16 * links,
-            ));
+            ok(urdd_robot_link_poses(handle, at, 1, dofs, out.as_mut_ptr(), 16 * links));
         },
         |k| {
             robot.link_poses_into(q(k), &mut poses).unwrap();
@@ -116,13 +107,7 @@ fn main() {
         "in collision",
         // SAFETY: as the header says.
         |k| unsafe {
-            ok(urdd_proximity_in_collision(
-                shapes,
-                q(k).as_ptr(),
-                1,
-                dofs,
-                &mut touches,
-            ))
+            ok(urdd_proximity_in_collision(shapes, q(k).as_ptr(), 1, dofs, &mut touches))
         },
         |k| {
             black_box(proximity.in_collision_with(q(k), &mut workspace).unwrap());
@@ -135,20 +120,9 @@ fn main() {
         // SAFETY: as the header says.
         |k| unsafe {
             let at = q(k).as_ptr();
-            ok(urdd_proximity_distances(
-                shapes,
-                at,
-                1,
-                dofs,
-                c.as_mut_ptr(),
-                pairs,
-            ));
+            ok(urdd_proximity_distances(shapes, at, 1, dofs, c.as_mut_ptr(), pairs));
         },
-        |k| {
-            proximity
-                .distances_with(q(k), &mut workspace, &mut distances)
-                .unwrap()
-        },
+        |k| proximity.distances_with(q(k), &mut workspace, &mut distances).unwrap(),
     );
     let mut out = vec![0.0; 16 * links * ROWS];
     row(
@@ -156,14 +130,7 @@ fn main() {
         // SAFETY: as the header says.
         |_| unsafe {
             let (at, length) = (out.as_mut_ptr(), out.len());
-            ok(urdd_robot_link_poses(
-                handle,
-                all.as_ptr(),
-                ROWS,
-                dofs,
-                at,
-                length,
-            ));
+            ok(urdd_robot_link_poses(handle, all.as_ptr(), ROWS, dofs, at, length));
         },
         |_| {
             black_box(robot.link_poses_batch(&all).unwrap());
@@ -175,13 +142,7 @@ fn main() {
         // SAFETY: as the header says.
         |_| unsafe {
             let at = answers.as_mut_ptr();
-            ok(urdd_proximity_in_collision(
-                shapes,
-                all.as_ptr(),
-                ROWS,
-                dofs,
-                at,
-            ));
+            ok(urdd_proximity_in_collision(shapes, all.as_ptr(), ROWS, dofs, at));
         },
         |_| {
             black_box(proximity.in_collision_batch(&all).unwrap());
@@ -193,14 +154,7 @@ fn main() {
         // SAFETY: as the header says.
         |_| unsafe {
             let (at, length) = (out.as_mut_ptr(), out.len());
-            ok(urdd_proximity_distances(
-                shapes,
-                all.as_ptr(),
-                ROWS,
-                dofs,
-                at,
-                length,
-            ));
+            ok(urdd_proximity_distances(shapes, all.as_ptr(), ROWS, dofs, at, length));
         },
         |_| {
             black_box(proximity.distances_batch(&all).unwrap());

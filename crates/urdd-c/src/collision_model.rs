@@ -48,10 +48,7 @@ pub unsafe extern "C" fn urdd_robot_collision_model(
             let model = at(handle)?.robot.collision_model()?;
             let text = serde_json::to_string(model.evaluation())
                 .map_err(|error| Failure::new(Status::Internal, error.to_string()))?;
-            Ok(CollisionModel {
-                model,
-                evaluation: Owned::new(&text),
-            })
+            Ok(CollisionModel { model, evaluation: Owned::new(&text) })
         })
     }
 }
@@ -147,12 +144,7 @@ pub unsafe extern "C" fn urdd_collision_model_clearances(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let model = &at(handle)?.model;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            model.num_dofs(),
-        )?;
+        let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
         let out = q.room(("clearances", clearances, length), model.pairs().len())?;
         copy(&model.clearances_batch(q.values)?, out)
     })
@@ -177,12 +169,7 @@ pub unsafe extern "C" fn urdd_collision_model_may_collide(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let model = &at(handle)?.model;
-        let q = Rows::new(
-            "configurations",
-            configurations,
-            (rows, dofs),
-            model.num_dofs(),
-        )?;
+        let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
         let out = q.room(("colliding", colliding, rows), 1)?;
         copy(&model.may_collide_batch(q.values)?, out)
     })
@@ -195,10 +182,5 @@ fn copy<T: Copy>(found: &[T], out: &mut [T]) -> Result<(), Failure> {
         return Ok(());
     }
     let (found, count, width) = (out.len(), found.len(), 1);
-    Err(RobotError::Room {
-        found,
-        count,
-        width,
-    }
-    .into())
+    Err(RobotError::Room { found, count, width }.into())
 }

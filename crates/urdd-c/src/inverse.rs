@@ -157,10 +157,7 @@ unsafe fn settings<'a>(
 ) -> Result<(InverseSettings, Option<&'a Proximity>), Failure> {
     if settings.is_null() {
         let explain = false;
-        let settings = InverseSettings {
-            explain,
-            ..InverseSettings::default()
-        };
+        let settings = InverseSettings { explain, ..InverseSettings::default() };
         return Ok((settings, None));
     }
     check("settings", settings)?;
@@ -241,13 +238,7 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
             |q: &[f64]| free_of.is_none_or(|shapes| shapes.0.in_collision(q) == Ok(false));
         let length = count.saturating_mul(dofs);
         let inputs = [q.values];
-        let out = exact_room(
-            "configurations",
-            configurations,
-            length,
-            (count, dofs),
-            &inputs,
-        )?;
+        let out = exact_room("configurations", configurations, length, (count, dofs), &inputs)?;
         let found = exact_room("solutions", solutions, count, (count, 1), &inputs)?;
         let on = Cancellation::default();
         let mut all: Vec<(Vec<f64>, Solution)> = vec![Default::default(); count];

@@ -87,8 +87,6 @@ pub unsafe extern "C" fn urdd_robot_jacobians(
             return Ok(with_poses(one)?);
         }
         let on = Cancellation::default();
-        Ok(robot
-            .robot
-            .jacobian_batch_into(q.values, link, point, &on, out)?)
+        Ok(robot.robot.jacobian_batch_into(q.values, link, point, &on, out)?)
     })
 }

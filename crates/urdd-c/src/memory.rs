@@ -54,11 +54,7 @@ impl Span {
             let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
             return Err(Failure::new(Status::Pointer, message));
         }
-        Ok(Span {
-            what,
-            address: data.addr(),
-            bytes: length * size_of::<T>(),
-        })
+        Ok(Span { what, address: data.addr(), bytes: length * size_of::<T>() })
     }
 
     fn apart(self, other: Span) -> Result<(), Failure> {
@@ -69,10 +65,9 @@ impl Span {
             && b.address < a.address.saturating_add(a.bytes);
         match overlap {
             false => Ok(()),
-            true => Err(Failure::new(
-                Status::Pointer,
-                format!("`{}` and `{}` overlap", a.what, b.what),
-            )),
+            true => {
+                Err(Failure::new(Status::Pointer, format!("`{}` and `{}` overlap", a.what, b.what)))
+            }
         }
     }
 }
@@ -167,7 +162,5 @@ pub(crate) unsafe fn read_text<'a>(
     check(what, text)?;
     // SAFETY: guaranteed by the caller.
     let bytes = unsafe { CStr::from_ptr(text) };
-    bytes
-        .to_str()
-        .map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
+    bytes.to_str().map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
 }

@@ -40,9 +40,7 @@ pub unsafe extern "C" fn urdd_robot_configuration_name(
     run(|| unsafe {
         let names = at(handle)?.configuration_names()?;
         let what = "named configuration";
-        let name = names
-            .get(index)
-            .ok_or_else(|| out_of_range(what, index, names.len()))?;
+        let name = names.get(index).ok_or_else(|| out_of_range(what, index, names.len()))?;
         put("out", out, name.text())
     })
 }
@@ -63,9 +61,7 @@ pub unsafe extern "C" fn urdd_robot_named_configuration(
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let known = at(handle)?
-            .robot
-            .named_configuration(read_text("name", name)?)?;
+        let known = at(handle)?.robot.named_configuration(read_text("name", name)?)?;
         let out = exact_room("configuration", configuration, dofs, (1, known.len()), &[])?;
         out.copy_from_slice(known);
         Ok(())

@@ -101,9 +101,7 @@ pub unsafe extern "C" fn urdd_robot_dof_unit(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let units = at(handle)?.robot.dof_units()?;
-        let unit = units
-            .get(dof)
-            .ok_or_else(|| out_of_range("DOF", dof, units.len()))?;
+        let unit = units.get(dof).ok_or_else(|| out_of_range("DOF", dof, units.len()))?;
         let text = match *unit {
             "m" => constant("m\0"),
             _ => constant("rad\0"),
@@ -168,9 +166,7 @@ unsafe fn name(
     // SAFETY: guaranteed by the caller.
     unsafe {
         let names = of(at(handle)?.names()?);
-        let name = names
-            .get(index)
-            .ok_or_else(|| out_of_range(what, index, names.len()))?;
+        let name = names.get(index).ok_or_else(|| out_of_range(what, index, names.len()))?;
         put("out", out, name.text())
     }
 }

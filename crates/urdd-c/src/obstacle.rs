@@ -112,12 +112,7 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
     // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::capsule(
-                name,
-                placed(pose)?,
-                radius,
-                half_length,
-            )?)
+            Ok(urdd_robot::Obstacle::capsule(name, placed(pose)?, radius, half_length)?)
         })
     }
 }
@@ -140,12 +135,7 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
     // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::cylinder(
-                name,
-                placed(pose)?,
-                radius,
-                half_length,
-            )?)
+            Ok(urdd_robot::Obstacle::cylinder(name, placed(pose)?, radius, half_length)?)
         })
     }
 }
@@ -167,9 +157,7 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
     // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
-            let points = values("points", points, count.saturating_mul(3))?
-                .as_chunks()
-                .0;
+            let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
             Ok(urdd_robot::Obstacle::hull(name, placed(pose)?, points)?)
         })
     }
@@ -199,18 +187,12 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
             let vertices = values("vertices", vertices, length)?.as_chunks().0.to_vec();
             let length = num_triangles.saturating_mul(3);
             let triangles = values("triangles", triangles, length)?;
-            if let Some(index) = triangles
-                .iter()
-                .find(|index| **index as usize >= num_vertices)
-            {
+            if let Some(index) = triangles.iter().find(|index| **index as usize >= num_vertices) {
                 let index = *index as usize;
                 return Err(crate::names::out_of_range("vertex", index, num_vertices));
             }
             let triangles = triangles.as_chunks().0.to_vec();
-            let mesh = Mesh {
-                vertices,
-                triangles,
-            };
+            let mesh = Mesh { vertices, triangles };
             Ok(urdd_robot::Obstacle::mesh(name, placed(pose)?, &mesh)?)
         })
     }

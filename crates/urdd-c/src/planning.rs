@@ -138,9 +138,7 @@ pub unsafe extern "C" fn urdd_world_proximity_blocked_edge(
         let shape = (rows, dofs, world.dofs);
         edges([starts, ends], shape, blocked, |start, end, memory| {
             let settings = settings(margin, resolution);
-            world
-                .queries
-                .blocked_edge_with(start, end, &settings, memory)
+            world.queries.blocked_edge_with(start, end, &settings, memory)
         })
     })
 }
@@ -194,23 +192,13 @@ pub unsafe extern "C" fn urdd_proximity_gradients(
     run(|| unsafe {
         let proximity = &at(handle)?.0;
         put("found", found, k.min(proximity.num_pairs()))?;
-        let q = Rows::new(
-            "configuration",
-            configuration,
-            (1, dofs),
-            proximity.num_dofs(),
-        )?;
+        let q = Rows::new("configuration", configuration, (1, dofs), proximity.num_dofs())?;
         let pairs = q.room(("nearest", nearest, k), k)?;
-        let out = q.room(
-            ("gradients", gradients, k.saturating_mul(dofs)),
-            k.saturating_mul(dofs),
-        )?;
+        let out =
+            q.room(("gradients", gradients, k.saturating_mul(dofs)), k.saturating_mul(dofs))?;
         for (place, one) in proximity.gradients(q.row(0), k)?.iter().enumerate() {
             pairs[place] = (&one.pair).into();
-            derivatives(
-                one.gradient.as_deref(),
-                &mut out[place * dofs..(place + 1) * dofs],
-            );
+            derivatives(one.gradient.as_deref(), &mut out[place * dofs..(place + 1) * dofs]);
         }
         Ok(())
     })
@@ -236,16 +224,11 @@ pub unsafe extern "C" fn urdd_world_proximity_gradients(
         put("found", found, k.min(world.queries.num_pairs_of_parts()))?;
         let q = Rows::new("configuration", configuration, (1, dofs), world.dofs)?;
         let pairs = q.room(("nearest", nearest, k), k)?;
-        let out = q.room(
-            ("gradients", gradients, k.saturating_mul(dofs)),
-            k.saturating_mul(dofs),
-        )?;
+        let out =
+            q.room(("gradients", gradients, k.saturating_mul(dofs)), k.saturating_mul(dofs))?;
         for (place, one) in world.queries.gradients(q.row(0), k)?.iter().enumerate() {
             pairs[place] = (&one.pair).into();
-            derivatives(
-                one.gradient.as_deref(),
-                &mut out[place * dofs..(place + 1) * dofs],
-            );
+            derivatives(one.gradient.as_deref(), &mut out[place * dofs..(place + 1) * dofs]);
         }
         Ok(())
     })
@@ -281,21 +264,12 @@ pub unsafe extern "C" fn urdd_proximity_penetrations(
         let proximity = &at(handle)?.0;
         put("found", found, 0)?;
         let q = values("configuration", configuration, dofs)?;
-        let rows = Rows::new(
-            "configuration",
-            configuration,
-            (1, dofs),
-            proximity.num_dofs(),
-        )?;
+        let rows = Rows::new("configuration", configuration, (1, dofs), proximity.num_dofs())?;
         let out = rows.room(("overlaps", overlaps, length), length)?;
         let all = proximity.penetrations(q)?;
         put("found", found, all.len())?;
         for (out, one) in out.iter_mut().zip(&all) {
-            *out = Overlap {
-                pair: (&one.pair).into(),
-                depth: one.depth,
-                direction: one.direction,
-            };
+            *out = Overlap { pair: (&one.pair).into(), depth: one.depth, direction: one.direction };
         }
         Ok(())
     })

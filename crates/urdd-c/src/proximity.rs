@@ -52,10 +52,7 @@ unsafe impl Plain for PairDistance {}
 impl From<&RobotPair> for PairDistance {
     fn from(found: &RobotPair) -> Self {
         PairDistance {
-            pair: Pair {
-                links: found.link_idxs,
-                pieces: found.pieces,
-            },
+            pair: Pair { links: found.link_idxs, pieces: found.pieces },
             distance: found.distance,
             relative: found.relative.unwrap_or(f64::NAN),
             points: found.points,
@@ -82,9 +79,7 @@ pub unsafe extern "C" fn urdd_robot_proximity(
     unsafe {
         make(out, || {
             let robot = at(handle)?;
-            let made = robot
-                .robot
-                .proximity(shape_kind(read_text("kind", kind)?)?)?;
+            let made = robot.robot.proximity(shape_kind(read_text("kind", kind)?)?)?;
             Ok(Proximity(Arc::new(made)))
         })
     }
@@ -149,10 +144,7 @@ pub unsafe extern "C" fn urdd_proximity_pairs(
         let proximity = &at(handle)?.0;
         let out = exact_room("pairs", pairs, length, (proximity.num_pairs(), 1), &[])?;
         for (out, [a, b]) in out.iter_mut().zip(proximity.pairs()) {
-            *out = Pair {
-                links: [a.0, b.0],
-                pieces: [a.1, b.1],
-            };
+            *out = Pair { links: [a.0, b.0], pieces: [a.1, b.1] };
         }
         Ok(())
     })
@@ -236,11 +228,9 @@ pub unsafe extern "C" fn urdd_proximity_distances(
     run(|| unsafe {
         let proximity = &at(handle)?.0;
         let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(
-            ("distances", distances, length),
-            proximity.num_pairs(),
-            |q, out| with_workspace(|workspace| proximity.distances_with(q, workspace, out)),
-        )
+        q.answer(("distances", distances, length), proximity.num_pairs(), |q, out| {
+            with_workspace(|workspace| proximity.distances_with(q, workspace, out))
+        })
     })
 }
 
@@ -297,14 +287,10 @@ pub unsafe extern "C" fn urdd_proximity_closest_points(
     run(|| unsafe {
         let proximity = &at(handle)?.0;
         let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(
-            ("closest", closest, length),
-            proximity.num_pairs(),
-            |q, out| {
-                copy(&proximity.closest_points(q)?, out);
-                Ok(())
-            },
-        )
+        q.answer(("closest", closest, length), proximity.num_pairs(), |q, out| {
+            copy(&proximity.closest_points(q)?, out);
+            Ok(())
+        })
     })
 }
 

@@ -33,11 +33,7 @@ impl Handle for Robot {
 
 impl Robot {
     fn new(robot: urdd_robot::Robot) -> Self {
-        Robot {
-            robot,
-            names: OnceLock::new(),
-            configurations: OnceLock::new(),
-        }
+        Robot { robot, names: OnceLock::new(), configurations: OnceLock::new() }
     }
 
     pub(crate) fn names(&self) -> Result<&Names, RobotError> {

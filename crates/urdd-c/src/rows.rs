@@ -38,11 +38,7 @@ impl<'a> Rows<'a> {
         let length = count.saturating_mul(columns);
         // SAFETY: guaranteed by the caller.
         let values = unsafe { values(what, data, length) }?;
-        Ok(Rows {
-            values,
-            count,
-            columns,
-        })
+        Ok(Rows { values, count, columns })
     }
 
     /// A row.

@@ -43,13 +43,7 @@ unsafe fn one(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?;
-        let out = exact_room(
-            "configuration",
-            configuration,
-            dofs,
-            (1, known.num_dofs()),
-            &[],
-        )?;
+        let out = exact_room("configuration", configuration, dofs, (1, known.num_dofs()), &[])?;
         out.copy_from_slice(&of(known));
         Ok(())
     })
@@ -133,10 +127,7 @@ pub unsafe extern "C" fn urdd_robot_clamp(
     run(|| unsafe {
         let robot = at(handle)?;
         let known = robot.robot.configurations()?;
-        let mut values = robot
-            .rows("configuration", configuration, (1, dofs))?
-            .values
-            .to_vec();
+        let mut values = robot.rows("configuration", configuration, (1, dofs))?.values.to_vec();
         known.clamp(&mut values);
         room("configuration", configuration, dofs, &[])?.copy_from_slice(&values);
         Ok(())

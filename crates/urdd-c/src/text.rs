@@ -23,10 +23,7 @@ impl Owned {
 
     /// The same text for C, alive as long as `self`.
     pub fn text(&self) -> Text {
-        Text {
-            data: self.0.as_ptr().cast(),
-            length: self.0.len() - 1,
-        }
+        Text { data: self.0.as_ptr().cast(), length: self.0.len() - 1 }
     }
 }
 
@@ -38,8 +35,5 @@ impl Default for Owned {
 
 /// A text of the program. `with_zero` ends with a zero byte.
 pub(crate) const fn constant(with_zero: &'static str) -> Text {
-    Text {
-        data: with_zero.as_ptr().cast(),
-        length: with_zero.len() - 1,
-    }
+    Text { data: with_zero.as_ptr().cast(), length: with_zero.len() - 1 }
 }

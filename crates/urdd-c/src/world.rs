@@ -64,9 +64,7 @@ pub unsafe extern "C" fn urdd_proximity_world_proximity(
         make(out, || {
             let proximity = &at(proximity)?.0;
             let obstacles = values("obstacles", obstacles, count)?;
-            let each = obstacles
-                .iter()
-                .map(|obstacle| Ok(at(*obstacle)?.0.clone()));
+            let each = obstacles.iter().map(|obstacle| Ok(at(*obstacle)?.0.clone()));
             let world = World::new(each.collect::<Result<Vec<_>, Failure>>()?);
             Ok(WorldProximity {
                 dofs: proximity.num_dofs(),

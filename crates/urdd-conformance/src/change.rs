@@ -148,11 +148,7 @@ impl Change {
             Action::PatchAlone(patch) => self.patch(patch, false, tree),
             Action::Replace { from, by } => self.replace(from, by, 1, tree),
             Action::ReplaceAll { from, by } => self.replace(from, by, usize::MAX, tree),
-            Action::Splice {
-                at,
-                remove,
-                insert_base64,
-            } => {
+            Action::Splice { at, remove, insert_base64 } => {
                 let mut bytes = self.bytes(tree)?.to_vec();
                 let insert = self.base64(insert_base64)?;
                 let outside = || ChangeError::Outside(file());
@@ -166,10 +162,7 @@ impl Change {
                 let end = at.checked_add(text.len());
                 let there = end.and_then(|end| bytes.get(*at..end));
                 let (true, Some(end)) = (there == Some(text.as_bytes()), end) else {
-                    return Err(ChangeError::NotThere {
-                        file: file(),
-                        from: text.clone(),
-                    });
+                    return Err(ChangeError::NotThere { file: file(), from: text.clone() });
                 };
                 if text.len().saturating_mul(*times) > MAX_REPEATED {
                     return Err(ChangeError::Outside(file()));
@@ -228,10 +221,9 @@ impl Change {
     }
 
     fn base64(&self, text: &str) -> Result<Vec<u8>, ChangeError> {
-        STANDARD.decode(text).map_err(|error| ChangeError::Base64 {
-            file: self.file.clone(),
-            error,
-        })
+        STANDARD
+            .decode(text)
+            .map_err(|error| ChangeError::Base64 { file: self.file.clone(), error })
     }
 
     fn replace(
@@ -241,10 +233,7 @@ impl Change {
         most: usize,
         tree: &mut Tree,
     ) -> Result<(), ChangeError> {
-        let not_there = || ChangeError::NotThere {
-            file: self.file.clone(),
-            from: from.to_owned(),
-        };
+        let not_there = || ChangeError::NotThere { file: self.file.clone(), from: from.to_owned() };
         let text = std::str::from_utf8(self.bytes(tree)?).map_err(|_| not_there())?;
         if !text.contains(from) {
             return Err(not_there());
@@ -273,10 +262,8 @@ impl Change {
         let mut document = json::read(bytes).map_err(not_json)?.value;
         // Keep a one-line document on one line, as legacy documents are.
         let on_one_line = !bytes.contains(&b'\n');
-        json_patch::patch(&mut document, patch).map_err(|error| ChangeError::Patch {
-            file: self.file.clone(),
-            error,
-        })?;
+        json_patch::patch(&mut document, patch)
+            .map_err(|error| ChangeError::Patch { file: self.file.clone(), error })?;
         tree.put(self.file.clone(), text_of(&document, on_one_line));
         if mirrored
             && let Some(mirror) = mirror_of(&self.file)

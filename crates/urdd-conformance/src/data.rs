@@ -71,12 +71,8 @@ mod tests {
     fn copies_are_files_and_need_a_stored_one() {
         let files = |stored: &str| {
             let list = format!(r#"{{"b/robot/x": "{stored}"}}"#);
-            [
-                (COPIES, list.as_str()),
-                ("bases/a/robot/x", "1"),
-                ("bases/b/robot/y", "2"),
-            ]
-            .map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec()))
+            [(COPIES, list.as_str()), ("bases/a/robot/x", "1"), ("bases/b/robot/y", "2")]
+                .map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec()))
         };
         let all = Data::of(files("a/robot/x").into()).expect("a stored file");
         let paths: Vec<&str> = all.below(BASES).map(|(path, _)| path).collect();

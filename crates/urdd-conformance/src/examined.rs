@@ -18,11 +18,8 @@ pub fn examine(
     if !out.is_dir() {
         return Err(Some("the command created no folder at {out}".to_owned()));
     }
-    let settings = Settings {
-        class: Some(class),
-        cancellation: cancellation.clone(),
-        ..Settings::default()
-    };
+    let settings =
+        Settings { class: Some(class), cancellation: cancellation.clone(), ..Settings::default() };
     let run = validate(&[out.to_owned()], &settings).map_err(|error| {
         let text = error.to_string();
         Some(text.replace(&out.display().to_string(), "{out}"))

@@ -90,9 +90,7 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, ExportError> {
     let mut items = items(suite);
     items.retain(|item| !left_out.contains(&item.id));
     let count = |valid: bool| {
-        let matching = items
-            .iter()
-            .filter(|item| (item.kind == ItemKind::Valid) == valid);
+        let matching = items.iter().filter(|item| (item.kind == ItemKind::Valid) == valid);
         matching.count()
     };
     let exported = Exported {
@@ -131,10 +129,7 @@ pub fn write_valid(
     for robot in names {
         let target = folder.join(robot);
         valid::make(robot, robots, &target, cancellation).map_err(|error| {
-            ExportError::Generate {
-                robot: robot.clone(),
-                error: Box::new(error),
-            }
+            ExportError::Generate { robot: robot.clone(), error: Box::new(error) }
         })?;
         let made = Tree::read(&target, &target)?;
         if valid::kept(&made) != valid::carried(data, robot) {
@@ -152,10 +147,8 @@ fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError>
             Ok(()) => Ok(None),
             Err(TreeError::Unsupported(_)) => {
                 let case_folder = folder.join(INVALID).join(case.id());
-                fs::remove_dir_all(&case_folder).map_err(|error| ExportError::Write {
-                    path: case_folder,
-                    error,
-                })?;
+                fs::remove_dir_all(&case_folder)
+                    .map_err(|error| ExportError::Write { path: case_folder, error })?;
                 Ok(Some(case.id()))
             }
             Err(error) => Err(error.into()),

@@ -22,10 +22,7 @@ pub struct Scan {
 
 impl Default for Scan {
     fn default() -> Scan {
-        Scan {
-            rest: vec![b'\n'],
-            found: BTreeSet::new(),
-        }
+        Scan { rest: vec![b'\n'], found: BTreeSet::new() }
     }
 }
 
@@ -96,10 +93,7 @@ mod tests {
         for (pieces, found) in [
             (&["DOF003"][..], &[Code::DOF003][..]),
             (&["error[DO", "F00", "3]: x"], &[Code::DOF003]),
-            (
-                &["{\"code\":\"DOF003\"},", "CHN001,"],
-                &[Code::DOF003, Code::CHN001],
-            ),
+            (&["{\"code\":\"DOF003\"},", "CHN001,"], &[Code::DOF003, Code::CHN001]),
             (&["/tmp/invalid/DOF003", "/of-two/robot: fine"], &[]),
             (&["C:\\invalid\\DOF003\\of-two"], &[]),
             (&["DOF0031 XDOF003 DOF003_ dof003 DOF999"], &[]),

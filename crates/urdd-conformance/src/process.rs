@@ -153,12 +153,7 @@ impl Template {
         let (stdout, mut codes) = stdout.map(Tail::finish).unwrap_or_default();
         let (stderr, more) = stderr.map(Tail::finish).unwrap_or_default();
         codes.extend(more);
-        Ok(Ran {
-            end,
-            stdout,
-            stderr,
-            codes,
-        })
+        Ok(Ran { end, stdout, stderr, codes })
     }
 }
 
@@ -215,19 +210,14 @@ mod tests {
         let template = Template::new(&words, &["dir"]).unwrap();
         let paths = [("dir", Path::new("/some/where"))];
         let limit = Duration::from_millis(limit);
-        template
-            .run(&paths, limit, &Cancellation::default())
-            .unwrap()
+        template.run(&paths, limit, &Cancellation::default()).unwrap()
     }
 
     #[test]
     fn tells_how_it_ended_and_what_it_said() {
         let ran = run("echo \"got $1\"; echo bad >&2; exit 3", 20_000);
         assert_eq!(ran.end, End::Status(3));
-        assert_eq!(
-            (ran.stdout.as_str(), ran.stderr.as_str()),
-            ("got /some/where\n", "bad\n")
-        );
+        assert_eq!((ran.stdout.as_str(), ran.stderr.as_str()), ("got /some/where\n", "bad\n"));
         assert!(matches!(run("kill -9 $$", 20_000).end, End::Signal(_)));
         let long = run("yes | head -c 100000; echo end", 20_000);
         assert!(long.stdout.len() <= TAIL && long.stdout.ends_with("end\n"));

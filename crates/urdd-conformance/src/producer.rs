@@ -217,14 +217,10 @@ fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<Strin
         Err(reason) => (None, reason),
     };
     let findings = urdd.iter().flat_map(|urdd| &urdd.findings);
-    let errors: Vec<&Finding> = findings
-        .filter(|finding| finding.severity == Severity::Error)
-        .collect();
-    let present: BTreeSet<&str> = urdd
-        .iter()
-        .flat_map(|urdd| &urdd.modules)
-        .map(|module| module.name.as_str())
-        .collect();
+    let errors: Vec<&Finding> =
+        findings.filter(|finding| finding.severity == Severity::Error).collect();
+    let present: BTreeSet<&str> =
+        urdd.iter().flat_map(|urdd| &urdd.modules).map(|module| module.name.as_str()).collect();
     let mut modules = Vec::new();
     for kind in ModuleKind::ALL {
         let asked = is_asked_for(*kind, plan.class);
@@ -247,13 +243,9 @@ fn score(plan: &Plan, name: &str, ran: &Ran, examined: Result<Urdd, Option<Strin
         });
     }
     let known = |module: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == module);
-    let of_none = errors
-        .iter()
-        .copied()
-        .filter(|finding| !finding.module.as_deref().is_some_and(known));
-    let passed = urdd
-        .as_ref()
-        .is_some_and(|urdd| urdd.verdict == Verdict::Pass);
+    let of_none =
+        errors.iter().copied().filter(|finding| !finding.module.as_deref().is_some_and(known));
+    let passed = urdd.as_ref().is_some_and(|urdd| urdd.verdict == Verdict::Pass);
     RobotScore {
         robot: name.to_owned(),
         status: match passed {
@@ -304,10 +296,7 @@ fn apply_skips(plan: &Plan, score: &mut RobotScore) -> BTreeSet<usize> {
     let covered = |module: &RobotModule| {
         module.status == ModuleStatus::Passed || module.skipped_since.is_some()
     };
-    let any = score
-        .modules
-        .iter()
-        .any(|module| module.skipped_since.is_some());
+    let any = score.modules.iter().any(|module| module.skipped_since.is_some());
     // A missing module is also an error of the directory.
     let directory = score.codes.iter().all(|code| code == MODULE_MISSING);
     if score.status == ScoreStatus::Failed

@@ -38,10 +38,10 @@ pub struct Refused {
 pub fn all(suite: &Suite) -> Result<Vec<Refused>, CaseError> {
     let mut all = Vec::new();
     for (path, bytes) in suite.data.below(REFUSED) {
-        all.extend(path.strip_suffix(".urdf").map(|id| Refused {
-            id: id.to_owned(),
-            urdf: bytes.to_owned(),
-        }));
+        all.extend(
+            path.strip_suffix(".urdf")
+                .map(|id| Refused { id: id.to_owned(), urdf: bytes.to_owned() }),
+        );
     }
     let source = FilePath::from(SOURCE);
     for case in &suite.cases {
@@ -51,10 +51,9 @@ pub fn all(suite: &Suite) -> Result<Vec<Refused>, CaseError> {
             && case.changes.iter().any(|change| change.file == source);
         if is_at_fault {
             let tree = suite.tree(case)?;
-            all.extend(tree.file(SOURCE).map(|bytes| Refused {
-                id: case.id(),
-                urdf: bytes.to_owned(),
-            }));
+            all.extend(
+                tree.file(SOURCE).map(|bytes| Refused { id: case.id(), urdf: bytes.to_owned() }),
+            );
         }
     }
     all.sort_by(|a, b| a.id.cmp(&b.id));
@@ -148,9 +147,9 @@ fn repaired(
     let metadata = serde_json::from_slice::<RootMetadata>(&text);
     let is_carried = metadata.is_ok_and(|metadata| metadata.source.is_some());
     match urdd.verdict == Verdict::Pass && !is_carried {
-        true => Err(Some(
-            "the URDD carries no source: carry the repaired URDF (SPEC 6.1.8)".to_owned(),
-        )),
+        true => {
+            Err(Some("the URDD carries no source: carry the repaired URDF (SPEC 6.1.8)".to_owned()))
+        }
         false => Ok(urdd),
     }
 }

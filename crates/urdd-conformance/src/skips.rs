@@ -43,11 +43,7 @@ pub fn read(text: &str, most: usize, form: &'static str) -> Result<Vec<Skip>, Sk
     for (index, line) in text.lines().enumerate() {
         let (what, reason) = line.split_once('#').unwrap_or((line, ""));
         let words: Vec<String> = what.split_whitespace().map(str::to_owned).collect();
-        let skip = Skip {
-            line: index + 1,
-            words,
-            reason: reason.trim().to_owned(),
-        };
+        let skip = Skip { line: index + 1, words, reason: reason.trim().to_owned() };
         match skip.words.len() {
             0 => continue,
             words if words > most => {
@@ -72,18 +68,12 @@ mod tests {
         let skips = read(text, 2, "").unwrap();
         assert_eq!(skips.len(), 2);
         assert_eq!(skips[0].reason, "no mimics yet");
-        assert_eq!(
-            (skips[1].line, skips[1].what().as_str()),
-            (4, "hand dof_module")
-        );
+        assert_eq!((skips[1].line, skips[1].what().as_str()), (4, "hand dof_module"));
         assert_eq!(skips[1].reason, "same # here");
         assert_eq!(
             read("a # b\ngripper", 2, ""),
             Err(SkipError::NoReason(2, "gripper".to_owned()))
         );
-        assert!(matches!(
-            read("a b c # d", 2, ""),
-            Err(SkipError::TooMany(1, ..))
-        ));
+        assert!(matches!(read("a b c # d", 2, ""), Err(SkipError::TooMany(1, ..))));
     }
 }

@@ -64,9 +64,7 @@ impl Suite {
     pub fn of(files: Files) -> Result<Suite, SuiteError> {
         let data = Data::of(files)?;
         let names = data.below(BASES);
-        let names: BTreeSet<&str> = names
-            .filter_map(|(path, _)| path.split('/').next())
-            .collect();
+        let names: BTreeSet<&str> = names.filter_map(|(path, _)| path.split('/').next()).collect();
         let base = |name: &str| {
             let files = data.below(&format!("{BASES}/{name}"));
             let mut tree = Tree::of(files, URDD);
@@ -75,10 +73,8 @@ impl Suite {
         };
         let bases = names.into_iter().map(base).collect();
         let case = |(path, text): (&str, &[u8])| -> Result<Case, SuiteError> {
-            serde_json::from_slice(text).map_err(|error| SuiteError::Case {
-                path: format!("{INVALID}/{path}"),
-                error,
-            })
+            serde_json::from_slice(text)
+                .map_err(|error| SuiteError::Case { path: format!("{INVALID}/{path}"), error })
         };
         let mut cases: Vec<Case> = data.below(INVALID).map(case).collect::<Result<_, _>>()?;
         cases.sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
@@ -91,15 +87,13 @@ impl Suite {
     /// If the base does not exist, or a change does not apply.
     pub fn tree(&self, case: &Case) -> Result<Tree, CaseError> {
         let base = self.bases.get(&case.base);
-        let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {
-            case: case.id(),
-            base: case.base.clone(),
-        })?;
+        let mut tree = base
+            .cloned()
+            .ok_or_else(|| CaseError::NoBase { case: case.id(), base: case.base.clone() })?;
         for change in &case.changes {
-            change.apply(&mut tree).map_err(|error| CaseError::Change {
-                case: case.id(),
-                error,
-            })?;
+            change
+                .apply(&mut tree)
+                .map_err(|error| CaseError::Change { case: case.id(), error })?;
         }
         seal::rehash(&mut tree, &case.hashes_kept);
         Ok(tree)

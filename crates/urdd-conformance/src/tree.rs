@@ -26,9 +26,7 @@ impl Serialize for FilePath {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match std::str::from_utf8(&self.0) {
             Ok(text) => Written::Text(text.to_owned()),
-            Err(_) => Written::Bytes {
-                base64: STANDARD.encode(&self.0),
-            },
+            Err(_) => Written::Bytes { base64: STANDARD.encode(&self.0) },
         }
         .serialize(serializer)
     }
@@ -38,11 +36,9 @@ impl<'de> Deserialize<'de> for FilePath {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Ok(match Written::deserialize(deserializer)? {
             Written::Text(text) => FilePath(text.into_bytes()),
-            Written::Bytes { base64 } => FilePath(
-                STANDARD
-                    .decode(base64)
-                    .map_err(<D::Error as serde::de::Error>::custom)?,
-            ),
+            Written::Bytes { base64 } => {
+                FilePath(STANDARD.decode(base64).map_err(<D::Error as serde::de::Error>::custom)?)
+            }
         })
     }
 }
@@ -189,10 +185,7 @@ impl Tree {
     /// Returns whether the folder has any entries.
     fn read_below(&mut self, folder: &Path, inside: &Path, root: &Path) -> Result<bool, TreeError> {
         let path = folder.join(inside);
-        let failed = |error| TreeError::Read {
-            path: path.clone(),
-            error,
-        };
+        let failed = |error| TreeError::Read { path: path.clone(), error };
         let mut any = false;
         for entry in fs::read_dir(&path).map_err(failed)? {
             let entry = entry.map_err(failed)?;
@@ -202,10 +195,7 @@ impl Tree {
                 .ok_or_else(|| TreeError::Unsupported(inside.display().to_string()))?;
             let kind = entry.file_type().map_err(failed)?;
             let path = entry.path();
-            let failed = |error| TreeError::Read {
-                path: path.clone(),
-                error,
-            };
+            let failed = |error| TreeError::Read { path: path.clone(), error };
             if kind.is_symlink() {
                 let target = fs::read_link(&path).map_err(failed)?;
                 let target = FilePath::from_os(&target)
@@ -279,8 +269,5 @@ fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
 }
 
 fn make_folder(path: &Path) -> Result<(), TreeError> {
-    fs::create_dir_all(path).map_err(|error| TreeError::Write {
-        path: path.to_owned(),
-        error,
-    })
+    fs::create_dir_all(path).map_err(|error| TreeError::Write { path: path.to_owned(), error })
 }

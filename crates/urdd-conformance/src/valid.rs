@@ -17,9 +17,8 @@ pub const LARGEST_KEPT: usize = 64 * 1024;
 /// Names of the suite's robots, sorted.
 pub fn robots(data: &Data) -> Vec<String> {
     let names = data.below(ROBOTS);
-    let names = names
-        .filter_map(|(path, _)| path.strip_suffix(".urdf"))
-        .filter(|name| !name.contains('/'));
+    let names =
+        names.filter_map(|(path, _)| path.strip_suffix(".urdf")).filter(|name| !name.contains('/'));
     names.map(str::to_owned).collect()
 }
 

@@ -164,11 +164,7 @@ pub fn run(
 /// Every URDD of the suite, and two of them again with a relative `{dir}`: one to accept, one to reject.
 fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
     let case_of = |item: &Item| suite.cases.iter().find(|case| case.id() == item.id);
-    let urdd = |item: Item| Chosen {
-        case: case_of(&item),
-        item,
-        is_relative: false,
-    };
+    let urdd = |item: Item| Chosen { case: case_of(&item), item, is_relative: false };
     let mut urdds: Vec<Chosen> = items(suite).into_iter().map(urdd).collect();
     for (verdict, id, title) in [
         (Verdict::Accept, "relative/valid", "a valid URDD"),
@@ -189,11 +185,7 @@ fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
             code: None,
             ..item.clone()
         };
-        urdds.push(Chosen {
-            item: again,
-            case: *case,
-            is_relative: true,
-        });
+        urdds.push(Chosen { item: again, case: *case, is_relative: true });
     }
     urdds
 }
@@ -225,15 +217,11 @@ fn judge(
     let Some(shown) = shown else {
         return Ok(None);
     };
-    let ran = plan
-        .command
-        .run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
+    let ran = plan.command.run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
     if let (Some(_), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(URDD));
-        fs::remove_dir_all(around).map_err(|error| RunError::Remove {
-            path: around.to_owned(),
-            error,
-        })?;
+        fs::remove_dir_all(around)
+            .map_err(|error| RunError::Remove { path: around.to_owned(), error })?;
     }
     Ok(Some(ran))
 }

@@ -43,10 +43,7 @@ impl Workplace {
             let folder = tempfile::tempdir().map_err(WorkplaceError::Temporary)?;
             return Ok(Workplace::Temporary(folder));
         };
-        let failed = |error| WorkplaceError::Folder {
-            path: path.to_owned(),
-            error,
-        };
+        let failed = |error| WorkplaceError::Folder { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
         if fs::read_dir(path).map_err(failed)?.next().is_some() {
             return Err(WorkplaceError::NotEmpty(path.to_owned()));

@@ -34,11 +34,7 @@ pub(super) fn of_robot(robot: &Robot) -> Vec<DofState> {
         let (joint, place) = layout.place(dof)?;
         let joint = robot.joints.get(joint)?;
         let derived = derived(joint, place)?;
-        Some(DofState {
-            name: name(joint, place)?,
-            stated: derived.clone(),
-            derived,
-        })
+        Some(DofState { name: name(joint, place)?, stated: derived.clone(), derived })
     });
     dofs.collect()
 }
@@ -160,10 +156,7 @@ fn values(
     fields.text("quantity", quantity.map(Quantity::as_str));
     fields.number("lower", position, lower);
     fields.number("upper", position, upper);
-    fields.text(
-        "limited",
-        limited.map(|it| if it { "true" } else { "false" }),
-    );
+    fields.text("limited", limited.map(|it| if it { "true" } else { "false" }));
     fields.number("velocity limit", speed, velocity);
     fields.number("effort limit", force, effort);
     fields

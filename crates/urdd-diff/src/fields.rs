@@ -61,13 +61,7 @@ impl Fields {
         key: String,
         shown: String,
     ) {
-        self.0.push(Field {
-            name: name.into(),
-            unit,
-            key,
-            shown,
-            numbers: Vec::new(),
-        });
+        self.0.push(Field { name: name.into(), unit, key, shown, numbers: Vec::new() });
     }
 
     /// The same values, by name.
@@ -87,9 +81,7 @@ impl Fields {
     pub fn summary(&self) -> String {
         let fields = self.0.iter();
         let texts = fields.map(|field| match field.unit {
-            "" => format!("{} {}", field.name, field.shown)
-                .trim_end()
-                .to_owned(),
+            "" => format!("{} {}", field.name, field.shown).trim_end().to_owned(),
             unit => format!("{} {} {unit}", field.name, field.shown),
         });
         texts.collect::<Vec<_>>().join(", ")
@@ -144,14 +136,8 @@ pub(super) fn compare(
 }
 
 /// Elements that are one value where only one part has them.
-const ELEMENTS: [&str; 6] = [
-    "inertial",
-    "limit",
-    "mimic",
-    "safety_controller",
-    "calibration",
-    "material",
-];
+const ELEMENTS: [&str; 6] =
+    ["inertial", "limit", "mimic", "safety_controller", "calibration", "material"];
 
 /// The element that a value belongs to, if it is one of [`ELEMENTS`].
 fn element(name: &str) -> Option<&str> {
@@ -178,10 +164,7 @@ fn whole(fields: &Fields, other: &Fields) -> Fields {
             let mut inside = Fields::default();
             for field in fields.0.iter().filter(|f| element(&f.name) == Some(name)) {
                 let short = field.name[name.len() + 1..].to_owned();
-                inside.0.push(Field {
-                    name: short,
-                    ..field.clone()
-                });
+                inside.0.push(Field { name: short, ..field.clone() });
             }
             whole.keyed(name, "", inside.key(), inside.summary());
         }

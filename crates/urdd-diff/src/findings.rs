@@ -38,10 +38,7 @@ fn gone(of: &Urdd, other: &Urdd, presence: Presence) -> Vec<FindingDifference> {
         }
     }
     let mut found = Vec::new();
-    let findings = of
-        .findings
-        .iter()
-        .filter(|f| meant.contains(f.code.as_str()));
+    let findings = of.findings.iter().filter(|f| meant.contains(f.code.as_str()));
     for finding in findings {
         let mut nothing = Subjects::new();
         let there = there.get_mut(finding.code.as_str()).unwrap_or(&mut nothing);

@@ -104,11 +104,8 @@ fn changes(
 ) -> Vec<ValueChange> {
     let mut partner: Vec<Option<usize>> = vec![None; before.len()];
     let mut taken = vec![false; after.len()];
-    let steps: [fn(&Element) -> Option<String>; 3] = [
-        |element| Some(element.key()),
-        |element| element.name.clone(),
-        |_| Some(String::new()),
-    ];
+    let steps: [fn(&Element) -> Option<String>; 3] =
+        [|element| Some(element.key()), |element| element.name.clone(), |_| Some(String::new())];
     for key in steps {
         let mut free: HashMap<String, VecDeque<usize>> = HashMap::new();
         for (j, element) in after.iter().enumerate().filter(|(j, _)| !taken[*j]) {
@@ -175,12 +172,7 @@ fn of_link(side: &Side, link: usize, kind: GeometryKind, by_name: &HashSet<&str>
                 }
             });
         }
-        origin::add(
-            "origin.",
-            element.origin,
-            side.has_quaternions(),
-            &mut shape,
-        );
+        origin::add("origin.", element.origin, side.has_quaternions(), &mut shape);
         Element {
             name: element.name.map(str::to_owned),
             shape,

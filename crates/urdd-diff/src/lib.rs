@@ -47,9 +47,7 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
     };
     let mut notes = notes(before, after);
     if tolerance > 0.0 {
-        notes.push(format!(
-            "numbers that differ by at most {tolerance:?} are taken as equal"
-        ));
+        notes.push(format!("numbers that differ by at most {tolerance:?} are taken as equal"));
     }
     let joints = parts(&|side| joints::parts(&side.robot.joints, side.has_quaternions()));
     let dofs = dofs::differences(before, after, tolerance);

@@ -25,11 +25,7 @@ pub(super) fn triangles(scene: &Scene) -> Triangles {
     for mesh in scene.parts.iter().map(|part| &part.mesh) {
         let corners = |triangle: [u32; 3]| mesh.corners(triangle).map(rounded);
         let triangles = mesh.triangles.iter().map(|triangle| corners(*triangle));
-        all.extend(
-            triangles
-                .filter(|[a, b, c]| a != b && b != c && c != a)
-                .map(turned),
-        );
+        all.extend(triangles.filter(|[a, b, c]| a != b && b != c && c != a).map(turned));
     }
     all.sort_unstable();
     let mut hash = Sha256::new();
@@ -44,10 +40,7 @@ pub(super) fn triangles(scene: &Scene) -> Triangles {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "files hold coordinates as binary32"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "files hold coordinates as binary32")]
 fn rounded(corner: [f64; 3]) -> Corner {
     // Adding 0 turns -0 into 0.
     corner.map(|coordinate| (coordinate as f32 + 0.0).to_bits())
@@ -67,10 +60,8 @@ fn turned([a, b, c]: [Corner; 3]) -> [Corner; 3] {
 /// The bounding box of a scene that is placed by a matrix; `None` without triangles.
 pub(super) fn placed_bounds(scene: &Scene, place: &Matrix4<f64>) -> Option<Bounds> {
     let meshes = scene.parts.iter().map(|part| {
-        let mut mesh = Mesh {
-            vertices: part.mesh.vertices.clone(),
-            triangles: part.mesh.triangles.clone(),
-        };
+        let mut mesh =
+            Mesh { vertices: part.mesh.vertices.clone(), triangles: part.mesh.triangles.clone() };
         mesh.transform(place);
         mesh.bounds()
     });

@@ -29,10 +29,7 @@ pub(super) fn differences(
 ) -> Option<Vec<ModuleDifference>> {
     let ((a, _), (b, _)) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
     let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
-        urdd.modules()
-            .iter()
-            .map(|module| module.folder.clone())
-            .collect()
+        urdd.modules().iter().map(|module| module.folder.clone()).collect()
     };
     let mut folders = by_folder(a);
     let new = by_folder(b);
@@ -127,13 +124,8 @@ fn is_near(a: &Value, b: &Value, tolerance: f64) -> bool {
 
 /// The hashes of a module's files besides its documents, as `urdd.json` has them.
 fn files(urdd: &Urdd, folder: &str) -> BTreeMap<String, String> {
-    let modules = urdd
-        .metadata()
-        .into_iter()
-        .flat_map(|metadata| &metadata.modules);
-    let files = modules
-        .filter(|module| module.path == folder)
-        .flat_map(|module| &module.files);
+    let modules = urdd.metadata().into_iter().flat_map(|metadata| &metadata.modules);
+    let files = modules.filter(|module| module.path == folder).flat_map(|module| &module.files);
     let files = files.filter_map(|file| {
         let name = file.path.rsplit('/').next()?;
         let is_document = ["VERSION", "module.json", "module.yaml"].contains(&name);

@@ -27,9 +27,7 @@ impl Side {
         let found = match found.as_slice() {
             [one] => one,
             several => {
-                let first = several
-                    .first()
-                    .map(|found| found.path.display().to_string());
+                let first = several.first().map(|found| found.path.display().to_string());
                 return Err(DiffError::Several {
                     path: shown,
                     count: several.len(),
@@ -40,10 +38,7 @@ impl Side {
         let Found { path, closed, .. } = found;
         if let Some(error) = closed {
             let reason = error.to_string();
-            return Err(DiffError::NoRobot {
-                path: shown,
-                reason,
-            });
+            return Err(DiffError::NoRobot { path: shown, reason });
         }
         let mut side = side_urdd::open(path, shown)?;
         side.validation = validation(path, options)?;
@@ -55,10 +50,8 @@ fn validation(path: &Path, options: &Options) -> Result<Option<report::Urdd>, Di
     if options.without_findings {
         return Ok(None);
     }
-    let settings = Settings {
-        cancellation: options.urdf.cancellation.clone(),
-        ..Settings::default()
-    };
+    let settings =
+        Settings { cancellation: options.urdf.cancellation.clone(), ..Settings::default() };
     let run = validate(&[path], &settings).map_err(|error| match error {
         ValidateError::Discover(error) => DiffError::Discover(error),
         _ => DiffError::Cancelled,

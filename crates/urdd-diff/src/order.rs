@@ -14,10 +14,7 @@ pub(super) fn notes(before: &Side, after: &Side) -> Vec<String> {
     };
     let orders = [
         ("links", is_other(before.link_names(), after.link_names())),
-        (
-            "joints",
-            is_other(before.joint_names(), after.joint_names()),
-        ),
+        ("joints", is_other(before.joint_names(), after.joint_names())),
     ];
     let others = orders.into_iter().filter(|(_, is_other)| *is_other);
     let note = |word| format!("the {word} are in another order, so their indices in a URDD differ");

@@ -38,9 +38,7 @@ fn part(text: &str) -> (String, Fields) {
     let mut fields = Fields::default();
     let wrapped = wrapped(text);
     let parsed = urdd_xml::parse(&wrapped, urdd_xml::Kind::Other).ok();
-    let root = parsed
-        .as_ref()
-        .and_then(|document| document.root_element().first_element_child());
+    let root = parsed.as_ref().and_then(|document| document.root_element().first_element_child());
     let Some(root) = root else {
         let words: Vec<&str> = text.split_whitespace().collect();
         fields.text("text", Some(&words.join(" ")));
@@ -61,10 +59,8 @@ fn part(text: &str) -> (String, Fields) {
             fields.text(at, Some(attribute.value()));
         }
         let texts = element.children().filter(|child| child.is_text());
-        let words: Vec<&str> = texts
-            .filter_map(|text| text.text())
-            .flat_map(str::split_whitespace)
-            .collect();
+        let words: Vec<&str> =
+            texts.filter_map(|text| text.text()).flat_map(str::split_whitespace).collect();
         if !words.is_empty() {
             let at = match path.trim_end_matches('/') {
                 "" => "text",
@@ -95,9 +91,7 @@ fn wrapped(text: &str) -> String {
         let word = before.rsplit(|c: char| c.is_whitespace() || "<>/\"'=&;".contains(c));
         let prefix = word.into_iter().next().unwrap_or_default();
         let begins = prefix.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        let is_name = prefix
-            .chars()
-            .all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
+        let is_name = prefix.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
         let is_reserved = prefix.to_ascii_lowercase().starts_with("xml");
         if begins && is_name && !is_reserved && !prefixes.contains(&prefix) {
             prefixes.push(prefix);
@@ -106,9 +100,7 @@ fn wrapped(text: &str) -> String {
             break;
         }
     }
-    let declared: Vec<String> = prefixes
-        .iter()
-        .map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\""))
-        .collect();
+    let declared: Vec<String> =
+        prefixes.iter().map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\"")).collect();
     format!("<x{}>{text}</x>", declared.concat())
 }

@@ -58,9 +58,7 @@ pub(super) fn differences(
         let (Some(x), Some(y)) = (checked(&a, kind, &of_before), checked(&b, kind, &of_after))
         else {
             let name = kind.name();
-            notes.push(format!(
-                "skipped pairs of {name} are not compared: one URDD has none"
-            ));
+            notes.push(format!("skipped pairs of {name} are not compared: one URDD has none"));
             continue;
         };
         let pairs: BTreeSet<(usize, usize)> = x.keys().chain(y.keys()).copied().collect();

@@ -60,11 +60,7 @@ pub(super) fn differences(
                 (a[i], Presence::Changed, changes)
             }
         };
-        found.push(PartDifference {
-            name: name.to_owned(),
-            presence,
-            changes,
-        });
+        found.push(PartDifference { name: name.to_owned(), presence, changes });
     }
     found
 }

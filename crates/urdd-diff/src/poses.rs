@@ -60,10 +60,7 @@ fn poses(robot: &Robot) -> Option<Vec<Pose>> {
         };
         let origin = robot.joints.get(joint)?.origin;
         let (turn, place) = poses[parent];
-        poses[link] = (
-            turn * origin.rotation(),
-            place + turn * Vector3::from(origin.xyz),
-        );
+        poses[link] = (turn * origin.rotation(), place + turn * Vector3::from(origin.xyz));
     }
     Some(poses)
 }

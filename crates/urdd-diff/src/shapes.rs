@@ -51,10 +51,7 @@ impl Shapes {
         let elements = robot.links.get(link)?.elements(kind).iter().enumerate();
         let elements = elements.filter(|(_, element)| element.geometry.is_some());
         let boxes = elements.map(|(index, _)| self.bounds.get(&(link, kind, index)).copied());
-        boxes
-            .collect::<Option<Vec<Bounds>>>()?
-            .into_iter()
-            .reduce(union)
+        boxes.collect::<Option<Vec<Bounds>>>()?.into_iter().reduce(union)
     }
 }
 
@@ -94,10 +91,7 @@ pub(super) fn shapes<File: Clone + Eq + std::hash::Hash>(
     let mut left = MAX_PLACED_VERTICES;
     for file in &order {
         let scene = read(file);
-        let found = scene
-            .as_ref()
-            .map(|scene| triangles(scene))
-            .map_err(Clone::clone);
+        let found = scene.as_ref().map(|scene| triangles(scene)).map_err(Clone::clone);
         for place in places.remove(file).unwrap_or_default() {
             shapes.meshes.insert(place, found.clone());
             let (Ok(scene), Some(matrix)) = (&scene, mesh_placement(robot, place)) else {
@@ -123,11 +117,7 @@ fn mesh_placement(robot: &Robot, place: Place) -> Option<Matrix4<f64>> {
     let (element, mesh) = mesh_at(robot, place)?;
     let rotation = element.origin.rotation();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
-    Some(placement(
-        mesh.scale.unwrap_or([1.0; 3]),
-        rows,
-        element.origin.xyz,
-    ))
+    Some(placement(mesh.scale.unwrap_or([1.0; 3]), rows, element.origin.xyz))
 }
 
 /// The element at a place and its mesh; `None` if it has none.
@@ -147,14 +137,8 @@ fn primitive(element: &Element) -> Option<Bounds> {
     let shape = match element.geometry.as_ref()? {
         Geometry::Mesh(_) => return None,
         Geometry::Box(of) => Primitive::Box(of.size.map(|side| side / 2.0)),
-        Geometry::Cylinder(of) => Primitive::Cylinder {
-            radius: of.radius,
-            half: of.length / 2.0,
-        },
-        Geometry::Capsule(of) => Primitive::Capsule {
-            radius: of.radius,
-            half: of.length / 2.0,
-        },
+        Geometry::Cylinder(of) => Primitive::Cylinder { radius: of.radius, half: of.length / 2.0 },
+        Geometry::Capsule(of) => Primitive::Capsule { radius: of.radius, half: of.length / 2.0 },
         Geometry::Sphere(of) => Primitive::Sphere { radius: of.radius },
     };
     let half = shape.half_extents(&element.origin.rotation());

@@ -23,10 +23,7 @@ use urdd_geometry::read::{Scene, read};
 /// # Errors
 /// If it cannot be read, or does not say what its robot is.
 pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
-    let failed = |reason: String| DiffError::NoRobot {
-        path: shown.clone(),
-        reason,
-    };
+    let failed = |reason: String| DiffError::NoRobot { path: shown.clone(), reason };
     let urdd = Urdd::read(path).map_err(|error| failed(error.to_string()))?;
     let robot: UrdfModule = match urdd.document(ModuleKind::Urdf) {
         Some(ModuleDocument::Urdf(module)) => (**module).clone(),
@@ -76,9 +73,7 @@ fn read_shapes(urdd: &Urdd, view: &Robot) -> Shapes {
                 if let Some(Geometry::Mesh(mesh)) = &element.geometry {
                     let place = (link, kind, index);
                     // Published URDDs list visual meshes alone.
-                    let path = paths
-                        .get(&place)
-                        .or_else(|| by_name.get(mesh.filename.as_str()));
+                    let path = paths.get(&place).or_else(|| by_name.get(mesh.filename.as_str()));
                     let missing = || "the URDD carries no such original mesh".to_owned();
                     files.push((place, path.cloned().ok_or_else(missing)));
                 }
@@ -94,11 +89,7 @@ fn paths(urdd: &Urdd, view: &Robot) -> HashMap<Place, File> {
     if let Some(ModuleDocument::OriginalMeshes(module)) = urdd.document(ModuleKind::OriginalMeshes)
     {
         for reference in &module.references {
-            let place = (
-                reference.link_idx.get(),
-                reference.geometry,
-                reference.element_idx.get(),
-            );
+            let place = (reference.link_idx.get(), reference.geometry, reference.element_idx.get());
             if let Some(path) = &reference.path {
                 paths.insert(place, (Profile::V1, path.clone()));
             }

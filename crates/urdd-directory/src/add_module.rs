@@ -97,9 +97,7 @@ pub fn add_module(
     let _lock = fs::canonicalize(parent)
         .ok()
         .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
-    let bytes = root
-        .read(ROOT_METADATA, MAX_DOCUMENT_BYTES)
-        .map_err(AddModuleError::Metadata)?;
+    let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).map_err(AddModuleError::Metadata)?;
     let mut metadata = json::read(&bytes)?.value;
     let modules = metadata.get_mut("modules").and_then(Value::as_array_mut);
     let modules = modules.ok_or(AddModuleError::NoModules)?;
@@ -107,18 +105,13 @@ pub fn add_module(
     if modules.iter().any(is_there) {
         return Err(AddModuleError::Listed(name.to_owned()));
     }
-    let own = files
-        .iter()
-        .map(|(file, text)| (format!("{name}/{file}"), text.as_bytes()));
+    let own = files.iter().map(|(file, text)| (format!("{name}/{file}"), text.as_bytes()));
     module_entry::insert(modules, name, version, name, depends_on, own);
 
     let folder = write_folder(parent, name, files)?;
     if let Err(error) = replace(parent, canonical::json_string(&metadata).as_bytes()) {
         let _ = fs::remove_dir_all(&folder);
-        return Err(AddModuleError::Write {
-            path: parent.join(ROOT_METADATA),
-            error,
-        });
+        return Err(AddModuleError::Write { path: parent.join(ROOT_METADATA), error });
     }
     Ok(folder)
 }

@@ -68,10 +68,7 @@ pub enum ArchiveFault {
 /// The first 200 characters of a name: it may have 65,535 bytes.
 fn start(name: &str) -> &str {
     const LONGEST: usize = 200;
-    let end = name
-        .char_indices()
-        .nth(LONGEST)
-        .map_or(name.len(), |(at, _)| at);
+    let end = name.char_indices().nth(LONGEST).map_or(name.len(), |(at, _)| at);
     &name[..end]
 }
 

@@ -161,9 +161,9 @@ pub(super) fn json_node(value: &Value, indent: usize, out: &mut impl Write) -> f
 fn yaml_block(value: &Value, indent: usize, begun: bool, out: &mut impl Write) -> fmt::Result {
     match value {
         Value::Object(map) => yaml_members(map, indent, begun, out),
-        Value::Array(list) => list
-            .iter()
-            .try_for_each(|element| yaml_element(element, indent, out)),
+        Value::Array(list) => {
+            list.iter().try_for_each(|element| yaml_element(element, indent, out))
+        }
         _ => inline(value, Language::Yaml, out),
     }
 }
@@ -324,9 +324,6 @@ deep:
     fn a_key_too_long_for_readers_takes_two_lines() {
         let (short, long) = ("k".repeat(1000), "k".repeat(1001));
         let text = yaml_string(&json!({ "a": { short.clone(): 1, long.clone(): [[1]] } }));
-        assert_eq!(
-            text,
-            format!("a:\n  {short}: 1\n  ? {long}\n  :\n    - [1]\n")
-        );
+        assert_eq!(text, format!("a:\n  {short}: 1\n  ? {long}\n  :\n    - [1]\n"));
     }
 }

@@ -50,10 +50,7 @@ pub fn carried(root: &Root) -> Result<Root, ReadError> {
         .filter(|entry| entry.kind == EntryKind::File && entry.utf8 && is_own(&entry.path))
         .map(|entry| entry.path.clone())
         .collect();
-    Ok(Root::of(Carried {
-        root: root.clone(),
-        files,
-    }))
+    Ok(Root::of(Carried { root: root.clone(), files }))
 }
 
 /// Whether a path is a symbolic link to a file outside the URDD's own files.

@@ -82,11 +82,7 @@ pub fn compare(root: &Root, path: &str, size: u64, sha256: &str) -> Option<Chang
     if hashes.lf.as_deref() == Some(sha256) || hashes.crlf.as_deref() == Some(sha256) {
         return Some(Change::LineEndings);
     }
-    Some(if actual == size {
-        Change::Hash(hashes.plain)
-    } else {
-        Change::Size(actual)
-    })
+    Some(if actual == size { Change::Hash(hashes.plain) } else { Change::Size(actual) })
 }
 
 struct Hashes {
@@ -167,9 +163,7 @@ mod tests {
             text.extend_from_slice(format!("line {i}\n").as_bytes());
         }
         text.extend_from_slice(b"a lone \r is no line end\r");
-        let dos = String::from_utf8(text.clone())
-            .unwrap()
-            .replace('\n', "\r\n");
+        let dos = String::from_utf8(text.clone()).unwrap().replace('\n', "\r\n");
         let from_dos = hashes(&mut dos.as_bytes(), true).unwrap();
         assert_eq!(from_dos.lf.unwrap(), sha256(&text));
         let to_dos = hashes(&mut &text[..], true).unwrap();

@@ -84,9 +84,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
             path: shown.clone(),
             reason: "permission denied".to_owned(),
         },
-        _ => DiscoverError::Missing {
-            path: shown.clone(),
-        },
+        _ => DiscoverError::Missing { path: shown.clone() },
     })?;
     if !canonical.is_dir() && !is_archive(&canonical) {
         return Err(DiscoverError::NotAFolder { path: shown });
@@ -98,10 +96,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         return Ok(vec![found_at(path.to_owned(), name, None)]);
     }
     if let Err(error) = fs::read_dir(&canonical) {
-        return Err(DiscoverError::Unreadable {
-            path: shown,
-            reason: error.kind().to_string(),
-        });
+        return Err(DiscoverError::Unreadable { path: shown, reason: error.kind().to_string() });
     }
     let mut found = Vec::new();
     let mut visited = 0;
@@ -117,10 +112,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         for entry in entries.flatten() {
             visited += 1;
             if visited > MAX_VISITED {
-                return Err(DiscoverError::TooMany {
-                    path: shown,
-                    limit: MAX_VISITED,
-                });
+                return Err(DiscoverError::TooMany { path: shown, limit: MAX_VISITED });
             }
             // Not followed: a link may form a cycle or lead anywhere.
             if !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
@@ -130,11 +122,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
             if is_staging(&name) {
                 continue;
             }
-            let name = if prefix.is_empty() {
-                name
-            } else {
-                format!("{prefix}/{name}")
-            };
+            let name = if prefix.is_empty() { name } else { format!("{prefix}/{name}") };
             if is_urdd(&entry.path()) {
                 found.push(found_at(entry.path(), name, None));
             } else {
@@ -157,8 +145,6 @@ fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {
     let entries = fs::read_dir(folder).map_err(|error| ReadError::from_io(&error))?;
     match depth < MAX_FOLDER_DEPTH {
         true => Ok(entries),
-        false => Err(ReadError::TooDeep {
-            limit: MAX_FOLDER_DEPTH,
-        }),
+        false => Err(ReadError::TooDeep { limit: MAX_FOLDER_DEPTH }),
     }
 }

@@ -35,10 +35,7 @@ pub struct Rows {
 impl Rows {
     /// Rows of values that serialise to lists or objects.
     pub fn new<T: Serialize + Send + 'static>(rows: Vec<T>) -> Self {
-        Rows {
-            length: rows.len(),
-            row: Box::new(move |idx| serde_json::to_value(&rows[idx])),
-        }
+        Rows { length: rows.len(), row: Box::new(move |idx| serde_json::to_value(&rows[idx])) }
     }
 
     /// Rows that serialise to lists or objects and are part of a shared value.

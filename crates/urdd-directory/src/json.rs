@@ -40,20 +40,13 @@ pub fn read(bytes: &[u8]) -> Result<JsonDocument, UnreadableText> {
     let value = match parsed {
         Ok(value) => value,
         Err(error) => {
-            return Err(unreadable(
-                faults,
-                explain(&text, &error, state.too_deep.get()),
-            ));
+            return Err(unreadable(faults, explain(&text, &error, state.too_deep.get())));
         }
     };
     if state.has_repeated_key() {
         report_repeated_keys(&text, &mut faults);
     }
-    Ok(JsonDocument {
-        text,
-        value,
-        faults,
-    })
+    Ok(JsonDocument { text, value, faults })
 }
 
 fn unreadable(mut faults: TextFaults, fault: TextFault) -> UnreadableText {
@@ -94,10 +87,7 @@ impl<'s> Seed<'s> {
             self.state.too_deep.set(true);
             return Err(E::custom("too deep"));
         }
-        Ok(Self {
-            depth: self.depth + 1,
-            ..self
-        })
+        Ok(Self { depth: self.depth + 1, ..self })
     }
 }
 
@@ -133,9 +123,7 @@ impl<'de> Visitor<'de> for Seed<'_> {
     }
 
     fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Value, E> {
-        Number::from_f64(value)
-            .map(Value::Number)
-            .ok_or_else(|| E::custom("number out of range"))
+        Number::from_f64(value).map(Value::Number).ok_or_else(|| E::custom("number out of range"))
     }
 
     fn visit_str<E>(self, value: &str) -> Result<Value, E> {
@@ -231,15 +219,7 @@ mod tests {
 
     #[test]
     fn numbers_that_are_not_finite_have_their_own_kind() {
-        for word in [
-            "NaN",
-            "Infinity",
-            "-Infinity",
-            "1e999",
-            "-1E+999",
-            "nan",
-            "-inf",
-        ] {
+        for word in ["NaN", "Infinity", "-Infinity", "1e999", "-1E+999", "nan", "-inf"] {
             let text = format!("{{\"a\": [0.5,\n  {word}, 2]}}");
             let fault = only_fault(text.as_bytes());
             assert_eq!(fault.kind, TextFaultKind::NonFiniteNumber, "{word}");
@@ -255,11 +235,7 @@ mod tests {
         assert!(read(nested("[", "]", DEPTH_LIMIT).as_bytes()).is_ok());
         assert!(read(nested("{\"a\":", "}", DEPTH_LIMIT).as_bytes()).is_ok());
         for n in [DEPTH_LIMIT + 1, 10_000] {
-            for text in [
-                nested("[", "]", n),
-                nested("{\"a\":", "}", n),
-                "[".repeat(n),
-            ] {
+            for text in [nested("[", "]", n), nested("{\"a\":", "}", n), "[".repeat(n)] {
                 assert_eq!(only_fault(text.as_bytes()).kind, TextFaultKind::TooDeep);
             }
         }

@@ -62,11 +62,8 @@ pub fn report_repeated_keys(text: &str, faults: &mut TextFaults) {
 pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFault {
     let lines = LineIndex::new(text);
     // serde_json ends lines at `\n` only, counts columns in bytes, and names the last byte it read.
-    let offset = if error.is_eof() {
-        text.len()
-    } else {
-        offset_of(text, error.line(), error.column())
-    };
+    let offset =
+        if error.is_eof() { text.len() } else { offset_of(text, error.line(), error.column()) };
     let at = |offset: usize, kind, message: String| {
         TextFault::new(kind, message)
             .at(lines.position(offset))
@@ -87,10 +84,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
     let message = if text.trim().is_empty() {
         "the file is empty: a JSON value was expected".to_owned()
     } else if error.is_eof() {
-        format!(
-            "the file ends early, before its JSON is complete: {}",
-            reason(error)
-        )
+        format!("the file ends early, before its JSON is complete: {}", reason(error))
     } else {
         format!("not JSON: {}", reason(error))
     };

@@ -114,10 +114,8 @@ mod tests {
             "/c/d/0",
         ];
         let many = find_values(text, &pointers);
-        let each: Vec<Option<usize>> = pointers
-            .iter()
-            .map(|p| find_values(text, &[p])[0])
-            .collect();
+        let each: Vec<Option<usize>> =
+            pointers.iter().map(|p| find_values(text, &[p])[0]).collect();
         assert_eq!(many, each);
         assert_eq!(many.iter().flatten().count(), 9);
     }

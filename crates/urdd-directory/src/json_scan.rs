@@ -20,10 +20,7 @@ pub fn repeated_keys(text: &str, mut found: impl FnMut(&dyn Fn() -> RepeatedKey)
     let mut walk = Walk::new(text, true);
     while let Some(token) = walk.next() {
         if token.repeats {
-            found(&|| RepeatedKey {
-                offset: token.offset,
-                pointer: walk.pointer(),
-            });
+            found(&|| RepeatedKey { offset: token.offset, pointer: walk.pointer() });
         }
     }
 }
@@ -155,11 +152,7 @@ impl<'a> Scan<'a> {
 /// One open container of a [`Walk`].
 enum Open<'a> {
     List(usize),
-    Object {
-        key: Option<Cow<'a, str>>,
-        keys: HashSet<Cow<'a, str>>,
-        at_value: bool,
-    },
+    Object { key: Option<Cow<'a, str>>, keys: HashSet<Cow<'a, str>>, at_value: bool },
 }
 
 struct Token {
@@ -176,26 +169,17 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(text: &'a str, with_keys: bool) -> Self {
-        Self {
-            scan: Scan::new(text),
-            open: Vec::new(),
-            with_keys,
-        }
+        Self { scan: Scan::new(text), open: Vec::new(), with_keys }
     }
 
     fn next(&mut self) -> Option<Token> {
         self.scan.skip_space();
         let offset = self.scan.at;
-        let mut token = Token {
-            offset,
-            repeats: false,
-        };
+        let mut token = Token { offset, repeats: false };
         match self.scan.peek()? {
-            b'{' => self.open.push(Open::Object {
-                key: None,
-                keys: HashSet::new(),
-                at_value: false,
-            }),
+            b'{' => {
+                self.open.push(Open::Object { key: None, keys: HashSet::new(), at_value: false })
+            }
             b'[' => self.open.push(Open::List(0)),
             b'}' | b']' => {
                 self.open.pop();
@@ -211,12 +195,7 @@ impl<'a> Walk<'a> {
                 }
             }
             b'"' => {
-                if let Some(Open::Object {
-                    key,
-                    keys,
-                    at_value: false,
-                }) = self.open.last_mut()
-                {
+                if let Some(Open::Object { key, keys, at_value: false }) = self.open.last_mut() {
                     let name = self.scan.key()?;
                     if self.with_keys {
                         token.repeats = !keys.insert(name.clone());
@@ -251,17 +230,8 @@ impl<'a> Walk<'a> {
 
 /// Texts that are not JSON.
 #[cfg(test)]
-pub(crate) const BROKEN: [&str; 9] = [
-    "",
-    "\"",
-    "{\"a",
-    "{\"a\\",
-    "[1,,",
-    "}}",
-    "{\"é\\ud800\":1}",
-    "[\\",
-    ":",
-];
+pub(crate) const BROKEN: [&str; 9] =
+    ["", "\"", "{\"a", "{\"a\\", "[1,,", "}}", "{\"é\\ud800\":1}", "[\\", ":"];
 
 #[cfg(test)]
 mod tests {

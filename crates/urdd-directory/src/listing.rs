@@ -52,29 +52,22 @@ impl Listing {
 
     /// Whether a path is a folder.
     pub fn has_folder(&self, path: &str) -> bool {
-        self.get(path)
-            .is_some_and(|entry| entry.kind == EntryKind::Folder)
+        self.get(path).is_some_and(|entry| entry.kind == EntryKind::Folder)
     }
 
     /// Whether a path is a regular file.
     pub fn has_file(&self, path: &str) -> bool {
-        self.get(path)
-            .is_some_and(|entry| entry.kind == EntryKind::File)
+        self.get(path).is_some_and(|entry| entry.kind == EntryKind::File)
     }
 
     /// The entries below a folder, at any depth.
     pub fn below<'a>(&'a self, folder: &'a str) -> impl Iterator<Item = &'a Entry> {
         let is_below = move |entry: &&Entry| {
-            entry
-                .path
-                .strip_prefix(folder)
-                .is_some_and(|rest| rest.starts_with('/'))
+            entry.path.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/'))
         };
         // In path order, all entries below a folder are adjacent.
         let prefix = format!("{folder}/");
-        let first = self
-            .entries
-            .partition_point(|entry| entry.path.as_str() < prefix.as_str());
+        let first = self.entries.partition_point(|entry| entry.path.as_str() < prefix.as_str());
         self.entries.iter().skip(first).take_while(is_below)
     }
 }

@@ -140,10 +140,7 @@ mod tests {
         let of = |named| beside("m/meshes/arm/base.obj", named);
         assert_eq!(of("base.mtl").as_deref(), Some("m/meshes/arm/base.mtl"));
         assert_eq!(of("./../tex\\a.png").as_deref(), Some("m/meshes/tex/a.png"));
-        assert_eq!(
-            of("/tex//a:b.png").as_deref(),
-            Some("m/meshes/arm/tex/a_b.png")
-        );
+        assert_eq!(of("/tex//a:b.png").as_deref(), Some("m/meshes/arm/tex/a_b.png"));
         assert_eq!(of("../../../../a.png"), None);
     }
 }

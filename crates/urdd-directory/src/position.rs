@@ -55,11 +55,7 @@ impl<'a> LineIndex<'a> {
             before += scalars(block);
             before_block.push(before);
         }
-        Self {
-            text,
-            starts,
-            before_block,
-        }
+        Self { text, starts, before_block }
     }
 
     /// The position of a byte offset. Offsets beyond the text give its end.
@@ -99,9 +95,7 @@ pub fn locate(text: &str, pointer: &str) -> Option<Position> {
 pub fn locate_all(text: &str, pointers: &[&str]) -> Vec<Option<Position>> {
     let index = LineIndex::new(text);
     let offsets = json_places::find_values(text, pointers).into_iter();
-    offsets
-        .map(|offset| offset.map(|offset| index.position(offset)))
-        .collect()
+    offsets.map(|offset| offset.map(|offset| index.position(offset))).collect()
 }
 
 /// Counts scalar values: every byte of UTF-8 except continuation bytes.
@@ -135,10 +129,7 @@ mod tests {
         for (offset, _) in text.char_indices() {
             let before = &text[..offset];
             let line = before.rsplit('\n').next().unwrap();
-            let expected = at(
-                1 + u32::from(offset > 6000),
-                line.chars().count() as u32 + 1,
-            );
+            let expected = at(1 + u32::from(offset > 6000), line.chars().count() as u32 + 1);
             assert_eq!(index.position(offset), expected, "{offset}");
         }
     }
@@ -152,15 +143,7 @@ mod tests {
         assert_eq!(locate(text, "/a~1b/1/~0"), Some(at(2, 20)));
         assert_eq!(locate(text, "/a~1b/1/é/0"), Some(at(2, 40)));
         assert_eq!(locate(text, "/"), Some(at(3, 7)));
-        for absent in [
-            "/b",
-            "/a~1b/2",
-            "/a~1b/01",
-            "/a~1b/-",
-            "/a~1b/0/x",
-            "a",
-            "/~2",
-        ] {
+        for absent in ["/b", "/a~1b/2", "/a~1b/01", "/a~1b/-", "/a~1b/0/x", "a", "/~2"] {
             assert_eq!(locate(text, absent), None, "{absent}");
         }
     }

@@ -49,19 +49,13 @@ pub(crate) fn read_sized(file: impl Read, size: u64, limit: u64) -> Result<Vec<u
     // Allocate once, with room for the read that detects the end.
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default() + 32);
     // The file may grow while it is read: enforce the limit again.
-    file.take(limit + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| ReadError::from_io(&error))?;
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| ReadError::from_io(&error))?;
     fits(bytes.len() as u64)?;
     Ok(bytes)
 }
 
 fn check_kind(metadata: &Metadata) -> Result<(), ReadError> {
-    if metadata.is_file() {
-        Ok(())
-    } else {
-        Err(ReadError::NotAFile)
-    }
+    if metadata.is_file() { Ok(()) } else { Err(ReadError::NotAFile) }
 }
 
 /// Opens without blocking: a pipe may have replaced the file, and some kernel files block until their next line.

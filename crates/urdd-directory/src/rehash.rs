@@ -58,9 +58,7 @@ pub fn rehash(root: &Root) -> Result<Vec<String>, RehashError> {
     let _lock = fs::canonicalize(folder)
         .ok()
         .and_then(|place| TargetLock::acquire(&place, &Cancellation::default()).ok());
-    let bytes = root
-        .read(ROOT_METADATA, MAX_DOCUMENT_BYTES)
-        .map_err(RehashError::Metadata)?;
+    let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).map_err(RehashError::Metadata)?;
     let mut metadata = json::read(&bytes)?.value;
     let mut changed = Vec::new();
     for entry in file_entry::all(&mut metadata) {
@@ -96,10 +94,8 @@ fn update(root: &Root, entry: &mut Value, changed: &mut Vec<String>) -> Result<(
     let Some(path) = file_entry::path(entry).map(str::to_owned) else {
         return Ok(());
     };
-    let (size, sha256) = digest::of(root, &path).map_err(|error| RehashError::File {
-        path: path.clone(),
-        error,
-    })?;
+    let (size, sha256) =
+        digest::of(root, &path).map_err(|error| RehashError::File { path: path.clone(), error })?;
     if file_entry::update(entry, size, &sha256) {
         changed.push(path);
     }

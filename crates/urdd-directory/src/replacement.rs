@@ -37,9 +37,7 @@ impl Replacement {
     pub fn stage(&self, files: &Files) -> Result<(), StagingError> {
         let writer = Writer::new(self.staging.content());
         let instead: BTreeSet<&Path> = files.keys().map(Path::new).collect();
-        take_content(&self.folder, self.staging.content(), &|path| {
-            instead.contains(path)
-        })?;
+        take_content(&self.folder, self.staging.content(), &|path| instead.contains(path))?;
         for (path, bytes) in files {
             writer.file(path, bytes)?;
         }

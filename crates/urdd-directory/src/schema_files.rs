@@ -61,10 +61,7 @@ pub enum SchemaFault {
 impl SchemaFault {
     /// Whether `urdd schema export` fixes it. If not, the message says how to fix it.
     pub fn is_mended_by_export(&self) -> bool {
-        matches!(
-            self,
-            SchemaFault::Missing { .. } | SchemaFault::Outdated { .. }
-        )
+        matches!(self, SchemaFault::Missing { .. } | SchemaFault::Outdated { .. })
     }
 }
 
@@ -74,11 +71,7 @@ impl fmt::Display for SchemaFault {
             SchemaFault::Missing { path } => write!(f, "{path}: missing"),
             SchemaFault::Outdated { path } => write!(f, "{path}: not what the types write"),
             SchemaFault::Stray { path } => write!(f, "{path}: not a published schema; remove it"),
-            SchemaFault::Changed {
-                id,
-                released,
-                found,
-            } => write!(
+            SchemaFault::Changed { id, released, found } => write!(
                 f,
                 "{}: a released schema never changes; undo the change, or add a new version of {id} \
                  (released as {released}, the types write {found})",
@@ -147,11 +140,7 @@ fn frozen_faults() -> Result<Vec<SchemaFault>, SchemaFilesError> {
         };
         let found = schema::validating_hash(&subject.schema(Variant::Strict));
         if found != release.sha256 {
-            faults.push(SchemaFault::Changed {
-                id: release.id,
-                released: release.sha256,
-                found,
-            });
+            faults.push(SchemaFault::Changed { id: release.id, released: release.sha256, found });
         }
     }
     Ok(faults)
@@ -175,9 +164,7 @@ fn read_folder(
             continue;
         }
         let path = entry.path();
-        let kind = entry
-            .file_type()
-            .map_err(|source| io_error(&path, source))?;
+        let kind = entry.file_type().map_err(|source| io_error(&path, source))?;
         if kind.is_dir() {
             read_folder(&path, &format!("{prefix}{name}/"), found)?;
         } else {
@@ -189,8 +176,5 @@ fn read_folder(
 }
 
 fn io_error(path: &Path, source: io::Error) -> SchemaFilesError {
-    SchemaFilesError::Io {
-        path: path.to_owned(),
-        source,
-    }
+    SchemaFilesError::Io { path: path.to_owned(), source }
 }

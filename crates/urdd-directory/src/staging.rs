@@ -102,10 +102,7 @@ impl Staging {
         let target = place(target)?;
         if holds_current(&target) {
             let reason = "it is the current folder, or above it; run the command from elsewhere";
-            return Err(StagingError::Place {
-                path: target,
-                reason: reason.to_owned(),
-            });
+            return Err(StagingError::Place { path: target, reason: reason.to_owned() });
         }
         Self::at(target, false, cancellation)
     }
@@ -147,13 +144,7 @@ impl Staging {
         }
         let content = workplace.join(CONTENT);
         let made = fs::create_dir(&workplace).and_then(|()| fs::create_dir(&content));
-        let staging = Staging {
-            target,
-            workplace,
-            content,
-            is_inside,
-            _lock: lock,
-        };
+        let staging = Staging { target, workplace, content, is_inside, _lock: lock };
         match made {
             Ok(()) => Ok(staging),
             Err(error) => {
@@ -187,10 +178,7 @@ impl Staging {
                     false => put(&self.content, &self.target, &old),
                 }
             })
-            .map_err(|error| StagingError::Write {
-                path: self.target.clone(),
-                error,
-            })
+            .map_err(|error| StagingError::Write { path: self.target.clone(), error })
     }
 }
 
@@ -206,15 +194,9 @@ impl Drop for Staging {
 /// The target as a path that `rename` accepts.
 fn place(target: &Path) -> Result<PathBuf, StagingError> {
     let refuse = |reason: &str| {
-        Err(StagingError::Place {
-            path: target.to_owned(),
-            reason: reason.to_owned(),
-        })
+        Err(StagingError::Place { path: target.to_owned(), reason: reason.to_owned() })
     };
-    let write = |error| StagingError::Write {
-        path: target.to_owned(),
-        error,
-    };
+    let write = |error| StagingError::Write { path: target.to_owned(), error };
     if let Ok(metadata) = fs::metadata(target) {
         if !metadata.is_dir() {
             return refuse("a file of that name exists");

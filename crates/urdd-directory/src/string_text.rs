@@ -31,9 +31,7 @@ pub fn write_string(text: &str, language: Language, out: &mut impl Write) -> fmt
 fn is_plain(text: &str) -> bool {
     const WORDS: [&str; 9] = ["y", "n", "yes", "no", "on", "off", "true", "false", "null"];
     let mut bytes = text.bytes();
-    bytes
-        .next()
-        .is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
+    bytes.next().is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
         && bytes.all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.' | b'/'))
         && !(text.len() <= 5 && WORDS.iter().any(|word| text.eq_ignore_ascii_case(word)))
 }
@@ -80,10 +78,7 @@ mod tests {
     #[test]
     fn characters_that_yaml_cannot_hold_are_escaped() {
         let text = "\0\u{7f}\u{85}\u{2028}\u{feff}\u{ffff}\u{1F916}é\"\\\n";
-        assert_eq!(
-            yaml_quoted(text),
-            r#""\u0000\u007f\u0085\u2028\ufeff\uffff🤖é\"\\\n""#
-        );
+        assert_eq!(yaml_quoted(text), r#""\u0000\u007f\u0085\u2028\ufeff\uffff🤖é\"\\\n""#);
         let mut json = String::new();
         write_quoted(text, Language::Json, &mut json).unwrap();
         assert_eq!(json, serde_json::to_string(text).unwrap());
@@ -91,19 +86,11 @@ mod tests {
 
     #[test]
     fn words_that_mean_something_are_quoted() {
-        for word in [
-            "y", "N", "Yes", "nO", "On", "OFF", "True", "false", "NULL", "", "~", "-", "1",
-        ] {
+        for word in ["y", "N", "Yes", "nO", "On", "OFF", "True", "false", "NULL", "", "~", "-", "1"]
+        {
             assert!(!is_plain(word), "{word}");
         }
-        for word in [
-            "x",
-            "yesterday",
-            "_1",
-            "base_link",
-            "meshes/0_base.stl",
-            "nan",
-        ] {
+        for word in ["x", "yesterday", "_1", "base_link", "meshes/0_base.stl", "nan"] {
             assert!(is_plain(word), "{word}");
         }
     }

@@ -34,11 +34,7 @@ impl Writer {
     pub fn file(&self, path: &str, bytes: &[u8]) -> Result<FileEntry, StagingError> {
         let mut file = self.create(path)?;
         self.check(path, file.write_all(bytes))?;
-        Ok(entry(
-            path,
-            bytes.len() as u64,
-            Sha256::digest(bytes).as_slice(),
-        ))
+        Ok(entry(path, bytes.len() as u64, Sha256::digest(bytes).as_slice()))
     }
 
     /// Copies an external file.
@@ -46,10 +42,7 @@ impl Writer {
     /// # Errors
     /// If it cannot be read, or its copy cannot be written.
     pub fn copy(&self, from: &Path, path: &str) -> Result<FileEntry, StagingError> {
-        let unread = |error| StagingError::Read {
-            path: from.to_owned(),
-            error,
-        };
+        let unread = |error| StagingError::Read { path: from.to_owned(), error };
         let mut source = File::open(from).map_err(unread)?;
         let mut file = self.create(path)?;
         let (mut hasher, mut size) = (Sha256::new(), 0);
@@ -85,10 +78,7 @@ impl Writer {
     ) -> Result<Vec<FileEntry>, StagingError> {
         let folder = kind.folder();
         Ok(vec![
-            self.file(
-                &format!("{folder}/VERSION"),
-                format!("{version}\n").as_bytes(),
-            )?,
+            self.file(&format!("{folder}/VERSION"), format!("{version}\n").as_bytes())?,
             self.document(&format!("{folder}/module.json"), document, Document::json)?,
             self.document(&format!("{folder}/module.yaml"), document, Document::yaml)?,
         ])
@@ -128,19 +118,14 @@ impl Writer {
     fn place(&self, path: &str) -> Result<PathBuf, StagingError> {
         let place = self.root.join(path);
         if let Some(folder) = place.parent() {
-            fs::create_dir_all(folder).map_err(|error| StagingError::Write {
-                path: folder.to_owned(),
-                error,
-            })?;
+            fs::create_dir_all(folder)
+                .map_err(|error| StagingError::Write { path: folder.to_owned(), error })?;
         }
         Ok(place)
     }
 
     fn check(&self, path: &str, result: std::io::Result<()>) -> Result<(), StagingError> {
-        result.map_err(|error| StagingError::Write {
-            path: self.root.join(path),
-            error,
-        })
+        result.map_err(|error| StagingError::Write { path: self.root.join(path), error })
     }
 }
 

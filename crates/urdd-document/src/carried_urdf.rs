@@ -87,9 +87,7 @@ pub(super) fn read(
 pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
     let bytes = root.read(path, MAX_URDF_BYTES)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    let not_utf8_at = std::str::from_utf8(bytes)
-        .err()
-        .map(|error| error.valid_up_to());
+    let not_utf8_at = std::str::from_utf8(bytes).err().map(|error| error.valid_up_to());
     Ok(CarriedUrdf {
         path: path.to_owned(),
         text: String::from_utf8_lossy(bytes).into_owned(),

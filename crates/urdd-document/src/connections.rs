@@ -20,10 +20,9 @@ pub fn view(document: &ModuleDocument) -> Option<Connections<'_>> {
             descendant_paths: module.link_connection_paths.as_deref(),
             v1: Some(module),
         }),
-        ModuleDocument::LegacyConnections(module) => Some(Connections {
-            descendant_paths: Some(&module.link_connection_paths),
-            v1: None,
-        }),
+        ModuleDocument::LegacyConnections(module) => {
+            Some(Connections { descendant_paths: Some(&module.link_connection_paths), v1: None })
+        }
         _ => None,
     }
 }

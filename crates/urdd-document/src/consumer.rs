@@ -22,10 +22,7 @@ pub struct ConsumerModules {
 pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
     let (chain, dofs) = (urdd.chain()?, urdd.dofs()?);
     if let (Some(chain), Some(dof)) = (chain.v1, dofs.v1) {
-        return Some(ConsumerModules {
-            chain: chain.clone(),
-            dof: dof.clone(),
-        });
+        return Some(ConsumerModules { chain: chain.clone(), dof: dof.clone() });
     }
     let robot = urdd.robot()?;
     let links_in_chain = chain.links.iter().map(|link| LinkInChain {
@@ -36,32 +33,28 @@ pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
         children_joint_idxs: link.children_joint_idxs.to_vec(),
         children_link_idxs: link.children_link_idxs.to_vec(),
     });
-    let joints_in_chain = chain
-        .joints
-        .iter()
-        .zip(&robot.joints)
-        .map(|(joint, source)| {
-            let [x, y, z] = source.origin.xyz;
-            let isometry = nalgebra::Isometry3::from_parts(
-                nalgebra::Translation3::new(x, y, z),
-                rotation::from_rpy(source.origin.rpy),
-            );
-            JointInChain {
-                joint_name: joint.joint_name.to_owned(),
-                joint_idx: joint.joint_idx,
-                parent_link_name: joint.parent_link_name.to_owned(),
-                parent_link_idx: joint.parent_link_idx,
-                child_link_name: joint.child_link_name.to_owned(),
-                child_link_idx: joint.child_link_idx,
-                joint_type: source.joint_type,
-                origin: from_isometry(&isometry),
-                axis: source
-                    .has_axis()
-                    .then(|| rotation::unit_axis(source.axis))
-                    .flatten()
-                    .map(|axis| [axis.x, axis.y, axis.z]),
-            }
-        });
+    let joints_in_chain = chain.joints.iter().zip(&robot.joints).map(|(joint, source)| {
+        let [x, y, z] = source.origin.xyz;
+        let isometry = nalgebra::Isometry3::from_parts(
+            nalgebra::Translation3::new(x, y, z),
+            rotation::from_rpy(source.origin.rpy),
+        );
+        JointInChain {
+            joint_name: joint.joint_name.to_owned(),
+            joint_idx: joint.joint_idx,
+            parent_link_name: joint.parent_link_name.to_owned(),
+            parent_link_idx: joint.parent_link_idx,
+            child_link_name: joint.child_link_name.to_owned(),
+            child_link_idx: joint.child_link_idx,
+            joint_type: source.joint_type,
+            origin: from_isometry(&isometry),
+            axis: source
+                .has_axis()
+                .then(|| rotation::unit_axis(source.axis))
+                .flatten()
+                .map(|axis| [axis.x, axis.y, axis.z]),
+        }
+    });
     Some(ConsumerModules {
         chain: ChainModule {
             links_in_chain: links_in_chain.collect(),
@@ -74,11 +67,7 @@ pub fn modules(urdd: &Urdd) -> Option<ConsumerModules> {
             dof_idx_to_joint_idx_mapping: dofs.joint_of_dof.to_vec(),
             joint_idx_to_dof_idxs_mapping: dofs.dofs_of_joint.to_vec(),
             joint_idx_to_mimic_mapping: legacy_mimics(urdd, robot, dofs.dofs_of_joint)?,
-            dofs: dofs
-                .joint_of_dof
-                .iter()
-                .map(|joint| legacy_dof(robot, *joint))
-                .collect(),
+            dofs: dofs.joint_of_dof.iter().map(|joint| legacy_dof(robot, *joint)).collect(),
         },
     })
 }
@@ -92,13 +81,9 @@ fn legacy_mimics(
     let mimics = urdd.mimics()?;
     let resolve = |joint: usize| {
         let resolved = mimics.by_joint[joint]?;
-        let own = dofs_of_joint
-            .get(joint)
-            .is_some_and(|dofs| !dofs.is_empty());
+        let own = dofs_of_joint.get(joint).is_some_and(|dofs| !dofs.is_empty());
         (!own).then(|| ResolvedMimic {
-            dof_idx: dofs_of_joint
-                .get(resolved.driver)
-                .and_then(|dofs| dofs.first().copied()),
+            dof_idx: dofs_of_joint.get(resolved.driver).and_then(|dofs| dofs.first().copied()),
             multiplier: resolved.multiplier,
             offset: resolved.offset,
         })
@@ -114,10 +99,6 @@ fn legacy_dof(robot: &Robot, joint: JointIdx) -> Dof {
         name: name.clone(),
         joint_idx: joint,
         joint_name: name,
-        quantity: if slides {
-            Quantity::Length
-        } else {
-            Quantity::Angle
-        },
+        quantity: if slides { Quantity::Length } else { Quantity::Angle },
     }
 }

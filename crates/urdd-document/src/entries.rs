@@ -42,8 +42,7 @@ impl Entry<'_> {
 
     /// Whether a path is inside its folder.
     pub fn holds(&self, path: &str) -> bool {
-        path.strip_prefix(self.entry.path.as_str())
-            .is_some_and(|rest| rest.starts_with('/'))
+        path.strip_prefix(self.entry.path.as_str()).is_some_and(|rest| rest.starts_with('/'))
     }
 }
 
@@ -52,16 +51,12 @@ pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
     let Some(metadata) = urdd.metadata() else {
         return Vec::new();
     };
-    let modules: HashMap<&str, &Module> = urdd
-        .modules()
-        .iter()
-        .map(|module| (module.folder.as_str(), module))
-        .collect();
+    let modules: HashMap<&str, &Module> =
+        urdd.modules().iter().map(|module| (module.folder.as_str(), module)).collect();
     let by_name: HashMap<&str, ModuleKind> =
         version_1_kinds().map(|kind| (kind.name(), kind)).collect();
-    let by_folder: HashMap<&str, ModuleKind> = version_1_kinds()
-        .map(|kind| (kind.folder(), kind))
-        .collect();
+    let by_folder: HashMap<&str, ModuleKind> =
+        version_1_kinds().map(|kind| (kind.folder(), kind)).collect();
     metadata
         .modules
         .iter()
@@ -80,16 +75,11 @@ pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
 
 /// The modules of this specification.
 pub fn version_1_kinds() -> impl Iterator<Item = ModuleKind> {
-    ModuleKind::ALL
-        .iter()
-        .copied()
-        .filter(|kind| has_version_1(*kind))
+    ModuleKind::ALL.iter().copied().filter(|kind| has_version_1(*kind))
 }
 
 fn has_version_1(kind: ModuleKind) -> bool {
-    registry::modules()
-        .iter()
-        .any(|spec| spec.kind == kind && spec.profile == Profile::V1)
+    registry::modules().iter().any(|spec| spec.kind == kind && spec.profile == Profile::V1)
 }
 
 /// Whether a module folder is a module of this specification (in a legacy URDD: or of earlier versions), or an
@@ -103,9 +93,7 @@ pub fn is_known(urdd: &Urdd, module: &Module) -> bool {
 
 /// The module folders that the rules check.
 pub fn known_modules(urdd: &Urdd) -> impl Iterator<Item = &Module> {
-    urdd.modules()
-        .iter()
-        .filter(|module| is_known(urdd, module))
+    urdd.modules().iter().filter(|module| is_known(urdd, module))
 }
 
 /// The size of the regular file at a path. Does not check whether a listed file can be opened.
@@ -124,9 +112,8 @@ pub fn look(urdd: &Urdd, path: &str) -> Result<u64, ReadError> {
         };
     }
     // An unlisted file may still exist below a folder link, or beyond the point where the listing stopped.
-    let mut above = std::iter::successors(Some(path), |path| {
-        path.rsplit_once('/').map(|(parent, _)| parent)
-    });
+    let mut above =
+        std::iter::successors(Some(path), |path| path.rsplit_once('/').map(|(parent, _)| parent));
     let nearest = above.find_map(|folder| listing.get(folder));
     let below_link =
         nearest.is_some_and(|entry| matches!(entry.kind, EntryKind::Link | EntryKind::LinkOut));

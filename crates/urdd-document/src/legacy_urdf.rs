@@ -19,11 +19,7 @@ pub fn of_legacy(module: &legacy::UrdfModule) -> UrdfModule {
 }
 
 fn origin(origin: &legacy::Origin) -> Option<Origin> {
-    Some(Origin {
-        xyz: Some(origin.xyz),
-        rpy: Some(origin.rpy),
-        quat_xyzw: None,
-    })
+    Some(Origin { xyz: Some(origin.xyz), rpy: Some(origin.rpy), quat_xyzw: None })
 }
 
 fn link(link: &legacy::Link) -> Link {
@@ -36,14 +32,7 @@ fn link(link: &legacy::Link) -> Link {
         inertial: (!absent).then(|| Inertial {
             origin: origin(&link.inertial.origin),
             mass: Some(link.inertial.mass.clone()),
-            inertia: Some(Inertia {
-                ixx,
-                ixy,
-                ixz,
-                iyy,
-                iyz,
-                izz,
-            }),
+            inertia: Some(Inertia { ixx, ixy, ixz, iyy, iyz, izz }),
         }),
         visual: link
             .visual
@@ -70,16 +59,14 @@ fn link(link: &legacy::Link) -> Link {
 
 fn geometry(geometry: &legacy::Geometry) -> Geometry {
     match geometry {
-        legacy::Geometry::Mesh(mesh) => Geometry::Mesh(Mesh {
-            filename: mesh.filename.clone(),
-            scale: mesh.scale,
-        }),
+        legacy::Geometry::Mesh(mesh) => {
+            Geometry::Mesh(Mesh { filename: mesh.filename.clone(), scale: mesh.scale })
+        }
         legacy::Geometry::Box(cuboid) => Geometry::Box(cuboid.clone()),
         legacy::Geometry::Cylinder(cylinder) => Geometry::Cylinder(cylinder.clone()),
-        legacy::Geometry::Capsule(capsule) => Geometry::Capsule(Capsule {
-            radius: capsule.radius,
-            length: capsule.length,
-        }),
+        legacy::Geometry::Capsule(capsule) => {
+            Geometry::Capsule(Capsule { radius: capsule.radius, length: capsule.length })
+        }
         legacy::Geometry::Sphere(sphere) => Geometry::Sphere(sphere.clone()),
     }
 }
@@ -110,9 +97,7 @@ fn joint(joint: &legacy::Joint) -> Joint {
         origin: origin(&joint.origin),
         parent: joint.parent.clone(),
         child: joint.child.clone(),
-        axis: Some(Axis {
-            xyz: Some(joint.axis.xyz),
-        }),
+        axis: Some(Axis { xyz: Some(joint.axis.xyz) }),
         limit: (!absent).then_some(Limit {
             lower: Some(limit.lower),
             upper: Some(limit.upper),
@@ -127,15 +112,12 @@ fn joint(joint: &legacy::Joint) -> Joint {
             friction: Some(dynamics.friction),
         }),
         mimic: joint.mimic.clone(),
-        safety_controller: joint
-            .safety_controller
-            .as_ref()
-            .map(|safety| SafetyController {
-                soft_lower_limit: Some(safety.soft_lower_limit),
-                soft_upper_limit: Some(safety.soft_upper_limit),
-                k_position: Some(safety.k_position),
-                k_velocity: Some(safety.k_velocity),
-            }),
+        safety_controller: joint.safety_controller.as_ref().map(|safety| SafetyController {
+            soft_lower_limit: Some(safety.soft_lower_limit),
+            soft_upper_limit: Some(safety.soft_upper_limit),
+            k_position: Some(safety.k_position),
+            k_velocity: Some(safety.k_velocity),
+        }),
         calibration: None,
         unknown_elements: Vec::new(),
     }

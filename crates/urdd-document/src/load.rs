@@ -105,11 +105,7 @@ fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
 
 fn read_metadata(root: &Root) -> MetadataFile {
     let json = JsonFile::read(root, ROOT_METADATA);
-    let mut file = MetadataFile {
-        json,
-        violations: Vec::new(),
-        metadata: None,
-    };
+    let mut file = MetadataFile { json, violations: Vec::new(), metadata: None };
     if let JsonFile::Read(document) = &file.json {
         match RootMetadata::deserialize(&document.value) {
             Ok(metadata) => file.metadata = Some(metadata),
@@ -128,9 +124,7 @@ fn read_metadata(root: &Root) -> MetadataFile {
 
 /// Whether root metadata states a later version of the specification with the same major number.
 fn newer_minor(metadata: &serde_json::Value) -> bool {
-    let version = metadata["urdd_version"]
-        .as_str()
-        .map(semver::Version::parse);
+    let version = metadata["urdd_version"].as_str().map(semver::Version::parse);
     match (version, semver::Version::parse(registry::SPEC_VERSION)) {
         (Some(Ok(version)), Ok(known)) => version.major == known.major && version > known,
         _ => false,
@@ -138,12 +132,8 @@ fn newer_minor(metadata: &serde_json::Value) -> bool {
 }
 
 fn known_folders(kinds: &[ModuleKind], listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
-    let kinds = kinds
-        .iter()
-        .filter(|kind| listing.has_folder(kind.folder()));
-    kinds
-        .map(|kind| (kind.folder().to_owned(), Some(*kind)))
-        .collect()
+    let kinds = kinds.iter().filter(|kind| listing.has_folder(kind.folder()));
+    kinds.map(|kind| (kind.folder().to_owned(), Some(*kind))).collect()
 }
 
 /// Every module folder: first those of the registry, then other folders that look like modules.
@@ -152,15 +142,9 @@ fn module_folders(listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
     let known = folders.len();
     let mut inside: HashSet<String> = folders.iter().map(|(folder, _)| folder.clone()).collect();
     // Sorted by path, so that a folder comes before its contents.
-    for entry in listing
-        .entries
-        .iter()
-        .filter(|entry| entry.kind == EntryKind::Folder)
-    {
+    for entry in listing.entries.iter().filter(|entry| entry.kind == EntryKind::Folder) {
         let path = &entry.path;
-        let in_a_module = path
-            .rsplit_once('/')
-            .is_some_and(|(parent, _)| inside.contains(parent));
+        let in_a_module = path.rsplit_once('/').is_some_and(|(parent, _)| inside.contains(parent));
         if in_a_module || inside.contains(path) {
             inside.insert(path.clone());
             continue;

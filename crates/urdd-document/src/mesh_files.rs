@@ -36,11 +36,7 @@ pub struct MeshFiles<'a> {
 impl<'a> MeshFiles<'a> {
     /// A resolver for a URDD.
     pub fn new(urdd: &'a Urdd) -> Self {
-        MeshFiles {
-            urdd,
-            own_name: urdd.root().folder_name(),
-            siblings: HashMap::new(),
-        }
+        MeshFiles { urdd, own_name: urdd.root().folder_name(), siblings: HashMap::new() }
     }
 
     /// The path relative to the URDD's root, if it is inside the URDD.
@@ -77,9 +73,7 @@ impl<'a> MeshFiles<'a> {
     /// # Errors
     /// Why it is not available, or too large.
     pub fn read(&mut self, profile: Profile, path: &str) -> Result<Vec<u8>, Absence> {
-        self.at(profile, path, |root, path| {
-            root.read(path, MAX_DOCUMENT_BYTES)
-        })
+        self.at(profile, path, |root, path| root.read(path, MAX_DOCUMENT_BYTES))
     }
 
     fn at<T>(

@@ -5,11 +5,8 @@ use urdd_format::plain_meshes::PlainMesh;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 
 /// The modules of derived meshes.
-pub const DERIVED: &[ModuleKind] = &[
-    ModuleKind::PlainMeshes,
-    ModuleKind::ConvexHullMeshes,
-    ModuleKind::ConvexDecompositionMeshes,
-];
+pub const DERIVED: &[ModuleKind] =
+    &[ModuleKind::PlainMeshes, ModuleKind::ConvexHullMeshes, ModuleKind::ConvexDecompositionMeshes];
 
 /// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -77,10 +74,7 @@ pub struct MeshPath<'a> {
 impl<'a> Meshes<'a> {
     /// The meshes of a link in all lists.
     pub fn of_link(&self, link: usize) -> impl Iterator<Item = &Mesh<'a>> {
-        self.lists
-            .iter()
-            .filter_map(move |list| list.links.get(link))
-            .flatten()
+        self.lists.iter().filter_map(move |list| list.links.get(link)).flatten()
     }
 
     /// Number of meshes of a link in the first list.
@@ -104,9 +98,7 @@ impl<'a> Meshes<'a> {
     pub fn paths(&self) -> impl Iterator<Item = (usize, &MeshPath<'a>)> {
         self.lists.iter().flat_map(|list| {
             list.links.iter().enumerate().flat_map(|(link, meshes)| {
-                meshes
-                    .iter()
-                    .flat_map(move |mesh| mesh.paths.iter().map(move |path| (link, path)))
+                meshes.iter().flat_map(move |mesh| mesh.paths.iter().map(move |path| (link, path)))
             })
         })
     }
@@ -170,11 +162,7 @@ pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
         }
         _ => return None,
     };
-    Some(Meshes {
-        kind,
-        profile,
-        lists,
-    })
+    Some(Meshes { kind, profile, lists })
 }
 
 /// A list of the document: an option or, with `of_pieces`, a list for each link. `mesh` reads an entry, given its
@@ -194,13 +182,9 @@ where
             true => format!("/{key}/{link}/{piece}"),
             false => format!("/{key}/{link}"),
         };
-        own.map(|(piece, entry)| mesh(entry, pointer(piece)))
-            .collect()
+        own.map(|(piece, entry)| mesh(entry, pointer(piece))).collect()
     };
-    MeshList {
-        key,
-        links: entries.iter().enumerate().map(of_link).collect(),
-    }
+    MeshList { key, links: entries.iter().enumerate().map(of_link).collect() }
 }
 
 /// One list per format, as in legacy modules.
@@ -215,9 +199,7 @@ where
     ];
     let each = Format::ALL.into_iter().zip(keys).zip(lists);
     each.map(|((format, key), paths)| {
-        list(key, of_pieces, paths, |path, at| {
-            one(path, at, Some(format))
-        })
+        list(key, of_pieces, paths, |path, at| one(path, at, Some(format)))
     })
     .collect()
 }
@@ -235,17 +217,9 @@ fn three(files: &MeshFiles, at: String) -> Mesh<'_> {
             format: Some(format),
         })
     });
-    Mesh {
-        paths: given.collect(),
-    }
+    Mesh { paths: given.collect() }
 }
 
 fn one(path: &str, pointer: String, format: Option<Format>) -> Mesh<'_> {
-    Mesh {
-        paths: vec![MeshPath {
-            path,
-            pointer,
-            format,
-        }],
-    }
+    Mesh { paths: vec![MeshPath { path, pointer, format }] }
 }

@@ -151,10 +151,7 @@ impl Module {
                 Some(_) => DocumentFault::BreaksSchema,
             },
         };
-        Some(Unusable {
-            folder: self.folder.clone(),
-            why,
-        })
+        Some(Unusable { folder: self.folder.clone(), why })
     }
 }
 
@@ -231,15 +228,11 @@ impl fmt::Display for Unusable {
 
 /// Whether a folder has the name of an extension module (SPEC 11.1).
 pub fn is_extension(folder: &str) -> bool {
-    let Some(middle) = folder
-        .strip_prefix("x_")
-        .and_then(|rest| rest.strip_suffix("_module"))
+    let Some(middle) = folder.strip_prefix("x_").and_then(|rest| rest.strip_suffix("_module"))
     else {
         return false;
     };
-    let allowed = middle
-        .bytes()
-        .all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_');
+    let allowed = middle.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_');
     let parts: Vec<&str> = middle.splitn(2, '_').collect();
     allowed && parts.len() == 2 && parts.iter().all(|part| !part.is_empty())
 }

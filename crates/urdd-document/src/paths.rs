@@ -64,10 +64,7 @@ impl<'a> NamedPath<'a> {
         match self.path.split_once('/') {
             Some((folder, path)) if folder == urdd.root().folder_name() => Place::Here(path),
             Some((folder, path)) => Place::Sibling { folder, path },
-            None => Place::Sibling {
-                folder: self.path,
-                path: "",
-            },
+            None => Place::Sibling { folder: self.path, path: "" },
         }
     }
 }
@@ -104,10 +101,7 @@ pub fn of_metadata<'a>(metadata: &'a RootMetadata) -> Vec<NamedPath<'a>> {
 pub fn of_module<'a>(module: &'a Module) -> Vec<NamedPath<'a>> {
     let mut paths = Vec::new();
     let mut add = |pointer: String, path: &'a str, is_reference| {
-        paths.push(NamedPath {
-            is_reference,
-            ..named(Some(module), pointer, path)
-        });
+        paths.push(NamedPath { is_reference, ..named(Some(module), pointer, path) });
     };
     match &module.document {
         Some(ModuleDocument::OriginalMeshes(meshes)) => {
@@ -124,10 +118,7 @@ pub fn of_module<'a>(module: &'a Module) -> Vec<NamedPath<'a>> {
             }
         }
         Some(document) => {
-            for list in meshes::view(document)
-                .into_iter()
-                .flat_map(|view| view.lists)
-            {
+            for list in meshes::view(document).into_iter().flat_map(|view| view.lists) {
                 for path in list.links.into_iter().flatten().flat_map(|mesh| mesh.paths) {
                     add(path.pointer, path.path, false);
                 }
@@ -139,10 +130,5 @@ pub fn of_module<'a>(module: &'a Module) -> Vec<NamedPath<'a>> {
 }
 
 fn named<'a>(module: Option<&'a Module>, pointer: String, path: &'a str) -> NamedPath<'a> {
-    NamedPath {
-        module,
-        pointer,
-        path,
-        is_reference: false,
-    }
+    NamedPath { module, pointer, path, is_reference: false }
 }

@@ -9,9 +9,7 @@ pub fn rotation_of_rpy([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
 
 /// The rotation of a quaternion w, x, y, z of any nonzero norm.
 pub fn rotation_of_quaternion([w, x, y, z]: [f64; 4]) -> Matrix3<f64> {
-    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z))
-        .to_rotation_matrix()
-        .into_inner()
+    UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z)).to_rotation_matrix().into_inner()
 }
 
 /// Normalises a quaternion. `None` if it is zero or not finite.
@@ -126,11 +124,7 @@ mod tests {
         for length in [2e-200, 1.0, 3e200] {
             let unit = unit_quaternion([length, 0.0, 0.0, -length]).expect("a length");
             let expected = [half, 0.0, 0.0, -half];
-            assert!(
-                unit.iter()
-                    .zip(expected)
-                    .all(|(a, b)| (a - b).abs() < 1e-15)
-            );
+            assert!(unit.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15));
         }
         assert_eq!(unit_quaternion([0.0; 4]), None);
         assert_eq!(unit_quaternion([f64::INFINITY, 0.0, 0.0, 1.0]), None);
@@ -138,14 +132,8 @@ mod tests {
 
     #[test]
     fn axes_of_any_size_have_a_direction_but_zero_has_none() {
-        assert!(close(
-            &unit([0.0, 3e-300, 4e-300]).unwrap(),
-            [0.0, 0.6, 0.8]
-        ));
-        assert!(close(
-            &unit([0.0, 3e300, -4e300]).unwrap(),
-            [0.0, 0.6, -0.8]
-        ));
+        assert!(close(&unit([0.0, 3e-300, 4e-300]).unwrap(), [0.0, 0.6, 0.8]));
+        assert!(close(&unit([0.0, 3e300, -4e300]).unwrap(), [0.0, 0.6, -0.8]));
         assert_eq!(unit([0.0, -0.0, 0.0]), None);
     }
 }

@@ -38,10 +38,7 @@ impl RigidGroups {
                 }
                 _ => {
                     of_link[link] = groups.len();
-                    groups.push(RigidGroup {
-                        links: vec![link],
-                        moved_by: joint,
-                    });
+                    groups.push(RigidGroup { links: vec![link], moved_by: joint });
                 }
             }
         }

@@ -71,17 +71,13 @@ impl Origin {
         Origin {
             xyz: origin.and_then(|origin| origin.xyz).unwrap_or_default(),
             rpy: origin.and_then(|origin| origin.rpy).unwrap_or_default(),
-            quat_xyzw: origin
-                .and_then(|origin| origin.quat_xyzw)
-                .filter(|_| quaternions),
+            quat_xyzw: origin.and_then(|origin| origin.quat_xyzw).filter(|_| quaternions),
         }
     }
 
     /// Its rotation.
     pub fn rotation(&self) -> Matrix3<f64> {
-        let unit = self
-            .quat_xyzw
-            .and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]));
+        let unit = self.quat_xyzw.and_then(|[x, y, z, w]| unit_quaternion([w, x, y, z]));
         match unit {
             Some(unit) => rotation_of_quaternion(unit),
             None => rotation_of_rpy(self.rpy),
@@ -147,21 +143,13 @@ pub struct Mimic {
 
 impl Robot {
     fn new(name: String, links: Vec<Link>, joints: Vec<Joint>) -> Self {
-        let mut robot = Robot {
-            name,
-            links,
-            joints,
-            ..Robot::default()
-        };
+        let mut robot = Robot { name, links, joints, ..Robot::default() };
         // For duplicate names, the first one counts; URD002 and URD003 report them.
         for (index, link) in robot.links.iter().enumerate() {
             robot.link_by_name.entry(link.name.clone()).or_insert(index);
         }
         for (index, joint) in robot.joints.iter().enumerate() {
-            robot
-                .joint_by_name
-                .entry(joint.name.clone())
-                .or_insert(index);
+            robot.joint_by_name.entry(joint.name.clone()).or_insert(index);
         }
         robot
     }
@@ -277,11 +265,7 @@ fn from_v1_joint(joint: &v1::Joint, quaternions: bool) -> Joint {
         name: joint.name.clone(),
         joint_type: joint.joint_type,
         origin: Origin::of_v1(joint.origin.as_ref(), quaternions),
-        axis: joint
-            .axis
-            .as_ref()
-            .and_then(|axis| axis.xyz)
-            .unwrap_or([1.0, 0.0, 0.0]),
+        axis: joint.axis.as_ref().and_then(|axis| axis.xyz).unwrap_or([1.0, 0.0, 0.0]),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
         limit: joint.limit.as_ref().map(|limit| Limit {

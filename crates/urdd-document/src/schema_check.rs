@@ -51,9 +51,7 @@ pub fn read(
         Ok(document) => return (Some(document), Vec::new()),
         Err(error) => error,
     };
-    read_newer(&spec.schema(), document, newer, &error, |known| {
-        spec.read(known).ok()
-    })
+    read_newer(&spec.schema(), document, newer, &error, |known| spec.read(known).ok())
 }
 
 /// Handles a document that serde rejected with `refusal`. If it is of a later minor version (`newer`) and its only
@@ -77,9 +75,7 @@ pub fn read_newer<T>(
     }
     let mut known = document.clone();
     for violation in &unknown {
-        let object = known
-            .pointer_mut(&violation.pointer)
-            .and_then(Value::as_object_mut);
+        let object = known.pointer_mut(&violation.pointer).and_then(Value::as_object_mut);
         if let Some(object) = object {
             object.retain(|key, _| !violation.unknown_keys.contains(key));
         }
@@ -143,22 +139,16 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
             violation.message = format!(
                 "unknown {}: {}; keys of your own begin with `x_`",
                 if unexpected.len() == 1 { "key" } else { "keys" },
-                unexpected
-                    .iter()
-                    .map(|key| format!("`{key}`"))
-                    .collect::<Vec<_>>()
-                    .join(", "),
+                unexpected.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", "),
             );
             violation.unknown_keys.clone_from(unexpected);
         }
         Kind::Type { kind } => {
             let expected = match kind {
                 TypeKind::Single(kind) => kind.to_string(),
-                TypeKind::Multiple(kinds) => kinds
-                    .iter()
-                    .map(|k| k.to_string())
-                    .collect::<Vec<_>>()
-                    .join(" or "),
+                TypeKind::Multiple(kinds) => {
+                    kinds.iter().map(|k| k.to_string()).collect::<Vec<_>>().join(" or ")
+                }
             };
             violation.message = format!("the value has the wrong type: expected {expected}");
             violation.expected = Some(expected);
@@ -200,9 +190,7 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
 fn items(violation: &mut SchemaViolation, bound: &str, limit: u64, instance: &Value) {
     violation.message = "the list has the wrong length".to_owned();
     violation.expected = Some(format!("{bound} {limit} elements"));
-    violation.actual = instance
-        .as_array()
-        .map(|list| format!("{} elements", list.len()));
+    violation.actual = instance.as_array().map(|list| format!("{} elements", list.len()));
 }
 
 /// The alternative of a choice at `path` that the instance means: the other one of a nullable value, or the one-key
@@ -215,9 +203,7 @@ fn nearest_alternative<'a>(
         errors.iter().any(|error| {
             matches!(
                 error.kind(),
-                ValidationErrorKind::Type {
-                    kind: TypeKind::Single(JsonType::Null)
-                }
+                ValidationErrorKind::Type { kind: TypeKind::Single(JsonType::Null) }
             )
         })
     };
@@ -230,9 +216,7 @@ fn nearest_alternative<'a>(
     if context.len() == 2 && context.iter().any(|errors| is_null(&errors)) {
         return context.iter().find(|errors| !is_null(errors));
     }
-    context
-        .iter()
-        .find(|errors| !errors.is_empty() && !other_key(errors))
+    context.iter().find(|errors| !errors.is_empty() && !other_key(errors))
 }
 
 /// A value as text, shortened to fit a line.

@@ -224,11 +224,7 @@ pub struct Matrix<'a> {
 pub fn matrices(document: &ModuleDocument) -> Vec<Matrix<'_>> {
     let mut matrices = Vec::new();
     let mut add = |kind: ShapeKind, pointer, elements| {
-        matrices.push(Matrix {
-            kind,
-            pointer,
-            elements,
-        });
+        matrices.push(Matrix { kind, pointer, elements });
     };
     for (kind, one) in of_each(statistics(document)) {
         match one {

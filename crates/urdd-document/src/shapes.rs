@@ -9,10 +9,8 @@ use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::shape_kind::ShapeKind;
 
 /// The modules with lists per link.
-pub const LIST_MODULES: &[ModuleKind] = &[
-    ModuleKind::LinkShapesApproximations,
-    ModuleKind::LinkShapesMaxDistanceFromOrigin,
-];
+pub const LIST_MODULES: &[ModuleKind] =
+    &[ModuleKind::LinkShapesApproximations, ModuleKind::LinkShapesMaxDistanceFromOrigin];
 
 /// The meaning of shape indices (SPEC 8.1).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,9 +27,7 @@ impl Shapes {
         let hulls = urdd.meshes(ModuleKind::ConvexHullMeshes)?;
         let pieces = urdd.meshes(ModuleKind::ConvexDecompositionMeshes)?;
         Some(Shapes {
-            full: (0..hulls.num_links())
-                .filter(|link| hulls.count(*link) > 0)
-                .collect(),
+            full: (0..hulls.num_links()).filter(|link| hulls.count(*link) > 0).collect(),
             pieces: (0..pieces.num_links())
                 .flat_map(|link| (0..pieces.count(link)).map(move |piece| (link, piece)))
                 .collect(),
@@ -100,11 +96,7 @@ impl Volume {
     pub fn reach(&self) -> f64 {
         match *self {
             Volume::Sphere { radius, offset } => Vector3::from(offset).norm() + radius,
-            Volume::Box {
-                half_extents,
-                offset,
-                rpy,
-            } => {
+            Volume::Box { half_extents, offset, rpy } => {
                 let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
                 // In the box's own frame, the farthest corner is on the centre's side of each axis.
                 let centre = turn.inverse() * Vector3::from(offset);
@@ -159,11 +151,7 @@ impl<T> ShapeList<T> {
     {
         let links = list.iter();
         let links = links.map(|entry| entry.into_iter().map(&read).collect());
-        ShapeList {
-            key,
-            kind,
-            links: links.collect(),
-        }
+        ShapeList { key, kind, links: links.collect() }
     }
 }
 
@@ -225,11 +213,7 @@ pub fn entry_counts(document: &ModuleDocument) -> Vec<ShapeList<()>> {
         let count = |list: &ShapeList<T>| ShapeList {
             key: list.key,
             kind: list.kind,
-            links: list
-                .links
-                .iter()
-                .map(|entry| vec![(); entry.len()])
-                .collect(),
+            links: list.links.iter().map(|entry| vec![(); entry.len()]).collect(),
         };
         lists.iter().map(count).collect()
     }
@@ -251,12 +235,7 @@ mod tests {
             offset: [0.5, -4.0, 0.25],
             rpy: [0.3, -1.1, 2.4],
         };
-        let Volume::Box {
-            half_extents: h,
-            offset,
-            rpy,
-        } = turned
-        else {
+        let Volume::Box { half_extents: h, offset, rpy } = turned else {
             panic!("a box");
         };
         let turn = Rotation3::from_euler_angles(rpy[0], rpy[1], rpy[2]);
@@ -271,10 +250,7 @@ mod tests {
 
     #[test]
     fn the_farthest_point_of_a_sphere() {
-        let sphere = Volume::Sphere {
-            radius: 2.0,
-            offset: [0.0, 3.0, -4.0],
-        };
+        let sphere = Volume::Sphere { radius: 2.0, offset: [0.0, 3.0, -4.0] };
         assert_eq!(sphere.reach(), 7.0);
     }
 }

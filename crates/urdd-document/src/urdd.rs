@@ -131,10 +131,7 @@ impl Urdd {
 
     /// The module folder of a module.
     pub fn module(&self, kind: ModuleKind) -> Option<&Module> {
-        self.loaded
-            .modules
-            .iter()
-            .find(|module| module.kind == Some(kind))
+        self.loaded.modules.iter().find(|module| module.kind == Some(kind))
     }
 
     /// The document of a module, if it fits its schema.
@@ -162,9 +159,7 @@ impl Urdd {
 
     /// The resolved mimic joints of [`Urdd::robot`]; `None` if they cannot be resolved.
     pub fn mimics(&self) -> Option<&Mimics> {
-        self.mimics
-            .get_or_init(|| Mimics::resolve(self.robot()?))
-            .as_ref()
+        self.mimics.get_or_init(|| Mimics::resolve(self.robot()?)).as_ref()
     }
 
     /// The degrees of freedom of [`Urdd::robot`], as `dof_module` of the present version should define them.

@@ -21,11 +21,7 @@ pub struct UsableGeometry<'a> {
 impl<'a> UsableGeometry<'a> {
     /// For a URDD. Without `original_meshes_module`, all meshes count as present.
     pub fn new(urdd: &'a Urdd) -> Self {
-        let mut usable = UsableGeometry {
-            urdd,
-            lost: HashSet::new(),
-            lost_legacy: HashSet::new(),
-        };
+        let mut usable = UsableGeometry { urdd, lost: HashSet::new(), lost_legacy: HashSet::new() };
         match urdd.document(ModuleKind::OriginalMeshes) {
             Some(ModuleDocument::OriginalMeshes(module)) => {
                 let bare: HashSet<&String> = module
@@ -35,14 +31,10 @@ impl<'a> UsableGeometry<'a> {
                     .map(|file| &file.path)
                     .collect();
                 let lost = module.references.iter().filter(|reference| {
-                    reference
-                        .path
-                        .as_ref()
-                        .is_none_or(|path| bare.contains(path))
+                    reference.path.as_ref().is_none_or(|path| bare.contains(path))
                 });
-                usable.lost = lost
-                    .map(|r| (r.link_idx.get(), r.geometry, r.element_idx.get()))
-                    .collect();
+                usable.lost =
+                    lost.map(|r| (r.link_idx.get(), r.geometry, r.element_idx.get())).collect();
             }
             _ => {
                 if let Some(meshes) = urdd.meshes(ModuleKind::OriginalMeshes) {
@@ -86,11 +78,7 @@ impl<'a> UsableGeometry<'a> {
 /// Whether a geometry has a surface with nonzero area.
 fn has_surface(geometry: &Geometry) -> bool {
     let two = |numbers: [f64; 3], extends: fn(f64) -> bool| {
-        numbers
-            .into_iter()
-            .filter(|number| extends(*number))
-            .count()
-            >= 2
+        numbers.into_iter().filter(|number| extends(*number)).count() >= 2
     };
     match geometry {
         Geometry::Mesh(mesh) => two(mesh.scale.unwrap_or([1.0; 3]), |factor| factor != 0.0),

@@ -51,16 +51,12 @@ const TABLE: [Feature; 15] = [
     Feature {
         name: "masses and inertias",
         count: |of| links(of, |link| link.inertial.is_some()),
-        by_format: [
-            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "colours of visual geometry",
         count: |of| links(of, |link| !link.visual.is_empty()),
-        by_format: [
-            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "textures in the URDF",
@@ -69,16 +65,8 @@ const TABLE: [Feature; 15] = [
     },
     Feature {
         name: "limits of position",
-        count: |of| {
-            of.view
-                .joints
-                .iter()
-                .filter(|joint| joint.position_limits().is_some())
-                .count()
-        },
-        by_format: [
-            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        count: |of| of.view.joints.iter().filter(|joint| joint.position_limits().is_some()).count(),
+        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "limits of effort and velocity",
@@ -90,9 +78,7 @@ const TABLE: [Feature; 15] = [
                     .is_some_and(|limit| limit.effort.is_some() || limit.velocity.is_some())
             })
         },
-        by_format: [
-            Elsewhere, Yes, Yes, EFFORT, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        by_format: [Elsewhere, Yes, Yes, EFFORT, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "limits of acceleration and jerk",
@@ -109,66 +95,40 @@ const TABLE: [Feature; 15] = [
     Feature {
         name: "damping and friction of joints",
         count: |of| joints(of, |joint| joint.dynamics.is_some()),
-        by_format: [
-            Elsewhere,
-            Yes,
-            NO_FRICTION,
-            Yes,
-            Elsewhere,
-            Elsewhere,
-            Yes,
-            Yes,
-            Yes,
-        ],
+        by_format: [Elsewhere, Yes, NO_FRICTION, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "safety controllers and calibrations",
         count: |of| {
-            joints(of, |joint| {
-                joint.safety_controller.is_some() || joint.calibration.is_some()
-            })
+            joints(of, |joint| joint.safety_controller.is_some() || joint.calibration.is_some())
         },
-        by_format: [
-            Elsewhere, Yes, IGNORED, No, Elsewhere, Elsewhere, Yes, Yes, No,
-        ],
+        by_format: [Elsewhere, Yes, IGNORED, No, Elsewhere, Elsewhere, Yes, Yes, No],
     },
     Feature {
         name: "mimic joints",
         count: |of| of.mimics.by_joint.iter().flatten().count(),
-        by_format: [
-            Elsewhere, Yes, Yes, MIMIC, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        by_format: [Elsewhere, Yes, Yes, MIMIC, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "planar joints",
         count: |of| joints(of, |joint| joint.joint_type == JointType::Planar),
-        by_format: [
-            Elsewhere, Yes, Yes, PLANAR, Elsewhere, Elsewhere, Yes, Yes, CHAIN,
-        ],
+        by_format: [Elsewhere, Yes, Yes, PLANAR, Elsewhere, Elsewhere, Yes, Yes, CHAIN],
     },
     Feature {
         name: "floating joints",
         count: |of| joints(of, |joint| joint.joint_type == JointType::Floating),
-        by_format: [
-            Elsewhere, Yes, CHAIN, SLIDES, Elsewhere, Elsewhere, Yes, Yes, CHAIN,
-        ],
+        by_format: [Elsewhere, Yes, CHAIN, SLIDES, Elsewhere, Elsewhere, Yes, Yes, CHAIN],
     },
     Feature {
         name: "spherical joints",
         count: |of| joints(of, |joint| joint.joint_type == JointType::Spherical),
-        by_format: [
-            Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes,
-        ],
+        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
         name: "elements that URDF does not define, such as transmissions",
         count: |of| {
             let of_links = of.urdf.links.iter().map(|link| link.unknown_elements.len());
-            let of_joints = of
-                .urdf
-                .joints
-                .iter()
-                .map(|joint| joint.unknown_elements.len());
+            let of_joints = of.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
             of_links.chain(of_joints).sum::<usize>() + of.urdf.unknown_elements.len()
         },
         by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
@@ -181,9 +141,7 @@ const TABLE: [Feature; 15] = [
     Feature {
         name: "named configurations",
         count: |of| of.robot.named_configurations().map_or(0, <[_]>::len),
-        by_format: [
-            Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No,
-        ],
+        by_format: [Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No],
     },
 ];
 
@@ -192,29 +150,17 @@ fn links(subject: &Subject, has: impl Fn(&Link) -> bool) -> usize {
 }
 
 fn joints(subject: &Subject, has: impl Fn(&Joint) -> bool) -> usize {
-    subject
-        .urdf
-        .joints
-        .iter()
-        .filter(|joint| has(joint))
-        .count()
+    subject.urdf.joints.iter().filter(|joint| has(joint)).count()
 }
 
 fn has_texture(link: &Link) -> bool {
-    let materials = link
-        .visual
-        .iter()
-        .filter_map(|visual| visual.material.as_ref());
-    materials
-        .into_iter()
-        .any(|material| material.texture.is_some())
+    let materials = link.visual.iter().filter_map(|visual| visual.material.as_ref());
+    materials.into_iter().any(|material| material.texture.is_some())
 }
 
 /// What a robot has, and how its format carries it.
 fn carried<'s>(subject: &'s Subject) -> impl Iterator<Item = (&'static str, usize, How)> + 's {
-    let place = Format::ALL
-        .iter()
-        .position(|format| *format == subject.format);
+    let place = Format::ALL.iter().position(|format| *format == subject.format);
     TABLE.iter().filter_map(move |feature| {
         let count = (feature.count)(subject);
         let how = feature.by_format[place?];

@@ -49,9 +49,8 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
     };
     let samples = robot.num_samples()?.unwrap_or(USUAL_SAMPLES);
     let samples = samples.min(MAX_SAMPLES);
-    let sampled: Vec<f64> = (0..u64::from(samples))
-        .flat_map(|k| configurations.random(k))
-        .collect();
+    let sampled: Vec<f64> =
+        (0..u64::from(samples)).flat_map(|k| configurations.random(k)).collect();
     let contacts = |checked: bool| -> Result<HashMap<[usize; 2], usize>, RobotError> {
         let is_wanted = |mut shapes: [(usize, usize); 2]| {
             shapes.sort_unstable();
@@ -72,11 +71,7 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
             && let (Some(checked), Some(skipped)) =
                 (checked.get(&pair.links), skipped.get(&pair.links))
         {
-            mixed.contacts = Some(Contacts {
-                checked: *checked,
-                skipped: *skipped,
-                samples,
-            });
+            mixed.contacts = Some(Contacts { checked: *checked, skipped: *skipped, samples });
         }
     }
     Ok(())

@@ -21,10 +21,7 @@ enum Child {
 
 impl Element {
     pub fn new(name: &'static str) -> Self {
-        Element {
-            name,
-            ..Element::default()
-        }
+        Element { name, ..Element::default() }
     }
 
     /// Adds an attribute.
@@ -157,10 +154,7 @@ mod tests {
             let comments = parsed.root().children().filter(|node| node.is_comment());
             for comment in comments {
                 let comment = comment.text().expect("text");
-                assert!(
-                    !comment.contains("--") && !comment.ends_with('-'),
-                    "{comment}"
-                );
+                assert!(!comment.contains("--") && !comment.ends_with('-'), "{comment}");
                 assert!(comment.chars().all(urdd_xml::is_character));
             }
             assert_eq!(parsed.root().children().count(), 3, "{written}");

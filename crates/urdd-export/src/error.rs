@@ -200,15 +200,9 @@ const SHOWN: usize = 5;
 
 /// Names of links, the first few of many, and a verb.
 fn some(links: &[String]) -> String {
-    let shown = if links.len() > SHOWN {
-        SHOWN - 1
-    } else {
-        SHOWN
-    };
+    let shown = if links.len() > SHOWN { SHOWN - 1 } else { SHOWN };
     let names = links.iter().take(shown);
-    let names: Vec<String> = names
-        .map(|name| format!("`{}`", name.escape_debug()))
-        .collect();
+    let names: Vec<String> = names.map(|name| format!("`{}`", name.escape_debug())).collect();
     let names = names.join(", ");
     match links.len() {
         1 => format!("link {names} has"),

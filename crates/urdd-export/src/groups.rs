@@ -70,11 +70,7 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     let tables: Vec<Node> = elements(document.root_element(), "group").collect();
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = tables.iter().map(name).collect();
-    let reader = Reader {
-        structure: &structure,
-        names: &names,
-        document: &document,
-    };
+    let reader = Reader { structure: &structure, names: &names, document: &document };
     let mut own = Vec::new();
     for table in &tables {
         own.push(reader.members(*table)?);
@@ -84,9 +80,7 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
         let inner = |group: usize| own[group].1.as_slice();
         let groups = within(place, own.len(), inner)
             .ok_or_else(|| reader.wrong(tables[place], GroupFault::Cycle(names[place].clone())))?;
-        let joints = groups
-            .iter()
-            .flat_map(|group| own[*group].0.iter().copied());
+        let joints = groups.iter().flat_map(|group| own[*group].0.iter().copied());
         let joints: BTreeSet<usize> = joints.collect();
         Ok(JointGroup::of(&names[place], joints, robot, &structure)?)
     })
@@ -142,11 +136,8 @@ impl Reader<'_, '_> {
         let name = node.attribute(attribute).unwrap_or_default();
         let all = names.clone();
         names.position(|known| known == name).ok_or_else(|| {
-            let unknown = RobotError::Unknown {
-                what,
-                name: name.to_owned(),
-                nearest: nearest(all, name),
-            };
+            let unknown =
+                RobotError::Unknown { what, name: name.to_owned(), nearest: nearest(all, name) };
             self.wrong(node, GroupFault::Unknown(unknown))
         })
     }

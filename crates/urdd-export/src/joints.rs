@@ -129,10 +129,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
 
 /// An origin without `quat_xyzw`, which most programs ignore. Before URDF 1.1 the attribute has no meaning.
 pub(super) fn without_quaternion(origin: &Origin, view: &ViewOrigin, counts: bool) -> Origin {
-    let mut plain = Origin {
-        quat_xyzw: None,
-        ..origin.clone()
-    };
+    let mut plain = Origin { quat_xyzw: None, ..origin.clone() };
     if counts && origin.quat_xyzw.is_some() {
         plain.rpy = Some(rpy(&view.rotation()));
     }

@@ -43,11 +43,7 @@ pub(super) struct MeshFiles<'a> {
 
 impl<'a> MeshFiles<'a> {
     pub fn new(subject: &'a Subject<'a>) -> Self {
-        MeshFiles {
-            subject,
-            names: FileNames::default(),
-            by_content: HashMap::new(),
-        }
+        MeshFiles { subject, names: FileNames::default(), by_content: HashMap::new() }
     }
 
     /// Adds a mesh and returns its file's path, relative to the text.
@@ -58,16 +54,13 @@ impl<'a> MeshFiles<'a> {
         mesh: Mesh,
         format: MeshFormat,
     ) -> Result<String, ExportError> {
-        let bytes = format.write(mesh).map_err(|error| ExportError::Mesh {
-            link: self.subject.links[link].clone(),
-            error,
-        })?;
+        let bytes = format
+            .write(mesh)
+            .map_err(|error| ExportError::Mesh { link: self.subject.links[link].clone(), error })?;
         if let Some(path) = self.by_content.get(&bytes) {
             return Ok(path.clone());
         }
-        let name = self
-            .names
-            .of(&format!("{}_{what}", self.subject.links[link]));
+        let name = self.names.of(&format!("{}_{what}", self.subject.links[link]));
         let folder = &self.subject.options.mesh_folder;
         let slash = if folder.is_empty() { "" } else { "/" };
         let path = format!("{folder}{slash}{name}.{}", format.ending());
@@ -106,10 +99,7 @@ pub(super) fn looks(
         for part in visual.parts {
             match of_link.iter_mut().find(|look| look.rgba == part.color) {
                 Some(look) => look.mesh.append(&part.mesh),
-                None => of_link.push(Look {
-                    mesh: part.mesh,
-                    rgba: part.color,
-                }),
+                None => of_link.push(Look { mesh: part.mesh, rgba: part.color }),
             }
         }
     }

@@ -122,12 +122,7 @@ fn is_long_key(name: &str) -> bool {
 }
 
 fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -> ExportError {
-    ExportError::Name {
-        format,
-        what,
-        name: name.to_owned(),
-        reason,
-    }
+    ExportError::Name { format, what, name: name.to_owned(), reason }
 }
 
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.
@@ -175,11 +170,7 @@ mod tests {
     #[test]
     fn a_name_that_a_format_cannot_hold_is_an_error() {
         let of = |format, what, name: &str| one(format, what, name).is_ok();
-        assert!(of(
-            Format::Srdf,
-            "link",
-            "a<b>\"&'\n\t\r\u{7f}\u{85}\u{202e}"
-        ));
+        assert!(of(Format::Srdf, "link", "a<b>\"&'\n\t\r\u{7f}\u{85}\u{202e}"));
         for name in ["\0", "a\u{1b}", "\u{fffe}", "\u{ffff}"] {
             assert!(!of(Format::Srdf, "link", name));
             assert!(of(Format::Curobo, "link", name));

@@ -38,10 +38,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_mean_the_same() {
-        assert_eq!(
-            numbers(&[1.0, -0.0, 0.1, 1e-9, 1e300]),
-            "1 0 0.1 1e-9 1e300"
-        );
+        assert_eq!(numbers(&[1.0, -0.0, 0.1, 1e-9, 1e300]), "1 0 0.1 1e-9 1e300");
         for value in [std::f64::consts::PI, 1.0 / 3.0, 5e-324, -1e22] {
             assert_eq!(number(value).parse::<f64>(), Ok(value));
         }

@@ -24,12 +24,6 @@ pub struct Export {
 impl Export {
     /// A text with the files that it references; not in a folder, and without a report yet.
     pub(super) fn of(text: String, files: Files, notes: Vec<Note>) -> Self {
-        Export {
-            text,
-            path: None,
-            files,
-            notes,
-            report: String::new(),
-        }
+        Export { text, path: None, files, notes, report: String::new() }
     }
 }

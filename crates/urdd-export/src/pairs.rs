@@ -176,11 +176,7 @@ fn mixed(seen: &[Seen]) -> Option<MixedPair> {
 /// The reason of two links, combined from those of their shapes.
 fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipReason> {
     let reasons: Vec<SkipReason> = reasons.collect::<Option<_>>()?;
-    let first = [
-        SkipReason::Always,
-        SkipReason::Adjacent,
-        SkipReason::Default,
-    ];
+    let first = [SkipReason::Always, SkipReason::Adjacent, SkipReason::Default];
     let first = first.into_iter().find(|reason| reasons.contains(reason));
     let never = || reasons.iter().all(|reason| *reason == SkipReason::Never);
     Some(match first {

@@ -40,8 +40,7 @@ pub(super) fn simplify_all(mut meshes: Vec<&mut Mesh>, detail: Detail) -> Option
     };
     let count = |found: &[Option<Vec<u32>>]| -> usize {
         let each = found.iter().zip(&surfaces);
-        each.map(|(found, surface)| found.as_ref().unwrap_or(&surface.indices).len() / 3)
-            .sum()
+        each.map(|(found, surface)| found.as_ref().unwrap_or(&surface.indices).len() / 3).sum()
     };
     // Bisects: few enough triangles at `high`, which is tried last, and too many below `low`.
     let (mut low, mut high) = (0, STEPS);
@@ -97,12 +96,7 @@ impl Surface {
             options: SimplifyOptions::ERROR_ABSOLUTE,
         };
         let positions = Positions::from_packed(&self.vertices);
-        let found = simplify(
-            &self.indices,
-            positions,
-            settings,
-            &mut Workspace::default(),
-        )?;
+        let found = simplify(&self.indices, positions, settings, &mut Workspace::default())?;
         Ok(match found.indices.is_empty() {
             true => self.indices.clone(),
             false => found.indices,
@@ -138,10 +132,7 @@ fn welded(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<u32>) {
     };
     let places: Vec<u32> = mesh.vertices.iter().map(place_of).collect();
     let indices = mesh.triangles.as_flattened().iter();
-    (
-        vertices,
-        indices.map(|index| places[*index as usize]).collect(),
-    )
+    (vertices, indices.map(|index| places[*index as usize]).collect())
 }
 
 /// A mesh of the vertices that triangles use, in their order.
@@ -169,26 +160,16 @@ mod tests {
     fn sphere(radius: f64, n: u32) -> Mesh {
         use std::f64::consts::PI;
         let point = |i: u32, j: u32| {
-            let (a, b) = (
-                PI * f64::from(i) / f64::from(n),
-                PI * f64::from(j % (2 * n)) / f64::from(n),
-            );
+            let (a, b) =
+                (PI * f64::from(i) / f64::from(n), PI * f64::from(j % (2 * n)) / f64::from(n));
             let ring = if i == 0 || i == n { 0.0 } else { a.sin() };
-            [
-                radius * ring * b.cos(),
-                radius * ring * b.sin(),
-                radius * a.cos(),
-            ]
+            [radius * ring * b.cos(), radius * ring * b.sin(), radius * a.cos()]
         };
         let mut mesh = Mesh::default();
         for i in 0..n {
             for j in 0..2 * n {
-                let [a, b, c, d] = [
-                    point(i, j),
-                    point(i + 1, j),
-                    point(i + 1, j + 1),
-                    point(i, j + 1),
-                ];
+                let [a, b, c, d] =
+                    [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
                 for corners in [[a, b, c], [a, c, d]] {
                     let first = mesh.vertices.len() as u32;
                     mesh.vertices.extend(corners);
@@ -205,12 +186,7 @@ mod tests {
         let [mut few, mut small] = [full.clone(), sphere(0.01, 5)];
         let both = vec![&mut few, &mut small];
         let note = simplify_all(both, Detail::Ratio(0.1)).expect("fewer");
-        let Note::Simplified {
-            from,
-            to,
-            micrometres,
-        } = note
-        else {
+        let Note::Simplified { from, to, micrometres } = note else {
             panic!("{note}");
         };
         assert_eq!(from, 6400 + 100);
@@ -224,9 +200,6 @@ mod tests {
         assert!((100..4000).contains(&micrometres), "{micrometres}");
         let volume = few.signed_volume() / full.signed_volume();
         assert!((0.97..1.0).contains(&volume), "{volume}");
-        assert_eq!(
-            simplify_all(vec![&mut few], Detail::Triangles(10_000)),
-            None
-        );
+        assert_eq!(simplify_all(vec![&mut few], Detail::Triangles(10_000)), None);
     }
 }

@@ -83,18 +83,13 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     // Called only for errors: each call counts lines from the beginning of the text.
     let line = |node: Node| document.text_pos_at(node.range().start).row;
     let link = |node: Node, element: &'static str, attribute: &'static str| {
-        let name = node
-            .attribute(attribute)
-            .ok_or_else(|| ImportError::NoLink {
-                line: line(node),
-                element,
-                attribute,
-            })?;
+        let name = node.attribute(attribute).ok_or_else(|| ImportError::NoLink {
+            line: line(node),
+            element,
+            attribute,
+        })?;
         let known = by_name.get(name).copied();
-        let unknown = |error| ImportError::Robot {
-            line: Some(line(node)),
-            error,
-        };
+        let unknown = |error| ImportError::Robot { line: Some(line(node)), error };
         known.map_or_else(|| robot.link(name).map_err(unknown), Ok)
     };
     // Pairs of links, lower index first: whether they are skipped, and why.
@@ -123,12 +118,7 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
     let now = skipped_now(robot)?;
     let there = robot.skips(ShapeKind::Hulls)?.edits().to_vec();
     let last = last_edits(&there, links);
-    let mut imported = ImportedSkips {
-        edits: there.clone(),
-        added: 0,
-        already: 0,
-        unlisted: 0,
-    };
+    let mut imported = ImportedSkips { edits: there.clone(), added: 0, already: 0, unlisted: 0 };
     for (pair, (skip, reason)) in &wanted {
         // A link without shapes needs no edit.
         let Some(all_are) = now.get(pair) else {

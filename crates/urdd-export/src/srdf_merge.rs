@@ -84,17 +84,9 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
             pairs.push(&new[pair.range()]);
         }
     }
-    let merged = |text: String| MergedSrdf {
-        text,
-        kept: persons.len(),
-        enabled: num_enabled,
-    };
+    let merged = |text: String| MergedSrdf { text, kept: persons.len(), enabled: num_enabled };
     // They may be interleaved with the user's pairs.
-    if gone
-        .iter()
-        .map(|pair| &old[pair.range()])
-        .eq(pairs.iter().copied())
-    {
+    if gone.iter().map(|pair| &old[pair.range()]).eq(pairs.iter().copied()) {
         return Ok(merged(old.to_owned()));
     }
     let lines = pairs.iter().map(|pair| format!("{margin}{pair}{newline}"));
@@ -107,13 +99,8 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
         let tail = &old[range.end..];
         return Ok(merged(format!("{head}>{newline}{lines}</robot>{tail}")));
     };
-    let gone: Vec<Range<usize>> = gone
-        .iter()
-        .map(|pair| whole_line(old, pair.range()))
-        .collect();
-    let place = gone
-        .first()
-        .map_or_else(|| line_start(old, end), |first| first.start);
+    let gone: Vec<Range<usize>> = gone.iter().map(|pair| whole_line(old, pair.range())).collect();
+    let place = gone.first().map_or_else(|| line_start(old, end), |first| first.start);
     let mut text = String::with_capacity(old.len() + lines.len());
     text += &old[..place];
     if !lines.is_empty() && !text.ends_with('\n') {
@@ -147,16 +134,9 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
 /// If the text is not an SRDF, or that of another robot.
 pub(super) fn parse_of<'t>(text: &'t str, robot: &str) -> Result<Document<'t>, SrdfError> {
     let document = parse(text)?;
-    match document
-        .root_element()
-        .attribute("name")
-        .unwrap_or_default()
-    {
+    match document.root_element().attribute("name").unwrap_or_default() {
         found if found == robot => Ok(document),
-        found => Err(SrdfError::OtherRobot {
-            found: found.to_owned(),
-            expected: robot.to_owned(),
-        }),
+        found => Err(SrdfError::OtherRobot { found: found.to_owned(), expected: robot.to_owned() }),
     }
 }
 
@@ -164,9 +144,7 @@ pub(super) fn elements<'a>(
     robot: Node<'a, 'a>,
     name: &'a str,
 ) -> impl Iterator<Item = Node<'a, 'a>> {
-    robot
-        .children()
-        .filter(move |child| child.is_element() && child.tag_name().name() == name)
+    robot.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 
 fn is_found_by_programs(pair: Node) -> bool {
@@ -262,10 +240,7 @@ mod tests {
             merge_srdf("<robot name=\"q\"/>", NEW),
             Err(SrdfError::OtherRobot { .. })
         ));
-        assert!(matches!(
-            merge_srdf("<urdf/>", NEW),
-            Err(SrdfError::NotSrdf(_))
-        ));
+        assert!(matches!(merge_srdf("<urdf/>", NEW), Err(SrdfError::NotSrdf(_))));
         assert!(matches!(merge_srdf("no", NEW), Err(SrdfError::Xml { .. })));
     }
 
@@ -280,16 +255,10 @@ mod tests {
             pair("a", "d", ""),
         ];
         let gone = pair("c", "d", " reason=\" Adjacent \"");
-        let old = format!(
-            "<robot name=\"r\">\n{}{gone}{}{}</robot>\n",
-            own[0], own[1], own[2]
-        );
+        let old = format!("<robot name=\"r\">\n{}{gone}{}{}</robot>\n", own[0], own[1], own[2]);
         let made = merge_srdf(&old, NEW).expect("merged");
         // The pair of the new text is one of the user's, with the links swapped.
-        assert_eq!(
-            made.text,
-            format!("<robot name=\"r\">\n{}</robot>\n", own.concat())
-        );
+        assert_eq!(made.text, format!("<robot name=\"r\">\n{}</robot>\n", own.concat()));
         assert_eq!((made.kept, made.enabled), (3, 0));
         assert_eq!(merge_srdf(&made.text, NEW).expect("merged"), made);
         // A pair that the user enabled is not disabled.
@@ -303,15 +272,7 @@ mod tests {
         let group = "<group name=\"g\"/>";
         let gone = "<disable_collisions link1=\"x\" link2=\"y\" reason=\"Never\"/>";
         let own = "<disable_collisions link1=\"x\" link2=\"z\" reason=\"User\"/>";
-        let blanks = [
-            "",
-            " ",
-            "\n",
-            "\n  ",
-            "\n\n\t",
-            " <!-- c -->\n",
-            "\n<!-- c -->",
-        ];
+        let blanks = ["", " ", "\n", "\n  ", "\n\n\t", " <!-- c -->\n", "\n<!-- c -->"];
         for first in [group, gone, own] {
             for second in ["", group, gone, own] {
                 for before in blanks {

@@ -93,12 +93,8 @@ pub fn import_states(
 ) -> Result<ImportedStates, StatesError> {
     let document = parse_of(text, &robot.description()?.name)?;
     let root = document.root_element();
-    let dofs: HashMap<&str, usize> = robot
-        .dof_names()?
-        .iter()
-        .map(String::as_str)
-        .zip(0..)
-        .collect();
+    let dofs: HashMap<&str, usize> =
+        robot.dof_names()?.iter().map(String::as_str).zip(0..).collect();
     let joints: HashSet<&str> = robot.joint_names()?.iter().map(String::as_str).collect();
     // Called only for errors: each call counts lines from the beginning of the text.
     let wrong = |node: Node, fault: StateFault| StatesError::Element {
@@ -159,11 +155,8 @@ pub fn import_states(
         left_out,
         out_of_bounds: Vec::new(),
     };
-    let known: HashMap<&str, usize> = existing
-        .iter()
-        .map(|named| named.name.as_str())
-        .zip(0..)
-        .collect();
+    let known: HashMap<&str, usize> =
+        existing.iter().map(|named| named.name.as_str()).zip(0..).collect();
     for (edit, resolved) in edits.iter().zip(robot.resolved_configurations(&edits)?) {
         let name = edit.name.as_str();
         let configuration = match resolved {

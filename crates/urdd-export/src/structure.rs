@@ -77,10 +77,8 @@ impl Structure {
     pub fn joints_after(&self, link: usize) -> Vec<usize> {
         let links = self.fixed_to(link).into_iter();
         let joints = links.flat_map(|link| &self.tree.child_joints[link]);
-        let mut joints: Vec<usize> = joints
-            .copied()
-            .filter(|joint| self.view.joints[*joint].num_dofs() > 0)
-            .collect();
+        let mut joints: Vec<usize> =
+            joints.copied().filter(|joint| self.view.joints[*joint].num_dofs() > 0).collect();
         joints.sort_unstable();
         joints
     }
@@ -114,8 +112,6 @@ impl Structure {
 
     /// Whether a joint between the two links moves.
     pub fn is_chain(&self, base: usize, tip: usize) -> bool {
-        self.between(base, tip)
-            .iter()
-            .any(|joint| self.moves(*joint))
+        self.between(base, tip).iter().any(|joint| self.moves(*joint))
     }
 }

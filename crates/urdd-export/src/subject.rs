@@ -49,10 +49,7 @@ impl<'a> Subject<'a> {
         let urdf = robot.description()?;
         let structure = Structure::of(&urdf)?;
         names::check(format, &structure.view, &structure.tree)?;
-        options
-            .package
-            .as_deref()
-            .map_or(Ok(()), names::check_package)?;
+        options.package.as_deref().map_or(Ok(()), names::check_package)?;
         if let Some(setup) = &options.setup {
             structure.check(&setup.of)?;
         }
@@ -64,16 +61,7 @@ impl<'a> Subject<'a> {
             Format::Mjcf => pairs(robot, options)?,
             _ => link_pairs(robot, options)?,
         };
-        Ok(Subject {
-            robot,
-            format,
-            options,
-            urdf,
-            structure,
-            links,
-            pairs,
-            lost: None,
-        })
+        Ok(Subject { robot, format, options, urdf, structure, links, pairs, lost: None })
     }
 
     /// The shapes of a kind for each link, in link order.
@@ -85,10 +73,7 @@ impl<'a> Subject<'a> {
             }
         }
         // The sphere formats need shapes.
-        let is_needed = matches!(
-            self.format,
-            Format::Curobo | Format::Foam | Format::Spherized
-        );
+        let is_needed = matches!(self.format, Format::Curobo | Format::Foam | Format::Spherized);
         match is_needed && shapes.iter().all(Vec::is_empty) {
             true => Err(ExportError::NoShapes(kind)),
             false => Ok(shapes),
@@ -116,9 +101,7 @@ impl<'a> Subject<'a> {
         let dofs = self.robot.dof_names()?.iter().map(String::as_str).zip(0..);
         let dofs: HashMap<&str, usize> = dofs.collect();
         let joints = self.view.joints.iter();
-        Ok(joints
-            .map(|joint| dofs.get(joint.name.as_str()).copied())
-            .collect())
+        Ok(joints.map(|joint| dofs.get(joint.name.as_str()).copied()).collect())
     }
 
     /// The pairs that need no collision check.

@@ -42,10 +42,7 @@ pub(super) fn links(
         notes.push(Note::NoShapes(subject.options.shapes));
     }
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
-    let friction = subject
-        .options
-        .friction()
-        .filter(|_| geometry == Geometry::Drake);
+    let friction = subject.options.friction().filter(|_| geometry == Geometry::Drake);
     let mut files = MeshFiles::new(subject);
     let mut elements = Vec::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
@@ -199,9 +196,7 @@ fn placed(pose: &Isometry3<f64>) -> Element {
 
 /// A joint element; `tag` and `kind` are the program's names of the element and the joint type.
 pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> Element {
-    let mut element = Element::new(tag)
-        .with("name", joint.name.as_str())
-        .with("type", kind);
+    let mut element = Element::new(tag).with("name", joint.name.as_str()).with("type", kind);
     if let Some(origin) = &joint.origin {
         element.push(element_of_origin(origin));
     }

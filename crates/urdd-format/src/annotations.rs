@@ -27,15 +27,7 @@ pub const UNITS: &[&str] = &[
 ];
 
 /// Frames, as the specification's table has them.
-pub const FRAMES: &[&str] = &[
-    "world",
-    "root",
-    "link",
-    "parent_link",
-    "joint",
-    "inertial",
-    "shape",
-];
+pub const FRAMES: &[&str] = &["world", "root", "link", "parent_link", "joint", "inertial", "shape"];
 
 /// Between the words of a choice.
 const OR: &str = " or ";
@@ -79,11 +71,7 @@ pub const THINGS: [(Thing, &str, Option<&str>); 12] = [
     (Thing::Collision, "collision", None),
     (Thing::Piece, "piece", Some("pieces")),
     (Thing::FullShape, "full_shape", Some("full_shapes")),
-    (
-        Thing::DecompositionShape,
-        "decomposition_shape",
-        Some("decomposition_shapes"),
-    ),
+    (Thing::DecompositionShape, "decomposition_shape", Some("decomposition_shapes")),
     (Thing::Part, "part", Some("parts")),
     (Thing::Pair, "pair", Some("pairs")),
     (Thing::Sample, "sample", None),
@@ -191,9 +179,9 @@ fn fault(keyword: &str, value: &Value, kind: Option<&Value>) -> Option<String> {
     }
     let fits = |words: &[&str]| match kind {
         Some(Value::String(kind)) => words.contains(&kind.as_str()),
-        Some(Value::Array(kinds)) => (kinds.iter())
-            .filter_map(Value::as_str)
-            .any(|kind| words.contains(&kind)),
+        Some(Value::Array(kinds)) => {
+            (kinds.iter()).filter_map(Value::as_str).any(|kind| words.contains(&kind))
+        }
         _ => true,
     };
     match keyword {

@@ -56,10 +56,7 @@ pub struct ConfigurationEdit {
 
 impl From<&NamedConfiguration> for ConfigurationEdit {
     fn from(named: &NamedConfiguration) -> Self {
-        ConfigurationEdit {
-            name: named.name.clone(),
-            positions: named.positions.clone(),
-        }
+        ConfigurationEdit { name: named.name.clone(), positions: named.positions.clone() }
     }
 }
 
@@ -86,10 +83,7 @@ impl<'a> NamedDofs<'a> {
     pub fn new(dof: &'a DofModule, bounds: &'a BoundsModule) -> Self {
         // Of several DOFs with one name, the first counts.
         let dofs = dof.dofs.iter().enumerate().rev();
-        NamedDofs {
-            indices: dofs.map(|(idx, dof)| (dof.name.as_str(), idx)).collect(),
-            bounds,
-        }
+        NamedDofs { indices: dofs.map(|(idx, dof)| (dof.name.as_str(), idx)).collect(), bounds }
     }
 
     /// Why the robot cannot have a position; `None` if it can. Only limited DOFs have to be within their bounds (SPEC

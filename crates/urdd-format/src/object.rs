@@ -340,10 +340,7 @@ pub(crate) fn close(schema: &mut Schema) {
 
 /// Forbids all keys except named properties and extensions.
 pub(crate) fn extension_properties(schema: &mut Schema) {
-    schema.insert(
-        "patternProperties".to_owned(),
-        json!({ format!("^{EXTENSION_PREFIX}"): {} }),
-    );
+    schema.insert("patternProperties".to_owned(), json!({ format!("^{EXTENSION_PREFIX}"): {} }));
     schema.insert("additionalProperties".to_owned(), json!(false));
 }
 

@@ -24,12 +24,7 @@ impl Rate {
     /// The rate of two counts. A `count` above `of` is clamped to `of` for the interval.
     pub fn new(count: u32, of: u32) -> Self {
         let [lower, upper] = interval(count.min(of) as usize, of as usize);
-        Self {
-            count,
-            of,
-            lower,
-            upper,
-        }
+        Self { count, of, lower, upper }
     }
 
     /// The proportion, 0 to 1; `None` if `of` is 0.
@@ -53,16 +48,8 @@ pub fn interval(count: usize, of: usize) -> [f64; 2] {
     let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
     let under = 1.0 + Z * Z / n;
     [
-        if count == 0 {
-            0.0
-        } else {
-            (middle - half) / under
-        },
-        if count == of {
-            1.0
-        } else {
-            (middle + half) / under
-        },
+        if count == 0 { 0.0 } else { (middle - half) / under },
+        if count == of { 1.0 } else { (middle + half) / under },
     ]
 }
 
@@ -73,11 +60,7 @@ impl fmt::Display for Rate {
             return f.write_str("none of 0");
         };
         let [share, lower, upper] = [share, self.lower, self.upper].map(percent);
-        write!(
-            f,
-            "{share} % ({lower} to {upper} %) of {}",
-            grouped(self.of)
-        )
+        write!(f, "{share} % ({lower} to {upper} %) of {}", grouped(self.of))
     }
 }
 

@@ -246,7 +246,5 @@ impl ModuleSpec {
 
 /// The entry of a (module, version). An empty version selects a published module without one.
 pub fn find(kind: ModuleKind, version: &str) -> Option<&'static ModuleSpec> {
-    modules()
-        .iter()
-        .find(|spec| spec.kind == kind && spec.version == version)
+    modules().iter().find(|spec| spec.kind == kind && spec.version == version)
 }

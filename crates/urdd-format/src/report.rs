@@ -26,10 +26,7 @@ module! {
 impl Report {
     /// Number of URDDs with this verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
-        self.urdds
-            .iter()
-            .filter(|urdd| urdd.verdict == verdict)
-            .count()
+        self.urdds.iter().filter(|urdd| urdd.verdict == verdict).count()
     }
 }
 
@@ -46,10 +43,7 @@ object! {
 impl Tool {
     /// This program.
     pub fn urdd() -> Tool {
-        Tool {
-            name: "urdd".to_owned(),
-            version: PROGRAM_VERSION.to_owned(),
-        }
+        Tool { name: "urdd".to_owned(), version: PROGRAM_VERSION.to_owned() }
     }
 }
 

@@ -103,15 +103,13 @@ impl Subject {
     /// Every document with a published schema: the root metadata, the registry in its order, the
     /// reports, and the results of the conformance commands.
     pub fn all() -> impl Iterator<Item = Subject> {
-        std::iter::once(Subject::RootMetadata)
-            .chain(modules().iter().map(Subject::Module))
-            .chain([
-                Subject::Report,
-                Subject::FirstDiffReport,
-                Subject::DiffReport,
-                Subject::ProducerResult,
-                Subject::ValidatorResult,
-            ])
+        std::iter::once(Subject::RootMetadata).chain(modules().iter().map(Subject::Module)).chain([
+            Subject::Report,
+            Subject::FirstDiffReport,
+            Subject::DiffReport,
+            Subject::ProducerResult,
+            Subject::ValidatorResult,
+        ])
     }
 
     /// The subject with an id such as `dof_module@1.0.0`.
@@ -121,10 +119,7 @@ impl Subject {
     pub fn find(id: &str) -> Result<Subject, SchemaError> {
         Subject::all()
             .find(|subject| subject.id() == id)
-            .ok_or_else(|| SchemaError::UnknownId {
-                id: id.to_owned(),
-                near: near_ids(id),
-            })
+            .ok_or_else(|| SchemaError::UnknownId { id: id.to_owned(), near: near_ids(id) })
     }
 
     /// Name and version as one word: `dof_module@1.0.0`.
@@ -215,16 +210,10 @@ impl Subject {
 /// the list of releases comes with the strict ones only.
 pub fn files(variant: Variant) -> Vec<SchemaFile> {
     let mut files: Vec<SchemaFile> = Subject::all()
-        .map(|subject| SchemaFile {
-            path: subject.path(),
-            text: subject.text(variant),
-        })
+        .map(|subject| SchemaFile { path: subject.path(), text: subject.text(variant) })
         .collect();
     if variant == Variant::Strict {
-        files.push(SchemaFile {
-            path: RELEASED_PATH.to_owned(),
-            text: RELEASED.to_owned(),
-        });
+        files.push(SchemaFile { path: RELEASED_PATH.to_owned(), text: RELEASED.to_owned() });
     }
     files.sort_by(|a, b| a.path.cmp(&b.path));
     files
@@ -280,10 +269,7 @@ fn published(mut schema: Schema, id: String, variant: Variant, annotated: bool) 
         }
         // Put first what a reader looks for first.
         let mut rest = std::mem::take(object);
-        for keyword in ["$schema", "$id", "title", "description"]
-            .into_iter()
-            .chain(KEYWORDS)
-        {
+        for keyword in ["$schema", "$id", "title", "description"].into_iter().chain(KEYWORDS) {
             if let Some(value) = rest.shift_remove(keyword) {
                 object.insert(keyword.to_owned(), value);
             }
@@ -353,12 +339,9 @@ fn each_schema_of(
                 .map(|(name, schema)| (name.clone(), each_schema(schema, change)))
                 .collect(),
         ),
-        ("prefixItems" | "anyOf" | "oneOf" | "allOf", Value::Array(schemas)) => Value::Array(
-            schemas
-                .iter()
-                .map(|schema| each_schema(schema, change))
-                .collect(),
-        ),
+        ("prefixItems" | "anyOf" | "oneOf" | "allOf", Value::Array(schemas)) => {
+            Value::Array(schemas.iter().map(|schema| each_schema(schema, change)).collect())
+        }
         ("items" | "additionalProperties", schema) => each_schema(schema, change),
         (_, other) => other.clone(),
     }

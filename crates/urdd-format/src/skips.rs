@@ -76,8 +76,7 @@ fn skips(
         |reason: &SkipReason| skipped.iter().any(|skipped| skipped.of_pair() == *reason);
     let rows = reasons.iter().enumerate().map(|(i, row)| {
         let row = row.iter().enumerate();
-        row.map(|(j, reason)| i == j || is_skipped(reason))
-            .collect()
+        row.map(|(j, reason)| i == j || is_skipped(reason)).collect()
     });
     let mut skips: Skips = rows.collect();
     let mut set = |i: usize, j: usize, skip: bool| {

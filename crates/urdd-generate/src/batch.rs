@@ -76,9 +76,8 @@ pub fn jobs(paths: &[PathBuf]) -> Result<Vec<Job>, BatchError> {
     let mut sources = Vec::new();
     for path in paths {
         let shown = path.display().to_string();
-        let metadata = fs::metadata(path).map_err(|_| BatchError::Missing {
-            path: shown.clone(),
-        })?;
+        let metadata =
+            fs::metadata(path).map_err(|_| BatchError::Missing { path: shown.clone() })?;
         if !metadata.is_dir() {
             sources.push(path.clone());
             continue;
@@ -112,11 +111,7 @@ fn search(folder: &Path, depth: usize, sources: &mut Vec<PathBuf>) -> Result<(),
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        entries.push((
-            entry.file_name().to_string_lossy().into_owned(),
-            entry.path(),
-            is_folder,
-        ));
+        entries.push((entry.file_name().to_string_lossy().into_owned(), entry.path(), is_folder));
     }
     entries.sort();
     for (name, path, is_folder) in entries {
@@ -146,11 +141,7 @@ fn names(sources: &[PathBuf]) -> Vec<String> {
             groups.entry(name).or_default().push(idx);
         }
         let mut grown = false;
-        for idx in groups
-            .into_values()
-            .filter(|group| group.len() > 1)
-            .flatten()
-        {
+        for idx in groups.into_values().filter(|group| group.len() > 1).flatten() {
             if used[idx] < parts[idx].len() {
                 used[idx] += 1;
                 grown = true;
@@ -248,9 +239,7 @@ pub fn run(jobs: &[Job], folder: &Path, settings: &Settings, observer: &dyn Obse
         }
         let progress = observer.begin(job);
         let target = folder.join(&job.name);
-        let outcome = caught(&job.source, || {
-            generate(&job.source, &target, settings, &*progress)
-        });
+        let outcome = caught(&job.source, || generate(&job.source, &target, settings, &*progress));
         let failed = usize::from(outcome.is_err());
         let mut waiting = waiting.lock().unwrap_or_else(PoisonError::into_inner);
         let (next, outcomes) = &mut *waiting;

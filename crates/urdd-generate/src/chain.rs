@@ -61,9 +61,7 @@ fn hierarchy(links: &[LinkInChain], root: usize) -> Vec<Vec<LinkIdx>> {
     let mut levels = Vec::new();
     let mut level = vec![LinkIdx(root as u32)];
     while !level.is_empty() {
-        let below = level
-            .iter()
-            .flat_map(|link| &links[link.get()].children_link_idxs);
+        let below = level.iter().flat_map(|link| &links[link.get()].children_link_idxs);
         let mut next: Vec<LinkIdx> = below.copied().collect();
         next.sort();
         levels.push(std::mem::replace(&mut level, next));

@@ -41,10 +41,7 @@ impl Composed {
         there.edits.splice(..0, self.edits.iter().cloned());
         let names: HashSet<_> = there.configurations.iter().map(|edit| &edit.name).collect();
         let new = self.configurations.iter();
-        let new: Vec<_> = new
-            .filter(|edit| !names.contains(&edit.name))
-            .cloned()
-            .collect();
+        let new: Vec<_> = new.filter(|edit| !names.contains(&edit.name)).cloned().collect();
         there.configurations.extend(new);
         there
     }

@@ -35,13 +35,8 @@ pub(super) fn connections_module(chain: &ChainModule) -> ConnectionsModule {
 }
 
 fn root_paths(chain: &ChainModule) -> Vec<LinkPath> {
-    let mut paths = vec![
-        LinkPath {
-            links: Vec::new(),
-            joints: Vec::new(),
-        };
-        chain.links_in_chain.len()
-    ];
+    let mut paths =
+        vec![LinkPath { links: Vec::new(), joints: Vec::new() }; chain.links_in_chain.len()];
     for idx in chain.kinematic_hierarchy.iter().flatten() {
         let link = &chain.links_in_chain[idx.get()];
         let mut path = match (link.parent_link_idx, link.parent_joint_idx) {
@@ -98,11 +93,7 @@ fn lowest_common_ancestors(chain: &ChainModule, root_paths: &[LinkPath]) -> Vec<
 
 /// The path up from one link to the common ancestor and down to the other.
 fn path(from: &LinkPath, to: &LinkPath, ancestor: LinkIdx) -> LinkPath {
-    let depth = from
-        .links
-        .iter()
-        .position(|link| *link == ancestor)
-        .unwrap_or_default();
+    let depth = from.links.iter().position(|link| *link == ancestor).unwrap_or_default();
     let links_up = from.links[depth..].iter().rev();
     let joints_up = from.joints[depth..].iter().rev();
     let links: Vec<LinkIdx> = links_up.chain(&to.links[depth + 1..]).copied().collect();
@@ -160,11 +151,7 @@ mod tests {
         let range = |from: usize, to: usize| -> Vec<LinkIdx> {
             let up = (from..=to).map(|link| LinkIdx(link as u32));
             let down = (to..=from).rev().map(|link| LinkIdx(link as u32));
-            if from <= to {
-                up.collect()
-            } else {
-                down.collect()
-            }
+            if from <= to { up.collect() } else { down.collect() }
         };
         let pairs = module.link_to_link_paths.unwrap();
         let descents = module.link_connection_paths.unwrap();
@@ -172,10 +159,7 @@ mod tests {
             // The root is the last link.
             assert_eq!(module.root_paths[i].links, range(count - 1, i));
             for j in 0..count {
-                assert_eq!(
-                    module.lowest_common_ancestors[i][j],
-                    LinkIdx(i.max(j) as u32)
-                );
+                assert_eq!(module.lowest_common_ancestors[i][j], LinkIdx(i.max(j) as u32));
                 assert_eq!(pairs[i][j].links, range(i, j));
                 // Joint k is between links k and k + 1.
                 let joints: Vec<u32> = pairs[i][j].joints.iter().map(|joint| joint.0).collect();

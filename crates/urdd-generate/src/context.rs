@@ -43,10 +43,7 @@ pub(crate) struct Context<'a> {
 
 /// The fault of a robot whose poses cannot be computed; names the joint above the link where it shows.
 fn no_poses(error: &SamplesError, chain: &ChainModule) -> Fault {
-    let SamplesError::Sample {
-        kind,
-        error: ConfigurationError::Overflow { link_idx },
-    } = error
+    let SamplesError::Sample { kind, error: ConfigurationError::Overflow { link_idx } } = error
     else {
         return Fault::NoPoses(error.to_string());
     };
@@ -131,9 +128,6 @@ impl<'a> Context<'a> {
 
     /// The error for geometry out of the range that can be computed.
     pub fn unmeasurable(&self, reason: String) -> GenerateError {
-        GenerateError::Geometry {
-            file: self.source.shown.clone(),
-            reason,
-        }
+        GenerateError::Geometry { file: self.source.shown.clone(), reason }
     }
 }

@@ -63,10 +63,7 @@ impl Eq for Content<'_> {}
 
 impl Hash for Content<'_> {
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let Mesh {
-            vertices,
-            triangles,
-        } = self.0;
+        let Mesh { vertices, triangles } = self.0;
         (vertices.len(), triangles.len()).hash(state);
         for vertex in vertices.iter().step_by((vertices.len() / HASHED).max(1)) {
             vertex.map(f64::to_bits).hash(state);
@@ -99,10 +96,7 @@ mod tests {
         let found = for_each_content(&meshes, &cancellation, work).expect("all of them");
         assert_eq!(asked.load(Ordering::Relaxed), 4);
         let expected = [&one, &other, &one, &moved, &turned, &other];
-        assert_eq!(
-            found,
-            expected.map(|mesh| (mesh.vertices[7][2], mesh.triangles[0]))
-        );
+        assert_eq!(found, expected.map(|mesh| (mesh.vertices[7][2], mesh.triangles[0])));
         cancellation.cancel();
         let found = for_each_content(&meshes, &cancellation, work);
         assert_eq!(found, Err(Cancelled));

@@ -11,11 +11,8 @@ const TRANSLATIONS: [(&str, Quantity); 3] = [
     ("/trans_y", Quantity::Length),
     ("/trans_z", Quantity::Length),
 ];
-const ROTATIONS: [(&str, Quantity); 3] = [
-    ("/rot_x", Quantity::Angle),
-    ("/rot_y", Quantity::Angle),
-    ("/rot_z", Quantity::Angle),
-];
+const ROTATIONS: [(&str, Quantity); 3] =
+    [("/rot_x", Quantity::Angle), ("/rot_y", Quantity::Angle), ("/rot_z", Quantity::Angle)];
 
 /// The name suffix and the quantity of each DOF of a joint (SPEC 5.8).
 fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {

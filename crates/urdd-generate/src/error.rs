@@ -133,10 +133,7 @@ impl From<Cancelled> for GenerateError {
 impl GenerateError {
     /// A bug in this program, found at a file.
     pub(crate) fn internal(file: &str, reason: impl fmt::Display) -> Self {
-        GenerateError::Internal {
-            file: file.to_owned(),
-            reason: reason.to_string(),
-        }
+        GenerateError::Internal { file: file.to_owned(), reason: reason.to_string() }
     }
 
     /// A machine-readable code for the kind of error.
@@ -225,11 +222,7 @@ impl fmt::Display for OutsideMeshes<'_> {
             )?;
         }
         if meshes.len() > MOST_SHOWN {
-            writeln!(
-                f,
-                "{file}: and {} more such meshes",
-                meshes.len() - MOST_SHOWN
-            )?;
+            writeln!(f, "{file}: and {} more such meshes", meshes.len() - MOST_SHOWN)?;
         }
         write!(
             f,
@@ -270,11 +263,7 @@ impl fmt::Display for FaultLines<'_> {
             write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
         }
         if faults.len() > MOST_SHOWN {
-            write!(
-                f,
-                "\n{file}: and {} more such faults",
-                faults.len() - MOST_SHOWN
-            )?;
+            write!(f, "\n{file}: and {} more such faults", faults.len() - MOST_SHOWN)?;
         }
         Ok(())
     }

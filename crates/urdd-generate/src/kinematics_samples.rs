@@ -22,10 +22,7 @@ pub(super) enum SamplesError {
     #[error(transparent)]
     Robot(#[from] KinematicsError),
     #[error("{kind}: {error}")]
-    Sample {
-        kind: ConfigurationKind,
-        error: ConfigurationError,
-    },
+    Sample { kind: ConfigurationKind, error: ConfigurationError },
 }
 
 /// Builds the module.
@@ -48,21 +45,16 @@ pub(super) fn kinematics_samples_module(
     ];
     let sampled =
         (0..NUM_SAMPLED).map(|k| (Sampled, Some(SampleIdx(k)), space.sampled(u64::from(k))));
-    let samples = named
-        .into_iter()
-        .chain(sampled)
-        .map(|(kind, sample_idx, configuration)| {
-            let poses = kinematics
-                .link_poses(&configuration)
-                .map_err(|error| SamplesError::Sample { kind, error })?;
-            Ok(KinematicsSample {
-                kind,
-                sample_idx,
-                configuration,
-                link_poses: poses.iter().map(from_isometry).collect(),
-            })
-        });
-    Ok(KinematicsSamplesModule {
-        samples: samples.collect::<Result<_, SamplesError>>()?,
-    })
+    let samples = named.into_iter().chain(sampled).map(|(kind, sample_idx, configuration)| {
+        let poses = kinematics
+            .link_poses(&configuration)
+            .map_err(|error| SamplesError::Sample { kind, error })?;
+        Ok(KinematicsSample {
+            kind,
+            sample_idx,
+            configuration,
+            link_poses: poses.iter().map(from_isometry).collect(),
+        })
+    });
+    Ok(KinematicsSamplesModule { samples: samples.collect::<Result<_, SamplesError>>()? })
 }

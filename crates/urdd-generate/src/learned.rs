@@ -103,9 +103,7 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
             vertices.map(move |vertices| (link, vertices))
         })
         .collect();
-    let each = shapes
-        .iter()
-        .map(|(link, vertices)| (*link, vertices.as_slice()));
+    let each = shapes.iter().map(|(link, vertices)| (*link, vertices.as_slice()));
     let mut pairs = BodyPairs::new(each).map_err(|(piece, error)| {
         let of = skips.decomposition_shapes.get(piece);
         let of = of.map_or_else(String::new, |of| {
@@ -138,12 +136,8 @@ fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
 
 /// SHA-256 over the concatenated hashes of all files that the model depends on: SPEC 8.8.7.
 fn trained_on(context: &Context, skips: &LinkShapesSkipsModule, digests: &Digests) -> Sha256 {
-    let kinds = [
-        ModuleKind::Dof,
-        ModuleKind::Chain,
-        ModuleKind::Bounds,
-        ModuleKind::LinkShapesSkips,
-    ];
+    let kinds =
+        [ModuleKind::Dof, ModuleKind::Chain, ModuleKind::Bounds, ModuleKind::LinkShapesSkips];
     let documents = kinds.map(|kind| format!("{}/module.json", kind.folder()));
     let kind = ModuleKind::ConvexDecompositionMeshes;
     let pieces = skips.decomposition_shapes.iter().map(|piece| {

@@ -37,12 +37,7 @@ pub(super) fn streamed<T>(
     product: T,
 ) -> Result<Made<T>, GenerateError> {
     let document = document.map_err(|error| GenerateError::internal("", error))?;
-    Ok(Made {
-        document: Some(document),
-        files: Vec::new(),
-        notes: Vec::new(),
-        product,
-    })
+    Ok(Made { document: Some(document), files: Vec::new(), notes: Vec::new(), product })
 }
 
 /// A module without additional files or product.

@@ -58,10 +58,7 @@ pub(super) fn plain(
             let files = context.mesh_files(ModuleKind::PlainMeshes, link, None);
             if let Some((geometry, taken)) = taken.get(link).and_then(Option::as_ref) {
                 let contents = taken.files(&files, Shading::Smooth)?;
-                let plain = PlainMesh {
-                    geometry: *geometry,
-                    files,
-                };
+                let plain = PlainMesh { geometry: *geometry, files };
                 return Ok((Some(plain), contents, Some(taken.mesh.clone())));
             }
             let Some(geometry) = geometry else {
@@ -79,10 +76,7 @@ pub(super) fn plain(
         files.extend(contents);
         meshes.push(mesh);
     }
-    let module = PlainMeshesModule {
-        preferred_geometry: preferred,
-        link_meshes,
-    };
+    let module = PlainMeshesModule { preferred_geometry: preferred, link_meshes };
     made_with(&module, files, meshes)
 }
 
@@ -103,9 +97,7 @@ pub(super) fn hulls(
     let links = solids(plain, taken, built.map(Iterator::collect));
     let (names, files) = write(context, ModuleKind::ConvexHullMeshes, &links)?;
     let link_hulls = names.into_iter().map(|hull| hull.into_iter().next());
-    let module = ConvexHullMeshesModule {
-        link_hulls: link_hulls.collect(),
-    };
+    let module = ConvexHullMeshesModule { link_hulls: link_hulls.collect() };
     let hulls = links.into_iter().map(|hull| hull.into_iter().next());
     let hulls = hulls.map(|hull| hull.map(|hull| hull.mesh));
     made_with(&module, files, hulls.collect())
@@ -135,10 +127,7 @@ pub(super) fn pieces(
         pieces
     };
     let built = for_each_content(&meshes, &context.settings.cancellation, decompose)?;
-    let of_taken = plain
-        .iter()
-        .zip(&taken)
-        .filter(|(_, taken)| taken.is_some());
+    let of_taken = plain.iter().zip(&taken).filter(|(_, taken)| taken.is_some());
     let of_taken = of_taken.filter_map(|(plain, _)| plain.as_ref());
     let of_taken = of_taken.map(|plain| settings.surface_tolerance_of(&plain.mesh));
     let tolerances = built.iter().map(|built| built.surface_tolerance);
@@ -182,10 +171,7 @@ fn solids(
             return taken;
         }
         let color = plain.color;
-        let solid = |mesh| LinkMesh {
-            mesh: WrittenMesh { mesh, color },
-            files: None,
-        };
+        let solid = |mesh| LinkMesh { mesh: WrittenMesh { mesh, color }, files: None };
         let built = built.next().unwrap_or_default();
         built.into_iter().map(solid).collect()
     });

@@ -38,11 +38,7 @@ pub(super) fn entry(kind: ModuleKind, mut files: Vec<FileEntry>, inputs: Option<
             name: kind.name().to_owned(),
             version: version(MODULE_VERSION),
             path: kind.folder().to_owned(),
-            depends_on: kind
-                .depends_on()
-                .iter()
-                .map(|kind| kind.name().to_owned())
-                .collect(),
+            depends_on: kind.depends_on().iter().map(|kind| kind.name().to_owned()).collect(),
             files,
         },
         inputs,
@@ -56,11 +52,8 @@ pub(super) fn inputs<'a>(
     settings: &str,
     modules: impl Iterator<Item = &'a ModuleEntry> + Clone,
 ) -> String {
-    let mut text = format!(
-        "{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n",
-        PROGRAM_VERSION,
-        kind.name()
-    );
+    let mut text =
+        format!("{GENERATOR} {}\n{} {MODULE_VERSION}\n{settings}\n", PROGRAM_VERSION, kind.name());
     let needed = kind.depends_on().iter().map(|kind| kind.name());
     for name in needed {
         let named = modules.clone().filter(|module| module.name == name);
@@ -75,15 +68,10 @@ pub(super) fn inputs<'a>(
 pub(super) fn class(made: &[Entry]) -> ConformanceClass {
     let has = |kind: ModuleKind| made.iter().any(|entry| entry.module.name == kind.name());
     let whole = |class: ConformanceClass| {
-        let mut kinds = ModuleKind::ALL
-            .iter()
-            .filter(|kind| kind.class() == Some(class));
+        let mut kinds = ModuleKind::ALL.iter().filter(|kind| kind.class() == Some(class));
         kinds.all(|kind| has(*kind))
     };
-    match (
-        whole(ConformanceClass::Geometry),
-        whole(ConformanceClass::Shapes),
-    ) {
+    match (whole(ConformanceClass::Geometry), whole(ConformanceClass::Shapes)) {
         (true, true) => ConformanceClass::Shapes,
         (true, false) => ConformanceClass::Geometry,
         _ => ConformanceClass::Core,

@@ -54,13 +54,7 @@ impl<'a> Modules<'a> {
         let named = has_named.then_some(ModuleKind::NamedConfigurations);
         Modules {
             context,
-            selected: context
-                .settings
-                .selection
-                .kinds()
-                .chain(composition)
-                .chain(named)
-                .collect(),
+            selected: context.settings.selection.kinds().chain(composition).chain(named).collect(),
             replaced,
             writer,
             root,
@@ -90,9 +84,7 @@ impl<'a> Modules<'a> {
             let modules = self.entries.iter().map(|entry| &entry.module);
             metadata::inputs(kind, &text, modules)
         });
-        let kept = inputs
-            .as_deref()
-            .and_then(|inputs| self.replaced?.kept(kind, inputs));
+        let kept = inputs.as_deref().and_then(|inputs| self.replaced?.kept(kind, inputs));
         if let Some((folder, files)) = kept {
             for file in files {
                 self.writer.keep(&folder.join(&file.path), &file.path)?;

@@ -8,9 +8,8 @@ use urdd_format::named_configurations::NamedConfigurationsModule;
 
 /// The module.
 pub(super) fn named_configurations(context: &Context) -> Result<Made, GenerateError> {
-    let mut made = made(&NamedConfigurationsModule {
-        configurations: context.named.configurations.clone(),
-    })?;
+    let mut made =
+        made(&NamedConfigurationsModule { configurations: context.named.configurations.clone() })?;
     let assumed = "the position is left out; the DOF has its default value there";
     let lost = context.named.lost.iter();
     made.notes

@@ -55,10 +55,7 @@ impl NoteKind {
     /// Whether the assumption may change the robot from what the author meant.
     pub fn changes_robot(self) -> bool {
         use NoteKind::{Encoding, LeftBehind, OfNoUse, Outside, TooLarge, Xml};
-        !matches!(
-            self,
-            Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind
-        )
+        !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind)
     }
 
     /// The machine-readable name.

@@ -22,9 +22,7 @@ pub fn has_quaternions(version: Option<&str>) -> bool {
 /// The pose of an origin; missing parts are zero. `quaternions` says whether `quat_xyzw` applies.
 pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
     let xyz = origin.and_then(|origin| origin.xyz).unwrap_or_default();
-    let quaternion = origin
-        .and_then(|origin| origin.quat_xyzw)
-        .filter(|_| quaternions);
+    let quaternion = origin.and_then(|origin| origin.quat_xyzw).filter(|_| quaternions);
     let rotation = match (quaternion, origin.and_then(|origin| origin.rpy)) {
         (Some(quaternion), _) => from_xyzw(quaternion).unwrap_or_else(UnitQuaternion::identity),
         (None, Some(rpy)) => from_rpy(rpy),
@@ -36,9 +34,7 @@ pub fn of(origin: Option<&Origin>, quaternions: bool) -> Isometry3<f64> {
 /// The rotation of a quaternion of any nonzero length.
 pub(super) fn from_xyzw(xyzw: [f64; 4]) -> Option<UnitQuaternion<f64>> {
     // Scale first: the squares of huge or tiny components overflow or vanish.
-    let largest = xyzw
-        .iter()
-        .fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let largest = xyzw.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let [x, y, z, w] = xyzw.map(|x| x / largest);
     UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0)
 }
@@ -66,33 +62,15 @@ mod tests {
             assert_eq!([x, y], [0.0, 0.0]);
             assert!((z - FRAC_1_SQRT_2).abs() < 1e-15 && (w - FRAC_1_SQRT_2).abs() < 1e-15);
         }
-        for version in [
-            "1.0",
-            "0.9",
-            "1",
-            "",
-            "1.1.0",
-            "1.x",
-            "-1.1",
-            "+1.1",
-            "\u{a0}1.1",
-        ] {
-            assert_eq!(
-                rotation(&origin, version),
-                [0.0, 0.0, 0.0, 1.0],
-                "{version:?}"
-            );
+        for version in ["1.0", "0.9", "1", "", "1.1.0", "1.x", "-1.1", "+1.1", "\u{a0}1.1"] {
+            assert_eq!(rotation(&origin, version), [0.0, 0.0, 0.0, 1.0], "{version:?}");
         }
         assert!(!has_quaternions(None));
     }
 
     #[test]
     fn a_quaternion_without_length_says_nothing() {
-        let origin = Origin {
-            xyz: None,
-            rpy: None,
-            quat_xyzw: Some([0.0; 4]),
-        };
+        let origin = Origin { xyz: None, rpy: None, quat_xyzw: Some([0.0; 4]) };
         assert_eq!(rotation(&origin, "1.1"), [0.0, 0.0, 0.0, 1.0]);
     }
 }

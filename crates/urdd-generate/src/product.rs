@@ -29,12 +29,7 @@ impl<T> Product<T> {
     /// What a stage returned. Without it, `load` reads it from the URDD in `root`.
     pub fn new(made: Option<T>, kind: ModuleKind, root: Root, load: Load<T>) -> Self {
         let known = made.map_or_else(OnceLock::new, OnceLock::from);
-        Product {
-            known,
-            kind,
-            root,
-            load,
-        }
+        Product { known, kind, root, load }
     }
 
     /// Returns the product; the first call reads it if this run did not build it.

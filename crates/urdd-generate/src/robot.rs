@@ -64,12 +64,7 @@ pub fn generate(
 ) -> Result<Generated, GenerateError> {
     let path = source;
     progress.reads(path);
-    let source = source::load(
-        path,
-        &settings.xacro,
-        &settings.packages,
-        &settings.cancellation,
-    )?;
+    let source = source::load(path, &settings.xacro, &settings.packages, &settings.cancellation)?;
     make(Some(path), &source, None, target, settings, progress)
 }
 
@@ -144,19 +139,11 @@ fn make(
     })?;
     let mut modules = Modules::new(&context, replaced, &writer, root);
     let meshes = stages::run(&context, &mut modules)?;
-    let Modules {
-        entries,
-        made,
-        mut notes,
-        ..
-    } = modules;
+    let Modules { entries, made, mut notes, .. } = modules;
 
     let carried = writer.file(&source.file_name, &source.carried)?;
     let found_name = format!("{}.as-found", source.file_name);
-    let found = source
-        .found
-        .as_deref()
-        .map(|bytes| writer.file(&found_name, bytes));
+    let found = source.found.as_deref().map(|bytes| writer.file(&found_name, bytes));
     if target.is_dir() {
         others::carry_over(target, replaced, staging.content())?;
         let kinds: Vec<_> = made.iter().map(|module| module.kind).collect();
@@ -252,8 +239,6 @@ fn is_same(replaced: &Donor, target: &Path, text: &str, made: &[MadeModule]) -> 
     };
     let is_kept = |name: &str| made.iter().any(|of| of.kept && of.kind.name() == name);
     let modules = replaced.metadata.modules.iter();
-    let files = modules
-        .filter(|module| !is_kept(&module.name))
-        .flat_map(|module| &module.files);
+    let files = modules.filter(|module| !is_kept(&module.name)).flat_map(|module| &module.files);
     files.chain(source).all(|file| replaced.is_intact(file))
 }

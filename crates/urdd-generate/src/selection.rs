@@ -29,9 +29,7 @@ const NOT_SELECTABLE: &[ModuleKind] = &[ModuleKind::Composition, ModuleKind::Nam
 pub(crate) fn kinds() -> Vec<ModuleKind> {
     let current = modules().iter().filter(|spec| spec.profile == Profile::V1);
     let kinds = current.map(|spec| spec.kind);
-    kinds
-        .filter(|kind| !NOT_SELECTABLE.contains(kind))
-        .collect()
+    kinds.filter(|kind| !NOT_SELECTABLE.contains(kind)).collect()
 }
 
 /// The modules to generate: the selected ones, their dependencies, and the core class, which every URDD needs.
@@ -64,10 +62,8 @@ impl Selection {
         asked.retain(|kind| kind.class().is_some());
         for word in words {
             let word = word.trim();
-            let named = kinds
-                .iter()
-                .copied()
-                .find(|kind| word == kind.name() || word == kind.short_name());
+            let named =
+                kinds.iter().copied().find(|kind| word == kind.name() || word == kind.short_name());
             match (word, named) {
                 (_, Some(kind)) => asked.push(kind),
                 ("core", _) => asked.extend(up_to(ConformanceClass::Core)),

@@ -65,10 +65,7 @@ pub struct MeshFormats {
 impl Default for MeshFormats {
     /// Both formats.
     fn default() -> Self {
-        MeshFormats {
-            stl: true,
-            obj: true,
-        }
+        MeshFormats { stl: true, obj: true }
     }
 }
 
@@ -85,10 +82,7 @@ pub struct Pieces {
 impl Default for Pieces {
     /// At most 7.
     fn default() -> Self {
-        Pieces {
-            most: 7,
-            tolerance: None,
-        }
+        Pieces { most: 7, tolerance: None }
     }
 }
 

@@ -86,9 +86,7 @@ where
 {
     ShapeKind::ALL.into_iter().map(move |kind| {
         let rows = part(module).of_kind(kind).map(|_| {
-            Rows::of(module, move |m| {
-                part(m).of_kind(kind).map_or(&[][..], Vec::as_slice)
-            })
+            Rows::of(module, move |m| part(m).of_kind(kind).map_or(&[][..], Vec::as_slice))
         });
         (S::KEYS[kind as usize], Member::rows_or_null(rows))
     })
@@ -123,10 +121,7 @@ mod tests {
     }
 
     fn shapes() -> (Vec<LinkIdx>, Vec<PieceShape>) {
-        let piece = |piece| PieceShape {
-            link_idx: LinkIdx(4),
-            piece_idx: PieceIdx(piece),
-        };
+        let piece = |piece| PieceShape { link_idx: LinkIdx(4), piece_idx: PieceIdx(piece) };
         (vec![LinkIdx(1), LinkIdx(4)], vec![piece(0), piece(1)])
     }
 

@@ -95,12 +95,7 @@ pub(super) fn edited_skips(
     let links = context.chain.links_in_chain.iter();
     let names: Vec<&str> = links.map(|link| link.name.as_str()).collect();
     let edits = context.edits.kept.clone();
-    let module = Arc::new(skips_module(
-        simple,
-        context.skipped_reasons(),
-        edits,
-        &names,
-    ));
+    let module = Arc::new(skips_module(simple, context.skipped_reasons(), edits, &names));
     let mut made = streamed(shape_documents::skips(&module), module)?;
     let lost = context.edits.lost.iter().map(|edit| {
         let problem = format!(

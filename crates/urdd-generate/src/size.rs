@@ -42,15 +42,9 @@ pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
         + robot.materials.len()
         + robot.unknown_elements.len();
     let fault = if links > MOST_LINKS {
-        Fault::TooManyLinks {
-            found: links,
-            limit: MOST_LINKS,
-        }
+        Fault::TooManyLinks { found: links, limit: MOST_LINKS }
     } else if elements > MOST_ELEMENTS {
-        Fault::TooManyElements {
-            found: elements,
-            limit: MOST_ELEMENTS,
-        }
+        Fault::TooManyElements { found: elements, limit: MOST_ELEMENTS }
     } else {
         return Ok(());
     };
@@ -82,9 +76,7 @@ impl TriangleBudget {
     /// If all links together have too many.
     pub fn check(&self) -> Result<(), Fault> {
         if self.0.load(Ordering::Relaxed) > MOST_TRIANGLES {
-            return Err(Fault::TooManyTrianglesInAll {
-                limit: MOST_TRIANGLES,
-            });
+            return Err(Fault::TooManyTrianglesInAll { limit: MOST_TRIANGLES });
         }
         Ok(())
     }
@@ -104,9 +96,7 @@ pub(super) fn check_resolved(link: &str, parts: &[Part]) -> Result<(), Fault> {
     if width > LEAST_WIDTH * largest {
         return Ok(());
     }
-    Err(Fault::Unresolved {
-        link: link.to_owned(),
-    })
+    Err(Fault::Unresolved { link: link.to_owned() })
 }
 
 /// The largest distance of a point from a line through two distant points; 0 without points.
@@ -115,16 +105,10 @@ fn width(points: impl Iterator<Item = Vector3<f64>> + Clone) -> f64 {
         return 0.0;
     };
     let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
-        points
-            .clone()
-            .map(|point| distance(&point))
-            .fold(0.0, f64::max)
+        points.clone().map(|point| distance(&point)).fold(0.0, f64::max)
     };
     let length = farthest(&|point| (point - first).norm());
-    let Some(last) = points
-        .clone()
-        .find(|point| (point - first).norm() >= length)
-    else {
+    let Some(last) = points.clone().find(|point| (point - first).norm() >= length) else {
         return 0.0;
     };
     let along = (last - first) / length;

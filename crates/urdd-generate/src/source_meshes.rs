@@ -157,11 +157,7 @@ pub fn read_source(path: &Path, settings: &Settings) -> Result<SourceText, Gener
         &settings.cancellation,
         &mut Vec::new(),
     )?;
-    Ok(SourceText {
-        text: read.text,
-        is_expanded: read.is_expanded,
-        folder: found.folder,
-    })
+    Ok(SourceText { text: read.text, is_expanded: read.is_expanded, folder: found.folder })
 }
 
 fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
@@ -178,10 +174,7 @@ fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
             geometry: mesh.geometry,
             element: mesh.element,
             filename: mesh.filename.to_owned(),
-            file: found
-                .as_ref()
-                .map(|found| found.file.clone())
-                .map_err(Clone::clone),
+            file: found.as_ref().map(|found| found.file.clone()).map_err(Clone::clone),
         });
     }
     let places = found.into_values().flatten();

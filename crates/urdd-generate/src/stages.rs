@@ -19,9 +19,7 @@ use urdd_format::registry::ModuleKind as Kind;
 
 /// Runs every stage, in the order of the specification. Returns how the mesh references were resolved.
 pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount, GenerateError> {
-    let donors = &DonorLinks::of(&context.settings.donors, &|kind| {
-        inputs::text(kind, context)
-    });
+    let donors = &DonorLinks::of(&context.settings.donors, &|kind| inputs::text(kind, context));
 
     modules.add(Kind::Urdf, |_| made(&context.source.reading.robot))?;
     modules.add(Kind::Dof, |_| made(&context.dof))?;
@@ -106,16 +104,10 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
     let descents = module.link_connection_paths.map(Rows::new);
     let document = Document::Object(vec![
         ("root_paths", Member::Rows(Rows::new(module.root_paths))),
-        (
-            "lowest_common_ancestors",
-            Member::Rows(Rows::new(module.lowest_common_ancestors)),
-        ),
+        ("lowest_common_ancestors", Member::Rows(Rows::new(module.lowest_common_ancestors))),
         ("link_to_link_paths", Member::rows_or_null(pairs)),
         ("link_connection_paths", Member::rows_or_null(descents)),
     ]);
     let made = streamed(Ok(document), ())?;
-    Ok(Made {
-        notes: too_large.into_iter().collect(),
-        ..made
-    })
+    Ok(Made { notes: too_large.into_iter().collect(), ..made })
 }

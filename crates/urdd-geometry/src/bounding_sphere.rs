@@ -45,24 +45,13 @@ impl BoundingSphere {
     pub fn of_points(points: &[[f64; 3]]) -> Self {
         let vertices: Vec<_> = points.iter().map(|p| Vector3::from(*p)).collect();
         let first = vertices.first().copied().unwrap_or_default();
-        let size = vertices
-            .iter()
-            .fold(0.0, |size: f64, p| size.max((p - first).amax()));
+        let size = vertices.iter().fold(0.0, |size: f64, p| size.max((p - first).amax()));
         // Scale lengths to about 1, so that products neither underflow nor overflow. A power of 2 is exact.
-        let scale = if size > 0.0 {
-            size.log2().ceil().exp2()
-        } else {
-            1.0
-        };
+        let scale = if size > 0.0 { size.log2().ceil().exp2() } else { 1.0 };
         let points: Vec<_> = vertices.iter().map(|p| (p - first) / scale).collect();
         let centre = first + smallest(&points) * scale;
-        let radius = vertices
-            .iter()
-            .fold(0.0, |radius: f64, p| radius.max((p - centre).norm()));
-        Self {
-            centre: centre.map(|x| x + 0.0).into(),
-            radius,
-        }
+        let radius = vertices.iter().fold(0.0, |radius: f64, p| radius.max((p - centre).norm()));
+        Self { centre: centre.map(|x| x + 0.0).into(), radius }
     }
 }
 
@@ -72,10 +61,7 @@ pub const LARGER: f64 = 1.0 + 1e-12;
 /// A sphere with this centre around points, to cull: no point is outside, by any rounding.
 pub fn about(centre: [f64; 3], points: &[[f64; 3]]) -> BoundingSphere {
     let away = points.iter().map(|p| sub(*p, centre)).map(|d| dot(d, d));
-    BoundingSphere {
-        centre,
-        radius: away.fold(0.0, f64::max).sqrt() * LARGER + f64::MIN_POSITIVE,
-    }
+    BoundingSphere { centre, radius: away.fold(0.0, f64::max).sqrt() * LARGER + f64::MIN_POSITIVE }
 }
 
 /// A sphere around spheres, to cull; `None` without spheres.
@@ -90,10 +76,7 @@ pub fn about_spheres<'a>(
     let Bounds { min, max } = Bounds::of(ends);
     let centre = [0, 1, 2].map(|k| 0.5 * (min[k] + max[k]));
     let reach = spheres.map(|sphere| norm(sub(sphere.centre, centre)) + sphere.radius);
-    Some(BoundingSphere {
-        centre,
-        radius: reach.fold(0.0, f64::max) * LARGER,
-    })
+    Some(BoundingSphere { centre, radius: reach.fold(0.0, f64::max) * LARGER })
 }
 
 /// The centre of the smallest enclosing sphere.
@@ -101,11 +84,7 @@ fn smallest(points: &[Vector3<f64>]) -> Vector3<f64> {
     let Some(first) = points.first() else {
         return Vector3::zeros();
     };
-    let mut sphere = Carried {
-        support: vec![*first],
-        centre: *first,
-        radius: 0.0,
-    };
+    let mut sphere = Carried { support: vec![*first], centre: *first, radius: 0.0 };
     loop {
         let away = |p: &Vector3<f64>| (p - sphere.centre).norm_squared();
         let farthest = points
@@ -137,24 +116,15 @@ fn smallest_of_few(points: &[Vector3<f64>]) -> Option<Carried> {
         if chosen.count_ones() > 4 {
             continue;
         }
-        let picked = points
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| chosen >> i & 1 == 1);
+        let picked = points.iter().enumerate().filter(|(i, _)| chosen >> i & 1 == 1);
         let support: Vec<_> = picked.map(|(_, p)| *p).collect();
         let Some(centre) = circumcentre(&support) else {
             continue;
         };
         // The radius that encloses all points. The distance to the support alone could exclude one by rounding.
-        let radius = points
-            .iter()
-            .fold(0.0, |r: f64, p| r.max((p - centre).norm()));
+        let radius = points.iter().fold(0.0, |r: f64, p| r.max((p - centre).norm()));
         if best.as_ref().is_none_or(|best| radius < best.radius) {
-            best = Some(Carried {
-                support,
-                centre,
-                radius,
-            });
+            best = Some(Carried { support, centre, radius });
         }
     }
     best

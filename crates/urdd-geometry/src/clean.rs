@@ -20,21 +20,14 @@ impl Mesh {
     /// Drops triangles with a non-finite corner; returns how many. If a coordinate is not finite, also drops all unused
     /// vertices.
     pub fn drop_non_finite(&mut self) -> usize {
-        if self
-            .vertices
-            .iter()
-            .flatten()
-            .all(|coordinate| coordinate.is_finite())
-        {
+        if self.vertices.iter().flatten().all(|coordinate| coordinate.is_finite()) {
             return 0;
         }
         let before = self.triangles.len();
         let vertices = &self.vertices;
         self.triangles.retain(|triangle| {
             triangle.iter().all(|index| {
-                vertices[*index as usize]
-                    .iter()
-                    .all(|coordinate| coordinate.is_finite())
+                vertices[*index as usize].iter().all(|coordinate| coordinate.is_finite())
             })
         });
         self.drop_unused_vertices();
@@ -105,9 +98,7 @@ const FREE: u32 = u32::MAX;
 
 impl PlaceTable {
     pub(crate) fn for_count(count: usize) -> Self {
-        Self {
-            slots: vec![FREE; (count * 2).next_power_of_two().max(2)],
-        }
+        Self { slots: vec![FREE; (count * 2).next_power_of_two().max(2)] }
     }
 
     /// The index of the position in `kept`; appends the position if it is new.

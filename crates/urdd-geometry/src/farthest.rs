@@ -15,10 +15,7 @@ pub fn of_mesh(mesh: &Mesh) -> f64 {
 /// Distance of the farthest corner of a box.
 pub fn of_box(shape: &OrientedBox) -> f64 {
     let corners = shape.corners();
-    corners
-        .iter()
-        .map(|p| Vector3::from(*p).norm())
-        .fold(0.0, f64::max)
+    corners.iter().map(|p| Vector3::from(*p).norm()).fold(0.0, f64::max)
 }
 
 /// Distance of the centre plus the radius.

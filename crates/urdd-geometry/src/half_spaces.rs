@@ -48,10 +48,7 @@ impl HalfSpaces {
                 slack: all.map(|h| h.slack),
             }
         };
-        Some(Self {
-            blocks: list.chunks(WIDTH).map(block).collect(),
-            len: list.len(),
-        })
+        Some(Self { blocks: list.chunks(WIDTH).map(block).collect(), len: list.len() })
     }
 
     /// Their number.
@@ -91,11 +88,7 @@ impl HalfSpaces {
 
 #[inline(always)]
 fn splat<S: Simd>(simd: S, point: [f64; 3]) -> [f64x8<S>; 3] {
-    [
-        f64x8::splat(simd, point[0]),
-        f64x8::splat(simd, point[1]),
-        f64x8::splat(simd, point[2]),
-    ]
+    [f64x8::splat(simd, point[0]), f64x8::splat(simd, point[1]), f64x8::splat(simd, point[2])]
 }
 
 /// The coordinates of a point along the normals of a block.
@@ -164,13 +157,7 @@ mod tests {
         for count in [1, 3, 7, 8, 9, 20, 64] {
             // Every third one repeats the one eight before, so that distances are equal.
             let list: Vec<HalfSpace> = (0..count)
-                .map(|i: usize| {
-                    if i.is_multiple_of(3) {
-                        i.saturating_sub(8)
-                    } else {
-                        i
-                    }
-                })
+                .map(|i: usize| if i.is_multiple_of(3) { i.saturating_sub(8) } else { i })
                 .map(|i| {
                     let x = i as f64;
                     let (z, r) = ((1.9 * x).sin(), (1.9 * x).cos());
@@ -190,9 +177,7 @@ mod tests {
                     |h: &HalfSpace| h.normal[0] * p[0] + h.normal[1] * p[1] + h.normal[2] * p[2];
                 let heights = || list.iter().map(|h| (along(h) - h.offset, h.slack));
                 let beyond = heights().filter(|(height, slack)| height > slack);
-                let beyond = beyond
-                    .map(|(height, _)| height)
-                    .fold(f64::NEG_INFINITY, f64::max);
+                let beyond = beyond.map(|(height, _)| height).fold(f64::NEG_INFINITY, f64::max);
                 let depths = list.iter().map(|h| h.offset - along(h));
                 let depth = depths.fold(f64::INFINITY, f64::min);
                 for level in levels() {

@@ -40,10 +40,7 @@ impl Bounds {
     /// The bounds of points; without points, from infinity to minus infinity.
     #[must_use]
     pub fn of(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
-        let mut bounds = Bounds {
-            min: [f64::INFINITY; 3],
-            max: [f64::NEG_INFINITY; 3],
-        };
+        let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
         for point in points {
             for (axis, coordinate) in point.into_iter().enumerate() {
                 bounds.min[axis] = bounds.min[axis].min(coordinate);
@@ -105,9 +102,8 @@ impl Mesh {
         self.triangles
             .iter()
             .map(|triangle| {
-                let [a, b, c] = self
-                    .corners(*triangle)
-                    .map(|corner| Vector3::from(corner) - origin);
+                let [a, b, c] =
+                    self.corners(*triangle).map(|corner| Vector3::from(corner) - origin);
                 a.dot(&b.cross(&c)) / 6.0
             })
             .sum()
@@ -141,10 +137,7 @@ impl Mesh {
     ///
     /// # Panics
     /// If the total number of vertices exceeds `u32::MAX`.
-    #[expect(
-        clippy::expect_used,
-        reason = "no mesh that is read has so many vertices"
-    )]
+    #[expect(clippy::expect_used, reason = "no mesh that is read has so many vertices")]
     pub fn append(&mut self, other: &Self) {
         let offset = u32::try_from(self.vertices.len()).expect("more vertices than u32 can count");
         assert!(
@@ -152,12 +145,8 @@ impl Mesh {
             "more vertices than u32 can count"
         );
         self.vertices.extend_from_slice(&other.vertices);
-        self.triangles.extend(
-            other
-                .triangles
-                .iter()
-                .map(|triangle| triangle.map(|index| index + offset)),
-        );
+        self.triangles
+            .extend(other.triangles.iter().map(|triangle| triangle.map(|index| index + offset)));
     }
 }
 

@@ -24,13 +24,7 @@ pub(crate) struct Splitter {
 impl Splitter {
     /// `uncut` as in [`Options`](crate::read::Options).
     pub(crate) fn new(uncut: bool) -> Self {
-        Self {
-            uncut,
-            ears: Earcut::new(),
-            flat: Vec::new(),
-            found: Vec::new(),
-            work: 0,
-        }
+        Self { uncut, ears: Earcut::new(), flat: Vec::new(), found: Vec::new(), work: 0 }
     }
 
     /// Appends a triangle. Where faces stay uncut, three equal indices would mark one.
@@ -115,21 +109,15 @@ impl Splitter {
             _ => (0, 1),
         };
         self.flat.clear();
-        self.flat
-            .extend(places.iter().map(|place| [place[u], place[v]]));
-        self.ears
-            .earcut::<u32>(self.flat.iter().copied(), &[], &mut self.found);
+        self.flat.extend(places.iter().map(|place| [place[u], place[v]]));
+        self.ears.earcut::<u32>(self.flat.iter().copied(), &[], &mut self.found);
         // Earcut always winds its triangles the same way; restore the polygon's winding.
         let wanted = normal[normal.iamax()] > 0.0;
         for cut in self.found.chunks_exact(3) {
             let [a, b, c] = [cut[0], cut[1], cut[2]].map(|index| self.flat[index as usize]);
             let turns_left = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0;
             let [a, b, c] = [cut[0], cut[1], cut[2]].map(|index| corners[index as usize]);
-            out.push(if turns_left == wanted {
-                [a, b, c]
-            } else {
-                [a, c, b]
-            });
+            out.push(if turns_left == wanted { [a, b, c] } else { [a, c, b] });
         }
     }
 }
@@ -137,10 +125,7 @@ impl Splitter {
 /// The polygon's normal (Newell's method); its length is twice the area.
 fn area_normal(places: &[Vector3<f64>]) -> Vector3<f64> {
     let origin = places[0];
-    places[1..]
-        .windows(2)
-        .map(|pair| (pair[0] - origin).cross(&(pair[1] - origin)))
-        .sum()
+    places[1..].windows(2).map(|pair| (pair[0] - origin).cross(&(pair[1] - origin))).sum()
 }
 
 /// Whether no corner turns against the polygon's normal by more than rounding.

@@ -89,22 +89,10 @@ pub fn cuboid(size: [f64; 3]) -> Mesh {
         .map(|corner| [4, 2, 1].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 }))
         .map(|side: [f64; 3]| std::array::from_fn(|axis| side[axis] * half[axis]))
         .collect();
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 6, 7, 5],
-        [0, 4, 5, 1],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 5, 7, 3],
-    ];
-    let triangles = faces
-        .iter()
-        .flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]])
-        .collect();
-    Mesh {
-        vertices,
-        triangles,
-    }
+    let faces =
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    Mesh { vertices, triangles }
 }
 
 /// A cylinder along z with the given radius and full length, metres.
@@ -116,8 +104,7 @@ pub fn cylinder(radius: f64, length: f64) -> Mesh {
     join_rings(&mut mesh, 0);
     for corner in 1..index(SEGMENTS) - 1 {
         mesh.triangles.push([0, corner + 1, corner]);
-        mesh.triangles
-            .push([0, corner, corner + 1].map(|corner| corner + index(SEGMENTS)));
+        mesh.triangles.push([0, corner, corner + 1].map(|corner| corner + index(SEGMENTS)));
     }
     mesh
 }
@@ -140,11 +127,7 @@ pub fn capsule(radius: f64, length: f64) -> Mesh {
     for corner in 0..SEGMENTS {
         let (here, next) = (index(corner), index((corner + 1) % SEGMENTS));
         mesh.triangles.push([0, first(0) + next, first(0) + here]);
-        mesh.triangles.push([
-            first(2 * RINGS - 1) + here,
-            first(2 * RINGS - 1) + next,
-            top,
-        ]);
+        mesh.triangles.push([first(2 * RINGS - 1) + here, first(2 * RINGS - 1) + next, top]);
     }
     for ring in 0..2 * RINGS - 1 {
         join_rings(&mut mesh, first(ring));
@@ -157,14 +140,8 @@ pub fn capsule(radius: f64, length: f64) -> Mesh {
 pub fn sphere(radius: f64) -> Mesh {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let mut mesh = Mesh::default();
-    for (one, long) in [
-        (-1.0, -golden),
-        (1.0, -golden),
-        (-1.0, golden),
-        (1.0, golden),
-    ] {
-        mesh.vertices
-            .extend([[0.0, one, long], [one, long, 0.0], [long, 0.0, one]].map(unit));
+    for (one, long) in [(-1.0, -golden), (1.0, -golden), (-1.0, golden), (1.0, golden)] {
+        mesh.vertices.extend([[0.0, one, long], [one, long, 0.0], [long, 0.0, one]].map(unit));
     }
     // Faces of the icosahedron: triples of adjacent corners, found by their dot products.
     let near = |a: usize, b: usize| dot(mesh.vertices[a], mesh.vertices[b]) > 0.4 && a != b;
@@ -194,14 +171,11 @@ fn split(mesh: &mut Mesh) {
     let mut triangles = Vec::with_capacity(mesh.triangles.len() * 4);
     for [a, b, c] in std::mem::take(&mut mesh.triangles) {
         let mut middle = |from: u32, to: u32| {
-            *middles
-                .entry((from.min(to), from.max(to)))
-                .or_insert_with(|| {
-                    let [from, to] = [from, to].map(|corner| mesh.vertices[corner as usize]);
-                    mesh.vertices
-                        .push(unit(std::array::from_fn(|axis| from[axis] + to[axis])));
-                    index(mesh.vertices.len() - 1)
-                })
+            *middles.entry((from.min(to), from.max(to))).or_insert_with(|| {
+                let [from, to] = [from, to].map(|corner| mesh.vertices[corner as usize]);
+                mesh.vertices.push(unit(std::array::from_fn(|axis| from[axis] + to[axis])));
+                index(mesh.vertices.len() - 1)
+            })
         };
         let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
         triangles.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
@@ -233,17 +207,13 @@ fn circle() -> [(f64, f64); SEGMENTS] {
 }
 
 fn push_ring(mesh: &mut Mesh, radius: f64, height: f64) {
-    mesh.vertices
-        .extend(circle().map(|(cosine, sine)| [radius * cosine, radius * sine, height]));
+    mesh.vertices.extend(circle().map(|(cosine, sine)| [radius * cosine, radius * sine, height]));
 }
 
 /// Adds the wall between the ring that starts at `first` and the next ring.
 fn join_rings(mesh: &mut Mesh, first: u32) {
     for corner in 0..SEGMENTS {
-        let (a, b) = (
-            first + index(corner),
-            first + index((corner + 1) % SEGMENTS),
-        );
+        let (a, b) = (first + index(corner), first + index((corner + 1) % SEGMENTS));
         let (d, c) = (a + index(SEGMENTS), b + index(SEGMENTS));
         mesh.triangles.extend([[a, b, c], [a, c, d]]);
     }

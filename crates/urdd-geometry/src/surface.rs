@@ -68,10 +68,7 @@ fn same_in_order(a: &Mesh, b: &Mesh, tolerance: f64) -> bool {
         match (a.triangles.get(i), b.triangles.get(j)) {
             (None, None) => return true,
             (Some(s), Some(t))
-                if a.corners(*s)
-                    .into_iter()
-                    .zip(b.corners(*t))
-                    .all(|(p, q)| near(p, q)) =>
+                if a.corners(*s).into_iter().zip(b.corners(*t)).all(|(p, q)| near(p, q)) =>
             {
                 (i, j) = (i + 1, j + 1);
             }
@@ -106,10 +103,8 @@ impl<'a> Matching<'a> {
     /// Merges the corners of the two meshes.
     pub fn new(expected: &'a Mesh, actual: &'a Mesh, tolerance: f64) -> Self {
         let meshes = [expected, actual];
-        let points: Vec<[f64; 3]> = meshes
-            .iter()
-            .flat_map(|mesh| mesh.vertices.iter().copied())
-            .collect();
+        let points: Vec<[f64; 3]> =
+            meshes.iter().flat_map(|mesh| mesh.vertices.iter().copied()).collect();
         let mut joined = Groups::new(points.len());
         let size = (2.0 * tolerance).max(f64::MIN_POSITIVE);
         let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(points.len());
@@ -124,13 +119,12 @@ impl<'a> Matching<'a> {
             let scaled = point.map(|x| x / size);
             let cell = scaled.map(|x| x.floor() as i64);
             // A point within the tolerance, half a cell, is in this cell or in the next one on the near side.
-            let side: [i64; 3] = std::array::from_fn(|i| {
-                if scaled[i].fract().rem_euclid(1.0) < 0.5 {
-                    -1
-                } else {
-                    1
-                }
-            });
+            let side: [i64; 3] =
+                std::array::from_fn(
+                    |i| {
+                        if scaled[i].fract().rem_euclid(1.0) < 0.5 { -1 } else { 1 }
+                    },
+                );
             for corner in 0..8 {
                 let neighbour: [i64; 3] = std::array::from_fn(|i| match corner >> i & 1 {
                     0 => cell[i],
@@ -149,11 +143,7 @@ impl<'a> Matching<'a> {
         let mut of =
             |range: std::ops::Range<usize>| range.map(|at| joined.first(at) as u32).collect();
         let places = [of(0..first), of(first..all)];
-        Matching {
-            meshes,
-            tolerance,
-            places,
-        }
+        Matching { meshes, tolerance, places }
     }
 
     /// The points of a triangle in ascending order, and its orientation; `None` if it is thin.
@@ -200,11 +190,7 @@ impl<'a> Matching<'a> {
                 if differs {
                     // Each excess one counts once.
                     if likeness == Likeness::SameTriangles {
-                        let facing = if count[which][facing] > 0 {
-                            facing
-                        } else {
-                            1 - facing
-                        };
+                        let facing = if count[which][facing] > 0 { facing } else { 1 - facing };
                         count[which][facing] -= 1;
                     }
                     match which {
@@ -271,11 +257,7 @@ impl<'a> Matching<'a> {
 /// Distance of a point from the nearest vertex of a mesh, metres.
 pub fn nearest(mesh: &Mesh, point: [f64; 3]) -> f64 {
     let square = |q: &[f64; 3]| (0..3).map(|i| (point[i] - q[i]).powi(2)).sum::<f64>();
-    let least = mesh
-        .vertices
-        .iter()
-        .map(square)
-        .fold(f64::INFINITY, f64::min);
+    let least = mesh.vertices.iter().map(square).fold(f64::INFINITY, f64::min);
     least.sqrt()
 }
 
@@ -301,9 +283,7 @@ pub fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
     let mut places: HashMap<[u64; 3], usize> = HashMap::new();
     let mut place = |vertex: u32| {
         let next = places.len();
-        *places
-            .entry(bits(mesh.vertices[vertex as usize]))
-            .or_insert(next)
+        *places.entry(bits(mesh.vertices[vertex as usize])).or_insert(next)
     };
     let triangles: Vec<[usize; 3]> = mesh
         .triangles

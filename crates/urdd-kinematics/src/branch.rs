@@ -28,10 +28,7 @@ pub struct Place {
 impl Default for Place {
     /// The identity, without joints.
     fn default() -> Self {
-        Self {
-            pose: Isometry3::identity(),
-            joints: Vec::new(),
-        }
+        Self { pose: Isometry3::identity(), joints: Vec::new() }
     }
 }
 
@@ -40,11 +37,7 @@ impl ForwardKinematics {
     pub fn branch(&self, link: usize) -> Branch<'_> {
         let mut steps: Vec<&Step> = self.path(link).collect();
         steps.reverse();
-        Branch {
-            kinematics: self,
-            link,
-            steps,
-        }
+        Branch { kinematics: self, link, steps }
     }
 
     /// For each link, the link nearest to the root that no DOF moves against it: links with the same one are one body.
@@ -117,16 +110,9 @@ impl Branch<'_> {
         jacobian.fill(0.0);
         // From the link to the root, as in `ForwardKinematics::jacobian`, so that sums are bit-identical.
         for (step, (frame, child)) in self.steps.iter().zip(&place.joints).rev() {
-            columns(
-                step,
-                frame,
-                child,
-                &point,
-                configuration,
-                |dof, linear, angular| {
-                    add_to(&mut jacobian[6 * dof..6 * dof + 6], linear, angular);
-                },
-            );
+            columns(step, frame, child, &point, configuration, |dof, linear, angular| {
+                add_to(&mut jacobian[6 * dof..6 * dof + 6], linear, angular);
+            });
         }
         Ok(())
     }

@@ -58,11 +58,7 @@ impl ConfigurationSpace {
         let (expected, found) = (dof.num_dofs.get(), bounds.len());
         if found != expected {
             let what = "DOF of dof_module";
-            let fault = Fault::Length {
-                what,
-                expected,
-                found,
-            };
+            let fault = Fault::Length { what, expected, found };
             return Err(KinematicsError::bounds("/bounds", fault));
         }
         for (i, pair) in bounds.iter().enumerate() {
@@ -78,10 +74,7 @@ impl ConfigurationSpace {
                 rotation_vectors.extend(dofs.last_chunk().copied());
             }
         }
-        Ok(Self {
-            bounds: bounds.to_vec(),
-            rotation_vectors,
-        })
+        Ok(Self { bounds: bounds.to_vec(), rotation_vectors })
     }
 
     /// Number of DOFs, which is the length of each configuration.
@@ -171,11 +164,8 @@ mod tests {
     use super::*;
 
     /// The first outputs of SplitMix64 with seed 0, as published with the generator.
-    const PUBLISHED: [u64; 3] = [
-        0xE220_A839_7B1D_CDAF,
-        0x6E78_9E6A_A1B9_65F4,
-        0x06C4_5D18_8009_454F,
-    ];
+    const PUBLISHED: [u64; 3] =
+        [0xE220_A839_7B1D_CDAF, 0x6E78_9E6A_A1B9_65F4, 0x06C4_5D18_8009_454F];
 
     #[test]
     fn is_splitmix64() {

@@ -20,11 +20,7 @@ pub struct KinematicsError {
 
 impl KinematicsError {
     fn of(module: ModuleKind, pointer: impl Into<String>, fault: Fault) -> Self {
-        Self {
-            module,
-            pointer: pointer.into(),
-            fault,
-        }
+        Self { module, pointer: pointer.into(), fault }
     }
 
     pub(super) fn chain(pointer: impl Into<String>, fault: Fault) -> Self {
@@ -153,10 +149,7 @@ impl ConfigurationError {
             return Err(Self::Length { expected, found });
         }
         match configuration.iter().position(|q| !q.is_finite()) {
-            Some(dof_idx) => Err(Self::NotFinite {
-                dof_idx,
-                value: configuration[dof_idx],
-            }),
+            Some(dof_idx) => Err(Self::NotFinite { dof_idx, value: configuration[dof_idx] }),
             None => Ok(()),
         }
     }

@@ -159,13 +159,7 @@ impl ForwardKinematics {
 
     /// The joints from a link up to the root.
     pub(super) fn path(&self, link: usize) -> impl Iterator<Item = &Step> {
-        let step = |link: usize| {
-            self.step_of
-                .get(link)
-                .copied()
-                .flatten()
-                .map(|k| &self.steps[k])
-        };
+        let step = |link: usize| self.step_of.get(link).copied().flatten().map(|k| &self.steps[k]);
         std::iter::successors(step(link), move |above| step(above.parent))
     }
 
@@ -218,10 +212,9 @@ fn joints_from_root(chain: &ChainModule) -> Result<Vec<usize>, KinematicsError> 
         reached[chain.joints_in_chain[*joint].child_link_idx.get()] = true;
     }
     match reached.iter().position(|reached| !reached) {
-        Some(link) => Err(KinematicsError::chain(
-            format!("/links_in_chain/{link}"),
-            Fault::Unreached,
-        )),
+        Some(link) => {
+            Err(KinematicsError::chain(format!("/links_in_chain/{link}"), Fault::Unreached))
+        }
         None => Ok(order),
     }
 }
@@ -235,8 +228,5 @@ fn link_at(
         return Ok(link.get());
     }
     let (what, index) = ("link", link.0);
-    Err(KinematicsError::chain(
-        pointer,
-        Fault::OutOfRange { what, index, count },
-    ))
+    Err(KinematicsError::chain(pointer, Fault::OutOfRange { what, index, count }))
 }

@@ -85,18 +85,12 @@ pub(super) fn columns(
                 add(dof, along, Vector3::zeros());
             }
         }
-        Motion::Plane {
-            axis,
-            basis: [x, y],
-            dofs: [along_x, along_y, angle],
-        } => {
+        Motion::Plane { axis, basis: [x, y], dofs: [along_x, along_y, angle] } => {
             turn(*angle, frame * axis.into_inner());
             add(*along_x, frame * x, Vector3::zeros());
             add(*along_y, frame * y, Vector3::zeros());
         }
-        Motion::Float {
-            dofs: [x, y, z, a, b, c],
-        } => {
+        Motion::Float { dofs: [x, y, z, a, b, c] } => {
             let vector = [*a, *b, *c].map(|dof| configuration[dof]);
             let columns = left_jacobian(vector);
             for (k, dof) in [*a, *b, *c].into_iter().enumerate() {
@@ -130,10 +124,7 @@ fn left_jacobian(vector: [f64; 3]) -> Matrix3<f64> {
             1.0 / 6.0 - square / 120.0 + square * square / 5040.0,
         )
     } else {
-        (
-            (1.0 - angle.cos()) / square,
-            (angle - angle.sin()) / (square * angle),
-        )
+        ((1.0 - angle.cos()) / square, (angle - angle.sin()) / (square * angle))
     };
     Matrix3::identity() + cross * first + cross * cross * second
 }

@@ -26,11 +26,7 @@ pub(super) struct Position {
 impl Position {
     /// The position of a joint that moves by its own DOF.
     fn own(dofs: &[usize]) -> Self {
-        Position {
-            dof: dofs.first().copied(),
-            multiplier: 1.0,
-            offset: 0.0,
-        }
+        Position { dof: dofs.first().copied(), multiplier: 1.0, offset: 0.0 }
     }
 
     pub fn at(&self, q: &[f64]) -> f64 {
@@ -46,25 +42,11 @@ impl Position {
 #[derive(Debug, Clone)]
 pub(super) enum Motion {
     Fixed,
-    Turn {
-        axis: Axis,
-        position: Position,
-    },
-    Slide {
-        axis: Axis,
-        position: Position,
-    },
-    Plane {
-        axis: Axis,
-        basis: [Vector3<f64>; 2],
-        dofs: [usize; 3],
-    },
-    Float {
-        dofs: [usize; 6],
-    },
-    Ball {
-        dofs: [usize; 3],
-    },
+    Turn { axis: Axis, position: Position },
+    Slide { axis: Axis, position: Position },
+    Plane { axis: Axis, basis: [Vector3<f64>; 2], dofs: [usize; 3] },
+    Float { dofs: [usize; 6] },
+    Ball { dofs: [usize; 3] },
 }
 
 impl Motion {
@@ -92,15 +74,13 @@ impl Motion {
                 Motion::Turn { axis, position }
             }
             (JointType::Prismatic, Some(axis), _) => Motion::Slide { axis, position },
-            (JointType::Planar, Some(axis), &[x, y, angle]) => Motion::Plane {
-                basis: planar_basis(&axis),
-                axis,
-                dofs: [x, y, angle],
-            },
+            (JointType::Planar, Some(axis), &[x, y, angle]) => {
+                Motion::Plane { basis: planar_basis(&axis), axis, dofs: [x, y, angle] }
+            }
             (JointType::Spherical, _, &[a, b, c]) => Motion::Ball { dofs: [a, b, c] },
-            (JointType::Floating, _, &[x, y, z, a, b, c]) => Motion::Float {
-                dofs: [x, y, z, a, b, c],
-            },
+            (JointType::Floating, _, &[x, y, z, a, b, c]) => {
+                Motion::Float { dofs: [x, y, z, a, b, c] }
+            }
             _ => return None,
         })
     }
@@ -117,17 +97,11 @@ impl Motion {
                 Translation3::from(axis.into_inner() * position.at(q)),
                 UnitQuaternion::identity(),
             ),
-            Motion::Plane {
-                axis,
-                basis: [x, y],
-                dofs: [a, b, c],
-            } => Isometry3::from_parts(
+            Motion::Plane { axis, basis: [x, y], dofs: [a, b, c] } => Isometry3::from_parts(
                 Translation3::from(x * q[*a] + y * q[*b]),
                 UnitQuaternion::from_axis_angle(axis, q[*c]),
             ),
-            Motion::Float {
-                dofs: [x, y, z, a, b, c],
-            } => Isometry3::from_parts(
+            Motion::Float { dofs: [x, y, z, a, b, c] } => Isometry3::from_parts(
                 Translation3::new(q[*x], q[*y], q[*z]),
                 from_rotation_vector([q[*a], q[*b], q[*c]]),
             ),
@@ -163,11 +137,7 @@ pub(super) fn check_lengths(chain: &ChainModule, dof: &DofModule) -> Result<(), 
     for (list, found) in [(DOFS, dofs), (MIMICS, mimics)] {
         if found != expected {
             let what = "joint of chain_module";
-            let fault = Fault::Length {
-                what,
-                expected,
-                found,
-            };
+            let fault = Fault::Length { what, expected, found };
             return Err(KinematicsError::dof(format!("/{list}"), fault));
         }
     }
@@ -186,11 +156,7 @@ pub(super) fn joint_dofs(
     let found = listed.len();
     let fault = match &dof.joint_idx_to_mimic_mapping[idx] {
         Some(_) if found > 0 => Some(Fault::MimicWithDofs { found }),
-        None if found != expected => Some(Fault::DofCount {
-            joint_type,
-            expected,
-            found,
-        }),
+        None if found != expected => Some(Fault::DofCount { joint_type, expected, found }),
         _ => None,
     };
     if let Some(fault) = fault {

@@ -32,10 +32,7 @@ pub fn pose(matrix: &[f64]) -> Option<Isometry3<f64>> {
     let rotation = Matrix3::from_fn(|row, column| matrix[4 * row + column]);
     let near = |a: f64, b: f64| (a - b).abs() <= UNIT_TOLERANCE;
     let product = rotation.tr_mul(&rotation);
-    let orthonormal = product
-        .iter()
-        .zip(&Matrix3::identity())
-        .all(|(a, b)| near(*a, *b));
+    let orthonormal = product.iter().zip(&Matrix3::identity()).all(|(a, b)| near(*a, *b));
     let last = matrix[12..16].iter().zip([0.0, 0.0, 0.0, 1.0]);
     let finite = matrix.iter().all(|value| value.is_finite());
     let is_pose = finite

@@ -38,11 +38,7 @@ pub fn from_rotation_vector(v: [f64; 3]) -> UnitQuaternion<f64> {
     let angle = v.norm();
     let half = 0.5 * angle;
     // sin(a/2)/a is 1/2 - a^2/48 + ...: below 1e-8 that is 1/2 in full precision.
-    let factor = if angle < 1e-8 {
-        0.5
-    } else {
-        half.sin() / angle
-    };
+    let factor = if angle < 1e-8 { 0.5 } else { half.sin() / angle };
     UnitQuaternion::new_unchecked(Quaternion::from_parts(half.cos(), v * factor))
 }
 
@@ -53,11 +49,7 @@ pub fn to_rotation_vector(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let v = q.imag();
     let sine = v.norm();
     // Not arccos(w), which loses half of the digits near w = 1. Near 0, atan(t)/t is 1.
-    let factor = if sine < 1e-8 {
-        2.0 / q.w
-    } else {
-        2.0 * sine.atan2(q.w) / sine
-    };
+    let factor = if sine < 1e-8 { 2.0 / q.w } else { 2.0 * sine.atan2(q.w) / sine };
     (v * factor).map(|x| x + 0.0).into()
 }
 

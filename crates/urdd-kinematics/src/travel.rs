@@ -38,10 +38,7 @@ impl ForwardKinematics {
                 *of_link = moved;
             }
         }
-        Ok(Travel {
-            kinematics: self,
-            of_link,
-        })
+        Ok(Travel { kinematics: self, of_link })
     }
 }
 
@@ -88,28 +85,20 @@ fn moved(motion: &Motion, start: &[f64], end: &[f64]) -> Moved {
     let far = |dofs: &[usize]| norm(&dofs.iter().map(|dof| most(*dof)).collect::<Vec<_>>());
     match motion {
         Motion::Fixed => Moved::default(),
-        Motion::Turn { position, .. } => Moved {
-            turn: (position.at(end) - position.at(start)).abs(),
-            ..Moved::default()
-        },
+        Motion::Turn { position, .. } => {
+            Moved { turn: (position.at(end) - position.at(start)).abs(), ..Moved::default() }
+        }
         Motion::Slide { position, .. } => Moved {
             slide: (position.at(end) - position.at(start)).abs(),
             reach: position.at(start).abs().max(position.at(end).abs()),
             ..Moved::default()
         },
-        Motion::Plane { dofs, .. } => Moved {
-            turn: change(dofs[2]),
-            slide: sum(&dofs[..2]),
-            reach: far(&dofs[..2]),
-        },
-        Motion::Float { dofs } => Moved {
-            turn: sum(&dofs[3..]),
-            slide: sum(&dofs[..3]),
-            reach: far(&dofs[..3]),
-        },
-        Motion::Ball { dofs } => Moved {
-            turn: sum(dofs),
-            ..Moved::default()
-        },
+        Motion::Plane { dofs, .. } => {
+            Moved { turn: change(dofs[2]), slide: sum(&dofs[..2]), reach: far(&dofs[..2]) }
+        }
+        Motion::Float { dofs } => {
+            Moved { turn: sum(&dofs[3..]), slide: sum(&dofs[..3]), reach: far(&dofs[..3]) }
+        }
+        Motion::Ball { dofs } => Moved { turn: sum(dofs), ..Moved::default() },
     }
 }

@@ -50,17 +50,12 @@ pub fn apply(document: &Document, name: &str, checks: &mut [Check]) -> Vec<Stale
     }
     // What a rule that did not run would have found is not known.
     let ran = |codes: Codes| {
-        let mut meant = checks
-            .iter()
-            .filter(|check| codes.holds(check.rule.code))
-            .peekable();
+        let mut meant = checks.iter().filter(|check| codes.holds(check.rule.code)).peekable();
         meant.peek().is_some()
             && meant
                 .all(|check| !matches!(check.outcome, Outcome::Skipped(_) | Outcome::Crashed(_)))
     };
-    let stale = allows
-        .iter()
-        .filter(|allow| !allow.is_used && allow.codes.is_none_or(ran));
+    let stale = allows.iter().filter(|allow| !allow.is_used && allow.codes.is_none_or(ran));
     stale
         .map(|allow| StaleIgnore {
             code: Some(allow.written.clone()),
@@ -104,17 +99,11 @@ fn allows(document: &Document) -> Vec<Allow> {
 
 /// The codes that a comment allows; `None` if it is another comment.
 fn codes_of(text: &str) -> Option<Vec<&str>> {
-    let listed = text
-        .trim()
-        .strip_prefix("urdd:")?
-        .trim_start()
-        .strip_prefix("allow")?;
+    let listed = text.trim().strip_prefix("urdd:")?.trim_start().strip_prefix("allow")?;
     let mut codes = Vec::new();
     let mut rest = listed.strip_prefix(char::is_whitespace)?.trim_start();
     loop {
-        let end = rest
-            .find(|c: char| !c.is_ascii_alphanumeric())
-            .unwrap_or(rest.len());
+        let end = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
         let (code, after) = rest.split_at(end);
         if !code.is_empty() {
             codes.push(code);
@@ -132,14 +121,8 @@ mod tests {
 
     #[test]
     fn codes_stand_before_the_reason() {
-        assert_eq!(
-            codes_of(" urdd: allow LNT001 SRC, really "),
-            Some(vec!["LNT001"])
-        );
-        assert_eq!(
-            codes_of("urdd:allow LNT001 , SRC: see #3, #4"),
-            Some(vec!["LNT001", "SRC"])
-        );
+        assert_eq!(codes_of(" urdd: allow LNT001 SRC, really "), Some(vec!["LNT001"]));
+        assert_eq!(codes_of("urdd:allow LNT001 , SRC: see #3, #4"), Some(vec!["LNT001", "SRC"]));
         assert_eq!(codes_of(" urdd: allow "), None);
         assert_eq!(codes_of(" urdd: allowance "), None);
         assert_eq!(codes_of(" a comment about urdd: allow LNT001 "), None);

@@ -84,10 +84,7 @@ impl Baseline {
             let folder = file.parent().unwrap_or(Path::new("."));
             Ok(Baseline::from_json(&text, folder)?)
         };
-        read().map_err(|fault| BaselineFileError {
-            file: file.to_owned(),
-            fault,
-        })
+        read().map_err(|fault| BaselineFileError { file: file.to_owned(), fault })
     }
 
     /// Reads the text of a baseline file that is in `folder`.
@@ -98,20 +95,14 @@ impl Baseline {
         let file: File =
             serde_json::from_str(text).map_err(|error| BaselineError(error.to_string()))?;
         match file.urdd_baseline {
-            VERSION => Ok(Baseline {
-                folder: resolved(folder),
-                files: file.files,
-            }),
+            VERSION => Ok(Baseline { folder: resolved(folder), files: file.files }),
             other => Err(BaselineError(format!("version {other} is not {VERSION}"))),
         }
     }
 
     /// The baseline of all that a run reports, for a file in `folder`.
     pub fn of(run: &Run, folder: &Path) -> Self {
-        let mut baseline = Baseline {
-            folder: resolved(folder),
-            files: BTreeMap::new(),
-        };
+        let mut baseline = Baseline { folder: resolved(folder), files: BTreeMap::new() };
         let urdfs = run.report.urdds.iter().zip(&run.folders);
         for (urdf, at) in urdfs.filter(|(urdf, _)| urdf.kind == Kind::Urdf) {
             let name = urdf.path.rsplit('/').next().unwrap_or_default();
@@ -119,9 +110,7 @@ impl Baseline {
             for finding in &urdf.findings {
                 for place in &finding.places {
                     let counts = baseline.files.entry(file.clone()).or_default();
-                    *counts
-                        .entry(key(&finding.code, place.subject.as_deref()))
-                        .or_default() += 1;
+                    *counts.entry(key(&finding.code, place.subject.as_deref())).or_default() += 1;
                 }
             }
         }
@@ -130,10 +119,7 @@ impl Baseline {
 
     /// Its text.
     pub fn to_json(&self) -> String {
-        let file = File {
-            urdd_baseline: VERSION,
-            files: self.files.clone(),
-        };
+        let file = File { urdd_baseline: VERSION, files: self.files.clone() };
         // Maps with text as keys are always JSON.
         serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
     }
@@ -169,17 +155,11 @@ impl Baseline {
         }
         let ran = |key: &str| {
             let code = key.split(' ').next();
-            examined
-                .checks
-                .iter()
-                .any(|check| Some(check.rule.code.as_str()) == code)
+            examined.checks.iter().any(|check| Some(check.rule.code.as_str()) == code)
         };
         left.retain(|key, count| *count > 0 && ran(key));
         left.into_keys()
-            .map(|key| StaleIgnore {
-                code: Some(key),
-                path: format!("{name} in the baseline"),
-            })
+            .map(|key| StaleIgnore { code: Some(key), path: format!("{name} in the baseline") })
             .collect()
     }
 

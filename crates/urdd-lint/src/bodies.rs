@@ -22,10 +22,8 @@ impl Bodies {
     pub fn new(robot: &Robot) -> Option<Self> {
         let tree = Tree::new(robot)?;
         let links = robot.links.len();
-        let (mut top, mut pose) = (
-            (0..links).collect::<Vec<_>>(),
-            vec![Isometry3::identity(); links],
-        );
+        let (mut top, mut pose) =
+            ((0..links).collect::<Vec<_>>(), vec![Isometry3::identity(); links]);
         for &link in &tree.order {
             let (Some(joint), Some(parent)) = (tree.parent_joint[link], tree.parent_link[link])
             else {
@@ -64,10 +62,7 @@ pub fn slide_only(robot: &Robot, bodies: &Bodies) -> Vec<bool> {
     let is_fixed = robot.links[root].name == "world" || !bodies.members(root).any(has_mass);
     let mut slides = vec![false; robot.links.len()];
     for &link in &bodies.tree.order {
-        slides[link] = match (
-            bodies.tree.parent_joint[link],
-            bodies.tree.parent_link[link],
-        ) {
+        slides[link] = match (bodies.tree.parent_joint[link], bodies.tree.parent_link[link]) {
             (Some(joint), Some(parent)) => {
                 let kind = robot.joints[joint].joint_type;
                 slides[parent] && matches!(kind, JointType::Fixed | JointType::Prismatic)

@@ -56,27 +56,20 @@ pub fn mark_misspelt(
     checks: &mut [Check],
     again: impl FnOnce(&str) -> Option<Vec<Check>>,
 ) {
-    let misspelt: HashSet<At> = reported(checks, Code::LNT040)
-        .filter_map(|(place, _)| at(place))
-        .collect();
+    let misspelt: HashSet<At> =
+        reported(checks, Code::LNT040).filter_map(|(place, _)| at(place)).collect();
     let mut misspellings = misspellings(urdf);
     misspellings.retain(|one| misspelt.contains(&one.at));
     if misspellings.is_empty() {
         return;
     }
-    let edits: Vec<Edit> = misspellings
-        .iter()
-        .flat_map(|one| one.edits.clone())
-        .collect();
+    let edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
     let mended = apply(urdf.text, edits.clone());
     let Some(others) = again(&mended) else {
         return;
     };
     let moved = Moved::new(urdf.text, &mended, edits);
-    for check in checks
-        .iter_mut()
-        .filter(|check| check.rule.code != Code::LNT040)
-    {
+    for check in checks.iter_mut().filter(|check| check.rule.code != Code::LNT040) {
         let mut others = others.iter();
         let other = others.find(|other| other.rule.code == check.rule.code);
         let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
@@ -125,10 +118,7 @@ fn reported(checks: &[Check], code: Code) -> impl Iterator<Item = (&Place, &str)
 fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
     let mut found: Vec<Misspelling> = Vec::new();
     let mut renamed = HashSet::new();
-    for Unknown {
-        node, what, meant, ..
-    } in urdf.unknown()
-    {
+    for Unknown { node, what, meant, .. } in urdf.unknown() {
         let Some(meant) = meant else { continue };
         let (finding, ranges) = match what {
             What::Element => (urdf.at(node, ""), urdf.tag_names(node)),
@@ -137,16 +127,10 @@ fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
                     continue;
                 }
                 let range = node.attribute_node(name).map(|one| one.range_qname());
-                (
-                    urdf.at_attribute(node, name, ""),
-                    range.into_iter().collect(),
-                )
+                (urdf.at_attribute(node, name, ""), range.into_iter().collect())
             }
         };
-        let edits = ranges.into_iter().map(|range| Edit {
-            range,
-            text: meant.to_owned(),
-        });
+        let edits = ranges.into_iter().map(|range| Edit { range, text: meant.to_owned() });
         let edits: Vec<Edit> = edits.collect();
         found.extend(at(&finding.place).map(|at| Misspelling {
             at,
@@ -168,12 +152,7 @@ struct Moved<'a> {
 
 impl<'a> Moved<'a> {
     fn new(from: &'a str, to: &'a str, edits: Vec<Edit>) -> Self {
-        Moved {
-            from: LineIndex::new(from),
-            text: from,
-            to: LineIndex::new(to),
-            edits,
-        }
+        Moved { from: LineIndex::new(from), text: from, to: LineIndex::new(to), edits }
     }
 
     fn at(&self, (line, column): At) -> Option<At> {
@@ -193,9 +172,8 @@ fn gone<'c>(check: &'c Check, other: &Check, moved: &Moved) -> Vec<(&'c Place, A
     fn places(check: &Check) -> impl Iterator<Item = (&Place, &str)> {
         check.findings.iter().flat_map(said)
     }
-    let left: HashSet<(At, &str)> = places(other)
-        .filter_map(|(place, message)| Some((at(place)?, message)))
-        .collect();
+    let left: HashSet<(At, &str)> =
+        places(other).filter_map(|(place, message)| Some((at(place)?, message))).collect();
     let mut fewer: HashMap<Option<&str>, usize> = HashMap::new();
     for (place, _) in places(check) {
         *fewer.entry(place.subject.as_deref()).or_default() += 1;

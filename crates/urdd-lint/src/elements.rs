@@ -11,9 +11,7 @@ pub const ONE_DOF: [&str; 3] = ["revolute", "continuous", "prismatic"];
 
 /// The first child element of a name.
 pub fn child<'a>(node: Node<'a, 'a>, wanted: &str) -> Option<Node<'a, 'a>> {
-    children(node)
-        .find(|(name, _)| *name == wanted)
-        .map(|(_, child)| child)
+    children(node).find(|(name, _)| *name == wanted).map(|(_, child)| child)
 }
 
 /// The text of an attribute.
@@ -26,10 +24,7 @@ pub fn numbers<const N: usize>(node: Node, name: &str) -> Option<[f64; N]> {
     let words = node.attribute(name)?.split_ascii_whitespace();
     let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
     let numbers = <[f64; N]>::try_from(numbers?).ok()?;
-    numbers
-        .iter()
-        .all(|number| number.is_finite())
-        .then_some(numbers)
+    numbers.iter().all(|number| number.is_finite()).then_some(numbers)
 }
 
 /// A finite number in an attribute.

@@ -45,12 +45,7 @@ pub fn examined(
     folder: &Path,
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
-    let job = Job {
-        text,
-        name,
-        folder,
-        settings,
-    };
+    let job = Job { text, name, folder, settings };
     let mut examined = by_validator(text, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
     let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
@@ -160,20 +155,14 @@ fn rules_to_run(settings: &LintSettings) -> impl Iterator<Item = &'static LintRu
 
 /// A rule that does not run.
 fn skipped(rule: &'static Description, reason: SkipReason) -> Check {
-    caught(rule, &mut Findings::default(), |findings| {
-        findings.skip(reason)
-    })
+    caught(rule, &mut Findings::default(), |findings| findings.skip(reason))
 }
 
 /// Takes over what rules say of the mended text that could not look at the text itself. Returns these rules.
 fn complete(examined: &mut Examined, of_mended: Examined) -> Vec<Code> {
     let is_skipped = |check: &Check| matches!(check.outcome, Outcome::Skipped(_));
     let mut taken = Vec::new();
-    for check in of_mended
-        .checks
-        .into_iter()
-        .filter(|check| !is_skipped(check))
-    {
+    for check in of_mended.checks.into_iter().filter(|check| !is_skipped(check)) {
         let mut known = examined.checks.iter_mut();
         let known = known.find(|known| known.rule.code == check.rule.code && is_skipped(known));
         if let Some(known) = known {
@@ -217,11 +206,7 @@ fn by_validator(text: &str, name: &str) -> Examined {
             &urdd_validate::rules::all(),
         )?;
         examined.report.path = name.to_owned();
-        for finding in examined
-            .checks
-            .iter_mut()
-            .flat_map(|check| &mut check.findings)
-        {
+        for finding in examined.checks.iter_mut().flat_map(|check| &mut check.findings) {
             renamed(finding, name);
         }
         Ok(examined)

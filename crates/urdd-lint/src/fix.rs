@@ -73,9 +73,7 @@ pub fn mend(
 ) -> Result<Vec<Mended>, LintError> {
     let (files, _) = sources(paths, settings)?;
     let to = |path: &Path| target(path, paths, is_forced).ok();
-    let mended = files
-        .par_iter()
-        .filter_map(|path| mended(path, settings, to));
+    let mended = files.par_iter().filter_map(|path| mended(path, settings, to));
     let mended = mended.collect();
     settings.report.cancellation.check()?;
     Ok(mended)
@@ -89,11 +87,7 @@ fn mended(
     let read = urdd_generate::read_source(path, &settings.source).ok()?;
     let size = read.text.len() + BYTE_ORDER_MARK.len();
     let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
-    let mark = if before.starts_with(BYTE_ORDER_MARK) {
-        BYTE_ORDER_MARK
-    } else {
-        ""
-    };
+    let mark = if before.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { "" };
     if read.is_expanded || read.text != before[mark.len()..] {
         return None;
     }
@@ -120,13 +114,7 @@ fn mended(
     if after == before {
         return None;
     }
-    Some(Mended {
-        path: path.to_owned(),
-        target: target(path)?,
-        before,
-        after,
-        places,
-    })
+    Some(Mended { path: path.to_owned(), target: target(path)?, before, after, places })
 }
 
 /// The text with the safe fix of each place, and their number. Of two that overlap, the second waits.
@@ -143,11 +131,8 @@ fn with_fixes<'a>(
     let mut all: Vec<Edit> = Vec::new();
     let mut mended = 0;
     for fix in fixes {
-        let edits: Option<Vec<Edit>> = fix
-            .edits
-            .iter()
-            .map(|edit| edit_of(text, &lines, edit))
-            .collect();
+        let edits: Option<Vec<Edit>> =
+            fix.edits.iter().map(|edit| edit_of(text, &lines, edit)).collect();
         let Some(edits) = edits else { continue };
         let touches = |edit: &Edit| {
             let near = |other: &Edit| {
@@ -167,8 +152,5 @@ fn with_fixes<'a>(
 fn edit_of(text: &str, lines: &LineIndex, edit: &TextEdit) -> Option<Edit> {
     let start = offset(text, lines, edit.line.get(), edit.column.get())?;
     let end = offset(text, lines, edit.end_line.get(), edit.end_column.get())?;
-    (start <= end).then(|| Edit {
-        range: start..end,
-        text: edit.text.clone(),
-    })
+    (start <= end).then(|| Edit { range: start..end, text: edit.text.clone() })
 }

@@ -113,9 +113,7 @@ impl LinkGeometry {
 
     /// The corners of all shapes.
     pub fn corners(&self) -> impl Iterator<Item = Vector3<f64>> {
-        self.shapes
-            .iter()
-            .flat_map(|shape| shape.corners.iter().copied())
+        self.shapes.iter().flat_map(|shape| shape.corners.iter().copied())
     }
 
     /// The corners of the shapes of one kind.
@@ -156,11 +154,8 @@ pub fn diagonal(points: impl Iterator<Item = Vector3<f64>>) -> f64 {
 impl RobotGeometry {
     /// Reads each mesh file of a robot once, in parallel, and places its hull.
     pub fn read(source: &SourceMeshes, robot: &Robot, bodies: &Bodies) -> Self {
-        let files: BTreeSet<&PathBuf> = source
-            .meshes
-            .iter()
-            .filter_map(|mesh| mesh.file.as_ref().ok())
-            .collect();
+        let files: BTreeSet<&PathBuf> =
+            source.meshes.iter().filter_map(|mesh| mesh.file.as_ref().ok()).collect();
         let files: HashMap<PathBuf, ReadMesh> = files
             .into_par_iter()
             .map(|file| {
@@ -189,9 +184,7 @@ fn not_verified(source: &SourceMeshes, files: &HashMap<PathBuf, ReadMesh>) -> Ve
         Err(missing) => missing.no_package.as_ref().map(|_| Why::NoPackage),
     };
     let meshes = source.meshes.iter();
-    meshes
-        .filter_map(|mesh| Some((mesh.link, why(mesh)?)))
-        .collect()
+    meshes.filter_map(|mesh| Some((mesh.link, why(mesh)?))).collect()
 }
 
 fn facts(scene: &Scene) -> MeshFacts {
@@ -201,9 +194,7 @@ fn facts(scene: &Scene) -> MeshFacts {
     });
     let mut vertices: Vec<[f64; 3]> = vertices.collect();
     vertices.sort_by(|a, b| {
-        a[0].total_cmp(&b[0])
-            .then(a[1].total_cmp(&b[1]))
-            .then(a[2].total_cmp(&b[2]))
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
     });
     vertices.dedup();
     let hull = ConvexHull::new(&vertices).ok();
@@ -285,17 +276,12 @@ fn of_body(top: usize, bodies: &Bodies, links: &[LinkGeometry]) -> BodyGeometry 
         body.is_partial |= geometry.is_partial;
         let pose = bodies.pose[link];
         let place = |point: &Vector3<f64>| pose.transform_point(&Point3::from(*point)).coords;
-        body.shapes
-            .extend(geometry.shapes.iter().map(|shape| Shape {
-                kind: shape.kind,
-                is_turned: shape.is_turned,
-                corners: shape.corners.iter().map(place).collect(),
-            }));
+        body.shapes.extend(geometry.shapes.iter().map(|shape| Shape {
+            kind: shape.kind,
+            is_turned: shape.is_turned,
+            corners: shape.corners.iter().map(place).collect(),
+        }));
     }
-    body.hull = Hull::of(
-        body.shapes
-            .iter()
-            .flat_map(|shape| shape.corners.iter().copied()),
-    );
+    body.hull = Hull::of(body.shapes.iter().flat_map(|shape| shape.corners.iter().copied()));
     body
 }

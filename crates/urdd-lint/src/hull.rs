@@ -24,16 +24,11 @@ impl Hull {
     /// The hull of points; `None` if they span no volume.
     pub fn of(points: impl Iterator<Item = Vector3<f64>>) -> Option<Self> {
         let points: Vec<[f64; 3]> = points.map(Into::into).collect();
-        let hull = ConvexHull::new(&points)
-            .ok()
-            .filter(|hull| !hull.is_flat())?;
+        let hull = ConvexHull::new(&points).ok().filter(|hull| !hull.is_flat())?;
         let mesh = hull.into_mesh();
         let corners: Vec<Vector3<f64>> = mesh.vertices.iter().copied().map(Vector3::from).collect();
-        let triangles: Vec<[usize; 3]> = mesh
-            .triangles
-            .iter()
-            .map(|one| one.map(|index| index as usize))
-            .collect();
+        let triangles: Vec<[usize; 3]> =
+            mesh.triangles.iter().map(|one| one.map(|index| index as usize)).collect();
         let planes = triangles.iter().filter_map(|&[a, b, c]| {
             let (a, b, c) = (corners[a], corners[b], corners[c]);
             let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
@@ -41,12 +36,7 @@ impl Hull {
         });
         let planes = planes.collect();
         let volume = mesh.signed_volume();
-        (volume > 0.0).then_some(Hull {
-            corners,
-            triangles,
-            planes,
-            volume,
-        })
+        (volume > 0.0).then_some(Hull { corners, triangles, planes, volume })
     }
 
     /// The hull of points, or of the farthest of them in as many directions: one with many corners takes long to compare, and
@@ -67,20 +57,14 @@ impl Hull {
         });
         let farthest = directions.filter_map(|direction| {
             let along = |point: &&Vector3<f64>| point.dot(&direction);
-            points
-                .iter()
-                .max_by(|a, b| along(a).total_cmp(&along(b)))
-                .copied()
+            points.iter().max_by(|a, b| along(a).total_cmp(&along(b))).copied()
         });
         Hull::of(farthest)
     }
 
     /// How far a point is outside, m, by the farthest plane of a face: at most the distance. Negative inside.
     pub fn outside(&self, point: &Vector3<f64>) -> f64 {
-        let distances = self
-            .planes
-            .iter()
-            .map(|(normal, offset)| normal.dot(point) - offset);
+        let distances = self.planes.iter().map(|(normal, offset)| normal.dot(point) - offset);
         distances.fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -136,10 +120,7 @@ impl Hull {
     /// The distance that the other hull must move along a direction to be free of this one.
     fn overlap(&self, other: &Hull, direction: &Vector3<f64>) -> f64 {
         let farthest = |hull: &Hull, sign: f64| {
-            let along = hull
-                .corners
-                .iter()
-                .map(|corner| sign * corner.dot(direction));
+            let along = hull.corners.iter().map(|corner| sign * corner.dot(direction));
             along.fold(f64::NEG_INFINITY, f64::max)
         };
         farthest(self, 1.0) + farthest(other, -1.0)
@@ -197,11 +178,7 @@ mod tests {
     fn cuboid(low: [f64; 3], high: [f64; 3]) -> Hull {
         let corners = (0..8).map(|bits| {
             let pick = |axis: usize| {
-                if bits & (1 << axis) == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
+                if bits & (1 << axis) == 0 { low[axis] } else { high[axis] }
             };
             Vector3::new(pick(0), pick(1), pick(2))
         });

@@ -21,9 +21,7 @@ impl Inertial {
     /// Those of a link; `None` if it has none, or no mass above 0.
     pub fn of(link: &Link) -> Option<Inertial> {
         let inertial = link.inertial.as_ref()?;
-        let mass = inertial
-            .mass
-            .filter(|mass| *mass > 0.0 && mass.is_finite())?;
+        let mass = inertial.mass.filter(|mass| *mass > 0.0 && mass.is_finite())?;
         let [xx, xy, xz, yy, yz, zz] = inertial.inertia?;
         let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
         let center = Vector3::from(inertial.origin.xyz);

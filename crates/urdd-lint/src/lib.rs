@@ -70,9 +70,7 @@ pub enum LintError {
 /// If a path has nothing to examine, or the run is cancelled.
 pub fn lint(paths: &[PathBuf], settings: &LintSettings) -> Result<Run, LintError> {
     let (files, excluded) = sources(paths, settings)?;
-    let linted = files
-        .par_iter()
-        .map(|path| lint_file(path, paths, settings));
+    let linted = files.par_iter().map(|path| lint_file(path, paths, settings));
     let linted = linted.collect();
     settings.report.cancellation.check()?;
     Ok(run_of(&files, linted, excluded, settings))
@@ -127,11 +125,7 @@ fn sources(paths: &[PathBuf], settings: &LintSettings) -> Result<(Vec<PathBuf>, 
     let all = files.len();
     files.retain(|path| {
         let seen = seen_from(path, paths);
-        !settings
-            .report
-            .excludes
-            .iter()
-            .any(|exclude| exclude.matches(&seen))
+        !settings.report.excludes.iter().any(|exclude| exclude.matches(&seen))
     });
     let excluded = all - files.len();
     Ok((files, excluded))
@@ -174,11 +168,7 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
         Ok(examined)
     });
     examined.report.path = seen;
-    Linted {
-        examined,
-        stale,
-        text,
-    }
+    Linted { examined, stale, text }
 }
 
 /// Lints the text of a file as [`read_source`] gives it. Where xacro made the text, places also say where links and joints
@@ -206,10 +196,7 @@ fn of_source(
 fn unreadable(name: &str, reason: String) -> Examined {
     let mut report = urdd_validate::report::blank(Kind::Urdf, name);
     (report.verdict, report.reason) = (Verdict::Unreadable, Some(reason));
-    Examined {
-        report,
-        checks: Vec::new(),
-    }
+    Examined { report, checks: Vec::new() }
 }
 
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only

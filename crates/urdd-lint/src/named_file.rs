@@ -18,9 +18,7 @@ impl<'n> NamedFile<'_, 'n> {
     pub fn is_absolute(&self) -> bool {
         let path = self.without_scheme();
         let mut first = path.chars();
-        let is_drive = first
-            .next()
-            .is_some_and(|letter| letter.is_ascii_alphabetic())
+        let is_drive = first.next().is_some_and(|letter| letter.is_ascii_alphabetic())
             && first.next() == Some(':')
             && matches!(first.next(), Some('/' | '\\'));
         path.starts_with('/') || is_drive

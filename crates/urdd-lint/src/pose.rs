@@ -13,10 +13,9 @@ const MAX_FOLLOWED: usize = 10;
 pub fn at_default(robot: &Robot, bodies: &Bodies) -> Vec<Isometry3<f64>> {
     let mut poses = vec![Isometry3::identity(); robot.links.len()];
     for &link in &bodies.tree.order {
-        if let (Some(joint), Some(parent)) = (
-            bodies.tree.parent_joint[link],
-            bodies.tree.parent_link[link],
-        ) {
+        if let (Some(joint), Some(parent)) =
+            (bodies.tree.parent_joint[link], bodies.tree.parent_link[link])
+        {
             let joint = &robot.joints[joint];
             poses[link] = poses[parent] * isometry(&joint.origin) * motion(robot, joint);
         }
@@ -31,10 +30,9 @@ fn motion(robot: &Robot, joint: &Joint) -> Isometry3<f64> {
     };
     match joint.joint_type {
         JointType::Prismatic => Translation3::from(axis * position).into(),
-        JointType::Revolute | JointType::Continuous => Isometry3::from_parts(
-            Translation3::identity(),
-            UnitQuaternion::new(axis * position),
-        ),
+        JointType::Revolute | JointType::Continuous => {
+            Isometry3::from_parts(Translation3::identity(), UnitQuaternion::new(axis * position))
+        }
         _ => Isometry3::identity(),
     }
 }
@@ -50,9 +48,5 @@ fn position(robot: &Robot, joint: &Joint, followed: usize) -> f64 {
         .filter(|_| matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic));
     let Some(limit) = limit else { return 0.0 };
     let (lower, upper) = (limit.lower.unwrap_or(0.0), limit.upper.unwrap_or(0.0));
-    if lower <= upper {
-        0.0_f64.clamp(lower, upper)
-    } else {
-        0.0
-    }
+    if lower <= upper { 0.0_f64.clamp(lower, upper) } else { 0.0 }
 }

@@ -18,21 +18,15 @@ pub fn corners(shape: &Geometry) -> Vec<Vector3<f64>> {
             let [x, y, z] = of.size.map(|size| size / 2.0);
             let signs =
                 (0..8).map(|bits| [1, 2, 4].map(|bit| if bits & bit == 0 { 1.0 } else { -1.0 }));
-            signs
-                .map(|[a, b, c]| Vector3::new(a * x, b * y, c * z))
-                .collect()
+            signs.map(|[a, b, c]| Vector3::new(a * x, b * y, c * z)).collect()
         }
         Geometry::Cylinder(of) => cylinder(of.radius, of.length),
         Geometry::Capsule(of) => cylinder(of.radius, of.length + 2.0 * of.radius),
         Geometry::Sphere(of) => {
             let rings = (0..RINGS).map(|ring| (ring as f64 / (RINGS - 1) as f64 - 0.5) * PI);
             let ring = |angle: f64| {
-                let z = of.radius
-                    * if angle.abs() == FRAC_PI_2 {
-                        angle.signum()
-                    } else {
-                        angle.sin()
-                    };
+                let z =
+                    of.radius * if angle.abs() == FRAC_PI_2 { angle.signum() } else { angle.sin() };
                 circle(of.radius * angle.cos()).map(move |(x, y)| Vector3::new(x, y, z))
             };
             rings.flat_map(ring).collect()

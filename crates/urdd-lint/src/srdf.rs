@@ -24,12 +24,7 @@ pub fn each(urdf: &Subject, mut of: impl FnMut(&str, &Document)) {
         if document.root_element().attribute("name") == urdf.root.attribute("name") {
             let inside = file.strip_prefix(urdf.folder);
             let shown = inside.map_or_else(
-                |_| {
-                    format!(
-                        "../srdf/{}",
-                        file.file_name().unwrap_or_default().to_string_lossy()
-                    )
-                },
+                |_| format!("../srdf/{}", file.file_name().unwrap_or_default().to_string_lossy()),
                 |inside| inside.to_string_lossy().replace('\\', "/"),
             );
             of(&shown, &document);
@@ -53,16 +48,9 @@ pub fn disabled_pairs(urdf: &Subject) -> BTreeSet<(String, String)> {
 }
 
 fn files(urdf: &Subject) -> Vec<PathBuf> {
-    let stem = Path::new(urdf.file)
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy();
+    let stem = Path::new(urdf.file).file_stem().unwrap_or_default().to_string_lossy();
     let above = urdf.folder.parent().map(|above| above.join("srdf"));
-    let folders = [
-        Some(urdf.folder.to_owned()),
-        Some(urdf.folder.join("srdf")),
-        above,
-    ];
+    let folders = [Some(urdf.folder.to_owned()), Some(urdf.folder.join("srdf")), above];
     let mut files = Vec::new();
     for folder in folders.into_iter().flatten() {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();

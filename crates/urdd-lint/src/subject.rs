@@ -147,8 +147,7 @@ impl<'a> Subject<'a> {
         let mut seen = HashSet::new();
         let meshes = source.meshes.iter().filter_map(|mesh| {
             let node = self.mesh_node(mesh)?;
-            seen.insert((mesh.link, mesh.geometry, &mesh.filename))
-                .then_some((node, mesh))
+            seen.insert((mesh.link, mesh.geometry, &mesh.filename)).then_some((node, mesh))
         });
         Some(meshes.collect())
     }
@@ -193,9 +192,7 @@ impl<'a> Subject<'a> {
         const OFFSET: f64 = 0.05;
         let (robot, _) = self.bodies(findings)?;
         let offsets = robot.joints.iter().map(|joint| {
-            let range = joint
-                .limit
-                .filter(|_| joint.joint_type == JointType::Prismatic);
+            let range = joint.limit.filter(|_| joint.joint_type == JointType::Prismatic);
             let range = range.map_or(0.0, |limit| {
                 let ends = [limit.lower, limit.upper].map(|end| end.unwrap_or(0.0).abs());
                 ends[0].max(ends[1])
@@ -219,28 +216,22 @@ impl<'a> Subject<'a> {
             GeometryKind::Collision => "collision",
         };
         let elements = children(*self.links.get(mesh.link)?);
-        let element = elements
-            .filter(|(name, _)| *name == kind)
-            .nth(mesh.element)?
-            .1;
+        let element = elements.filter(|(name, _)| *name == kind).nth(mesh.element)?.1;
         let mut inside = element.descendants();
         inside.find(|node| node.tag_name().name() == "mesh")
     }
 
     /// The joints of these types.
     pub fn joints_of(&self, types: &[&str]) -> impl Iterator<Item = Node<'a, 'a>> {
-        let is_one = |node: &&Node| {
-            node.attribute("type")
-                .is_some_and(|kind| types.contains(&kind))
-        };
+        let is_one =
+            |node: &&Node| node.attribute("type").is_some_and(|kind| types.contains(&kind));
         self.joints.iter().filter(is_one).copied()
     }
 
     /// Every element in a link or joint.
     pub fn parts(&self) -> impl Iterator<Item = Node<'a, 'a>> {
         let all = self.links.iter().chain(&self.joints);
-        all.flat_map(|node| node.descendants())
-            .filter(Node::is_element)
+        all.flat_map(|node| node.descendants()).filter(Node::is_element)
     }
 
     /// The names of elements.
@@ -254,18 +245,14 @@ impl<'a> Subject<'a> {
     /// The files of meshes and textures in links and materials, each name once an element.
     pub fn named_files(&self) -> Vec<NamedFile<'a, 'a>> {
         let named = self.root.descendants().filter(|node| {
-            let in_gazebo = || {
-                node.ancestors()
-                    .any(|one| one.tag_name().name() == "gazebo")
-            };
+            let in_gazebo = || node.ancestors().any(|one| one.tag_name().name() == "gazebo");
             matches!(node.tag_name().name(), "mesh" | "texture") && !in_gazebo()
         });
         let mut seen = HashSet::new();
         let named = named.filter_map(|node| {
             let name = text(node, "filename")?;
             let file = NamedFile { node, name };
-            seen.insert((part(node).map(|part| part.id()), name))
-                .then_some(file)
+            seen.insert((part(node).map(|part| part.id()), name)).then_some(file)
         });
         named.collect()
     }
@@ -305,9 +292,7 @@ impl<'a> Subject<'a> {
     pub fn tag_names(&self, node: Node<'a, 'a>) -> Vec<Range<usize>> {
         let (range, length) = (node.range(), name(node).len());
         let start = range.start + 1;
-        let end = self.text[range.clone()]
-            .rfind("</")
-            .map(|end| range.start + end + 2);
+        let end = self.text[range.clone()].rfind("</").map(|end| range.start + end + 2);
         let end = end.filter(|_| !self.text[range].ends_with("/>"));
         let starts = std::iter::once(start).chain(end);
         starts.map(|start| start..start + length).collect()
@@ -340,10 +325,7 @@ impl<'a> Subject<'a> {
 
     /// A fix that replaces a range of the text.
     pub fn fix(&self, message: impl Into<String>, range: Range<usize>, text: String) -> Fix {
-        let (start, end) = (
-            self.lines.position(range.start),
-            self.lines.position(range.end),
-        );
+        let (start, end) = (self.lines.position(range.start), self.lines.position(range.end));
         Fix {
             message: message.into(),
             is_safe: true,
@@ -383,9 +365,7 @@ fn subject(node: Node) -> Option<String> {
 /// The link or joint of the robot that holds an element.
 fn part<'a>(node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
     let is_part = |one: &Node| {
-        let in_robot = one
-            .parent_element()
-            .is_some_and(|above| above.parent_element().is_none());
+        let in_robot = one.parent_element().is_some_and(|above| above.parent_element().is_none());
         in_robot && matches!(one.tag_name().name(), "link" | "joint")
     };
     node.ancestors().find(is_part)

@@ -26,9 +26,6 @@ pub fn textures<'a>(urdf: &Subject<'a>, findings: &mut Findings) -> Option<Vec<T
             && above.is_some_and(|above| above.tag_name().name() == "material")
     };
     let named = urdf.named_files().into_iter().filter(in_material);
-    let found = named.map(|named| Texture {
-        named,
-        file: source.find(named.name),
-    });
+    let found = named.map(|named| Texture { named, file: source.find(named.name) });
     Some(found.collect())
 }

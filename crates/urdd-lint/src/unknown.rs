@@ -38,9 +38,7 @@ pub fn unknown<'a>(root: Node<'a, 'a>) -> Vec<Unknown<'a>> {
     let mut left: Vec<(Node<'a, 'a>, &'static Known)> =
         of("robot").map(|known| (root, known)).into_iter().collect();
     while let Some((node, known)) = left.pop() {
-        let attributes = node
-            .attributes()
-            .filter(|attribute| attribute.namespace().is_none());
+        let attributes = node.attributes().filter(|attribute| attribute.namespace().is_none());
         for attribute in attributes {
             let name = attribute.name();
             if !known.attributes.contains(&name) && !known.other_attributes.contains(&name) {

@@ -22,13 +22,7 @@ const fn known(
     attributes: &'static [&'static str],
     children: &'static [&'static str],
 ) -> Known {
-    Known {
-        name,
-        attributes,
-        children,
-        other_attributes: &[],
-        other_children: &[],
-    }
+    Known { name, attributes, children, other_attributes: &[], other_children: &[] }
 }
 
 /// Every element of URDF.
@@ -56,14 +50,7 @@ pub const KNOWN: &[Known] = &[
         ..known(
             "robot",
             &["name", "version"],
-            &[
-                "link",
-                "joint",
-                "material",
-                "transmission",
-                "gazebo",
-                "ros2_control",
-            ],
+            &["link", "joint", "material", "transmission", "gazebo", "ros2_control"],
         )
     },
     Known {
@@ -89,13 +76,7 @@ pub const KNOWN: &[Known] = &[
     },
     Known {
         other_attributes: &["concave", "group", "mask"],
-        other_children: &[
-            "verbose",
-            "contact_coefficients",
-            "surface",
-            "contact",
-            "material",
-        ],
+        other_children: &["verbose", "contact_coefficients", "surface", "contact", "material"],
         ..known("collision", &["name"], &["origin", "geometry"])
     },
     Known {
@@ -110,21 +91,10 @@ pub const KNOWN: &[Known] = &[
             "convex",
             "empty",
         ],
-        ..known(
-            "geometry",
-            &[],
-            &["mesh", "box", "cylinder", "capsule", "sphere"],
-        )
+        ..known("geometry", &[], &["mesh", "box", "cylinder", "capsule", "sphere"])
     },
     Known {
-        other_children: &[
-            "specular",
-            "ambient",
-            "emissive",
-            "shininess",
-            "script",
-            "diffuse",
-        ],
+        other_children: &["specular", "ambient", "emissive", "shininess", "script", "diffuse"],
         ..known("material", &["name"], &["color", "texture"])
     },
     Known {
@@ -161,15 +131,7 @@ pub const KNOWN: &[Known] = &[
         other_attributes: &["k_velocity", "k_position"],
         ..known(
             "limit",
-            &[
-                "lower",
-                "upper",
-                "effort",
-                "velocity",
-                "acceleration",
-                "deceleration",
-                "jerk",
-            ],
+            &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
             &[],
         )
     },
@@ -188,23 +150,11 @@ pub const KNOWN: &[Known] = &[
     known("mimic", &["joint", "multiplier", "offset"], &[]),
     known(
         "safety_controller",
-        &[
-            "soft_lower_limit",
-            "soft_upper_limit",
-            "k_position",
-            "k_velocity",
-        ],
+        &["soft_lower_limit", "soft_upper_limit", "k_position", "k_velocity"],
         &[],
     ),
-    known(
-        "calibration",
-        &["rising", "falling", "reference_position"],
-        &[],
-    ),
-    Known {
-        other_attributes: &["convex"],
-        ..known("mesh", &["filename", "scale"], &[])
-    },
+    known("calibration", &["rising", "falling", "reference_position"], &[]),
+    Known { other_attributes: &["convex"], ..known("mesh", &["filename", "scale"], &[]) },
     known("box", &["size"], &[]),
     known("cylinder", &["radius", "length"], &[]),
     known("capsule", &["radius", "length"], &[]),
@@ -225,12 +175,7 @@ pub fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
 /// What a message says of the name that is meant, if any: nothing where numbers differ, as those of `arm_1` and `arm_2`.
 pub fn hint(name: &str, known: &[&str]) -> String {
     let digits = |name: &str| name.replace(|letter: char| !letter.is_ascii_digit(), " ");
-    let digits_of = |name| {
-        digits(name)
-            .split_whitespace()
-            .map(str::to_owned)
-            .collect::<Vec<_>>()
-    };
+    let digits_of = |name| digits(name).split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     match nearest(name, known).filter(|near| digits_of(near) == digits_of(name)) {
         Some(near) => format!(", but there is `{near}`"),
         None => String::new(),

@@ -42,9 +42,7 @@ impl Sources {
                 let shown = seen_from(file, folder);
                 let lines = LineIndex::new(&text);
                 let nodes = document.descendants().filter(Node::is_element);
-                sources
-                    .elements
-                    .extend(nodes.filter_map(|node| element(node, &lines, &shown)));
+                sources.elements.extend(nodes.filter_map(|node| element(node, &lines, &shown)));
             }
         }
         sources
@@ -55,10 +53,7 @@ impl Sources {
         let findings = checks.iter_mut().flat_map(|check| &mut check.findings);
         for finding in findings {
             for place in std::iter::once(&mut finding.place).chain(&mut finding.more) {
-                let found = place
-                    .subject
-                    .as_deref()
-                    .and_then(|subject| self.find(subject));
+                let found = place.subject.as_deref().and_then(|subject| self.find(subject));
                 place.written_at = found.cloned();
                 place.related.iter_mut().for_each(|related: &mut Place| {
                     let subject = related.subject.as_deref();
@@ -72,16 +67,10 @@ impl Sources {
     fn find(&self, subject: &str) -> Option<&WrittenAt> {
         let (tag, quoted) = subject.split_once(' ')?;
         let wanted = quoted.strip_prefix('`')?.strip_suffix('`')?;
-        let fitting = self
-            .elements
-            .iter()
-            .filter(|element| element.tag == tag && element.fits(wanted));
+        let fitting =
+            self.elements.iter().filter(|element| element.tag == tag && element.fits(wanted));
         let letters = |element: &Element| element.parts.iter().map(String::len).sum::<usize>();
-        let most = fitting
-            .clone()
-            .map(letters)
-            .max()
-            .filter(|most| *most > 0)?;
+        let most = fitting.clone().map(letters).max().filter(|most| *most > 0)?;
         let mut best = fitting.filter(|element| letters(element) == most);
         let first = best.next()?;
         best.next().is_none().then_some(&first.at)
@@ -93,27 +82,22 @@ impl Element {
         let [first, between @ .., last] = &self.parts[..] else {
             return self.parts.first().is_some_and(|only| only == wanted);
         };
-        let rest = wanted
-            .strip_prefix(first.as_str())
-            .and_then(|rest| rest.strip_suffix(last.as_str()));
+        let rest =
+            wanted.strip_prefix(first.as_str()).and_then(|rest| rest.strip_suffix(last.as_str()));
         let Some(mut rest) = rest else { return false };
-        between
-            .iter()
-            .all(|part| match rest.split_once(part.as_str()) {
-                Some((_, after)) => {
-                    rest = after;
-                    true
-                }
-                None => false,
-            })
+        between.iter().all(|part| match rest.split_once(part.as_str()) {
+            Some((_, after)) => {
+                rest = after;
+                true
+            }
+            None => false,
+        })
     }
 }
 
 fn element(node: Node, lines: &LineIndex, file: &str) -> Option<Element> {
     let tag = name(node);
-    let named = node
-        .attribute("name")
-        .filter(|_| matches!(tag, "link" | "joint"))?;
+    let named = node.attribute("name").filter(|_| matches!(tag, "link" | "joint"))?;
     let position = lines.position(node.range().start);
     let is_macro = |one: &Node| one.is_element() && name(*one) == "xacro:macro";
     let holder = node.ancestors().find(is_macro);
@@ -190,11 +174,7 @@ mod tests {
         assert_eq!(at("link `left_wrist`"), arm(3));
         assert_eq!(at("link `left_wrist_1`"), arm(4));
         assert_eq!(at("link `left_elbow`"), None);
-        assert_eq!(
-            at("joint `left_wrist`"),
-            None,
-            "nothing of its name is fixed"
-        );
+        assert_eq!(at("joint `left_wrist`"), None, "nothing of its name is fixed");
         assert_eq!(at("link `base`"), None, "two places");
     }
 }

@@ -90,14 +90,12 @@ fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Ana
         return Analysis::default();
     }
     let mut analysis = match (&snapshot.kind, depth) {
-        (Kind::Xacro, Depth::Text) => Analysis {
-            found: xacro::of_text(snapshot),
-            postponed: Postponed::All,
-        },
-        (Kind::Xacro, Depth::Files) => Analysis {
-            found: xacro::of_files(snapshot, &project),
-            postponed: Postponed::None,
-        },
+        (Kind::Xacro, Depth::Text) => {
+            Analysis { found: xacro::of_text(snapshot), postponed: Postponed::All }
+        }
+        (Kind::Xacro, Depth::Files) => {
+            Analysis { found: xacro::of_files(snapshot, &project), postponed: Postponed::None }
+        }
         _ => of_urdf(snapshot, depth, &project),
     };
     analysis.found.extend(project.faults);
@@ -105,10 +103,8 @@ fn of_xml(snapshot: &Snapshot, depth: Depth, cancellation: &Cancellation) -> Ana
 }
 
 fn of_urdf(snapshot: &Snapshot, depth: Depth, project: &Project) -> Analysis {
-    let settings = LintSettings {
-        without_meshes: depth == Depth::Text,
-        ..project.settings.clone()
-    };
+    let settings =
+        LintSettings { without_meshes: depth == Depth::Text, ..project.settings.clone() };
     let text = snapshot.text.content();
     let examined = lint_text(text, &snapshot.name(), &snapshot.folder, &settings);
     let examined = project.apply(snapshot, examined);

@@ -47,9 +47,7 @@ impl Client {
             related_places: published
                 .and_then(|published| published.related_information)
                 .unwrap_or_default(),
-            versioned_edits: edits
-                .and_then(|edits| edits.document_changes)
-                .unwrap_or_default(),
+            versioned_edits: edits.and_then(|edits| edits.document_changes).unwrap_or_default(),
             code_actions: actions
                 .is_some_and(|actions| actions.code_action_literal_support.is_some()),
             configuration: workspace

@@ -32,10 +32,7 @@ pub fn code_actions(
     let edit = |edits: Vec<TextEdit>| workspace_edit(snapshot, edits, has_versions);
     let mut actions = Vec::new();
     if wants(&CodeActionKind::QUICKFIX) {
-        for one in found
-            .iter()
-            .filter(|one| touch(one.diagnostic.range, params.range))
-        {
+        for one in found.iter().filter(|one| touch(one.diagnostic.range, params.range)) {
             for (place, repair) in one.repairs.iter().enumerate() {
                 actions.push(CodeAction {
                     title: repair.title.clone(),
@@ -57,10 +54,7 @@ pub fn code_actions(
             ..CodeAction::default()
         });
     }
-    actions
-        .into_iter()
-        .map(CodeActionOrCommand::CodeAction)
-        .collect()
+    actions.into_iter().map(CodeActionOrCommand::CodeAction).collect()
 }
 
 /// The edits of the first safe fix of each finding, without those that overlap earlier ones.
@@ -79,10 +73,7 @@ fn all_safe(found: &[Found]) -> Vec<Vec<TextEdit>> {
             taken.push(repair);
         }
     }
-    taken
-        .into_iter()
-        .map(|repair| repair.edits.clone())
-        .collect()
+    taken.into_iter().map(|repair| repair.edits.clone()).collect()
 }
 
 /// Whether two ranges overlap, or touch.
@@ -103,13 +94,7 @@ fn workspace_edit(snapshot: &Snapshot, edits: Vec<TextEdit>, has_versions: bool)
             ..WorkspaceEdit::default()
         };
     }
-    #[expect(
-        clippy::mutable_key_type,
-        reason = "the protocol's type; URIs are not changed"
-    )]
+    #[expect(clippy::mutable_key_type, reason = "the protocol's type; URIs are not changed")]
     let changes = HashMap::from([(uri, edits)]);
-    WorkspaceEdit {
-        changes: Some(changes),
-        ..WorkspaceEdit::default()
-    }
+    WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() }
 }

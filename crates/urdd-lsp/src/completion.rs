@@ -44,14 +44,7 @@ pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
             };
             let range = markup.elements[element].name.clone();
             let item = |word: &&str| {
-                item(
-                    snapshot,
-                    &range,
-                    word,
-                    (*word).to_owned(),
-                    CompletionItemKind::CLASS,
-                    None,
-                )
+                item(snapshot, &range, word, (*word).to_owned(), CompletionItemKind::CLASS, None)
             };
             words.iter().map(item).collect()
         }
@@ -62,14 +55,7 @@ pub fn completion(snapshot: &Snapshot, at: Position) -> Vec<CompletionItem> {
             let name = markup.name(text, element).to_owned();
             let start = text[..offset].rfind("</").map_or(offset, |at| at + 2);
             let new = format!("{name}>");
-            vec![item(
-                snapshot,
-                &(start..offset),
-                &name,
-                new,
-                CompletionItemKind::CLASS,
-                None,
-            )]
+            vec![item(snapshot, &(start..offset), &name, new, CompletionItemKind::CLASS, None)]
         }
         Place::Content { .. } => Vec::new(),
     }
@@ -110,23 +96,13 @@ fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
     let outline = snapshot.outline();
     let links = || {
         let links = outline.links.iter();
-        links.map(|link| {
-            (
-                link.name.clone(),
-                CompletionItemKind::VARIABLE,
-                Some("link".to_owned()),
-            )
-        })
+        links.map(|link| (link.name.clone(), CompletionItemKind::VARIABLE, Some("link".to_owned())))
     };
     let joints = || {
         let joints = outline.joints.iter();
         joints.map(|joint| {
             let detail = format!("joint: {} → {}", joint.parent, joint.child);
-            (
-                joint.name.clone(),
-                CompletionItemKind::FUNCTION,
-                Some(detail),
-            )
+            (joint.name.clone(), CompletionItemKind::FUNCTION, Some(detail))
         })
     };
     let parent = markup.parent_name(text, element).unwrap_or_default();
@@ -151,23 +127,16 @@ fn values(snapshot: &Snapshot, element: usize, attribute: &str) -> Vec<Value> {
             // A joint does not follow itself.
             let own = markup.elements[element].parent.filter(|_| name == "mimic");
             let own = own.and_then(|own| markup.value(text, own, "name"));
-            joints()
-                .filter(|(name, ..)| Some(name.as_str()) != own.as_deref())
-                .collect()
+            joints().filter(|(name, ..)| Some(name.as_str()) != own.as_deref()).collect()
         }
         Some(Names::Both) => links().chain(joints()).collect(),
         Some(Names::Materials) => {
             let materials = outline.materials.iter();
-            materials
-                .map(|one| (one.name.clone(), CompletionItemKind::COLOR, None))
-                .collect()
+            materials.map(|one| (one.name.clone(), CompletionItemKind::COLOR, None)).collect()
         }
         Some(Names::Meshes) | None => Vec::new(),
     };
-    found
-        .into_iter()
-        .filter(|(name, ..)| !name.is_empty() && seen.insert(name.clone()))
-        .collect()
+    found.into_iter().filter(|(name, ..)| !name.is_empty() && seen.insert(name.clone())).collect()
 }
 
 /// The attributes that an element can have and has not.
@@ -198,14 +167,7 @@ fn attributes(
             true => name.to_owned(),
             false => format!("{name}=\"\""),
         };
-        item(
-            snapshot,
-            &range,
-            name,
-            new,
-            CompletionItemKind::PROPERTY,
-            None,
-        )
+        item(snapshot, &range, name, new, CompletionItemKind::PROPERTY, None)
     })
     .collect()
 }

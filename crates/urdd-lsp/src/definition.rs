@@ -20,10 +20,7 @@ pub fn definition(snapshot: &Snapshot, at: Position) -> Option<Location> {
     };
     let markup = snapshot.markup();
     let name = markup.attribute(snapshot.text.as_str(), element, "name")?;
-    Some(Location {
-        uri: snapshot.uri.clone(),
-        range: snapshot.text.range(name.value.clone()),
-    })
+    Some(Location { uri: snapshot.uri.clone(), range: snapshot.text.range(name.value.clone()) })
 }
 
 /// The file of a mesh.
@@ -37,10 +34,7 @@ fn mesh(snapshot: &Snapshot, name: &str) -> Option<Location> {
         // A xacro file, or a URDF that describes no robot yet: only plain names are looked for.
         None => plain(&snapshot.folder, name),
     };
-    Some(Location {
-        uri: uri::of_path(&file?)?,
-        range: Range::default(),
-    })
+    Some(Location { uri: uri::of_path(&file?)?, range: Range::default() })
 }
 
 /// The nearest folder above a file that was not found, below the URDF's package.

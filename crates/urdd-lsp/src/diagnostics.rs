@@ -40,10 +40,7 @@ pub struct Repair {
 
 impl From<Diagnostic> for Found {
     fn from(diagnostic: Diagnostic) -> Self {
-        Found {
-            diagnostic,
-            repairs: Vec::new(),
-        }
+        Found { diagnostic, repairs: Vec::new() }
     }
 }
 
@@ -108,23 +105,14 @@ fn of_place(
 ) -> Found {
     let message = message(finding, place);
     let values = (place.expected.as_deref(), place.actual.as_deref());
-    let range = snapshot
-        .text
-        .range(marked(snapshot, offset(snapshot, place)));
+    let range = snapshot.text.range(marked(snapshot, offset(snapshot, place)));
     let mut diagnostic = diagnostic(range, severity, check.rule.code.as_str(), &message, values);
-    let related: Vec<DiagnosticRelatedInformation> = place
-        .related
-        .iter()
-        .filter_map(|other| related(snapshot, other))
-        .collect();
+    let related: Vec<DiagnosticRelatedInformation> =
+        place.related.iter().filter_map(|other| related(snapshot, other)).collect();
     diagnostic.related_information = (!related.is_empty()).then_some(related);
     Found {
         diagnostic,
-        repairs: place
-            .fixes
-            .iter()
-            .filter_map(|fix| repair(snapshot, fix))
-            .collect(),
+        repairs: place.fixes.iter().filter_map(|fix| repair(snapshot, fix)).collect(),
     }
 }
 
@@ -152,16 +140,11 @@ fn offset(snapshot: &Snapshot, place: &Place) -> usize {
 
 fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInformation> {
     let message = place.message.clone().or_else(|| place.subject.clone());
-    let is_here = place
-        .file
-        .as_deref()
-        .is_none_or(|file| file == snapshot.name());
+    let is_here = place.file.as_deref().is_none_or(|file| file == snapshot.name());
     let location = match is_here {
         true => Location {
             uri: snapshot.uri.clone(),
-            range: snapshot
-                .text
-                .range(marked(snapshot, offset(snapshot, place))),
+            range: snapshot.text.range(marked(snapshot, offset(snapshot, place))),
         },
         false => {
             let line = place.line.map_or(1, |line| line.get());
@@ -175,18 +158,12 @@ fn related(snapshot: &Snapshot, place: &Place) -> Option<DiagnosticRelatedInform
 pub fn line_of(file: &Path, line: usize) -> Option<Location> {
     let line = u32::try_from(line.saturating_sub(1)).unwrap_or(u32::MAX);
     let start = Position { line, character: 0 };
-    Some(Location {
-        uri: uri::of_path(file)?,
-        range: lsp_types::Range { start, end: start },
-    })
+    Some(Location { uri: uri::of_path(file)?, range: lsp_types::Range { start, end: start } })
 }
 
 /// A further place that a diagnostic points to.
 pub fn further(location: Location, message: &str) -> DiagnosticRelatedInformation {
-    DiagnosticRelatedInformation {
-        location,
-        message: escape::line(message).into_owned(),
-    }
+    DiagnosticRelatedInformation { location, message: escape::line(message).into_owned() }
 }
 
 /// A fix of a report; `None` if it changes another file.
@@ -216,9 +193,7 @@ pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
     let text = &snapshot.text;
     let markup = snapshot.markup();
     let end_of_line = text.line_end(offset).max(offset);
-    let after = markup
-        .elements
-        .partition_point(|one| one.tag.start <= offset);
+    let after = markup.elements.partition_point(|one| one.tag.start <= offset);
     let element = after.checked_sub(1).map(|last| &markup.elements[last]);
     let Some(element) = element.filter(|element| offset < element.tag.end) else {
         return offset..end_of_line.min(offset + 1).max(offset);
@@ -232,12 +207,7 @@ pub fn marked(snapshot: &Snapshot, offset: usize) -> Range<usize> {
         .find(|attribute| attribute.name.start <= offset && offset <= attribute.value.end);
     match attribute {
         // With its second quote.
-        Some(attribute) => {
-            offset
-                ..(attribute.value.end + 1)
-                    .min(element.tag.end)
-                    .min(end_of_line)
-        }
+        Some(attribute) => offset..(attribute.value.end + 1).min(element.tag.end).min(end_of_line),
         None => offset..element.tag.end.min(end_of_line),
     }
 }

@@ -125,11 +125,10 @@ impl Snapshot {
 
     /// The elements of the text, also where it is half typed. None if it is too large, or is not XML.
     pub fn markup(&self) -> &Markup {
-        self.markup
-            .get_or_init(|| match self.kind.is_xml() && !self.is_too_large() {
-                true => Markup::new(self.text.as_str()),
-                false => Markup::new(""),
-            })
+        self.markup.get_or_init(|| match self.kind.is_xml() && !self.is_too_large() {
+            true => Markup::new(self.text.as_str()),
+            false => Markup::new(""),
+        })
     }
 
     /// The names in the text.

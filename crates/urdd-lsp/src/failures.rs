@@ -34,14 +34,10 @@ pub fn not_well_formed(snapshot: &Snapshot) -> Option<Found> {
     let error = urdd_xml::parse(text, urdd_xml::Kind::Robot).err()?;
     let place = error.pos();
     // The parser's lines end at `\n` only.
-    let line = text
-        .split_inclusive('\n')
-        .take((place.row as usize).saturating_sub(1));
+    let line = text.split_inclusive('\n').take((place.row as usize).saturating_sub(1));
     let start: usize = line.map(str::len).sum();
     let rest = &text[start.min(text.len())..];
-    let column = rest
-        .char_indices()
-        .nth((place.col as usize).saturating_sub(1));
+    let column = rest.char_indices().nth((place.col as usize).saturating_sub(1));
     let offset = start + column.map_or(rest.len(), |(at, _)| at);
     let offset = snapshot.text.content_start() + offset;
     let end = snapshot.text.line_end(offset).max(offset);

@@ -64,10 +64,8 @@ fn link(model: &RobotModel, name: &str) -> Option<String> {
                     code(&joint.parent)
                 ));
                 let pose = model.poses.get(index)?;
-                lines.push(format!(
-                    "- pose in {root}, default configuration: {}",
-                    pose_words(pose)
-                ));
+                lines
+                    .push(format!("- pose in {root}, default configuration: {}", pose_words(pose)));
             }
         }
         let children = &tree.child_joints[index];
@@ -84,11 +82,7 @@ fn link(model: &RobotModel, name: &str) -> Option<String> {
             false => format!("- children: {}", names.join(", ")),
         });
     }
-    lines.push(format!(
-        "- {} visual, {} collision",
-        link.visual.len(),
-        link.collision.len()
-    ));
+    lines.push(format!("- {} visual, {} collision", link.visual.len(), link.collision.len()));
     Some(lines.join("\n"))
 }
 
@@ -139,25 +133,16 @@ fn joint_as_written(snapshot: &Snapshot, name: &str) -> Option<String> {
         kind => format!(": {}", code(kind)),
     };
     let (parent, child) = (code(&joint.parent), code(&joint.child));
-    Some(format!(
-        "**joint {}**{kind}\n\n- {parent} → {child}",
-        code(name)
-    ))
+    Some(format!("**joint {}**{kind}\n\n- {parent} → {child}", code(name)))
 }
 
 fn limits(joint: &Joint) -> Vec<String> {
-    let is_turn = matches!(
-        joint.joint_type,
-        JointType::Revolute | JointType::Continuous
-    );
+    let is_turn = matches!(joint.joint_type, JointType::Revolute | JointType::Continuous);
     let unit = if is_turn { "rad" } else { "m" };
     let mut lines = Vec::new();
     if let Some((lower, upper)) = joint.position_limits() {
-        let mut line = format!(
-            "- limits: {} to {} {unit}",
-            number(lower, DIGITS),
-            number(upper, DIGITS)
-        );
+        let mut line =
+            format!("- limits: {} to {} {unit}", number(lower, DIGITS), number(upper, DIGITS));
         if is_turn {
             let degrees = |x: f64| number(x.to_degrees(), DIGITS);
             line += &format!(" ({}° to {}°)", degrees(lower), degrees(upper));

@@ -60,10 +60,7 @@ fn includes(snapshot: &Snapshot) -> impl Iterator<Item = Include> {
         (0..markup.elements.len()).filter(|element| markup.name(text, *element) == "xacro:include");
     all.filter_map(move |element| {
         let name = markup.value(text, element, "filename")?;
-        Some(Include {
-            element,
-            file: named(&name, folder?, &packages)?,
-        })
+        Some(Include { element, file: named(&name, folder?, &packages)? })
     })
 }
 

@@ -40,15 +40,13 @@ fn moved(found: &Found, before: &Snapshot, now: &Snapshot) -> Option<Found> {
     }
     found.repairs.retain_mut(|repair| {
         let mut edits = repair.edits.iter_mut();
-        edits.all(
-            |TextEdit { range, .. }| match moved_range(*range, before, now) {
-                Some(new) => {
-                    *range = new;
-                    true
-                }
-                None => false,
-            },
-        )
+        edits.all(|TextEdit { range, .. }| match moved_range(*range, before, now) {
+            Some(new) => {
+                *range = new;
+                true
+            }
+            None => false,
+        })
     });
     Some(found)
 }
@@ -59,10 +57,7 @@ fn moved_range(
     before: &Snapshot,
     now: &Snapshot,
 ) -> Option<lsp_types::Range> {
-    let (start, end) = (
-        before.text.offset(range.start),
-        before.text.offset(range.end),
-    );
+    let (start, end) = (before.text.offset(range.start), before.text.offset(range.end));
     let (kind, name, old) = around(before, start).filter(|(.., old)| end <= old.end)?;
     let new = named(now, &kind, &name)?;
     if before.text.as_str().get(old.clone()) != now.text.as_str().get(new.clone()) {
@@ -76,18 +71,14 @@ fn moved_range(
 fn around(snapshot: &Snapshot, offset: usize) -> Option<(String, String, Range<usize>)> {
     let text = snapshot.text.as_str();
     let markup = snapshot.markup();
-    let after = markup
-        .elements
-        .partition_point(|one| one.tag.start <= offset);
+    let after = markup.elements.partition_point(|one| one.tag.start <= offset);
     let mut ancestors = markup.ancestors(after.checked_sub(1)?);
     let part = ancestors.find(|one| matches!(markup.name(text, *one), "link" | "joint"))?;
     let element = &markup.elements[part];
     let name = markup.value(text, part, "name")?;
     let kind = markup.name(text, part).to_owned();
     let range = element.tag.start..element.end;
-    range
-        .contains(&offset)
-        .then(|| (kind, name.into_owned(), range))
+    range.contains(&offset).then(|| (kind, name.into_owned(), range))
 }
 
 /// The bytes of the link or joint of a name.

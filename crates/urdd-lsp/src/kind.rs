@@ -67,10 +67,7 @@ impl Schema {
     pub fn of_file(path: &Path) -> Option<Kind> {
         let name = path.file_name()?.to_str()?;
         if name == ROOT_METADATA {
-            return Some(Kind::Urdd {
-                schema: Some(Schema::Root),
-                is_yaml: false,
-            });
+            return Some(Kind::Urdd { schema: Some(Schema::Root), is_yaml: false });
         }
         let is_yaml = match name {
             "module.json" => false,
@@ -84,10 +81,7 @@ impl Schema {
         }
         let mut kinds = ModuleKind::ALL.iter().copied();
         let kind = kinds.find(|kind| kind.name() == module);
-        Some(Kind::Urdd {
-            schema: kind.and_then(|kind| Schema::of_module(kind, folder)),
-            is_yaml,
-        })
+        Some(Kind::Urdd { schema: kind.and_then(|kind| Schema::of_module(kind, folder)), is_yaml })
     }
 
     /// The schema of a module in a folder, by its `VERSION`: as the validator chooses it.

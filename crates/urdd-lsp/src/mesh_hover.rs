@@ -48,21 +48,12 @@ fn extent(mesh: &Mesh, scale: [f64; 3]) -> Option<String> {
     let bounds = mesh.bounds()?;
     let ends = |pick: fn(f64, f64) -> f64| {
         let axes = [0, 1, 2];
-        axes.map(|axis| {
-            pick(
-                bounds.min[axis] * scale[axis],
-                bounds.max[axis] * scale[axis],
-            )
-        })
+        axes.map(|axis| pick(bounds.min[axis] * scale[axis], bounds.max[axis] * scale[axis]))
     };
     let (low, high) = (ends(f64::min), ends(f64::max));
     let size = [0, 1, 2].map(|axis| high[axis] - low[axis]);
     let size = size.map(|x| number(x, DIGITS)).join(" × ");
-    Some(format!(
-        "- bounding box: {size} m, from ({}) to ({})",
-        triple(low),
-        triple(high)
-    ))
+    Some(format!("- bounding box: {size} m, from ({}) to ({})", triple(low), triple(high)))
 }
 
 fn triple(values: [f64; 3]) -> String {

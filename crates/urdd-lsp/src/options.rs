@@ -30,12 +30,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options {
-            xacro: false,
-            package_paths: Vec::new(),
-            baseline: None,
-            debounce: DEBOUNCE,
-        }
+        Options { xacro: false, package_paths: Vec::new(), baseline: None, debounce: DEBOUNCE }
     }
 }
 
@@ -81,9 +76,7 @@ impl Options {
         let own = self.package_paths.iter().cloned();
         let all: Vec<PathBuf> = own.chain(std::env::split_paths(&paths)).collect();
         // A folder with the separator in its name cannot be in a search path.
-        let all = all
-            .iter()
-            .filter(|path| std::env::join_paths([path]).is_ok());
+        let all = all.iter().filter(|path| std::env::join_paths([path]).is_ok());
         std::env::join_paths(all).ok()
     }
 }
@@ -102,14 +95,9 @@ mod tests {
             Some(Path::new("/w")),
         );
         assert!(options.xacro);
-        assert_eq!(
-            options.package_paths,
-            [PathBuf::from("/a b"), PathBuf::from("/w/c")]
-        );
-        options.update(
-            &json!({"urdd": {"xacro": "yes", "baseline": null, "debounce": 99_999}}),
-            None,
-        );
+        assert_eq!(options.package_paths, [PathBuf::from("/a b"), PathBuf::from("/w/c")]);
+        options
+            .update(&json!({"urdd": {"xacro": "yes", "baseline": null, "debounce": 99_999}}), None);
         assert!(options.xacro);
         assert_eq!(options.baseline, Some(PathBuf::from("/w/b.json")));
         assert_eq!(options.debounce, Duration::from_secs(10));

@@ -76,9 +76,7 @@ impl Outline {
         }
         outline.materials.extend(inner_materials);
         let mut seen = std::collections::HashSet::new();
-        outline
-            .materials
-            .retain(|one| seen.insert(one.name.clone()));
+        outline.materials.retain(|one| seen.insert(one.name.clone()));
         outline
     }
 
@@ -122,10 +120,7 @@ fn joint(text: &str, markup: &Markup, element: usize, name: String) -> Joint {
     Joint {
         name,
         element,
-        kind: markup
-            .value(text, element, "type")
-            .unwrap_or_default()
-            .into_owned(),
+        kind: markup.value(text, element, "type").unwrap_or_default().into_owned(),
         parent: link("parent"),
         child: link("child"),
     }

@@ -50,11 +50,7 @@ impl Project {
         let folder = folder.map(Path::to_owned);
         let path = snapshot.path.as_deref();
         let seen = path.map(|path| seen_from(path, folder.as_slice()));
-        Project {
-            settings,
-            faults,
-            seen: seen.unwrap_or_else(|| snapshot.name()),
-        }
+        Project { settings, faults, seen: seen.unwrap_or_else(|| snapshot.name()) }
     }
 
     /// Whether `urdd.toml` excludes the document.

@@ -32,12 +32,7 @@ impl RobotModel {
         let robot = of_urdf(&source.robot);
         let tree = Tree::new(&robot);
         let poses = tree.as_ref().map(|tree| poses(&robot, tree));
-        Some(RobotModel {
-            source,
-            robot,
-            tree,
-            poses: poses.unwrap_or_default(),
-        })
+        Some(RobotModel { source, robot, tree, poses: poses.unwrap_or_default() })
     }
 }
 

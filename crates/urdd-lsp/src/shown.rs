@@ -7,10 +7,7 @@ use urdd_format::escape;
 /// A text to show.
 pub fn markdown(value: String, range: Option<Range>) -> Hover {
     Hover {
-        contents: HoverContents::Markup(MarkupContent {
-            kind: MarkupKind::Markdown,
-            value,
-        }),
+        contents: HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value }),
         range,
     }
 }

@@ -42,19 +42,14 @@ fn symbol(
     let selection = own_name.map_or(one.tag.clone(), |attribute| attribute.value.clone());
     // Editors refuse an empty name.
     let name = if name.trim().is_empty() { "?" } else { name };
-    #[expect(
-        deprecated,
-        reason = "the type has a field that the protocol has replaced by `tags`"
-    )]
+    #[expect(deprecated, reason = "the type has a field that the protocol has replaced by `tags`")]
     DocumentSymbol {
         name: name.to_owned(),
         detail: (!detail.is_empty()).then(|| detail.to_owned()),
         kind,
         tags: None,
         deprecated: None,
-        range: snapshot
-            .text
-            .range(one.tag.start..one.end.max(selection.end)),
+        range: snapshot.text.range(one.tag.start..one.end.max(selection.end)),
         selection_range: snapshot.text.range(selection),
         children: None,
     }
@@ -107,12 +102,8 @@ impl<'s> Tree<'s> {
 
     /// The roots with what is below them, then what no root leads to: circles, joints without a link.
     fn all(&mut self) -> Vec<DocumentSymbol> {
-        let children: std::collections::HashSet<&str> = self
-            .outline
-            .joints
-            .iter()
-            .map(|joint| joint.child.as_str())
-            .collect();
+        let children: std::collections::HashSet<&str> =
+            self.outline.joints.iter().map(|joint| joint.child.as_str()).collect();
         let links = 0..self.outline.links.len();
         let is_root = |link: &usize| !children.contains(self.outline.links[*link].name.as_str());
         let roots: Vec<usize> = links.clone().filter(is_root).collect();
@@ -132,17 +123,9 @@ impl<'s> Tree<'s> {
             return None;
         }
         let link = &self.outline.links[index];
-        let mut symbol = symbol(
-            self.snapshot,
-            link.element,
-            &link.name,
-            SymbolKind::OBJECT,
-            "",
-        );
+        let mut symbol = symbol(self.snapshot, link.element, &link.name, SymbolKind::OBJECT, "");
         let joints = std::mem::take(&mut self.joints_on[index]);
-        let below = joints
-            .into_iter()
-            .filter_map(|joint| self.joint(joint, depth + 1));
+        let below = joints.into_iter().filter_map(|joint| self.joint(joint, depth + 1));
         symbol.children = Some(below.collect());
         Some(symbol)
     }
@@ -152,13 +135,8 @@ impl<'s> Tree<'s> {
             return None;
         }
         let joint = &self.outline.joints[index];
-        let mut symbol = symbol(
-            self.snapshot,
-            joint.element,
-            &joint.name,
-            SymbolKind::METHOD,
-            &joint.kind,
-        );
+        let mut symbol =
+            symbol(self.snapshot, joint.element, &joint.name, SymbolKind::METHOD, &joint.kind);
         let child = self.outline.link_index(&joint.child);
         let below = child.and_then(|child| self.link(child, depth + 1));
         symbol.children = Some(below.into_iter().collect());
@@ -180,17 +158,9 @@ fn flatten(
             kind: symbol.kind,
             tags: None,
             deprecated: None,
-            location: lsp_types::Location {
-                uri: snapshot.uri.clone(),
-                range: symbol.range,
-            },
+            location: lsp_types::Location { uri: snapshot.uri.clone(), range: symbol.range },
             container_name: container.map(str::to_owned),
         });
-        flatten(
-            snapshot,
-            symbol.children.unwrap_or_default(),
-            Some(&symbol.name),
-            flat,
-        );
+        flatten(snapshot, symbol.children.unwrap_or_default(), Some(&symbol.name), flat);
     }
 }

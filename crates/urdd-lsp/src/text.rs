@@ -81,12 +81,7 @@ impl Text {
     /// A text as an editor sent it.
     pub fn new(text: String, encoding: Encoding) -> Self {
         let starts = std::iter::once(0).chain(line_starts(&text, 0));
-        Text {
-            starts: starts.collect(),
-            text,
-            encoding,
-            before_block: OnceLock::new(),
-        }
+        Text { starts: starts.collect(), text, encoding, before_block: OnceLock::new() }
     }
 
     /// All of it.
@@ -157,10 +152,7 @@ impl Text {
 
     /// The editor's range of a range of bytes.
     pub fn range(&self, range: Range<usize>) -> lsp_types::Range {
-        lsp_types::Range {
-            start: self.position(range.start),
-            end: self.position(range.end),
-        }
+        lsp_types::Range { start: self.position(range.start), end: self.position(range.end) }
     }
 
     /// The byte offset of a line and a column, from 1, in scalar values of [`Text::content`]: as reports have them.
@@ -206,10 +198,8 @@ impl Text {
         let first = first.saturating_sub(1);
         let new_end = start + change.text.len();
         let kept = self.starts.partition_point(|&start_of| start_of <= end + 1);
-        let later: Vec<usize> = self.starts[kept..]
-            .iter()
-            .map(|start_of| start_of - end + new_end)
-            .collect();
+        let later: Vec<usize> =
+            self.starts[kept..].iter().map(|start_of| start_of - end + new_end).collect();
         let from = self.starts[first];
         // The line that contains the change's end, as far as its own end.
         let until = later.first().copied().unwrap_or(self.text.len());
@@ -251,11 +241,8 @@ mod tests {
     #[test]
     fn columns_are_in_the_unit_that_was_agreed() {
         let text = "é\u{1F916}x\r\ny\rz\n";
-        for (encoding, column) in [
-            (Encoding::Utf8, 6),
-            (Encoding::Utf16, 3),
-            (Encoding::Utf32, 2),
-        ] {
+        for (encoding, column) in [(Encoding::Utf8, 6), (Encoding::Utf16, 3), (Encoding::Utf32, 2)]
+        {
             let text = Text::new(text.to_owned(), encoding);
             let x = text.as_str().find('x').unwrap();
             assert_eq!(text.position(x), at(0, column));
@@ -282,11 +269,7 @@ mod tests {
             // A change is counted too.
             let range = Some(text.range(0..1));
             let (range_length, added) = (None, "é".to_owned());
-            text.apply(TextDocumentContentChangeEvent {
-                range,
-                range_length,
-                text: added,
-            });
+            text.apply(TextDocumentContentChangeEvent { range, range_length, text: added });
             let shift = encoding.units('é') as u32;
             assert_eq!(text.position(usize::MAX), at(0, units + shift));
         }
@@ -311,19 +294,11 @@ mod tests {
     /// Every change of a small text, by every small text, has the lines of the text read anew.
     #[test]
     fn changes_keep_the_lines() {
-        let texts = [
-            "",
-            "a\r\nb\rc\n\nd",
-            "\r\n",
-            "\n\n\n",
-            "x\r",
-            "é\u{1F916}\r\n",
-        ];
+        let texts = ["", "a\r\nb\rc\n\nd", "\r\n", "\n\n\n", "x\r", "é\u{1F916}\r\n"];
         let inserts = ["", "\r", "\n", "\r\n", "q", "\nq\r", "u\r\nv"];
         for text in texts {
-            let ends: Vec<usize> = (0..=text.len())
-                .filter(|at| text.is_char_boundary(*at))
-                .collect();
+            let ends: Vec<usize> =
+                (0..=text.len()).filter(|at| text.is_char_boundary(*at)).collect();
             for (&start, &end) in ends.iter().flat_map(|a| ends.iter().map(move |b| (a, b))) {
                 for insert in inserts.iter().filter(|_| start <= end) {
                     let mut changed = Text::new(text.to_owned(), Encoding::Utf16);
@@ -334,10 +309,7 @@ mod tests {
                         text: (*insert).to_owned(),
                     });
                     let anew = Text::new(changed.text.clone(), Encoding::Utf16);
-                    assert_eq!(
-                        changed.starts, anew.starts,
-                        "{text:?} {start}..{end} {insert:?}"
-                    );
+                    assert_eq!(changed.starts, anew.starts, "{text:?} {start}..{end} {insert:?}");
                 }
             }
         }

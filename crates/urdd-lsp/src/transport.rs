@@ -31,15 +31,10 @@ pub fn stdio() -> io::Result<(Connection, [JoinHandle<io::Result<()>>; 2])> {
     };
     let write = move || {
         let mut output = stdout().lock();
-        answers
-            .into_iter()
-            .try_for_each(|answer| answer.write(&mut output))
+        answers.into_iter().try_for_each(|answer| answer.write(&mut output))
     };
     let start = |name: &str| thread::Builder::new().name(name.to_owned());
-    let threads = [
-        start("urdd reader").spawn(read)?,
-        start("urdd writer").spawn(write)?,
-    ];
+    let threads = [start("urdd reader").spawn(read)?, start("urdd writer").spawn(write)?];
     Ok((Connection { sender, receiver }, threads))
 }
 
@@ -52,9 +47,7 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Message>> {
         let left = MAX_HEADER_BYTES - start as u64;
         if input.by_ref().take(left).read_until(b'\n', &mut header)? == 0 {
             return match left {
-                0 => Err(invalid(format!(
-                    "a header has more than {MAX_HEADER_BYTES} bytes"
-                ))),
+                0 => Err(invalid(format!("a header has more than {MAX_HEADER_BYTES} bytes"))),
                 _ => Ok(None),
             };
         }
@@ -65,9 +58,7 @@ fn read(input: &mut impl BufRead) -> io::Result<Option<Message>> {
             let value = value.trim();
             let stated = value.parse().ok().filter(|size| *size <= MAX_MESSAGE_BYTES);
             let refused = || {
-                invalid(format!(
-                    "a message of {value} bytes; at most {MAX_MESSAGE_BYTES} are read"
-                ))
+                invalid(format!("a message of {value} bytes; at most {MAX_MESSAGE_BYTES} are read"))
             };
             size = stated.ok_or_else(refused)?;
         }

@@ -7,12 +7,8 @@ use lsp_types::Uri;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 
 /// What stays as it is in a path.
-const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
-    .remove(b'/')
-    .remove(b'-')
-    .remove(b'_')
-    .remove(b'.')
-    .remove(b'~');
+const ESCAPED: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'_').remove(b'.').remove(b'~');
 
 /// The path of a document; `None` if it is not a file.
 pub fn path(uri: &str) -> Option<PathBuf> {
@@ -60,17 +56,9 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn paths_survive() {
-        for path in [
-            "/a b/ü#%20.urdf",
-            "/x/y+z/[1].urdf",
-            "/\u{1F916}/a&b;c=d.urdf",
-        ] {
+        for path in ["/a b/ü#%20.urdf", "/x/y+z/[1].urdf", "/\u{1F916}/a&b;c=d.urdf"] {
             let uri = of_path(Path::new(path)).expect("a URI");
-            assert_eq!(
-                super::path(uri.as_str()).as_deref(),
-                Some(Path::new(path)),
-                "{uri:?}"
-            );
+            assert_eq!(super::path(uri.as_str()).as_deref(), Some(Path::new(path)), "{uri:?}");
         }
     }
 

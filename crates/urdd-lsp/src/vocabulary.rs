@@ -4,53 +4,21 @@
 use urdd_lint::vocabulary::of;
 
 /// An element: where it is, its name, its attributes, and what it contains.
-type Word = (
-    &'static str,
-    &'static str,
-    &'static [&'static str],
-    &'static [&'static str],
-);
+type Word = (&'static str, &'static str, &'static [&'static str], &'static [&'static str]);
 
 /// Elements that other programs read.
 const WORDS: &[Word] = &[
     ("robot", "gazebo", &["reference"], &[]),
-    (
-        "robot",
-        "transmission",
-        &["name"],
-        &["type", "joint", "actuator"],
-    ),
+    ("robot", "transmission", &["name"], &["type", "joint", "actuator"]),
     ("transmission", "joint", &["name"], &["hardwareInterface"]),
-    (
-        "transmission",
-        "actuator",
-        &["name"],
-        &["hardwareInterface", "mechanicalReduction"],
-    ),
-    (
-        "robot",
-        "ros2_control",
-        &["name", "type"],
-        &["hardware", "joint", "sensor", "gpio"],
-    ),
-    (
-        "ros2_control",
-        "joint",
-        &["name"],
-        &["command_interface", "state_interface", "param"],
-    ),
+    ("transmission", "actuator", &["name"], &["hardwareInterface", "mechanicalReduction"]),
+    ("robot", "ros2_control", &["name", "type"], &["hardware", "joint", "sensor", "gpio"]),
+    ("ros2_control", "joint", &["name"], &["command_interface", "state_interface", "param"]),
 ];
 
 /// The types of joints.
-pub const JOINT_TYPES: &[&str] = &[
-    "revolute",
-    "continuous",
-    "prismatic",
-    "fixed",
-    "floating",
-    "planar",
-    "spherical",
-];
+pub const JOINT_TYPES: &[&str] =
+    &["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
 /// The attributes of an element in another one.
 pub fn attributes(parent: &str, name: &str) -> Vec<&'static str> {

@@ -51,10 +51,7 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let examined = lint_source(path, &read, &project.settings);
     let examined = project.apply(snapshot, examined);
     found.extend(failures(snapshot, &examined));
-    let files = Files {
-        own: fs::canonicalize(path).ok(),
-        included: included(snapshot),
-    };
+    let files = Files { own: fs::canonicalize(path).ok(), included: included(snapshot) };
     for check in &examined.checks {
         for finding in &check.findings {
             let places = std::iter::once(&finding.place).chain(&finding.more);
@@ -84,17 +81,9 @@ fn of_place(
 ) -> Diagnostic {
     let mut message = message(finding, place);
     let mut related = None;
-    let offset = match place
-        .written_at
-        .as_ref()
-        .map(|at| Written::new(snapshot, files, at))
-    {
+    let offset = match place.written_at.as_ref().map(|at| Written::new(snapshot, files, at)) {
         Some(Written::Here(offset)) => offset,
-        Some(Written::There {
-            location,
-            words,
-            offset,
-        }) => {
+        Some(Written::There { location, words, offset }) => {
             message += &format!(" ({words})");
             related = location.map(|location| vec![further(location, &words)]);
             offset
@@ -128,11 +117,7 @@ enum Written {
     /// In the document, at a byte offset.
     Here(usize),
     /// In a file that the element at `offset` includes.
-    There {
-        location: Option<Location>,
-        words: String,
-        offset: usize,
-    },
+    There { location: Option<Location>, words: String, offset: usize },
 }
 
 impl Written {

@@ -62,11 +62,7 @@ pub fn fill<T: Send, S, E: Send>(
 pub(super) fn check_room(found: usize, count: usize, width: usize) -> Result<(), RobotError> {
     match count.checked_mul(width) {
         Some(expected) if expected == found => Ok(()),
-        _ => Err(RobotError::Room {
-            found,
-            count,
-            width,
-        }),
+        _ => Err(RobotError::Room { found, count, width }),
     }
 }
 
@@ -106,11 +102,7 @@ mod tests {
     fn room_is_for_all_answers_and_no_more() {
         assert_eq!(check_room(6, 3, 2), Ok(()));
         for (found, count, width) in [(5, 3, 2), (0, usize::MAX, 2)] {
-            let expected = RobotError::Room {
-                found,
-                count,
-                width,
-            };
+            let expected = RobotError::Room { found, count, width };
             assert_eq!(check_room(found, count, width), Err(expected));
         }
     }

@@ -30,10 +30,7 @@ impl Robot {
             return Err(RobotError::Missing(kind));
         };
         let num_dofs = self.motion()?.kinematics.num_dofs();
-        let unusable = |reason: String| RobotError::Unusable {
-            module: kind,
-            reason,
-        };
+        let unusable = |reason: String| RobotError::Unusable { module: kind, reason };
         let (pairs, others) = (module.pairs.iter(), module.other_pairs.iter());
         let links = pairs.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]);
         let links = links.chain(others.flat_map(|pair| [pair.link_a_idx, pair.link_b_idx]));

@@ -37,9 +37,7 @@ impl Robot {
     /// If the files cannot be listed.
     pub fn source(&self) -> Result<Option<SourceFile>, RobotError> {
         let part = self.part_as_it_is(&[])?;
-        let source = part
-            .metadata()
-            .and_then(|metadata| metadata.source.as_ref());
+        let source = part.metadata().and_then(|metadata| metadata.source.as_ref());
         Ok(source.map(|Source::Urdf(file)| SourceFile {
             path: file.path.clone(),
             sha256: file.sha256.to_string(),

@@ -21,10 +21,7 @@ pub struct EdgeSettings {
 
 impl Default for EdgeSettings {
     fn default() -> Self {
-        EdgeSettings {
-            margin: 0.0,
-            resolution: Some(0.01),
-        }
+        EdgeSettings { margin: 0.0, resolution: Some(0.01) }
     }
 }
 
@@ -109,11 +106,7 @@ pub(super) fn blocked(
     let mut configuration = start.to_vec();
     let mut place = |part: f64, placed: &mut Placed| {
         for ((now, from), to) in configuration.iter_mut().zip(start).zip(end) {
-            *now = if part == 1.0 {
-                *to
-            } else {
-                from + part * (to - from)
-            };
+            *now = if part == 1.0 { *to } else { from + part * (to - from) };
         }
         checked.place(&configuration, placed)
     };
@@ -201,9 +194,6 @@ mod tests {
         assert!((safe_part(0.5, 2.0, 0.1) - 0.2).abs() < 1e-8);
         assert_eq!(safe_part(0.1, 0.0, 0.1), 0.0);
         // What hardly keeps apart is safe only if it never moves.
-        assert_eq!(
-            [1.0, 0.0].map(|rate| safe_part(1e-5, rate, 0.0)),
-            [0.0, 1.0]
-        );
+        assert_eq!([1.0, 0.0].map(|rate| safe_part(1e-5, rate, 0.0)), [0.0, 1.0]);
     }
 }

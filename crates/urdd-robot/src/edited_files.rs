@@ -27,15 +27,10 @@ impl Robot {
         kind: ModuleKind,
         document: serde_json::Result<Value>,
     ) -> Result<Files, RobotError> {
-        let document = document.map_err(|error| RobotError::Unusable {
-            module: kind,
-            reason: error.to_string(),
-        })?;
+        let document = document
+            .map_err(|error| RobotError::Unusable { module: kind, reason: error.to_string() })?;
         let path = |name: &str| format!("{}/{name}", kind.folder());
-        let (json, yaml) = (
-            canonical::json_string(&document),
-            canonical::yaml_string(&document),
-        );
+        let (json, yaml) = (canonical::json_string(&document), canonical::yaml_string(&document));
         let mut files = Files::from([
             (path("module.json"), json.into_bytes()),
             (path("module.yaml"), yaml.into_bytes()),

@@ -143,16 +143,10 @@ pub enum RobotError {
 
 impl From<UnknownShapeKind> for RobotError {
     fn from(UnknownShapeKind(name): UnknownShapeKind) -> Self {
-        RobotError::Unknown {
-            what: "kind of shapes",
-            name,
-            nearest: None,
-        }
+        RobotError::Unknown { what: "kind of shapes", name, nearest: None }
     }
 }
 
 fn nearest_text(nearest: Option<&str>) -> String {
-    nearest.map_or_else(String::new, |name| {
-        format!("; did you mean `{}`?", name.escape_debug())
-    })
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{}`?", name.escape_debug()))
 }

@@ -189,19 +189,14 @@ impl Robot {
         let space = match &settings.bounds {
             None => space.space(),
             Some(bounds) if bounds.len() != kinematics.num_dofs() => {
-                return Err(RobotError::Target(
-                    "the bounds are not one pair for each DOF",
-                ));
+                return Err(RobotError::Target("the bounds are not one pair for each DOF"));
             }
             Some(bounds) => &space
                 .space()
                 .with_bounds(bounds)
                 .ok_or(RobotError::Target("a bound is not finite"))?,
         };
-        let conditions = Conditions {
-            accepts,
-            stops: &|| cancellation.is_cancelled(),
-        };
+        let conditions = Conditions { accepts, stops: &|| cancellation.is_cancelled() };
         let found = kinematics.reach(&target.0, start, space, settings, &conditions)?;
         cancellation.check()?;
         Ok(found)

@@ -142,11 +142,8 @@ impl Robot {
         check_room(out.len(), kinematics.num_dofs(), 6)?;
         kinematics.link_poses_into(configuration, poses)?;
         let count = poses.len();
-        let pose = poses.get(link).ok_or(RobotError::OutOfRange {
-            what: "link",
-            index: link,
-            count,
-        })?;
+        let pose =
+            poses.get(link).ok_or(RobotError::OutOfRange { what: "link", index: link, count })?;
         let point = pose * Point3::from(point);
         kinematics.jacobian_into(configuration, poses, link, &point, out);
         Ok(())

@@ -24,10 +24,7 @@ impl Robot {
         let of = |link: urdd_format::urdf::Link| {
             let inertial = link.inertial?;
             let origin = inertial.origin.and_then(|origin| origin.xyz);
-            Some(LinkMass {
-                mass: inertial.mass?.value,
-                centre: origin.unwrap_or_default(),
-            })
+            Some(LinkMass { mass: inertial.mass?.value, centre: origin.unwrap_or_default() })
         };
         Ok(links.map(|link| of(link).unwrap_or_default()).collect())
     }

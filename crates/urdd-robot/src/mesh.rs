@@ -32,14 +32,8 @@ impl<'a> Meshes<'a> {
                 path.format == Some(*format) && own.is_none_or(|own| part.listing().has_file(own))
             })
         };
-        let format = [Format::Stl, Format::Obj, Format::Glb]
-            .into_iter()
-            .find(has_files);
-        Ok(Self {
-            part,
-            meshes,
-            format,
-        })
+        let format = [Format::Stl, Format::Obj, Format::Glb].into_iter().find(has_files);
+        Ok(Self { part, meshes, format })
     }
 
     /// Reads all meshes; each with its link and its piece, in their order.
@@ -83,16 +77,9 @@ impl<'a> Meshes<'a> {
             let path = glb.or_else(|| paths.next());
             let path = path.ok_or(RobotError::Missing(self.meshes.kind))?;
             let scene = read(self.part, self.meshes.profile, path.path)?;
-            Ok(LinkVisual {
-                link,
-                parts: scene.parts,
-            })
+            Ok(LinkVisual { link, parts: scene.parts })
         };
-        links
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .map(visual)
-            .collect()
+        links.collect::<Vec<_>>().into_par_iter().map(visual).collect()
     }
 }
 
@@ -117,21 +104,14 @@ impl Robot {
 }
 
 fn fault(path: &str, reason: String) -> RobotError {
-    RobotError::Mesh {
-        path: path.to_owned(),
-        reason,
-    }
+    RobotError::Mesh { path: path.to_owned(), reason }
 }
 
 fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
     let fail = |reason: String| fault(path, reason);
-    let bytes = MeshFiles::new(part)
-        .read(profile, path)
-        .map_err(|absence| fail(absence.to_string()))?;
-    let options = Options {
-        gltf_up: GltfUp::Keep,
-        ..Options::default()
-    };
+    let bytes =
+        MeshFiles::new(part).read(profile, path).map_err(|absence| fail(absence.to_string()))?;
+    let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
         fail(match &error.place {
             Some(place) => format!("{place}: {}", error.fault),

@@ -28,12 +28,7 @@ impl Motion {
         Ok(Self {
             links: links.into_iter().map(|link| link.name).collect(),
             joints: joints.into_iter().map(|joint| joint.joint_name).collect(),
-            units: modules
-                .dof
-                .dofs
-                .iter()
-                .map(|dof| unit(&dof.quantity))
-                .collect(),
+            units: modules.dof.dofs.iter().map(|dof| unit(&dof.quantity)).collect(),
             dofs: modules.dof.dofs.into_iter().map(|dof| dof.name).collect(),
             kinematics,
         })

@@ -67,12 +67,9 @@ pub(super) fn index(
     names: &[impl AsRef<str>],
     name: &str,
 ) -> Result<usize, RobotError> {
-    names
-        .iter()
-        .position(|known| known.as_ref() == name)
-        .ok_or_else(|| RobotError::Unknown {
-            what,
-            name: name.to_owned(),
-            nearest: nearest(names.iter().map(AsRef::as_ref), name),
-        })
+    names.iter().position(|known| known.as_ref() == name).ok_or_else(|| RobotError::Unknown {
+        what,
+        name: name.to_owned(),
+        nearest: nearest(names.iter().map(AsRef::as_ref), name),
+    })
 }

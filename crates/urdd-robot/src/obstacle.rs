@@ -58,9 +58,7 @@ pub struct World {
 impl World {
     /// Creates a world from obstacles.
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
-        Self {
-            obstacles: obstacles.into_iter().collect(),
-        }
+        Self { obstacles: obstacles.into_iter().collect() }
     }
 
     /// The obstacles.
@@ -71,11 +69,7 @@ impl World {
     /// Adds an obstacle, or replaces the first one of its name: one that came, or [moved](Obstacle::at). The others, and
     /// the robot's shapes, are not prepared again by [`Proximity::world_proximity`](crate::Proximity::world_proximity).
     pub fn put(&mut self, obstacle: Obstacle) {
-        match self
-            .obstacles
-            .iter_mut()
-            .find(|one| one.name == obstacle.name)
-        {
+        match self.obstacles.iter_mut().find(|one| one.name == obstacle.name) {
             Some(known) => *known = obstacle,
             None => self.obstacles.push(obstacle),
         }
@@ -110,12 +104,7 @@ impl Obstacle {
     /// # Errors
     /// As [`Obstacle::cuboid`].
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
-        Self::swept(
-            name,
-            &Translation3::from(centre).into(),
-            &[[0.0; 3]],
-            radius,
-        )
+        Self::swept(name, &Translation3::from(centre).into(), &[[0.0; 3]], radius)
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
@@ -235,11 +224,7 @@ impl Obstacle {
         check_size(name, radius)?;
         let part =
             part(pose, points.into(), radius).map_err(|error| fault(name, &error.to_string()))?;
-        Ok(Self {
-            name: Arc::from(name),
-            parts: vec![part],
-            ignored: Vec::new(),
-        })
+        Ok(Self { name: Arc::from(name), parts: vec![part], ignored: Vec::new() })
     }
 }
 
@@ -249,10 +234,7 @@ fn part(pose: &Isometry3<f64>, own: Arc<[[f64; 3]]>, radius: f64) -> Result<Part
     let placed: Vec<[f64; 3]> = placed.collect();
     let core = ConvexShape::of_points(&placed)?;
     // Larger by more than what placing them rounds.
-    let largest = placed
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let largest = placed.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let end = |k: usize, sign: f64| {
         let numbers = placed.iter().map(|p| sign * p[k]);
         sign * (numbers.fold(f64::NEG_INFINITY, f64::max) + 1e-12 * largest)
@@ -276,8 +258,5 @@ fn check_size(name: &str, size: f64) -> Result<(), RobotError> {
 }
 
 fn fault(name: &str, reason: &str) -> RobotError {
-    RobotError::Obstacle {
-        name: name.to_owned(),
-        reason: reason.to_owned(),
-    }
+    RobotError::Obstacle { name: name.to_owned(), reason: reason.to_owned() }
 }

@@ -31,10 +31,8 @@ impl Robot {
     /// [`RobotError::Open`] if the path cannot be opened.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, RobotError> {
         let path = path.as_ref();
-        let opened = Root::open(path).map_err(|error| RobotError::Open {
-            path: path.display().to_string(),
-            error,
-        })?;
+        let opened = Root::open(path)
+            .map_err(|error| RobotError::Open { path: path.display().to_string(), error })?;
         Ok(Self::at(opened))
     }
 

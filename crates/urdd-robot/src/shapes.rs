@@ -52,11 +52,7 @@ impl Robot {
         let part = self.part(&[kind.module()])?;
         if matches!(kind, ShapeKind::Hulls | ShapeKind::Pieces) {
             let meshes = Meshes::new(&part, kind.module())?.all()?.into_iter();
-            let shape = |(link, piece, mesh)| LinkShape {
-                link,
-                piece,
-                solid: Solid::Mesh(mesh),
-            };
+            let shape = |(link, piece, mesh)| LinkShape { link, piece, solid: Solid::Mesh(mesh) };
             return Ok(meshes.map(shape).collect());
         }
         let lists = part
@@ -67,11 +63,7 @@ impl Robot {
         let links = list.map_or_else(Vec::new, |list| list.links);
         let one = |(link, volumes): (usize, Vec<Volume>)| {
             let shapes = volumes.into_iter().enumerate();
-            shapes.map(move |(piece, volume)| LinkShape {
-                link,
-                piece,
-                solid: solid(volume),
-            })
+            shapes.map(move |(piece, volume)| LinkShape { link, piece, solid: solid(volume) })
         };
         Ok(links.into_iter().enumerate().flat_map(one).collect())
     }
@@ -79,17 +71,10 @@ impl Robot {
 
 fn solid(volume: Volume) -> Solid {
     match volume {
-        Volume::Box {
-            half_extents,
-            offset,
-            rpy,
-        } => Solid::Box {
+        Volume::Box { half_extents, offset, rpy } => Solid::Box {
             pose: Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy)),
             half_extents,
         },
-        Volume::Sphere { radius, offset } => Solid::Sphere {
-            centre: offset,
-            radius,
-        },
+        Volume::Sphere { radius, offset } => Solid::Sphere { centre: offset, radius },
     }
 }

@@ -70,10 +70,6 @@ impl Robot {
         let files = self.edited_files(SKIPS, serde_json::to_value(&module))?;
         let model = ModuleKind::SelfCollisionModel;
         let model_is_stale = self.part_as_it_is(&[model])?.module(model).is_some();
-        Ok(EditedSkips {
-            module,
-            files,
-            model_is_stale,
-        })
+        Ok(EditedSkips { module, files, model_is_stale })
     }
 }

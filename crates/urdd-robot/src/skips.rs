@@ -35,11 +35,7 @@ struct Matrix<T> {
 
 impl<T: Copy> Matrix<T> {
     fn at(&self, i: usize, j: usize) -> Option<T> {
-        at(
-            &self.rows,
-            self.row_of.get(i).copied()??,
-            self.row_of.get(j).copied()??,
-        )
+        at(&self.rows, self.row_of.get(i).copied()??, self.row_of.get(j).copied()??)
     }
 }
 
@@ -50,10 +46,7 @@ impl Robot {
     /// # Errors
     /// If both are missing, if one is unusable, or if a mesh module of a legacy URDD is missing or unusable.
     pub fn skips(&self, kind: ShapeKind) -> Result<Skips, RobotError> {
-        let meshes = [
-            ModuleKind::ConvexHullMeshes,
-            ModuleKind::ConvexDecompositionMeshes,
-        ];
+        let meshes = [ModuleKind::ConvexHullMeshes, ModuleKind::ConvexDecompositionMeshes];
         let part = self.part_as_it_is(&[SKIPS, SIMPLE, meshes[0], meshes[1]])?;
         let from = match part.module(SKIPS) {
             None if part.module(SIMPLE).is_some() => SIMPLE,
@@ -74,10 +67,7 @@ impl Robot {
         };
         Ok(Skips {
             skipped: rows.matrix(&six),
-            reasons: part
-                .document(SIMPLE)
-                .and_then(reasons)
-                .map(|six| rows.matrix(&six)),
+            reasons: part.document(SIMPLE).and_then(reasons).map(|six| rows.matrix(&six)),
             edits: module.map_or_else(Vec::new, |module| module.edits.clone()),
             skipped_reasons: module.map(|module| module.skipped_reasons.clone()),
             places: rows.places,
@@ -98,20 +88,15 @@ impl Rows {
     /// `full` lists the links that have a hull, in row order.
     fn new(kind: ShapeKind, places: Vec<(usize, usize)>, full: &[usize]) -> Self {
         let row = |link: usize| full.iter().position(|full| *full == link);
-        Rows {
-            kind,
-            of_hulls: places.iter().map(|(link, _)| row(*link)).collect(),
-            places,
-        }
+        Rows { kind, of_hulls: places.iter().map(|(link, _)| row(*link)).collect(), places }
     }
 
     /// The matrix of the kind, or that of the hulls if it is omitted (SPEC 8.4).
     fn matrix<T: Copy>(&self, six: &[Option<&[Vec<T>]>; 6]) -> Matrix<T> {
         match six[self.kind as usize] {
-            Some(rows) => Matrix {
-                rows: rows.to_vec(),
-                row_of: (0..self.places.len()).map(Some).collect(),
-            },
+            Some(rows) => {
+                Matrix { rows: rows.to_vec(), row_of: (0..self.places.len()).map(Some).collect() }
+            }
             None => Matrix {
                 rows: six[ShapeKind::Hulls as usize].unwrap_or_default().to_vec(),
                 row_of: self.of_hulls.clone(),

@@ -16,16 +16,11 @@ pub struct Configurations {
 impl Configurations {
     pub(super) fn new(part: &Urdd) -> Result<Self, RobotError> {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
-        let bounds = part
-            .bounds()
-            .ok_or(RobotError::Missing(ModuleKind::Bounds))?;
+        let bounds = part.bounds().ok_or(RobotError::Missing(ModuleKind::Bounds))?;
         let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)?;
         // A producer may write the two bounds in either order.
         let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
-        Ok(Self {
-            space,
-            bounds: bounds.bounds.iter().copied().map(sorted).collect(),
-        })
+        Ok(Self { space, bounds: bounds.bounds.iter().copied().map(sorted).collect() })
     }
 
     pub(super) fn space(&self) -> &ConfigurationSpace {

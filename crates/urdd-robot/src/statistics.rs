@@ -27,11 +27,7 @@ pub(super) struct AllStatistics {
 
 impl AllStatistics {
     fn of(one: Statistics<'_>) -> Self {
-        Self {
-            mean: one.mean.to_vec(),
-            min: one.min.to_vec(),
-            max: one.max.to_vec(),
-        }
+        Self { mean: one.mean.to_vec(), min: one.min.to_vec(), max: one.max.to_vec() }
     }
 
     pub fn pair(&self, i: usize, j: usize) -> Option<PairStatistics> {

@@ -40,11 +40,7 @@ pub(super) fn found(path: &Path) -> Found {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    Found {
-        path: folder.to_owned(),
-        name: name.to_string_lossy().into_owned(),
-        closed: None,
-    }
+    Found { path: folder.to_owned(), name: name.to_string_lossy().into_owned(), closed: None }
 }
 
 /// Examines a URDF with the rules that apply to it.
@@ -125,11 +121,7 @@ fn alone(root: Root, urdf: CarriedUrdf) -> Urdd {
     Urdd::new(Arc::new(Loaded {
         root,
         listing: Listing::default(),
-        metadata: MetadataFile {
-            json: JsonFile::Missing,
-            metadata: None,
-            violations: Vec::new(),
-        },
+        metadata: MetadataFile { json: JsonFile::Missing, metadata: None, violations: Vec::new() },
         modules: Vec::new(),
         urdf: Ok(urdf),
         profile: Profile::V1,

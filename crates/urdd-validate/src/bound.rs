@@ -71,10 +71,7 @@ mod tests {
         const BYTES: usize = 1 << 20;
         trim(&mut checks, BYTES);
         let all = || checks.iter().flat_map(|check| &check.findings);
-        assert_eq!(
-            all().map(|finding| finding.count).sum::<usize>(),
-            5 * 100 * 1001
-        );
+        assert_eq!(all().map(|finding| finding.count).sum::<usize>(), 5 * 100 * 1001);
         let places = all().flat_map(|finding| &finding.more);
         let bytes: usize = places.map(super::bytes).sum();
         assert!((BYTES / 2..=BYTES).contains(&bytes), "{bytes}");

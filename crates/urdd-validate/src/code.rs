@@ -69,19 +69,14 @@ pub const RETIRED: &[RetiredCode] = &[RetiredCode {
 impl RetiredCode {
     /// The retired code written as `text`, in upper or lower case.
     pub fn parse(text: &str) -> Option<&'static RetiredCode> {
-        RETIRED
-            .iter()
-            .find(|retired| retired.code.eq_ignore_ascii_case(text))
+        RETIRED.iter().find(|retired| retired.code.eq_ignore_ascii_case(text))
     }
 }
 
 impl Code {
     /// The code written as `text`, in upper or lower case.
     pub fn parse(text: &str) -> Option<Code> {
-        Code::ALL
-            .iter()
-            .copied()
-            .find(|code| code.as_str().eq_ignore_ascii_case(text))
+        Code::ALL.iter().copied().find(|code| code.as_str().eq_ignore_ascii_case(text))
     }
 
     /// The three letters of its family.
@@ -112,10 +107,7 @@ mod tests {
             let number = |code: Code| code.as_str()[3..].parse::<u32>().expect("three digits");
             for between in number(pair[0]) + 1..number(pair[1]) {
                 let code = format!("{}{between:03}", pair[0].family());
-                assert!(
-                    RetiredCode::parse(&code).is_some(),
-                    "{code} is marked nowhere"
-                );
+                assert!(RetiredCode::parse(&code).is_some(), "{code} is marked nowhere");
             }
         }
         for retired in RETIRED {

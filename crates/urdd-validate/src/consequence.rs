@@ -58,10 +58,7 @@ pub(crate) fn fold(checks: &mut [Check]) {
                 fixes: Vec::new(),
                 ..place.clone()
             };
-            effects
-                .entry(one.cause)
-                .or_default()
-                .push((severity, effect));
+            effects.entry(one.cause).or_default().push((severity, effect));
             false
         });
         if check.findings.is_empty() {

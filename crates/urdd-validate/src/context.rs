@@ -109,15 +109,12 @@ impl Context {
 
     /// The conformance class that the URDD must meet: the requested one, otherwise the one it claims.
     pub fn class(&self) -> Option<ConformanceClass> {
-        self.class
-            .or_else(|| self.metadata().map(|metadata| metadata.conformance_class))
+        self.class.or_else(|| self.metadata().map(|metadata| metadata.conformance_class))
     }
 
     /// The parsed source URDF; `None` if none is carried. Only meaningful if URD011 passed.
     pub fn urdf_text(&self) -> Option<&urdf_text::Reading> {
-        self.urdf_text
-            .get_or_init(|| Some(urdf_text::read(&self.urdf().ok()?.text)))
-            .as_ref()
+        self.urdf_text.get_or_init(|| Some(urdf_text::read(&self.urdf().ok()?.text))).as_ref()
     }
 
     /// The contents of the mesh files, all read on first use.
@@ -167,8 +164,7 @@ impl Context {
     }
 
     fn placed(&self) -> &Placed {
-        self.placed
-            .get_or_init(|| placed::all(&self.urdd, self.solids()))
+        self.placed.get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 
     /// Whether a link's plain mesh differs from the robot's geometry, so that nothing is compared with it.
@@ -202,8 +198,6 @@ impl Context {
         &self,
         kinds: &[ModuleKind],
     ) -> impl Iterator<Item = (ModuleKind, &Module, Meshes<'_>)> {
-        kinds
-            .iter()
-            .filter_map(|kind| Some((*kind, self.module(*kind)?, self.meshes(*kind)?)))
+        kinds.iter().filter_map(|kind| Some((*kind, self.module(*kind)?, self.meshes(*kind)?)))
     }
 }

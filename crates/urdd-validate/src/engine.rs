@@ -99,19 +99,12 @@ pub(super) fn run_all(
                 return checks;
             }
             let is_open = |code: &Code| !outcomes.contains_key(code) && codes.contains(code);
-            if rule
-                .needs
-                .iter()
-                .any(|need| need.codes().iter().any(is_open))
-            {
+            if rule.needs.iter().any(|need| need.codes().iter().any(is_open)) {
                 later.push(rule);
                 continue;
             }
             let check = run_rule(context, rule, outcomes);
-            let ran = Ran {
-                outcome: check.outcome.clone(),
-                faulted: check.faulted.clone(),
-            };
+            let ran = Ran { outcome: check.outcome.clone(), faulted: check.faulted.clone() };
             outcomes.insert(rule.code, ran);
             checks.push(check);
         }
@@ -128,10 +121,7 @@ pub(super) fn run_all(
 }
 
 fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
-    let unmet = rule
-        .needs
-        .iter()
-        .find_map(|need| unmet(context, *need, outcomes));
+    let unmet = rule.needs.iter().find_map(|need| unmet(context, *need, outcomes));
     if let Some(reason) = unmet {
         return Check::new(&rule.description, Outcome::Skipped(reason), Vec::new());
     }
@@ -139,11 +129,7 @@ fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Chec
     for need in rule.needs {
         unsound_parts(context, *need, outcomes, &mut unsound);
     }
-    judge(
-        context,
-        rule,
-        Findings::default().within(Scope::without(unsound)),
-    )
+    judge(context, rule, Findings::default().within(Scope::without(unsound)))
 }
 
 /// Adds the parts that a need leaves out, each with the rule that it failed.
@@ -182,9 +168,7 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) 
 
 /// The same, but leaves `findings` to the caller, without the findings that are returned.
 pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
-    let mut check = caught(&rule.description, findings, |findings| {
-        (rule.check)(context, findings)
-    });
+    let mut check = caught(&rule.description, findings, |findings| (rule.check)(context, findings));
     locate(context, &mut check.findings);
     check
 }
@@ -206,10 +190,7 @@ pub fn caught(
     };
     let undeclared = !completed && findings.skipped().is_none();
     if undeclared && cfg!(debug_assertions) {
-        let message = format!(
-            "{} takes something that it does not declare in `needs`",
-            rule.code
-        );
+        let message = format!("{} takes something that it does not declare in `needs`", rule.code);
         return Check::new(rule, Outcome::Crashed(message), Vec::new());
     }
     let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
@@ -225,19 +206,13 @@ pub fn caught(
         (true, Some(reason)) => Outcome::Skipped(reason),
         (true, None) => Outcome::Passed,
     };
-    Check {
-        not_verified,
-        scope,
-        faulted,
-        ..Check::new(rule, outcome, found)
-    }
+    Check { not_verified, scope, faulted, ..Check::new(rule, outcome, found) }
 }
 
 /// The message of a panic.
 pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned())
-        .unwrap_or_else(|| "unknown".to_owned())
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
 }
 
 /// Why a need is not met; `None` if it is.
@@ -267,9 +242,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::CarriedUrdf | Need::UrdfFile => {
             context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf)
         }
-        Need::All(needs) => needs
-            .iter()
-            .find_map(|need| unmet(context, *need, outcomes)),
+        Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
         Need::Each(parts) if !applies(context, parts) => None,
         Need::Each(parts) => {
             let mut codes = parts.codes.iter();

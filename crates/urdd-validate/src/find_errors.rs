@@ -15,10 +15,7 @@ use urdd_directory::cancellation::{Cancellation, Cancelled};
 /// # Errors
 /// If cancelled.
 pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<String>, Cancelled> {
-    let usual = Settings {
-        cancellation: cancellation.clone(),
-        ..Settings::default()
-    };
+    let usual = Settings { cancellation: cancellation.clone(), ..Settings::default() };
     let run = match validate(&[path], &usual) {
         Ok(run) => run,
         Err(ValidateError::Cancelled(cancelled)) => return Err(cancelled),
@@ -34,9 +31,7 @@ pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<Strin
             *codes.entry(Code::parse(&finding.code)).or_default() += 1;
         }
     }
-    let codes = codes
-        .into_iter()
-        .filter_map(|(code, count)| Some((code?, count)));
+    let codes = codes.into_iter().filter_map(|(code, count)| Some((code?, count)));
     let told = codes.map(|(code, count)| match count {
         1 => format!("{code} (1 finding)"),
         _ => format!("{code} ({count} findings)"),

@@ -134,10 +134,7 @@ impl Finding {
 
     /// Adds another place to look at: that of a finding, whose message says what is there.
     pub fn related(mut self, other: Finding) -> Self {
-        self.place.related.push(Place {
-            message: Some(other.message),
-            ..other.place
-        });
+        self.place.related.push(Place { message: Some(other.message), ..other.place });
         self
     }
 
@@ -205,10 +202,7 @@ pub type Spot = (Option<String>, String);
 impl Findings {
     /// Findings that record the spot of every finding, folded or not.
     pub fn remembering_spots() -> Self {
-        Findings {
-            spots: Some(HashSet::new()),
-            ..Findings::default()
-        }
+        Findings { spots: Some(HashSet::new()), ..Findings::default() }
     }
 
     /// Sets the parts to judge.
@@ -240,10 +234,7 @@ impl Findings {
 
     /// Findings that keep only those at the given spots.
     pub fn only_at(spots: HashSet<Spot>) -> Self {
-        Findings {
-            only: Some(spots),
-            ..Findings::default()
-        }
+        Findings { only: Some(spots), ..Findings::default() }
     }
 
     /// Whether every finding must be reported on its own.
@@ -328,16 +319,17 @@ impl Findings {
 
 /// A JSON Pointer with each list index replaced by `*`.
 fn without_indices(pointer: &str) -> String {
-    let parts: Vec<&str> = pointer
-        .split('/')
-        .map(|part| {
-            if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) {
-                "*"
-            } else {
-                part
-            }
-        })
-        .collect();
+    let parts: Vec<&str> =
+        pointer
+            .split('/')
+            .map(|part| {
+                if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) {
+                    "*"
+                } else {
+                    part
+                }
+            })
+            .collect();
     parts.join("/")
 }
 
@@ -355,10 +347,7 @@ mod tests {
         }
         findings.report(Finding::at("a.json", "/n/7", "wrong"));
         let findings = findings.take();
-        assert_eq!(
-            findings.iter().map(|f| f.count).collect::<Vec<_>>(),
-            [MANY, MANY, 1]
-        );
+        assert_eq!(findings.iter().map(|f| f.count).collect::<Vec<_>>(), [MANY, MANY, 1]);
         assert_eq!(findings[0].more[1].actual.as_deref(), Some("2"));
     }
 

@@ -13,11 +13,7 @@ pub struct Fold<'a> {
 impl<'a> Fold<'a> {
     /// Reports into `findings`.
     pub fn new(findings: &'a mut Findings) -> Self {
-        Fold {
-            findings,
-            seen: 0,
-            last: None,
-        }
+        Fold { findings, seen: 0, last: None }
     }
 
     /// Adds a finding.

@@ -113,9 +113,7 @@ impl Run {
     ) -> Run {
         let checks = examined.iter().flat_map(|one| &one.checks);
         Run {
-            rules: checks
-                .map(|check| (check.rule.code.as_str(), check.rule))
-                .collect(),
+            rules: checks.map(|check| (check.rule.code.as_str(), check.rule)).collect(),
             report: report::fill(examined, settings),
             folders,
             excluded,
@@ -177,12 +175,9 @@ pub fn validate_with<P: AsRef<Path>>(
         let mut examined = caught(*kind, &found.name, || match (kind, &found.closed) {
             (Kind::Urdf, _) => bare_urdf::examine(found, rules),
             (Kind::Urdd, Some(error)) => Err(error.clone()),
-            (Kind::Urdd, None) => Ok(examine(
-                Urdd::read(&found.path)?,
-                &found.name,
-                settings,
-                rules,
-            )),
+            (Kind::Urdd, None) => {
+                Ok(examine(Urdd::read(&found.path)?, &found.name, settings, rules))
+            }
         });
         bound::trim(&mut examined.checks, kept);
         examined
@@ -204,9 +199,8 @@ pub fn validate_source(
     settings: &Settings,
 ) -> Result<Run, ValidateError> {
     let root = Root::of(source);
-    let mut examined = caught(Kind::Urdd, name, || {
-        Ok(examine(Urdd::of(root)?, name, settings, &rules::all()))
-    });
+    let mut examined =
+        caught(Kind::Urdd, name, || Ok(examine(Urdd::of(root)?, name, settings, &rules::all())));
     settings.cancellation.check()?;
     bound::trim(&mut examined.checks, bound::of_each(1));
     let folders = vec![PathBuf::from(name)];
@@ -224,10 +218,7 @@ pub fn caught(
     let without_checks = |verdict, reason| {
         let mut report = report::blank(kind, name);
         (report.verdict, report.reason) = (verdict, Some(reason));
-        Examined {
-            report,
-            checks: Vec::new(),
-        }
+        Examined { report, checks: Vec::new() }
     };
     match catch_unwind(AssertUnwindSafe(examine)) {
         Ok(Ok(examined)) => examined,
@@ -245,9 +236,8 @@ pub fn caught(
 /// Runs the rules over a URDD. `name` is its name in the report. Of the settings, only those that change what the rules
 /// compute apply here.
 pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Rule]) -> Examined {
-    let context = Context::new(urdd, settings.class)
-        .deep(settings.deep)
-        .until(&settings.cancellation);
+    let context =
+        Context::new(urdd, settings.class).deep(settings.deep).until(&settings.cancellation);
     let checks = two_robots::run(&context, rules);
     let modules = context.modules().iter().map(|module| Module {
         name: module.name().to_owned(),

@@ -20,11 +20,7 @@ pub(super) fn locate(context: &Context, findings: &mut [Finding]) {
     let places = findings.iter_mut().flat_map(own);
     complete(context, &names, places);
     let related = findings.iter_mut().flat_map(own);
-    complete(
-        context,
-        &names,
-        related.flat_map(|place| &mut place.related),
-    );
+    complete(context, &names, related.flat_map(|place| &mut place.related));
 }
 
 fn complete<'a>(context: &Context, names: &Names, places: impl Iterator<Item = &'a mut Place>) {

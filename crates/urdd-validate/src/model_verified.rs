@@ -27,15 +27,11 @@ pub fn verify_model(path: &Path) -> ModelVerdict {
     let mut open: Vec<Code> = wanted.iter().copied().collect();
     while let Some(code) = open.pop() {
         let needs = all.iter().filter(|rule| rule.code == code);
-        let needs = needs
-            .flat_map(|rule| rule.needs)
-            .flat_map(|need| need.codes());
+        let needs = needs.flat_map(|rule| rule.needs).flat_map(|need| need.codes());
         open.extend(needs.filter(|code| wanted.insert(*code)));
     }
-    let wanted: Vec<&'static Rule> = all
-        .into_iter()
-        .filter(|rule| wanted.contains(&rule.code))
-        .collect();
+    let wanted: Vec<&'static Rule> =
+        all.into_iter().filter(|rule| wanted.contains(&rule.code)).collect();
     let urdd = match validate_with(&[path], &Settings::default(), &wanted) {
         Ok(run) => run.report.urdds.into_iter().next(),
         Err(error) => return ModelVerdict::NotVerified(vec![error.to_string()]),

@@ -7,26 +7,17 @@ use urdd_format::registry::ModuleKind as Kind;
 
 /// Each part passed these rules.
 const fn each(codes: &'static [Code]) -> Need {
-    Need::Each(Parts {
-        codes,
-        in_version_1_only: false,
-    })
+    Need::Each(Parts { codes, in_version_1_only: false })
 }
 
 /// The same, in a URDD of version 1.
 const fn each_in_version_1(codes: &'static [Code]) -> Need {
-    Need::Each(Parts {
-        codes,
-        in_version_1_only: true,
-    })
+    Need::Each(Parts { codes, in_version_1_only: true })
 }
 
 /// At least one module of meshes per link.
-pub const DERIVED_MESHES: Need = Need::AnyModule(&[
-    Kind::PlainMeshes,
-    Kind::ConvexHullMeshes,
-    Kind::ConvexDecompositionMeshes,
-]);
+pub const DERIVED_MESHES: Need =
+    Need::AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]);
 
 /// At least one module of meshes, original ones included.
 pub const MESHES: Need = Need::AnyModule(&[
@@ -41,10 +32,8 @@ pub const HULLS_OR_PIECES: Need =
     Need::AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]);
 
 /// At least one module with lists of shapes per link.
-pub const SHAPE_LISTS: Need = Need::AnyModule(&[
-    Kind::LinkShapesApproximations,
-    Kind::LinkShapesMaxDistanceFromOrigin,
-]);
+pub const SHAPE_LISTS: Need =
+    Need::AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]);
 
 /// At least one module with matrices over shapes.
 pub const SHAPE_MATRICES: Need = Need::AnyModule(&[

@@ -39,10 +39,7 @@ pub(crate) fn parted<K: PartialEq>(
     let mut groups: Vec<(K, Finding)> = Vec::new();
     for mut place in std::iter::once(first).chain(more) {
         // The first place says it for those that follow, and may go.
-        let message = place
-            .message
-            .get_or_insert_with(|| finding.message.clone())
-            .clone();
+        let message = place.message.get_or_insert_with(|| finding.message.clone()).clone();
         let key = key(&place);
         match groups.iter_mut().find(|(other, _)| *other == key) {
             Some((_, group)) => {
@@ -52,12 +49,7 @@ pub(crate) fn parted<K: PartialEq>(
             }
             None => {
                 place.message = None;
-                let group = Finding {
-                    place,
-                    message,
-                    count: 1,
-                    ..finding.clone()
-                };
+                let group = Finding { place, message, count: 1, ..finding.clone() };
                 groups.push((key, group));
             }
         }

@@ -128,21 +128,15 @@ pub struct Description {
 impl Description {
     /// Its documentation as a single text.
     pub fn explanation(&self) -> String {
-        let lines: Vec<&str> = self
-            .doc
-            .iter()
-            .map(|line| line.strip_prefix(' ').unwrap_or(line))
-            .collect();
+        let lines: Vec<&str> =
+            self.doc.iter().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
         lines.join("\n").trim().to_owned()
     }
 
     /// The first paragraph of its documentation.
     pub fn summary(&self) -> String {
         let text = self.explanation();
-        text.split("\n\n")
-            .next()
-            .unwrap_or_default()
-            .replace('\n', " ")
+        text.split("\n\n").next().unwrap_or_default().replace('\n', " ")
     }
 }
 

@@ -46,10 +46,7 @@ pub struct Scope {
 impl Scope {
     /// All parts except those in which other rules found a fault, given with the rule.
     pub fn without(unsound: HashMap<Part, Code>) -> Self {
-        Scope {
-            unsound,
-            ..Scope::default()
-        }
+        Scope { unsound, ..Scope::default() }
     }
 
     /// The same parts, none of them judged yet.

@@ -30,8 +30,7 @@ impl FromStr for Codes {
             families.find(|family| family.eq_ignore_ascii_case(text))
         };
         let one = Code::parse(text).map(Codes::One);
-        one.or_else(|| family().map(Codes::Family))
-            .ok_or_else(|| UnknownCodes(text.to_owned()))
+        one.or_else(|| family().map(Codes::Family)).ok_or_else(|| UnknownCodes(text.to_owned()))
     }
 }
 

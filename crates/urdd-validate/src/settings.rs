@@ -56,10 +56,7 @@ impl Exclude {
     /// If it is not a valid pattern.
     pub fn new(pattern: &str) -> Result<Exclude, SettingsError> {
         let path = matcher(pattern.strip_suffix('/').unwrap_or(pattern))?;
-        Ok(Exclude {
-            path,
-            pattern: pattern.to_owned(),
-        })
+        Ok(Exclude { path, pattern: pattern.to_owned() })
     }
 
     /// Whether it matches a folder or a folder above it; paths with forward slashes.
@@ -142,9 +139,7 @@ impl Parsed {
     /// Parses the text of a settings file; what is wrong comes with its place.
     pub(crate) fn new(text: &str) -> Result<Self, (Option<Position>, SettingsError)> {
         let file: File = toml::from_str(text).map_err(|error| {
-            let place = error
-                .span()
-                .map(|span| position::position(text, span.start));
+            let place = error.span().map(|span| position::position(text, span.start));
             (place, SettingsError::Syntax(error.message().to_owned()))
         })?;
         let baseline = file.baseline.clone();
@@ -160,21 +155,13 @@ impl File {
     /// The settings; what is wrong comes with its byte offset.
     fn settings(self) -> Result<Settings, (usize, SettingsError)> {
         let mut settings = Settings {
-            class: self
-                .class
-                .map(|class| parsed(&class, parse_class))
-                .transpose()?,
-            fail_on: self
-                .fail_on
-                .map(|name| parsed(&name, parse_severity))
-                .transpose()?,
+            class: self.class.map(|class| parsed(&class, parse_class)).transpose()?,
+            fail_on: self.fail_on.map(|name| parsed(&name, parse_severity)).transpose()?,
             ..Settings::default()
         };
         for (rule, severity) in &self.severity {
             let rule = parsed(rule, parse_code)?;
-            settings
-                .severities
-                .insert(rule, parsed(severity, parse_severity)?);
+            settings.severities.insert(rule, parsed(severity, parse_severity)?);
         }
         for ignore in self.ignore {
             if ignore.reason.get_ref().trim().is_empty() {
@@ -182,10 +169,7 @@ impl File {
                 return Err((ignore.reason.span().start, error));
             }
             settings.ignores.push(Ignore {
-                code: ignore
-                    .code
-                    .map(|code| parsed(&code, parse_code))
-                    .transpose()?,
+                code: ignore.code.map(|code| parsed(&code, parse_code)).transpose()?,
                 path: parsed(&ignore.path, matcher)?,
                 pattern: ignore.path.into_inner(),
                 reason: ignore.reason.into_inner(),
@@ -228,10 +212,7 @@ impl Settings {
             for check in &mut *checks {
                 if let Some(severity) = self.severities.get(&check.rule.code) {
                     check.severity = *severity;
-                    let own = check
-                        .findings
-                        .iter_mut()
-                        .map(|finding| &mut finding.severity);
+                    let own = check.findings.iter_mut().map(|finding| &mut finding.severity);
                     own.for_each(|own| *own = None);
                 }
                 let mut reason = None;

@@ -66,11 +66,7 @@ impl SettingsFile {
     /// # Errors
     /// If it cannot be read, or [`Settings::from_toml`] refuses it.
     pub fn read(file: &Path) -> Result<SettingsFile, SettingsFileError> {
-        let refused = |at, fault| SettingsFileError {
-            file: file.to_owned(),
-            at,
-            fault,
-        };
+        let refused = |at, fault| SettingsFileError { file: file.to_owned(), at, fault };
         let bytes = regular::read(file, MAX_SETTINGS_BYTES);
         let bytes = bytes.map_err(|error| refused(None, error.into()))?;
         let text = String::from_utf8(bytes);

@@ -32,15 +32,8 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let Some(by_urdf) = context.by_urdf() else {
         return run_all(context, rules.to_vec(), &mut outcomes);
     };
-    let of = |kind: Judges| {
-        rules
-            .iter()
-            .copied()
-            .filter(move |rule| rule.judges == kind)
-    };
-    let once = of(Judges::AsItStands)
-        .chain(of(Judges::Robot))
-        .chain(of(Judges::Derived));
+    let of = |kind: Judges| rules.iter().copied().filter(move |rule| rule.judges == kind);
+    let once = of(Judges::AsItStands).chain(of(Judges::Robot)).chain(of(Judges::Derived));
     let once = once.collect();
     let mut checks = run_all(context, once, &mut outcomes);
     let differs = difference(&outcomes);
@@ -78,11 +71,9 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
 
 /// The rule that did not confirm that `urdf_module` matches the URDF.
 fn difference(outcomes: &Outcomes) -> Option<Code> {
-    [Code::URD001, Code::URD013].into_iter().find(|code| {
-        outcomes
-            .get(code)
-            .is_some_and(|ran| ran.outcome != Outcome::Passed)
-    })
+    [Code::URD001, Code::URD013]
+        .into_iter()
+        .find(|code| outcomes.get(code).is_some_and(|ran| ran.outcome != Outcome::Passed))
 }
 
 /// Combines the check by `urdf_module` with the check by the URDF.

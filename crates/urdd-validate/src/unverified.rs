@@ -51,11 +51,7 @@ impl Examined {
         }
         let link = |(link, whys)| {
             let (codes, reasons) = codes_and_reasons(whys);
-            LinkNotVerified {
-                link: Count::saturating(link),
-                codes,
-                reasons,
-            }
+            LinkNotVerified { link: Count::saturating(link), codes, reasons }
         };
         links.into_iter().map(link).collect()
     }
@@ -66,9 +62,7 @@ impl Examined {
         let name = ModuleKind::SelfCollisionModel.name();
         let counting = [Code::LRN010, Code::LRN011];
         let checks = self.checks.iter();
-        let checks: Vec<_> = checks
-            .filter(|check| counting.contains(&check.rule.code))
-            .collect();
+        let checks: Vec<_> = checks.filter(|check| counting.contains(&check.rule.code)).collect();
         let mut failed = checks.iter().map(|check| &check.outcome);
         let mut modules = self.report.modules.iter();
         if failed.any(|outcome| *outcome == Outcome::Failed)

@@ -44,9 +44,7 @@ mod tests {
         }
         let mut findings = findings.take();
         findings.iter_mut().for_each(worst_first);
-        let [found] = &findings[..] else {
-            panic!("one finding")
-        };
+        let [found] = &findings[..] else { panic!("one finding") };
         assert_eq!(found.place.pointer.as_deref(), Some("/m/3"));
         assert_eq!(found.message, "3 is wrong");
         let others: Vec<_> = found.more.iter().map(|o| o.actual.as_deref()).collect();

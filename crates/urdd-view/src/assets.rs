@@ -79,10 +79,7 @@ pub fn page_of(page: &str, names: &[(&str, String)]) -> String {
         said.push_str(&format!("{name} {path} "));
     }
     let mode = r#"<meta name="urdd-mode" content="static" />"#;
-    let files = format!(
-        r#"<meta name="urdd-files" content="{}" />"#,
-        said.trim_end()
-    );
+    let files = format!(r#"<meta name="urdd-files" content="{}" />"#, said.trim_end());
     text.replace(mode, &format!("{mode}\n    {files}"))
 }
 

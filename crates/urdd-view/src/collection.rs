@@ -239,10 +239,7 @@ impl Collection {
     /// Accepts URDFs that are dropped on the page, into this folder. `with_xacro` allows them to run xacro.
     #[must_use]
     pub fn with_drops(self, folder: PathBuf, with_xacro: bool) -> Self {
-        Collection {
-            drops: Some(Drops::new(folder, with_xacro)),
-            ..self
-        }
+        Collection { drops: Some(Drops::new(folder, with_xacro)), ..self }
     }
 
     /// Reads URDFs by these settings.
@@ -340,10 +337,7 @@ mod tests {
     fn ids_are_plain_and_unique() {
         let collection = Collection::default();
         for name in ["arms/a b", "arms/a_b", "<b>", ""] {
-            let source = Source {
-                file: PathBuf::new(),
-                packages: Vec::new(),
-            };
+            let source = Source { file: PathBuf::new(), packages: Vec::new() };
             collection.add_source(name.to_owned(), source);
         }
         let robots = collection.robots();

@@ -61,11 +61,7 @@ impl Connection {
         }
         let number = state.next;
         state.next += 1;
-        state.open.push(Open {
-            number,
-            stream,
-            is_known: false,
-        });
+        state.open.push(Open { number, stream, is_known: false });
         let all = Arc::clone(all);
         Ok(Connection { number, all })
     }

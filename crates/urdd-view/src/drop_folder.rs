@@ -25,11 +25,7 @@ struct Taken {
 impl Drops {
     /// Drops into a folder, created when the first one comes.
     pub(super) fn new(folder: PathBuf, with_xacro: bool) -> Self {
-        Drops {
-            folder,
-            with_xacro,
-            taken: Mutex::default(),
-        }
+        Drops { folder, with_xacro, taken: Mutex::default() }
     }
 
     /// Whether a file is in what was dropped.

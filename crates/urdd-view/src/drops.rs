@@ -88,9 +88,7 @@ fn items(body: &[u8]) -> Result<(Vec<Item>, &[u8]), Failure> {
     let (list, content) = (&body[..end], &body[end + 1..]);
     let items: Vec<Item> =
         serde_json::from_slice(list).map_err(|error| bad(format!("no list of files: {error}")))?;
-    let size = items
-        .iter()
-        .try_fold(0u64, |sum, item| sum.checked_add(item.size));
+    let size = items.iter().try_fold(0u64, |sum, item| sum.checked_add(item.size));
     if size != Some(content.len() as u64) {
         return Err(bad("the sizes do not match".to_owned()));
     }
@@ -164,17 +162,15 @@ fn write(
     for Item { path, size } in items {
         wanted()?;
         let size = usize::try_from(*size).unwrap_or(usize::MAX);
-        let (bytes, rest) = content
-            .split_at_checked(size)
-            .ok_or((400, "the sizes do not match".to_owned()))?;
+        let (bytes, rest) =
+            content.split_at_checked(size).ok_or((400, "the sizes do not match".to_owned()))?;
         content = rest;
         let target = folder.join(path);
         if let Some(parent) = target.parent() {
             fs::create_dir_all(parent).map_err(|error| failed(path, &error))?;
         }
         let mut file = File::create_new(&target).map_err(|error| failed(path, &error))?;
-        file.write_all(bytes)
-            .map_err(|error| failed(path, &error))?;
+        file.write_all(bytes).map_err(|error| failed(path, &error))?;
     }
     // Without it, a package around the temporary folder would count as the robot's own, with the files in it.
     let package = folder.join("package.xml");
@@ -208,10 +204,7 @@ fn sources(
         let text = String::from_utf8_lossy(&text);
         let packages = packages(&text, &dropped).into_iter();
         let packages = packages.map(|(name, at)| format!("{name}={}", folder.join(at).display()));
-        let source = Source {
-            file: job.source,
-            packages: packages.collect(),
-        };
+        let source = Source { file: job.source, packages: packages.collect() };
         Ok((job.name, source))
     });
     sources.collect()

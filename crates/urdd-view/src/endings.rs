@@ -61,13 +61,7 @@ mod tests {
 
     #[test]
     fn the_highest_folder_with_a_file_is_found() {
-        let files = [
-            "b/m/a.obj",
-            "c/a/m/a.obj",
-            "a/m/a.obj",
-            "m/b.obj",
-            "top.obj",
-        ];
+        let files = ["b/m/a.obj", "c/a/m/a.obj", "a/m/a.obj", "m/b.obj", "top.obj"];
         let endings = Endings::of(files.to_vec());
         assert_eq!(endings.folder_with("m/a.obj"), Some("a"));
         assert_eq!(endings.folder_with("a.obj"), Some("a/m"));

@@ -40,10 +40,7 @@ pub fn export(
     SiteList::read(folder)?;
     let staging = Staging::begin_inside(folder, cancellation)?;
     let before = SiteList::read(staging.target())?;
-    let mut site = Site {
-        writer: Writer::new(staging.content()),
-        list: SiteList::default(),
-    };
+    let mut site = Site { writer: Writer::new(staging.content()), list: SiteList::default() };
     let mut names = Vec::new();
     let mut page = String::new();
     for asset in ASSETS {
@@ -115,27 +112,16 @@ pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
     entry["writable"] = json!(false);
     entry["temporary"] = json!(false);
     entry["notes"] = json!([]);
-    Ok(Published {
-        root,
-        report,
-        entry,
-    })
+    Ok(Published { root, report, entry })
 }
 
 pub(super) fn unread(robot: &Shown, error: ReadError) -> ExportError {
-    ExportError::Robot {
-        robot: robot.name.clone(),
-        error,
-    }
+    ExportError::Robot { robot: robot.name.clone(), error }
 }
 
 /// Writes a robot: its files, their list, and its report.
 fn one(robot: &Shown, site: &mut Site) -> Result<Value, ExportError> {
-    let Published {
-        root,
-        report,
-        mut entry,
-    } = published(robot)?;
+    let Published { root, report, mut entry } = published(robot)?;
     let mut files = Vec::new();
     let listing = root.list().map_err(|error| unread(robot, error))?;
     for file in listing.entries {

@@ -117,10 +117,7 @@ mod tests {
     use super::*;
 
     fn guard() -> Guard {
-        Guard {
-            port: 8642,
-            token: "abcdef".to_owned(),
-        }
+        Guard { port: 8642, token: "abcdef".to_owned() }
     }
 
     fn own() -> Caller<'static> {
@@ -137,11 +134,8 @@ mod tests {
     #[test]
     fn the_page_itself_may_ask() {
         assert_eq!(guard().robots(&own()), Ok(()));
-        let typed = Caller {
-            host: Some("LOCALHOST:8642"),
-            site: Some("none"),
-            ..Caller::default()
-        };
+        let typed =
+            Caller { host: Some("LOCALHOST:8642"), site: Some("none"), ..Caller::default() };
         assert_eq!(guard().page(&typed), Ok(()));
         assert_eq!(guard().robots(&typed), Err(Refusal::Token));
     }
@@ -160,26 +154,12 @@ mod tests {
         assert_eq!(guard().robots(&followed), Err(Refusal::Origin));
         let origin = Some("http://evil.example");
         let others = [
-            Caller {
-                host: Some("evil.example"),
-                ..followed
-            },
+            Caller { host: Some("evil.example"), ..followed },
             // A posted form, a frame, an image, a script.
             Caller { origin, ..followed },
-            Caller {
-                destination: Some("iframe"),
-                ..followed
-            },
-            Caller {
-                mode: Some("no-cors"),
-                destination: Some("image"),
-                ..followed
-            },
-            Caller {
-                mode: None,
-                destination: None,
-                ..followed
-            },
+            Caller { destination: Some("iframe"), ..followed },
+            Caller { mode: Some("no-cors"), destination: Some("image"), ..followed },
+            Caller { mode: None, destination: None, ..followed },
         ];
         for caller in others {
             assert!(guard().entrance(&caller).is_err(), "{caller:?}");
@@ -188,22 +168,13 @@ mod tests {
 
     #[test]
     fn nobody_else_may() {
-        let hosts = [
-            None,
-            Some("evil.example"),
-            Some("127.0.0.1"),
-            Some("127.0.0.1:80"),
-        ];
+        let hosts = [None, Some("evil.example"), Some("127.0.0.1"), Some("127.0.0.1:80")];
         for host in hosts {
             let caller = Caller { host, ..own() };
             assert_eq!(guard().robots(&caller), Err(Refusal::Host), "{host:?}");
         }
-        let origins = [
-            "null",
-            "http://evil.example",
-            "https://127.0.0.1:8642",
-            "http://127.0.0.1:1",
-        ];
+        let origins =
+            ["null", "http://evil.example", "https://127.0.0.1:8642", "http://127.0.0.1:1"];
         for origin in origins {
             let origin = Some(origin);
             let caller = Caller { origin, ..own() };
@@ -214,13 +185,7 @@ mod tests {
             let caller = Caller { site, ..own() };
             assert_eq!(guard().page(&caller), Err(Refusal::Origin), "{site:?}");
         }
-        for token in [
-            None,
-            Some(""),
-            Some("abcde"),
-            Some("abcdeF"),
-            Some("abcdefg"),
-        ] {
+        for token in [None, Some(""), Some("abcde"), Some("abcdeF"), Some("abcdefg")] {
             let caller = Caller { token, ..own() };
             assert_eq!(guard().robots(&caller), Err(Refusal::Token), "{token:?}");
         }

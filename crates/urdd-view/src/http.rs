@@ -42,10 +42,7 @@ pub struct Asked {
 impl Asked {
     /// The value of a header; empty if the header is repeated.
     pub fn header(&self, name: &str) -> Option<&str> {
-        let mut found = self
-            .headers
-            .iter()
-            .filter(|(known, _)| known.eq_ignore_ascii_case(name));
+        let mut found = self.headers.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
         match (found.next(), found.next()) {
             (Some((_, value)), None) => Some(value),
             // Repeated, so ambiguous.
@@ -291,15 +288,9 @@ mod tests {
     fn what_is_no_request_is_refused() {
         assert_eq!(status(b"nonsense\r\n\r\n"), 400);
         assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: -1\r\n\r\n"), 400);
-        assert_eq!(
-            status(b"GET / HTTP/1.1\r\nContent-Length: 5\r\n\r\nabc"),
-            400
-        );
+        assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: 5\r\n\r\nabc"), 400);
         assert_eq!(status(b"GET / HTTP/1.1\r\nContent-Length: 11\r\n\r\n"), 413);
-        assert_eq!(
-            status(b"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"),
-            411
-        );
+        assert_eq!(status(b"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n"), 411);
         let twice = b"GET / HTTP/1.1\r\nContent-Length: 0\r\nContent-Length: 3\r\n\r\nabc";
         assert_eq!(status(twice), 400);
         let mut long = b"GET / HTTP/1.1\r\nA: ".to_vec();

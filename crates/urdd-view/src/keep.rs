@@ -76,10 +76,7 @@ fn resolved(folder: &str) -> Result<PathBuf, Failure> {
         Some(rest) => match std::env::home_dir() {
             Some(home) => home.join(rest),
             None => {
-                return Err((
-                    400,
-                    "the home folder is unknown: write the full path".to_owned(),
-                ));
+                return Err((400, "the home folder is unknown: write the full path".to_owned()));
             }
         },
         None => PathBuf::from(said),
@@ -96,10 +93,7 @@ fn free(target: &Path) -> Result<(), Failure> {
         Err(error) => return Err((403, format!("{shown}: {error}"))),
     };
     if !metadata.is_dir() {
-        return Err((
-            403,
-            format!("{shown}: a file of that name exists; nothing was saved"),
-        ));
+        return Err((403, format!("{shown}: a file of that name exists; nothing was saved")));
     }
     let entries = std::fs::read_dir(target).map_err(|error| (403, format!("{shown}: {error}")))?;
     if entries.count() == 0 {
@@ -109,8 +103,5 @@ fn free(target: &Path) -> Result<(), Failure> {
         true => "this folder has a URDD already; `urdd generate` into it keeps its edits",
         false => "this folder is not empty",
     };
-    Err((
-        409,
-        format!("{shown}: {what}. Nothing was saved; give another folder"),
-    ))
+    Err((409, format!("{shown}: {what}. Nothing was saved; give another folder")))
 }

@@ -83,9 +83,7 @@ impl Live<'_> {
                         continue;
                     };
                     let id = shown.id.clone();
-                    let robot = known
-                        .entry(id)
-                        .or_insert_with(|| self.followed(shown, source));
+                    let robot = known.entry(id).or_insert_with(|| self.followed(shown, source));
                     if robot.turn > 0 && robot.is_current() {
                         continue;
                     }
@@ -128,10 +126,7 @@ impl Live<'_> {
         // The URDD's folder has the robot's name, which the page shows.
         let name = shown.name.replace(['/', '\\', '\0'], "_");
         Followed {
-            job: Job {
-                source: source.file.clone(),
-                name,
-            },
+            job: Job { source: source.file.clone(), name },
             source,
             folder,
             files: Files::new(),
@@ -149,10 +144,7 @@ impl Live<'_> {
         let before = known.map(|file| (revision::of_file(&file), file));
         let files = Mutex::new(before.map(|(word, file)| (file, word)).collect());
         let target = robot.picture_path();
-        let progress = Reading {
-            shown: &robot.shown,
-            files: &files,
-        };
+        let progress = Reading { shown: &robot.shown, files: &files };
         let made = Selection::parse(PICTURE.iter().copied()).ok();
         let made = made.map(|selection| {
             let settings = Settings {
@@ -179,11 +171,7 @@ impl Live<'_> {
         robot.files = files;
         match made {
             Some(Ok(generated)) => {
-                let rest = Making::Running {
-                    what: "the rest".to_owned(),
-                    done: 0,
-                    of: 0,
-                };
+                let rest = Making::Running { what: "the rest".to_owned(), done: 0, of: 0 };
                 robot.shown.show(target, notes(&generated), rest);
                 robot.is_partial_since = Some(Instant::now());
             }
@@ -203,9 +191,7 @@ impl Live<'_> {
         known: &BTreeMap<String, Followed>,
     ) -> Option<Run<'scope>> {
         let is_due = |since: Instant| since.elapsed() >= self.pause;
-        let waiting = known
-            .iter()
-            .filter(|(_, robot)| robot.is_partial_since.is_some_and(is_due));
+        let waiting = known.iter().filter(|(_, robot)| robot.is_partial_since.is_some_and(is_due));
         let waiting = waiting.filter(|(_, robot)| is_watched(&robot.shown));
         let (id, robot) = waiting.min_by_key(|(_, robot)| robot.shown.unseen_for())?;
         let cancellation = Cancellation::default();
@@ -237,11 +223,8 @@ impl Live<'_> {
             cancellation: cancellation.clone(),
             ..robot.source.settings(self.settings)
         };
-        let progress = Told {
-            terminal: self.observer.begin(&robot.job),
-            shown: &robot.shown,
-            cancellation,
-        };
+        let progress =
+            Told { terminal: self.observer.begin(&robot.job), shown: &robot.shown, cancellation };
         let outcome = caught(&robot.job.source, || {
             urdd_generate::generate(&robot.job.source, &target, &settings, &progress)
         });
@@ -312,9 +295,7 @@ fn notes(generated: &Generated) -> Vec<String> {
 fn donors<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Vec<Root> {
     let paths: BTreeSet<&PathBuf> = paths.into_iter().filter(|path| path.is_dir()).collect();
     let roots = paths.into_iter();
-    roots
-        .filter_map(|path| Root::open_folder(path).ok())
-        .collect()
+    roots.filter_map(|path| Root::open_folder(path).ok()).collect()
 }
 
 /// Collects the files of a picture.
@@ -366,9 +347,5 @@ impl Progress for Told<'_> {
 }
 
 fn running(kind: ModuleKind, done: usize, of: usize) -> Making {
-    Making::Running {
-        what: kind.name().to_owned(),
-        done,
-        of,
-    }
+    Making::Running { what: kind.name().to_owned(), done, of }
 }

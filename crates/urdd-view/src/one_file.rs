@@ -79,25 +79,17 @@ pub fn page_with(robot: &Shown) -> Result<String, ExportError> {
         hash(&script),
         hash(&style),
     );
-    let Published {
-        root,
-        report,
-        entry,
-    } = published(robot)?;
+    let Published { root, report, entry } = published(robot)?;
     let mut carried = String::new();
     let mut carry = |id: &str, packed: &[u8]| {
         let text = STANDARD.encode(packed);
-        carried.push_str(&format!(
-            "<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"
-        ));
+        carried.push_str(&format!("<script type=\"text/plain\" id=\"{id}\">{text}</script>\n"));
     };
     for (id, bytes) in [
         ("robots.json", json!([entry]).to_string().into_bytes()),
         (
             "rules.json",
-            meanings(&serde_json::from_str(&report).unwrap_or_default())
-                .to_string()
-                .into_bytes(),
+            meanings(&serde_json::from_str(&report).unwrap_or_default()).to_string().into_bytes(),
         ),
         ("report.json", report.into_bytes()),
         ("robot.zip", archive(robot, &root)?),
@@ -153,15 +145,10 @@ fn archive(robot: &Shown, root: &Root) -> Result<Vec<u8>, ExportError> {
         .collect();
     let needed = needed(root, &all);
     let sizes = listing.entries.iter();
-    let size: u64 = sizes
-        .filter(|entry| needed.contains(entry.path.as_str()))
-        .map(|entry| entry.size)
-        .sum();
+    let size: u64 =
+        sizes.filter(|entry| needed.contains(entry.path.as_str())).map(|entry| entry.size).sum();
     if size > MAX_ROBOT_BYTES {
-        return Err(ExportError::TooLarge {
-            robot: robot.name.clone(),
-            size,
-        });
+        return Err(ExportError::TooLarge { robot: robot.name.clone(), size });
     }
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // Stored: the archive is compressed as a whole.
@@ -267,11 +254,7 @@ fn drawn_originals(root: &Root) -> Option<BTreeSet<String>> {
         let files = module["files"].as_array().into_iter().flatten();
         let mut own = files.filter(|file| file["path"] == path);
         let listed = own.next().and_then(|file| file["side_files"].as_array());
-        listed
-            .into_iter()
-            .flatten()
-            .filter_map(Value::as_str)
-            .collect()
+        listed.into_iter().flatten().filter_map(Value::as_str).collect()
     };
     let references = module["references"].as_array()?;
     let with_path = || {

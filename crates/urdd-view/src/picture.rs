@@ -43,18 +43,11 @@ pub fn png(robot: &Robot) -> Result<Option<Vec<u8>>, RobotError> {
         };
         for part in &visual.parts {
             let color = part.color.map_or(PLAIN, |[r, g, b, _]| [r, g, b]);
-            let places: Vec<Vector3<f64>> = part
-                .mesh
-                .vertices
-                .iter()
-                .map(|vertex| in_picture(pose, *vertex))
-                .collect();
+            let places: Vec<Vector3<f64>> =
+                part.mesh.vertices.iter().map(|vertex| in_picture(pose, *vertex)).collect();
             for triangle in &part.mesh.triangles {
                 let corners = triangle.map(|k| places[k as usize]);
-                if corners
-                    .iter()
-                    .all(|corner| corner.iter().all(|x| x.is_finite()))
-                {
+                if corners.iter().all(|corner| corner.iter().all(|x| x.is_finite())) {
                     facets.push(Facet { corners, color });
                 }
             }
@@ -188,10 +181,7 @@ mod tests {
             let facets: Vec<Facet> = order
                 .into_iter()
                 .flatten()
-                .map(|facet| Facet {
-                    corners: facet.corners,
-                    color: facet.color,
-                })
+                .map(|facet| Facet { corners: facet.corners, color: facet.color })
                 .collect();
             let pixels = drawn(&facets).expect("a picture");
             let at = |x: usize, y: usize| &pixels[4 * (y * WIDTH + x)..][..4];

@@ -88,12 +88,7 @@ impl Reply {
 
     /// A picture.
     pub fn picture(body: Vec<u8>) -> Self {
-        Self {
-            status: 200,
-            media_type: "image/png",
-            brotli: false,
-            body: Body::Bytes(body),
-        }
+        Self { status: 200, media_type: "image/png", brotli: false, body: Body::Bytes(body) }
     }
 
     /// A file of a robot: never displayed as a page.

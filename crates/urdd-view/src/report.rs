@@ -22,10 +22,7 @@ const MAX_TEXT_BYTES: usize = 8 << 20;
 /// that is generated for the page as `urdd lint --format json` prints that of its URDF, with the text and the
 /// explanations of rules besides.
 pub fn report_of(collection: &Collection, robot: &Shown) -> String {
-    let mut known = robot
-        .report
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut known = robot.report.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let source = robot.source.as_ref().filter(|_| robot.is_temporary());
     let path = robot.path();
     let revision = match source {
@@ -33,18 +30,10 @@ pub fn report_of(collection: &Collection, robot: &Shown) -> String {
         Some(source) => {
             let of_urdd = robot.is_ready().then(|| revision::of(&path));
             let project = Project::of(collection, source);
-            let files = [
-                Some(&source.file),
-                project.file.as_ref(),
-                project.baseline.as_ref(),
-            ];
+            let files = [Some(&source.file), project.file.as_ref(), project.baseline.as_ref()];
             let files =
                 files.map(|file| file.map(|file| revision::of_file(file)).unwrap_or_default());
-            Some(format!(
-                "{} {}",
-                of_urdd.unwrap_or_default(),
-                files.join(" ")
-            ))
+            Some(format!("{} {}", of_urdd.unwrap_or_default(), files.join(" ")))
         }
         None => robot.open().ok().map(|(revision, _)| revision),
     };
@@ -96,12 +85,7 @@ impl Project {
             Ok(read) => (read, None),
             Err(error) => (SettingsFile::default(), Some(error.to_string())),
         };
-        Project {
-            file: Some(file),
-            report: read.settings,
-            baseline: read.baseline,
-            fault,
-        }
+        Project { file: Some(file), report: read.settings, baseline: read.baseline, fault }
     }
 }
 
@@ -115,10 +99,7 @@ fn report_on_source(collection: &Collection, source: &Source) -> Result<String, 
         None
     });
     let settings = LintSettings {
-        report: Settings {
-            cancellation: all.cancellation.clone(),
-            ..project.report
-        },
+        report: Settings { cancellation: all.cancellation.clone(), ..project.report },
         source: source.settings(all),
         baseline,
         ..LintSettings::default()

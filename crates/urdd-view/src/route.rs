@@ -132,9 +132,7 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
             // The entry first: a revision may be newer than what is said of the robot, and never older.
             let entry = entry(robot);
             let revision = robot.is_ready().then(|| revision::of(&robot.path()));
-            Ok(Reply::json(
-                &json!({ "revision": revision, "entry": entry }),
-            ))
+            Ok(Reply::json(&json!({ "revision": revision, "entry": entry })))
         }),
         Route::Files(id) => with(id, &|robot| {
             let (revision, opened) = robot.open()?;
@@ -144,25 +142,17 @@ pub fn answer(collection: &Collection, route: &Route, brotli: bool) -> Reply {
                 "revision": revision,
             })))
         }),
-        Route::Report(id) => with(id, &|robot| {
-            Ok(Reply::json_text(report_of(collection, robot)))
-        }),
+        Route::Report(id) => with(id, &|robot| Ok(Reply::json_text(report_of(collection, robot)))),
         Route::File(id, path) => with(id, &|robot| {
             let (file, size) = robot.own_files()?.open_file(path)?;
             match size > MAX_FILE_BYTES {
-                true => Err(ReadError::TooLarge {
-                    size,
-                    limit: MAX_FILE_BYTES,
-                }),
+                true => Err(ReadError::TooLarge { size, limit: MAX_FILE_BYTES }),
                 false => Ok(Reply::file(file, size)),
             }
         }),
-        Route::Summary(id) => with(id, &|robot| {
-            Ok(Reply::json(&entry_with(
-                robot,
-                &report_of(collection, robot),
-            )))
-        }),
+        Route::Summary(id) => {
+            with(id, &|robot| Ok(Reply::json(&entry_with(robot, &report_of(collection, robot)))))
+        }
         Route::Picture(id) => with(id, &|robot| {
             Ok(match picture_of(robot) {
                 Some(bytes) => Reply::picture(bytes),
@@ -250,10 +240,7 @@ pub fn entry_with(robot: &Shown, report: &str) -> Value {
 
 /// The picture of a robot, if it has one. Rendered once for each revision.
 pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
-    let mut known = robot
-        .picture
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut known = robot.picture.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let (revision, opened) = robot.open().ok()?;
     if let Some((of, picture)) = known.as_ref()
         && *of == revision
@@ -273,9 +260,7 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
 fn files(root: &Root) -> Result<Value, ReadError> {
     let entries = root.list()?.entries;
     let files = entries.iter().filter(|entry| entry.kind == EntryKind::File);
-    Ok(files
-        .map(|entry| json!({ "path": entry.path, "size": entry.size }))
-        .collect())
+    Ok(files.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())
 }
 
 #[cfg(test)]
@@ -289,10 +274,7 @@ mod tests {
         assert_eq!(Route::of("/app.js?1#2"), Route::Asset("app.js".to_owned()));
         assert_eq!(Route::of("/robots.json"), Route::Robots);
         assert_eq!(Route::of("/robots/a/files/b/c%20d"), file("b/c d"));
-        assert_eq!(
-            Route::of("/robots/a/files.json"),
-            Route::Files("a".to_owned())
-        );
+        assert_eq!(Route::of("/robots/a/files.json"), Route::Files("a".to_owned()));
     }
 
     #[test]

@@ -84,10 +84,7 @@ fn answered<T: for<'a> Deserialize<'a>>(
 pub(super) type Failure = (u16, String);
 
 fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
-    let mut undo = robot
-        .undo
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut undo = robot.undo.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let (now, before) = write(robot, &wish.revision, || match wish.undo {
         true => {
             let last = undo.last().filter(|(after, _)| *after == wish.revision);
@@ -115,10 +112,7 @@ fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
 }
 
 fn save_configuration(robot: &Shown, wish: Pose) -> Result<Value, Failure> {
-    let mut undo = robot
-        .undo
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut undo = robot.undo.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let (now, _) = write(robot, &wish.revision, || named(robot, &wish))?;
     // Earlier saves cannot be undone past this one, which may have added a file.
     undo.clear();
@@ -171,24 +165,14 @@ fn named(robot: &Shown, wish: &Pose) -> Result<Files, Failure> {
         return Err(refused(&"a configuration has one value for each DOF"));
     }
     let positions = dofs.iter().zip(&wish.configuration);
-    let positions = positions.map(|(dof, position)| DofPosition {
-        dof_name: dof.clone(),
-        position: *position,
-    });
-    let edit = ConfigurationEdit {
-        name,
-        positions: positions.collect(),
-    };
-    let there = opened
-        .named_configurations()
-        .map_err(|error| refused(&error))?;
+    let positions =
+        positions.map(|(dof, position)| DofPosition { dof_name: dof.clone(), position: *position });
+    let edit = ConfigurationEdit { name, positions: positions.collect() };
+    let there = opened.named_configurations().map_err(|error| refused(&error))?;
     let mut edits: Vec<ConfigurationEdit> = there.iter().map(Into::into).collect();
     match edits.iter_mut().find(|other| other.name == edit.name) {
         Some(_) if !wish.replace => {
-            return Err((
-                409,
-                "there is another configuration of this name".to_owned(),
-            ));
+            return Err((409, "there is another configuration of this name".to_owned()));
         }
         Some(there) => *there = edit,
         None => edits.push(edit),
@@ -206,10 +190,7 @@ fn made(
     if edits.len() > MAX_EDITS {
         return Err((400, "too many edits".to_owned()));
     }
-    if edits
-        .iter()
-        .any(|edit| edit.reason.chars().count() > MAX_REASON)
-    {
+    if edits.iter().any(|edit| edit.reason.chars().count() > MAX_REASON) {
         return Err((400, "a reason is too long".to_owned()));
     }
     let opened = Robot::open(robot.path()).map_err(|error| (500, error.to_string()))?;

@@ -69,10 +69,7 @@ impl Server {
                 let port = listener.local_addr()?.port();
                 Ok((listener, port))
             });
-            ready.map_err(|error| ServerError::Port {
-                port,
-                reason: error.to_string(),
-            })
+            ready.map_err(|error| ServerError::Port { port, reason: error.to_string() })
         };
         let (listener, port) = match port {
             Some(port) => at(port)?,
@@ -81,10 +78,7 @@ impl Server {
         let mut random = [0; 24];
         getrandom::fill(&mut random).map_err(|error| ServerError::Random(error.to_string()))?;
         let token = hexadecimal(&random);
-        let answers = Answers {
-            guard: Guard { port, token },
-            collection: collection.into(),
-        };
+        let answers = Answers { guard: Guard { port, token }, collection: collection.into() };
         Ok(Self { listener, answers })
     }
 
@@ -120,9 +114,8 @@ impl Server {
             // If no thread can be started, the connection is closed.
             let _ = thread::Builder::new().spawn(move || {
                 let admit = |asked: &Asked| answers.admit(asked, &connection);
-                let _ = converse(stream, admit, |asked, is_gone| {
-                    answers.reply(asked, is_gone, &ended)
-                });
+                let _ =
+                    converse(stream, admit, |asked, is_gone| answers.reply(asked, is_gone, &ended));
             });
         }
     }
@@ -176,8 +169,6 @@ impl Answers {
 
 fn takes_brotli(asked: &Asked) -> bool {
     let words = asked.header("Accept-Encoding").unwrap_or_default();
-    let mut words = words
-        .split(',')
-        .map(|word| word.split(';').next().unwrap_or_default());
+    let mut words = words.split(',').map(|word| word.split(';').next().unwrap_or_default());
     words.any(|word| word.trim() == "br")
 }

@@ -24,15 +24,8 @@ const MADE_BY: &str = "urdd view --export";
 const MAX_LIST_BYTES: u64 = 64 << 20;
 
 /// The files that version 0.2.0 wrote, which had no list.
-const OF_0_2_0: [&str; 7] = [
-    "app.js",
-    PAGE,
-    "robots.json",
-    "robots",
-    "style.css",
-    "urdd.wasm",
-    "worker.js",
-];
+const OF_0_2_0: [&str; 7] =
+    ["app.js", PAGE, "robots.json", "robots", "style.css", "urdd.wasm", "worker.js"];
 
 /// Files by path relative to the site, each with the SHA-256 hashes of its possible contents.
 #[derive(Debug, Clone, Default)]
@@ -60,15 +53,10 @@ impl SiteList {
         }
         let Some(files) = value["files"].as_array() else {
             let left = OF_0_2_0.iter().map(|name| folder.join(name));
-            let left: Vec<PathBuf> = left
-                .filter(|path| path.symlink_metadata().is_ok())
-                .collect();
+            let left: Vec<PathBuf> = left.filter(|path| path.symlink_metadata().is_ok()).collect();
             return match left.is_empty() {
                 true => Ok(Self::default()),
-                false => Err(ExportError::Unlisted {
-                    folder: folder.to_owned(),
-                    left,
-                }),
+                false => Err(ExportError::Unlisted { folder: folder.to_owned(), left }),
             };
         };
         let mut list = SiteList::default();
@@ -90,9 +78,7 @@ impl SiteList {
     }
 
     fn knows(&self, path: &str, sha256: &str) -> bool {
-        self.0
-            .get(path)
-            .is_some_and(|hashes| hashes.contains(sha256))
+        self.0.get(path).is_some_and(|hashes| hashes.contains(sha256))
     }
 
     /// Combines this list with another one.

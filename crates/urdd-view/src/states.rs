@@ -32,10 +32,7 @@ impl States {
     /// Shows a configuration: one value for each DOF, rad or m.
     pub fn set(&self, configuration: &[f64]) {
         let mut last = self.last();
-        *last = (
-            last.0 + 1,
-            format!("{}\n", json!({ "q": configuration })).into(),
-        );
+        *last = (last.0 + 1, format!("{}\n", json!({ "q": configuration })).into());
         self.changed.notify_all();
     }
 
@@ -61,20 +58,15 @@ impl States {
         let mut seen = 0;
         let next = move || {
             let last = states.last();
-            let waited = states
-                .changed
-                .wait_timeout_while(last, PAUSE, |(count, _)| *count == seen);
+            let waited =
+                states.changed.wait_timeout_while(last, PAUSE, |(count, _)| *count == seen);
             let (last, _) = waited.unwrap_or_else(PoisonError::into_inner);
             if cancellation.is_cancelled() {
                 return None;
             }
             let news = last.0 != seen;
             seen = last.0;
-            Some(if news {
-                Arc::clone(&last.1)
-            } else {
-                "\n".into()
-            })
+            Some(if news { Arc::clone(&last.1) } else { "\n".into() })
         };
         Reply {
             status: 200,

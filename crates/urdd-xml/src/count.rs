@@ -15,11 +15,8 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
         let end = markup.end.unwrap_or(text.len());
         let inside = &text.as_bytes()[markup.start..end];
         at = end;
-        let too_many = |what, limit| XmlError::TooMany {
-            what,
-            limit,
-            pos: text_pos(text, markup.start),
-        };
+        let too_many =
+            |what, limit| XmlError::TooMany { what, limit, pos: text_pos(text, markup.start) };
         match markup.kind {
             MarkupKind::Text | MarkupKind::Instruction => continue,
             MarkupKind::Declaration if inside.starts_with(b"<!ENTITY") => {

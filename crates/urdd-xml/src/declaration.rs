@@ -36,9 +36,7 @@ pub fn wrong_version(text: &str) -> Option<Range<usize>> {
 /// The range of the value of a pseudo-attribute of the declaration.
 fn value(text: &str, name: &str) -> Option<Range<usize>> {
     let rest = text.strip_prefix("<?xml")?;
-    let rest = rest
-        .starts_with(|c: char| c.is_ascii_whitespace())
-        .then_some(rest)?;
+    let rest = rest.starts_with(|c: char| c.is_ascii_whitespace()).then_some(rest)?;
     let declaration = &rest[..rest.find("?>")?];
     let start = text.len() - rest.len();
     let after = declaration.find(name)? + name.len();

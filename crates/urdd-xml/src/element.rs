@@ -21,10 +21,7 @@ pub fn name_at<'a>(document: &'a Document<'a>, range: &Range<usize>) -> &'a str 
 
 /// The child elements, with their names.
 pub fn children<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = (&'a str, Node<'a, 'a>)> {
-    parent
-        .children()
-        .filter(Node::is_element)
-        .map(|element| (name(element), element))
+    parent.children().filter(Node::is_element).map(|element| (name(element), element))
 }
 
 /// An attribute without a prefix, by name.

@@ -60,8 +60,5 @@ pub(super) fn text_pos(text: &str, offset: usize) -> TextPos {
     let before = &text[..offset];
     let line = before.rsplit('\n').next().unwrap_or_default();
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    TextPos::new(
-        count(before.matches('\n').count() + 1),
-        count(line.chars().count() + 1),
-    )
+    TextPos::new(count(before.matches('\n').count() + 1), count(line.chars().count() + 1))
 }

@@ -40,11 +40,7 @@ pub(super) fn next(text: &str, at: usize) -> Option<Markup> {
     } else {
         (MarkupKind::Tag, tag_length(rest, b">"))
     };
-    Some(Markup {
-        kind,
-        start,
-        end: length.map(|length| start + length),
-    })
+    Some(Markup { kind, start, end: length.map(|length| start + length) })
 }
 
 /// The length up to the first of `ends` outside quotes.

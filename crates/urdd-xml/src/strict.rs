@@ -16,10 +16,7 @@ const NO_CHARACTER: &str = "a reference `&#...;` names no character of XML; remo
 /// Checks what the parser accepts and XML 1.0 or its namespaces do not. What is broken otherwise is left to the parser.
 pub(super) fn check(text: &str) -> Result<(), XmlError> {
     match fault(text) {
-        Some((at, what)) => Err(XmlError::NotWellFormed {
-            what,
-            pos: text_pos(text, at),
-        }),
+        Some((at, what)) => Err(XmlError::NotWellFormed { what, pos: text_pos(text, at) }),
         None => Ok(()),
     }
 }

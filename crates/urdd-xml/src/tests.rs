@@ -61,17 +61,7 @@ fn text_that_looks_like_attributes_is_not_counted() {
 
 #[test]
 fn what_is_broken_is_left_to_the_parser() {
-    for text in [
-        "",
-        "<",
-        "<r",
-        "<!--",
-        "<r a='",
-        "<![CDATA[",
-        "<?",
-        "<r a=b>",
-        "<!DOCTYPE",
-    ] {
+    for text in ["", "<", "<r", "<!--", "<r a='", "<![CDATA[", "<?", "<r a=b>", "<!DOCTYPE"] {
         assert!(result(text).is_err(), "{text}");
     }
 }
@@ -99,10 +89,7 @@ fn elements_of_a_robot_are_bounded() {
     let many = |count: usize| format!("<r>{}</r>", "<a/>".repeat(count - 1));
     assert_eq!(result(&many(MOST_ROBOT_ELEMENTS)), Ok(()));
     let error = result(&many(MOST_ROBOT_ELEMENTS + 1)).unwrap_err();
-    assert!(
-        error.ends_with("there are more than 500000 elements"),
-        "{error}"
-    );
+    assert!(error.ends_with("there are more than 500000 elements"), "{error}");
     assert!(parse(&many(MOST_ROBOT_ELEMENTS + 1), Kind::Other).is_ok());
 }
 
@@ -130,25 +117,12 @@ fn the_declaration_says_what_the_file_is() {
         "version = '1.0' encoding = 'UTF-8'",
         "version='1.0' encoding='utf8' standalone='yes'",
     ] {
-        assert_eq!(
-            result(&format!("<?xml {declaration}?><r/>")),
-            Ok(()),
-            "{declaration}"
-        );
+        assert_eq!(result(&format!("<?xml {declaration}?><r/>")), Ok(()), "{declaration}");
     }
     for (declaration, expected) in [
-        (
-            "version='0.0'",
-            "1:16: the XML declaration names version `0.0`",
-        ),
-        (
-            "version='1.'",
-            "1:16: the XML declaration names version `1.`",
-        ),
-        (
-            "version='2.0'",
-            "1:16: the XML declaration names version `2.0`",
-        ),
+        ("version='0.0'", "1:16: the XML declaration names version `0.0`"),
+        ("version='1.'", "1:16: the XML declaration names version `1.`"),
+        ("version='2.0'", "1:16: the XML declaration names version `2.0`"),
         (
             "version='1.0' encoding='latin-1'",
             "1:31: the XML declaration names the encoding `latin-1`",
@@ -165,18 +139,9 @@ fn each_fault_says_what_to_do() {
         ("", "1:1: the file is empty"),
         ("r/>", "1:1: the file does not begin with `<`"),
         ("<r><a></r>", "1:7: `</r>` where `</a>` is expected; close"),
-        (
-            "<r><a>",
-            "1:1: the file ends before its outermost element is closed",
-        ),
-        (
-            "<r/><s/>",
-            "1:5: there is more after the end of the outermost element",
-        ),
-        (
-            "<r/> text",
-            "1:6: there is more after the end of the outermost element",
-        ),
+        ("<r><a>", "1:1: the file ends before its outermost element is closed"),
+        ("<r/><s/>", "1:5: there is more after the end of the outermost element"),
+        ("<r/> text", "1:6: there is more after the end of the outermost element"),
         (
             "<!DOCTYPE r [<!ATTLIST r q CDATA '>'>]><r/>",
             "1:36: a declaration within `<!DOCTYPE ...>` cannot be read; remove",
@@ -185,36 +150,18 @@ fn each_fault_says_what_to_do() {
             "<!DOCTYPE r [%foo;]><r/>",
             "1:14: a declaration within `<!DOCTYPE ...>` cannot be read; remove",
         ),
-        (
-            "<r a='1' a='2'/>",
-            "1:10: an element has the attribute `a` twice; remove",
-        ),
+        ("<r a='1' a='2'/>", "1:10: an element has the attribute `a` twice; remove"),
         ("<r><!-- a -- b --></r>", "1:4: a comment contains `--`"),
         ("<r>]]></r>", "1:7: text contains `]]>`; write `]]&gt;`"),
-        (
-            "<r a='<'/>",
-            "1:7: an attribute's value contains `<`; write `&lt;`",
-        ),
-        (
-            "<r>a & b</r>",
-            "1:6: `&` does not begin an entity here; write `&amp;`",
-        ),
+        ("<r a='<'/>", "1:7: an attribute's value contains `<`; write `&lt;`"),
+        ("<r>a & b</r>", "1:6: `&` does not begin an entity here; write `&amp;`"),
         ("<r>&deg;</r>", "1:4: the entity `&deg;` is not declared"),
-        (
-            "<r><x:a/></r>",
-            "1:5: the prefix `x` is not declared; declare it",
-        ),
-        (
-            "<r><xacro:a/></r>",
-            "1:5: the prefix `xacro` is not declared; expand",
-        ),
+        ("<r><x:a/></r>", "1:5: the prefix `x` is not declared; declare it"),
+        ("<r><xacro:a/></r>", "1:5: the prefix `xacro` is not declared; expand"),
         ("<r a=1/>", "1:6: expected a quote, found `1`"),
         ("<r a b='1'/>", "1:6: expected `=`, found `b`"),
         ("<r><1/></r>", "1:5: a name begins with"),
-        (
-            "<r>\u{1}</r>",
-            "1:4: XML does not allow the character U+0001; remove it",
-        ),
+        ("<r>\u{1}</r>", "1:4: XML does not allow the character U+0001; remove it"),
         (" <?xml version='1.0'?><r/>", "1:2: the XML declaration"),
     ] {
         let error = result(text).unwrap_err();
@@ -229,10 +176,7 @@ fn faults_that_the_parser_does_not_see_are_faults() {
         ("<r>&#0;</r>", "1:4: a reference"),
         ("<r>&#xFFFE;</r>", "1:4: a reference"),
         ("<?XML version='1.0'?><r/>", "1:1: `<?xml"),
-        (
-            "<?xml version='1.0' standalone='maybe'?><r/>",
-            "1:1: `standalone`",
-        ),
+        ("<?xml version='1.0' standalone='maybe'?><r/>", "1:1: `standalone`"),
         ("<r xmlns:q=''/>", "1:4: a prefix"),
         ("<r><:c/></r>", "1:5: a name"),
         ("<r :a='1'/>", "1:4: a name"),

@@ -65,15 +65,8 @@ impl Follow {
         if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg} {eta}") {
             bar.set_style(style);
         }
-        let state = State {
-            log,
-            ..State::default()
-        };
-        Follow {
-            bar,
-            state: Arc::new(Mutex::new(state)),
-            lines: None,
-        }
+        let state = State { log, ..State::default() };
+        Follow { bar, state: Arc::new(Mutex::new(state)), lines: None }
     }
 
     fn print_every(&mut self, interval: Duration, print: impl Fn(&str) + Send + 'static) {
@@ -145,9 +138,6 @@ mod tests {
         follow.finish().expect("no log to write");
         // The thread ends, and its end of the channel with it.
         while lines.recv_timeout(wait).is_ok() {}
-        assert_eq!(
-            lines.recv_timeout(wait),
-            Err(RecvTimeoutError::Disconnected)
-        );
+        assert_eq!(lines.recv_timeout(wait), Err(RecvTimeoutError::Disconnected));
     }
 }

@@ -81,25 +81,14 @@ fn human(result: &ProducerResult, out: &mut String) -> std::fmt::Result {
     writeln!(out)?;
     for class in &result.classes {
         let name = class.class.as_str();
-        writeln!(
-            out,
-            "class {name}: {} of {} robots",
-            class.passed.get(),
-            class.of.get()
-        )?;
+        writeln!(out, "class {name}: {} of {} robots", class.passed.get(), class.of.get())?;
     }
     for module in &result.modules {
         let codes = match module.codes.is_empty() {
             true => String::new(),
             false => format!(": {}", module.codes.join(" ")),
         };
-        writeln!(
-            out,
-            "  {} {} of {}{codes}",
-            module.name,
-            module.passed.get(),
-            module.of.get()
-        )?;
+        writeln!(out, "  {} {} of {}{codes}", module.name, module.passed.get(), module.of.get())?;
     }
     if !result.refused.is_empty() {
         let refused = result.refused.iter();
@@ -179,12 +168,7 @@ fn one(robot: &RobotScore, out: &mut String) -> std::fmt::Result {
             ModuleStatus::Missing if robot.end != "exit status 0" => {}
             ModuleStatus::Missing => writeln!(out, "  {} is missing{skipped}", module.name)?,
             ModuleStatus::Failed => {
-                writeln!(
-                    out,
-                    "  {}{skipped}: {}",
-                    module.name,
-                    module.codes.join(" ")
-                )?;
+                writeln!(out, "  {}{skipped}: {}", module.name, module.codes.join(" "))?;
                 if let Some(first) = &module.first {
                     writeln!(out, "    {first}")?;
                 }

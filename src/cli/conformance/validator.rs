@@ -93,11 +93,7 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
             Some(reason) => format!(" (skipped: {reason})"),
             None => String::new(),
         };
-        writeln!(
-            out,
-            "{} {fault}{skipped}: {}; {}",
-            case.id, case.title, case.end
-        )?;
+        writeln!(out, "{} {fault}{skipped}: {}; {}", case.id, case.title, case.end)?;
         if case.fault == CaseFault::Undecided {
             for line in case.stderr.lines() {
                 writeln!(out, "    {line}")?;
@@ -137,16 +133,10 @@ fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
 const MAX_NAMED: usize = 10;
 
 fn codes(printed: &PrintedCodes, out: &mut String) -> std::fmt::Result {
-    writeln!(
-        out,
-        "printed codes: {} of {} right",
-        printed.right.get(),
-        printed.of.get()
-    )?;
-    for (cases, what) in [
-        (&printed.missing, "not printed"),
-        (&printed.extra, "printed for a near miss"),
-    ] {
+    writeln!(out, "printed codes: {} of {} right", printed.right.get(), printed.of.get())?;
+    for (cases, what) in
+        [(&printed.missing, "not printed"), (&printed.extra, "printed for a near miss")]
+    {
         let named: Vec<&str> = cases.iter().take(MAX_NAMED).map(String::as_str).collect();
         let more = match cases.len().saturating_sub(MAX_NAMED) {
             0 => String::new(),

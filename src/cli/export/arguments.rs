@@ -108,11 +108,7 @@ pub struct ExportArguments {
 /// A part of all triangles, or a number of them.
 fn detail(word: &str) -> Result<Detail, String> {
     let count = word.parse::<usize>().ok().filter(|count| *count > 0);
-    let ratio = || {
-        word.parse::<f64>()
-            .ok()
-            .filter(|ratio| *ratio > 0.0 && *ratio < 1.0)
-    };
+    let ratio = || word.parse::<f64>().ok().filter(|ratio| *ratio > 0.0 && *ratio < 1.0);
     (count.map(Detail::Triangles))
         .or_else(|| ratio().map(Detail::Ratio))
         .ok_or_else(|| "a part between 0 and 1, such as 0.1, or a number of triangles".to_owned())

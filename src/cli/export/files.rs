@@ -28,9 +28,7 @@ fn merged(file: &Path, new: &str) -> Result<String, String> {
     }
     if merged.enabled > 0 {
         let pairs = pairs(merged.enabled);
-        output::error(&format!(
-            "note: did not disable {pairs} that a person enabled"
-        ));
+        output::error(&format!("note: did not disable {pairs} that a person enabled"));
     }
     Ok(merged.text)
 }

@@ -32,9 +32,7 @@ fn write(arguments: &ExportArguments, format: Format) -> Result<(), String> {
         (arguments.output.as_deref()).ok_or_else(|| "give the file to write with -o".to_owned())?;
     let to_standard_output = output.as_os_str() == "-";
     if to_standard_output && !target.is_alone() {
-        return Err(
-            "this format writes other files beside its own: give a file with -o".to_owned(),
-        );
+        return Err("this format writes other files beside its own: give a file with -o".to_owned());
     }
     check(arguments)?;
     let robot = shapes::open(&arguments.path)?;
@@ -68,10 +66,7 @@ fn check(arguments: &ExportArguments) -> Result<(), String> {
             arguments.floating_base && !is_of(&[Target::Mjcf, Target::Sdf]),
             "--floating-base is for MJCF and SDF only",
         ),
-        (
-            arguments.config.is_some() && target != Target::Curobo,
-            "--config is for cuRobo only",
-        ),
+        (arguments.config.is_some() && target != Target::Curobo, "--config is for cuRobo only"),
         (
             arguments.package.is_some() && !is_of(&[Target::Moveit, Target::Drake]),
             "--package is for MoveIt and Drake only",
@@ -115,9 +110,7 @@ fn options(arguments: &ExportArguments, robot: &Robot, output: &Path) -> Result<
         visuals: !arguments.no_visuals,
         detail: arguments.visuals.unwrap_or_default(),
         mesh_folder,
-        file: output
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned()),
+        file: output.file_name().map(|name| name.to_string_lossy().into_owned()),
         package,
         robot_file,
         floating_base: arguments.floating_base,

@@ -23,19 +23,11 @@ pub struct Urdd {
 impl Urdd {
     fn new(name: &str, documents: impl Iterator<Item = (String, Value)>) -> Urdd {
         let found = documents.filter_map(|(name, document)| {
-            let name = if name == ROOT {
-                "root_metadata"
-            } else {
-                name.as_str()
-            };
+            let name = if name == ROOT { "root_metadata" } else { name.as_str() };
             let mut all = Subject::all().filter(|subject| subject.is_version_1());
             Some((all.find(|subject| subject.name() == name)?, document))
         });
-        Urdd {
-            name: name.to_owned(),
-            documents: found.collect(),
-            fixture: None,
-        }
+        Urdd { name: name.to_owned(), documents: found.collect(), fixture: None }
     }
 
     /// That of a fixture.
@@ -50,10 +42,7 @@ impl Urdd {
     }
 
     fn list(&self, module: &str, key: &str) -> Option<&Vec<Value>> {
-        let (_, document) = self
-            .documents
-            .iter()
-            .find(|(subject, _)| subject.name() == module)?;
+        let (_, document) = self.documents.iter().find(|(subject, _)| subject.name() == module)?;
         document[key].as_array()
     }
 
@@ -61,13 +50,8 @@ impl Urdd {
     pub fn count(&self, thing: Thing, link: Option<usize>) -> Option<usize> {
         let length = |module, key| Some(self.list(module, key)?.len());
         let pieces = || self.list("convex_decomposition_meshes_module", "link_pieces");
-        let of_link = |key: &str| {
-            Some(
-                self.list("urdf_module", "links")?[link?][key]
-                    .as_array()?
-                    .len(),
-            )
-        };
+        let of_link =
+            |key: &str| Some(self.list("urdf_module", "links")?[link?][key].as_array()?.len());
         match thing {
             Thing::Link => length("urdf_module", "links"),
             Thing::Joint => length("urdf_module", "joints"),
@@ -80,9 +64,7 @@ impl Urdd {
                 Some(hulls.iter().filter(|hull| !hull.is_null()).count())
             }
             Thing::DecompositionShape => {
-                let lists = pieces()?
-                    .iter()
-                    .map(|pieces| pieces.as_array().map_or(0, Vec::len));
+                let lists = pieces()?.iter().map(|pieces| pieces.as_array().map_or(0, Vec::len));
                 Some(lists.sum())
             }
             Thing::Part => length("composition_module", "parts"),
@@ -109,19 +91,15 @@ pub fn bases() -> Vec<Urdd> {
             [base, "robot", "urdd.json"] => ((base, ROOT), "1.0.0".to_owned()),
             [base, "robot", .., module, "module.json"] => {
                 let file = path.replace("module.json", "VERSION");
-                let version = all
-                    .get(&file)
-                    .map(|bytes| String::from_utf8_lossy(bytes).trim().to_owned());
+                let version =
+                    all.get(&file).map(|bytes| String::from_utf8_lossy(bytes).trim().to_owned());
                 ((base, module), version.unwrap_or_default())
             }
             _ => continue,
         };
         if version == "1.0.0" {
             let document = serde_json::from_slice(bytes).expect("JSON");
-            documents
-                .entry(name.0.to_owned())
-                .or_default()
-                .push((name.1.to_owned(), document));
+            documents.entry(name.0.to_owned()).or_default().push((name.1.to_owned(), document));
         }
     }
     let found = documents.into_iter();

@@ -25,10 +25,7 @@ pub struct Place {
 
 /// The places of a document, an outer one before what is in it.
 pub fn walk(schema: &Value, document: &Value) -> Vec<Place> {
-    let mut walk = Walk {
-        root: schema,
-        places: Vec::new(),
-    };
+    let mut walk = Walk { root: schema, places: Vec::new() };
     walk.value(schema, "", document, "", None);
     walk.places
 }
@@ -100,11 +97,7 @@ impl<'a> Walk<'a> {
             });
         };
         if let (Some(text), Some(index)) = (schema[INDEX].as_str(), value.as_u64()) {
-            place(
-                INDEX,
-                of_index(text),
-                usize::try_from(index).expect("an index"),
-            );
+            place(INDEX, of_index(text), usize::try_from(index).expect("an index"));
         }
         if let (Some(text), Some(list)) = (schema[LENGTH].as_str(), value.as_array()) {
             place(LENGTH, of_length(text), list.len());
@@ -125,20 +118,12 @@ impl<'a> Walk<'a> {
                 let by_link = schema[LENGTH] == "links";
                 for (i, value) in list.iter().enumerate() {
                     let link = if by_link { Some(i) } else { link };
-                    self.value(
-                        items,
-                        &format!("{path}[]"),
-                        value,
-                        &format!("{pointer}/{i}"),
-                        link,
-                    );
+                    self.value(items, &format!("{path}[]"), value, &format!("{pointer}/{i}"), link);
                 }
             }
             Value::Object(map) => {
                 let own = map.get("link_idx").and_then(Value::as_u64);
-                let link = own
-                    .map(|link| usize::try_from(link).expect("an index"))
-                    .or(link);
+                let link = own.map(|link| usize::try_from(link).expect("an index")).or(link);
                 for (key, schema) in schema["properties"].as_object().into_iter().flatten() {
                     if let Some(value) = map.get(key) {
                         let pointer = format!("{pointer}/{key}");

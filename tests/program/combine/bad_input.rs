@@ -72,10 +72,7 @@ fn unknown_keys_are_told_with_the_nearest_key() {
         assert!(words.contains(&format!("did you mean {meant}?")), "{words}");
     }
     let (_, _, words) = fault(&[("# more of the arm", "limit = 3")]);
-    assert!(
-        words.contains("unknown key `limit`; expected one of: id, source"),
-        "{words}"
-    );
+    assert!(words.contains("unknown key `limit`; expected one of: id, source"), "{words}");
 }
 
 #[test]
@@ -83,26 +80,14 @@ fn values_of_the_wrong_type_are_told_with_their_place() {
     let (fault_of, at, words) = fault(&[("[0, 0, 0.1]", "[0, 0]")]);
     assert!(matches!(fault_of, RecipeFault::Toml(_)), "{words}");
     assert_eq!(at.map(|at| at.0), Some(12), "{words}");
-    assert!(matches!(
-        fault(&[("name =", "= name =")]).0,
-        RecipeFault::Toml(_)
-    ));
-    assert_eq!(
-        fault(&[("[0, 0, 0.1]", "[0, 0, nan]")]).0,
-        RecipeFault::NotFinite("attach")
-    );
+    assert!(matches!(fault(&[("name =", "= name =")]).0, RecipeFault::Toml(_)));
+    assert_eq!(fault(&[("[0, 0, 0.1]", "[0, 0, nan]")]).0, RecipeFault::NotFinite("attach"));
 }
 
 #[test]
 fn keys_that_must_be_there_are_named() {
-    assert_eq!(
-        fault(&[("id = \"arm\"\n", "")]).0,
-        RecipeFault::MissingKey("id")
-    );
-    assert_eq!(
-        fault(&[("to = \"arm/tool0\", ", "")]).0,
-        RecipeFault::MissingKey("attach.to")
-    );
+    assert_eq!(fault(&[("id = \"arm\"\n", "")]).0, RecipeFault::MissingKey("id"));
+    assert_eq!(fault(&[("to = \"arm/tool0\", ", "")]).0, RecipeFault::MissingKey("attach.to"));
     let folder = testkit::temporary::folder();
     let error = put_together("name = \"x\"", folder.path(), &core()).expect_err("no part");
     assert!(matches!(
@@ -115,47 +100,25 @@ fn keys_that_must_be_there_are_named() {
 fn ids_tell_parts_apart() {
     let (fault_of, _, words) = fault(&[("id = \"gripper\"", "id = \"Arm\"")]);
     assert!(matches!(fault_of, RecipeFault::IdTwice { .. }));
-    assert!(
-        words.contains("another part has the id `Arm`:4:6"),
-        "{words}"
-    );
-    assert!(matches!(
-        fault(&[("id = \"arm\"", "id = \"a/b\"")]).0,
-        RecipeFault::BadId(_)
-    ));
+    assert!(words.contains("another part has the id `Arm`:4:6"), "{words}");
+    assert!(matches!(fault(&[("id = \"arm\"", "id = \"a/b\"")]).0, RecipeFault::BadId(_)));
 }
 
 #[test]
 fn a_link_to_attach_to_that_is_not_there_is_told_with_the_nearest() {
     let (fault_of, at, words) = fault(&[("arm/tool0", "arm/tol0")]);
-    assert!(matches!(
-        fault_of,
-        RecipeFault::Unknown { what: "link", .. }
-    ));
+    assert!(matches!(fault_of, RecipeFault::Unknown { what: "link", .. }));
     assert_eq!(at, Some((12, 17)));
-    assert!(
-        words.contains("part `arm` has no link `tol0`; did you mean `tool0`?"),
-        "{words}"
-    );
+    assert!(words.contains("part `arm` has no link `tol0`; did you mean `tool0`?"), "{words}");
     let (_, _, words) = fault(&[("arm/tool0", "amr/tool0")]);
-    assert!(
-        words.contains("there is no part `amr`; did you mean `arm`?"),
-        "{words}"
-    );
-    assert!(matches!(
-        fault(&[("arm/tool0", "tool0")]).0,
-        RecipeFault::NoPartNamed(_)
-    ));
+    assert!(words.contains("there is no part `amr`; did you mean `arm`?"), "{words}");
+    assert!(matches!(fault(&[("arm/tool0", "tool0")]).0, RecipeFault::NoPartNamed(_)));
 }
 
 #[test]
 fn parts_hang_on_no_ring() {
     let (fault_of, _, words) = fault(&[("arm/tool0", "gripper/grasp_frame")]);
-    assert_eq!(
-        fault_of,
-        RecipeFault::OnItself("gripper".to_owned()),
-        "{words}"
-    );
+    assert_eq!(fault_of, RecipeFault::OnItself("gripper".to_owned()), "{words}");
     let ring = "attach = { to = \"gripper/grasp_frame\" }";
     let (fault_of, _, words) = fault(&[("# more of the arm", ring)]);
     assert!(matches!(fault_of, RecipeFault::Ring(_)));
@@ -168,10 +131,7 @@ fn a_robot_has_one_root() {
         fault(&[("attach = { to = \"arm/tool0\", xyz = [0, 0, 0.1] }", "")]);
     assert!(matches!(fault_of, RecipeFault::TwoRoots { .. }));
     assert_eq!(at, Some((10, 6)));
-    assert!(
-        words.contains("`arm` and `gripper` are both unattached"),
-        "{words}"
-    );
+    assert!(words.contains("`arm` and `gripper` are both unattached"), "{words}");
     let (fault_of, _, words) = fault(&[("# more of the arm", "drop = [\"base_link\"]")]);
     assert!(matches!(fault_of, RecipeFault::DropsRoot { .. }), "{words}");
 }
@@ -179,10 +139,7 @@ fn a_robot_has_one_root() {
 #[test]
 fn what_is_dropped_cannot_be_used() {
     let (fault_of, at, words) = fault(&[("# more of the arm", "drop = [\"tool0\"]")]);
-    assert!(
-        matches!(fault_of, RecipeFault::Dropped { what: "link", .. }),
-        "{words}"
-    );
+    assert!(matches!(fault_of, RecipeFault::Dropped { what: "link", .. }), "{words}");
     assert_eq!(at.map(|at| at.0), Some(12));
     let more = "drop = [\"left_finger\"]\nfreeze = { left_rack = 0.01 }";
     assert!(matches!(
@@ -211,25 +168,12 @@ fn freezing_keeps_to_the_joint() {
     );
     assert!(matches!(
         with("freeze = { motor = [1, 2] }").0,
-        RecipeFault::FreezeCount {
-            expected: 1,
-            found: 2,
-            ..
-        }
+        RecipeFault::FreezeCount { expected: 1, found: 2, .. }
     ));
-    assert!(matches!(
-        with("freeze = { grasp_mount = 0 }").0,
-        RecipeFault::FreezesFixed { .. }
-    ));
-    assert_eq!(
-        with("freeze = { motor = inf }").0,
-        RecipeFault::NotFinite("freeze")
-    );
+    assert!(matches!(with("freeze = { grasp_mount = 0 }").0, RecipeFault::FreezesFixed { .. }));
+    assert_eq!(with("freeze = { motor = inf }").0, RecipeFault::NotFinite("freeze"));
     let (_, _, words) = with("freeze = { moter = 0 }");
-    assert!(
-        words.contains("no joint `moter`; did you mean `motor`?"),
-        "{words}"
-    );
+    assert!(words.contains("no joint `moter`; did you mean `motor`?"), "{words}");
 }
 
 #[test]
@@ -247,14 +191,8 @@ fn a_mimic_whose_driver_is_dropped_is_refused() {
 fn joints_between_parts_are_such_as_urdf_has() {
     let with = |joint: &str| fault(&[("xyz = [0, 0, 0.1]", joint)]);
     let (_, _, words) = with("joint = \"revolut\"");
-    assert!(
-        words.contains("unknown joint type `revolut`; did you mean `revolute`?"),
-        "{words}"
-    );
-    assert!(matches!(
-        with("joint = \"revolute\"").0,
-        RecipeFault::NoLimit(_)
-    ));
+    assert!(words.contains("unknown joint type `revolut`; did you mean `revolute`?"), "{words}");
+    assert!(matches!(with("joint = \"revolute\"").0, RecipeFault::NoLimit(_)));
     let crossed = "joint = \"prismatic\", limit = { lower = 1, upper = 0 }";
     assert!(matches!(with(crossed).0, RecipeFault::CrossedLimit { .. }));
     assert_eq!(with("axis = [0, 0, 0]").0, RecipeFault::ZeroAxis);
@@ -268,10 +206,7 @@ fn names_that_clash_are_told_with_both_parts() {
         ours("gripper").display()
     );
     let (fault_of, at, words) = fault(&[("# more of the gripper", &gripper)]);
-    assert!(
-        matches!(fault_of, RecipeFault::Clash { what: "link", .. }),
-        "{words}"
-    );
+    assert!(matches!(fault_of, RecipeFault::Clash { what: "link", .. }), "{words}");
     assert_eq!(at, Some((15, 6)));
     assert!(
         words.contains("the link `gripper_base` comes from part `gripper` and from part `other`; give one of them a `prefix`"),
@@ -279,10 +214,7 @@ fn names_that_clash_are_told_with_both_parts() {
     );
     let named = "name = \"joint_1\"";
     let (fault_of, _, words) = fault(&[("xyz = [0, 0, 0.1]", named)]);
-    assert!(
-        matches!(fault_of, RecipeFault::Clash { what: "joint", .. }),
-        "{words}"
-    );
+    assert!(matches!(fault_of, RecipeFault::Clash { what: "joint", .. }), "{words}");
 }
 
 #[test]
@@ -292,12 +224,7 @@ fn sources_that_are_no_robots_are_told_with_the_part() {
     for source in ["nowhere", "empty"] {
         let text = recipe(&[(ours("gripper").to_str().expect("a path"), source)]);
         let error = put_together(&text, folder.path(), &core()).expect_err("no robot");
-        let CombineError::Part {
-            id,
-            fault: PartFault::Missing(_),
-            ..
-        } = &error
-        else {
+        let CombineError::Part { id, fault: PartFault::Missing(_), .. } = &error else {
             panic!("{error:?}");
         };
         assert_eq!(id, "gripper");
@@ -305,30 +232,23 @@ fn sources_that_are_no_robots_are_told_with_the_part() {
     std::fs::write(folder.path().join("bad.urdf"), "<robot name=\"x\"/>").expect("a file");
     let text = recipe(&[(ours("gripper").to_str().expect("a path"), "bad.urdf")]);
     let error = put_together(&text, folder.path(), &core()).expect_err("no robot");
-    assert!(
-        matches!(error, CombineError::Generate { id: Some(_), .. }),
-        "{error:?}"
-    );
+    assert!(matches!(error, CombineError::Generate { id: Some(_), .. }), "{error:?}");
     assert!(error.to_string().contains("bad.urdf:1:1"), "{error}");
 }
 
 #[test]
 fn names_are_told_as_elements_or_attributes() {
     let names = "names = [\"a@b@c\"]";
-    assert!(matches!(
-        fault(&[("# more of the gripper", names)]).0,
-        RecipeFault::BadName(_)
-    ));
+    assert!(matches!(fault(&[("# more of the gripper", names)]).0, RecipeFault::BadName(_)));
 }
 
 #[test]
 fn parts_of_unequal_modules_are_said() {
     let folder = testkit::temporary::folder();
     let folder = folder.path();
-    for (name, modules) in [
-        ("six_axis_arm", &["core", "original_meshes"][..]),
-        ("gripper", &["core"]),
-    ] {
+    for (name, modules) in
+        [("six_axis_arm", &["core", "original_meshes"][..]), ("gripper", &["core"])]
+    {
         let settings = Settings {
             selection: Selection::parse(modules.iter().copied()).expect("modules"),
             ..with_ours()
@@ -336,10 +256,7 @@ fn parts_of_unequal_modules_are_said() {
         generate(&ours(name), &folder.join(name), &settings, &()).expect("a URDD");
     }
     let text = recipe(&[
-        (
-            ours("six_axis_arm").to_str().expect("a path"),
-            "six_axis_arm",
-        ),
+        (ours("six_axis_arm").to_str().expect("a path"), "six_axis_arm"),
         (ours("gripper").to_str().expect("a path"), "gripper"),
     ]);
     let settings = Settings {
@@ -347,9 +264,8 @@ fn parts_of_unequal_modules_are_said() {
         ..with_ours()
     };
     let (made, target) = put_together(&text, folder, &settings).expect("a robot");
-    let notes: Vec<(&str, String)> = (made.notes.iter())
-        .map(|note| (note.kind, note.to_string()))
-        .collect();
+    let notes: Vec<(&str, String)> =
+        (made.notes.iter()).map(|note| (note.kind, note.to_string())).collect();
     let unequal =
         "part `gripper`: it has no original_meshes_module, which other parts have; it is computed";
     assert_eq!(notes, [("unequal-modules", unequal.to_owned())]);
@@ -369,9 +285,7 @@ fn no_path_is_recorded_of_parts_from_elsewhere() {
     let mut settings = core();
     settings.allowed_folders.push(folder.path().to_owned());
     let (made, target) = put_together(&text, &recipes, &settings).expect("a robot");
-    let names: Vec<&str> = (made.composition.parts.iter())
-        .map(|part| part.name.as_str())
-        .collect();
+    let names: Vec<&str> = (made.composition.parts.iter()).map(|part| part.name.as_str()).collect();
     assert_eq!(names, ["six_axis_arm", "gripper"]);
     // Neither in the folder of the recipe's parts, nor in that of the arm.
     let own = folder.path().to_str().expect("a path");

@@ -62,10 +62,7 @@ fn configurations_of_parts_come_along_by_name_and_a_persons_stay() {
         .collect();
     let expected = "part `right`: the configuration `open` is kept without a position of `motor`, whose joint is dropped or frozen";
     assert_eq!(lost, [expected]);
-    let of_parts = [
-        edit("left_open", &[("left_motor", 0.25)]),
-        edit("right_open", &[]),
-    ];
+    let of_parts = [edit("left_open", &[("left_motor", 0.25)]), edit("right_open", &[])];
     assert_eq!(edits_of(&target), of_parts);
     assert_eq!(findings(&target), [] as [String; 0]);
     // A user changes one of them, and adds another: both stay.
@@ -86,11 +83,7 @@ fn of_two_configurations_with_one_name_the_first_is_kept() {
     for (name, position) in [("gripper", 0.25), ("hand", 0.125)] {
         let urdd = folder.join(name);
         generate(&ours(name), &urdd, &core(), &()).expect("a URDD");
-        let dof = Robot::open(&urdd)
-            .expect("a robot")
-            .dof_names()
-            .expect("names")[0]
-            .clone();
+        let dof = Robot::open(&urdd).expect("a robot").dof_names().expect("names")[0].clone();
         write(&urdd, &[edit("open", &[(&dof, position)])]);
     }
     let recipe = r#"name = "cell"

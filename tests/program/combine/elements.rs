@@ -84,15 +84,8 @@ fn names_get_the_prefix_wherever_they_are_known_to_stand() {
         assert!(text.contains(line), "{line}\n{text}");
     }
     // A message names what is left unchanged, and what to write.
-    assert_eq!(
-        left_alone(&notes),
-        [("handName", "hand"), ("topic@on", "tip")]
-    );
-    assert!(
-        notes[0].to_string().contains("names = [\"handName\"]"),
-        "{}",
-        notes[0]
-    );
+    assert_eq!(left_alone(&notes), [("handName", "hand"), ("topic@on", "tip")]);
+    assert!(notes[0].to_string().contains("names = [\"handName\"]"), "{}", notes[0]);
 }
 
 #[test]
@@ -108,21 +101,11 @@ fn a_recipe_says_what_else_names_links() {
 #[test]
 fn what_is_dropped_takes_along_what_names_it() {
     let (text, notes) = composed("drop = [\"tip\", \"other\"]");
-    for gone in [
-        "l/tip",
-        "l/slide",
-        "transmission",
-        "<gazebo reference",
-        "bodyName",
-        "l/other",
-    ] {
+    for gone in ["l/tip", "l/slide", "transmission", "<gazebo reference", "bodyName", "l/other"] {
         assert!(!text.contains(gone), "{gone}\n{text}");
     }
     // Only the joints of it.
-    assert!(
-        text.contains("ros2_control") && text.contains("l/force"),
-        "{text}"
-    );
+    assert!(text.contains("ros2_control") && text.contains("l/force"), "{text}");
     let gone = notes.iter().filter(|note| note.kind == "gone").count();
     assert_eq!(gone, 6, "{notes:?}");
 }
@@ -131,23 +114,14 @@ fn what_is_dropped_takes_along_what_names_it() {
 fn a_follower_of_a_frozen_joint_is_frozen_too() {
     let (text, notes) = composed("freeze = { slide = 0.75 }");
     // 2 * 0.75 - 1 along y.
-    assert!(
-        text.contains("<origin xyz=\"0.75 0 0\" rpy=\"0 0 0\"/>"),
-        "{text}"
-    );
-    assert!(
-        text.contains("<origin xyz=\"0 0.5 0\" rpy=\"0 0 0\"/>"),
-        "{text}"
-    );
+    assert!(text.contains("<origin xyz=\"0.75 0 0\" rpy=\"0 0 0\"/>"), "{text}");
+    assert!(text.contains("<origin xyz=\"0 0.5 0\" rpy=\"0 0 0\"/>"), "{text}");
     assert!(
         !text.contains("<mimic") && !text.contains("prismatic") && !text.contains("<limit"),
         "{text}"
     );
     assert!(!text.contains("transmission"), "{text}");
-    assert!(
-        notes.iter().any(|note| note.kind == "following"),
-        "{notes:?}"
-    );
+    assert!(notes.iter().any(|note| note.kind == "following"), "{notes:?}");
 }
 
 #[test]
@@ -187,20 +161,13 @@ fn materials_of_one_name_look_alike() {
         "{words}"
     );
     // Equal elements appear once.
-    let alike = other
-        .replace("0 0 0 1", "0.5 0.5 0.5 1")
-        .replace("name=\"drive\"", "name=\"d2\"");
-    let alike = alike
-        .replace("name=\"system\"", "name=\"s2\"")
-        .replace("name=\"motor\"", "name=\"m2\"");
+    let alike = other.replace("0 0 0 1", "0.5 0.5 0.5 1").replace("name=\"drive\"", "name=\"d2\"");
+    let alike =
+        alike.replace("name=\"system\"", "name=\"s2\"").replace("name=\"motor\"", "name=\"m2\"");
     std::fs::write(folder.path().join("h.urdf"), alike).expect("a file");
     let (_, target) = put_together(recipe, folder.path(), &core()).expect("a robot");
     let text = std::fs::read_to_string(target.join("cell.urdf")).expect("the URDF");
-    assert_eq!(
-        text.matches("<material name=\"steel\"><color").count(),
-        1,
-        "{text}"
-    );
+    assert_eq!(text.matches("<material name=\"steel\"><color").count(), 1, "{text}");
 }
 
 #[test]
@@ -224,10 +191,7 @@ fn textures_of_materials_are_not_carried_and_that_is_said() {
         )
     };
     // Each by its name, except that of the dropped link.
-    assert_eq!(
-        notes,
-        [texture("package://t/own.png"), texture("textures/wood.png")]
-    );
+    assert_eq!(notes, [texture("package://t/own.png"), texture("textures/wood.png")]);
     let text = std::fs::read_to_string(target.join("cell.urdf")).expect("the URDF");
     assert!(text.contains("<texture filename=\"textures/wood.png\"/>"));
 }

@@ -70,10 +70,7 @@ prefix = "robot_2_"
 attach = { to = "base/combined_robot_world", name = "connection_joint_robot_2", xyz = [0.1, 0.0, 0.0], rpy = [0.0, 1.571, 0.0] }
 "#
     );
-    assert_eq!(
-        notes,
-        ["the axis of the joint of robot 1 is 0 0 0; 1 0 0 is used"]
-    );
+    assert_eq!(notes, ["the axis of the joint of robot 1 is 0 0 0; 1 0 0 is used"]);
 }
 
 #[test]
@@ -107,16 +104,9 @@ fn created_chains_say_what_a_recipe_cannot() {
     let chain = json!({ "AddAlreadyExistingChain": { "name": "arm", "base_offset": pose, "scale": [1.0, 1.0, 2.0] } });
     let mass = json!({ "SetObjectMass": { "object_name": "x", "mass": 1.0 } });
     let module = |actions: Value| json!({ "name": "room", "actions": actions });
-    let (text, notes) = of(
-        folder.path(),
-        "creator_module",
-        module(json!([chain, mass])),
-    )
-    .expect("a recipe");
-    assert!(
-        text.contains("xyz = [1.0, 2.0, 3.0]\nrpy = [0.0, 0.0, 3.14"),
-        "{text}"
-    );
+    let (text, notes) =
+        of(folder.path(), "creator_module", module(json!([chain, mass]))).expect("a recipe");
+    assert!(text.contains("xyz = [1.0, 2.0, 3.0]\nrpy = [0.0, 0.0, 3.14"), "{text}");
     assert_eq!(notes.len(), 2);
     assert!(
         notes[0].starts_with("action 0 scales `arm`")
@@ -125,13 +115,7 @@ fn created_chains_say_what_a_recipe_cannot() {
     );
     let error = of(folder.path(), "creator_module", module(json!([mass]))).expect_err("nothing");
     assert!(
-        matches!(
-            error,
-            CombineError::Part {
-                fault: PartFault::SaysNothing(_),
-                ..
-            }
-        ),
+        matches!(error, CombineError::Part { fault: PartFault::SaysNothing(_), .. }),
         "{error}"
     );
     assert!(error.to_string().contains("SetObjectMass"), "{error}");

@@ -15,10 +15,7 @@ use crate::combine::support::{core, findings, ours, put_together, with_ours};
 
 /// Few samples: these tests do not check distances.
 fn quick() -> Settings {
-    Settings {
-        num_samples: 20,
-        ..with_ours()
-    }
+    Settings { num_samples: 20, ..with_ours() }
 }
 
 /// The edits of the skips that a URDD has.
@@ -147,14 +144,9 @@ fn edits_of_parts_come_along_by_name_and_a_persons_edits_stay() {
         skip,
         reason: reason.to_owned(),
     };
-    let edits = vec![
-        edit("base", "flange", true, "seen"),
-        edit("torch", "flange", false, "lost"),
-    ];
+    let edits = vec![edit("base", "flange", true, "seen"), edit("torch", "flange", false, "lost")];
     let write = |urdd: &Path, edits: Vec<SkipEdit>| {
-        let edited = Robot::open(urdd)
-            .expect("a robot")
-            .with_skip_edits(edits, None);
+        let edited = Robot::open(urdd).expect("a robot").with_skip_edits(edits, None);
         for (path, bytes) in edited.expect("edits").files {
             // Kept files may be links to those of other runs.
             let path = urdd.join(path);
@@ -213,11 +205,8 @@ fn each_part_moves_as_by_itself() {
     let recipe = "[[part]]\nid = \"arm\"\nsource = \"arm\"\nprefix = \"\"\n[[part]]\nid = \"g\"\nsource = \"gripper\"\nattach = { to = \"arm/tool0\", xyz = [0.1, 0.2, 0.3], rpy = [0.4, -0.5, 0.6] }";
     let (_, target) = put_together(recipe, folder, &core()).expect("a robot");
     let open = |path: &Path| Robot::open(path).expect("a robot");
-    let (arm, gripper, whole) = (
-        open(&folder.join("arm")),
-        open(&folder.join("gripper")),
-        open(&target),
-    );
+    let (arm, gripper, whole) =
+        (open(&folder.join("arm")), open(&folder.join("gripper")), open(&target));
     let q = whole.configurations().expect("configurations").random(3);
     let (of_arm, of_gripper) = q.split_at(arm.configurations().expect("them").num_dofs());
     let poses = whole.link_poses(&q).expect("poses");

@@ -13,15 +13,8 @@ use crate::combine::support::{core, findings, put_together};
 use testkit::dice::Dice;
 use testkit::robots::our_robots;
 
-const TYPES: [&str; 7] = [
-    "fixed",
-    "revolute",
-    "continuous",
-    "prismatic",
-    "planar",
-    "floating",
-    "spherical",
-];
+const TYPES: [&str; 7] =
+    ["fixed", "revolute", "continuous", "prismatic", "planar", "floating", "spherical"];
 
 /// A robot that can be a part: its URDD and its content.
 struct Known {
@@ -34,25 +27,14 @@ impl Known {
     fn of(path: PathBuf) -> Known {
         let robot = Robot::open(&path).expect("a robot");
         let described = robot.description().expect("a robot");
-        Known {
-            path,
-            robot,
-            described,
-        }
+        Known { path, robot, described }
     }
 
     fn root(&self) -> &str {
-        let is_child = |name: &str| {
-            self.described
-                .joints
-                .iter()
-                .any(|joint| joint.child.link == name)
-        };
+        let is_child =
+            |name: &str| self.described.joints.iter().any(|joint| joint.child.link == name);
         let mut links = self.described.links.iter();
-        &links
-            .find(|link| !is_child(&link.name))
-            .expect("a root")
-            .name
+        &links.find(|link| !is_child(&link.name)).expect("a root").name
     }
 
     /// The links attached to a link, and the link itself.
@@ -124,9 +106,7 @@ fn recipe<'a>(dice: &mut Dice, known: &'a [Known], number_of: usize) -> (String,
             let on = dice.below(idx);
             let holder = &members[on];
             let links = holder.of.described.links.iter().map(|link| &link.name);
-            let links: Vec<&String> = links
-                .filter(|link| !holder.dropped.contains(link))
-                .collect();
+            let links: Vec<&String> = links.filter(|link| !holder.dropped.contains(link)).collect();
             let link = links[dice.below(links.len())].clone();
             let [xyz, rpy] = [1.0, 3.0].map(|size| [0; 3].map(|_| number(dice, size)));
             let kind = TYPES[dice.below(7)];
@@ -170,15 +150,10 @@ fn drop_some(dice: &mut Dice, member: &mut Member, text: &mut String) {
     let below = of.below(link);
     let joints = &of.described.joints;
     let is_gone = |name: &str| {
-        joints
-            .iter()
-            .any(|joint| joint.name == name && below.contains(&joint.child.link))
+        joints.iter().any(|joint| joint.name == name && below.contains(&joint.child.link))
     };
     let lost = joints.iter().any(|joint| {
-        let follows = joint
-            .mimic
-            .as_ref()
-            .is_some_and(|mimic| is_gone(&mimic.joint));
+        let follows = joint.mimic.as_ref().is_some_and(|mimic| is_gone(&mimic.joint));
         follows && !is_gone(&joint.name)
     });
     if !lost {
@@ -237,11 +212,8 @@ fn compare(whole: &Robot, members: &[Member], k: u64) {
             })
             .collect();
         let own_poses = own.link_poses(&own_q).expect("poses");
-        let at = |name: &str| {
-            poses[whole
-                .link(&format!("{}{name}", member.prefix))
-                .expect("a link")]
-        };
+        let at =
+            |name: &str| poses[whole.link(&format!("{}{name}", member.prefix)).expect("a link")];
         let root = at(member.of.root());
         for (name, pose) in own.link_names().expect("links").iter().zip(own_poses) {
             if member.dropped.contains(name) {
@@ -291,18 +263,9 @@ fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
         for k in 0..3 {
             compare(&whole, &members, k);
         }
-        frozen += members
-            .iter()
-            .filter(|member| !member.frozen.is_empty())
-            .count();
-        dropped += members
-            .iter()
-            .filter(|member| !member.dropped.is_empty())
-            .count();
-        nested += members
-            .iter()
-            .filter(|member| member.of.path.ends_with("nested"))
-            .count();
+        frozen += members.iter().filter(|member| !member.frozen.is_empty()).count();
+        dropped += members.iter().filter(|member| !member.dropped.is_empty()).count();
+        nested += members.iter().filter(|member| member.of.path.ends_with("nested")).count();
         attached.extend(members.iter().filter_map(|member| member.attached));
         prefixes.extend(members.iter().map(|member| member.prefix.clone()));
         // The first ones are parts of later ones.
@@ -313,14 +276,8 @@ fn robots_put_together_at_random_are_valid_and_move_as_their_parts() {
             known.push(Known::of(path.to_owned()));
         }
     }
-    assert!(
-        frozen > 10 && dropped > 10 && nested > 5,
-        "{frozen} {dropped} {nested}"
-    );
+    assert!(frozen > 10 && dropped > 10 && nested > 5, "{frozen} {dropped} {nested}");
     assert_eq!(attached, BTreeSet::from(TYPES));
     let without = |prefix: &str| prefixes.contains(prefix);
-    assert!(
-        without("") && without("p0/") && without("p1_"),
-        "{prefixes:?}"
-    );
+    assert!(without("") && without("p0/") && without("p1_"), "{prefixes:?}");
 }

@@ -20,10 +20,7 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
     let (recipe, notes) = Recipe::of_legacy(&legacy).expect("a recipe");
     assert_eq!(notes, []);
     let legacy_part = corpus.join("z1");
-    let settings = Settings {
-        num_samples: 50,
-        ..Settings::default()
-    };
+    let settings = Settings { num_samples: 50, ..Settings::default() };
     let made = combine(&recipe, &target, &settings, &BTreeSet::new(), &()).expect("a URDD");
     assert_eq!(findings(&target), [] as [String; 0]);
     // The file of one mesh is missing from our copy: the plain mesh replaces it.
@@ -34,9 +31,7 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
     // All plain meshes are those that the authors published, each in its link's frame.
     let robot = Robot::open(&target).expect("a robot");
     let published = Robot::open(&legacy_part).expect("a robot");
-    for name in [
-        "link00", "link01", "link02", "link03", "link04", "link05", "link06",
-    ] {
+    for name in ["link00", "link01", "link02", "link03", "link04", "link05", "link06"] {
         let extent = |robot: &Robot, name: &str| {
             let link = robot.link(name).expect("a link");
             let visuals = robot.visuals().expect("plain meshes");
@@ -66,18 +61,9 @@ fn a_published_composition_becomes_a_urdd_that_passes() {
     };
     for key in ["links", "joints"] {
         let module = "urdf_module/module.json";
-        assert_eq!(
-            names(target.join(module), key),
-            names(legacy.join(module), key)
-        );
+        assert_eq!(names(target.join(module), key), names(legacy.join(module), key));
     }
     // A robot that was not composed is not a composition.
     let error = Recipe::of_legacy(&corpus.join("ur5")).expect_err("no recipe");
-    assert!(matches!(
-        error,
-        CombineError::Part {
-            fault: PartFault::NotComposed,
-            ..
-        }
-    ));
+    assert!(matches!(error, CombineError::Part { fault: PartFault::NotComposed, .. }));
 }

@@ -46,11 +46,7 @@ fn a_recipe_takes_parts_from_its_own_folder() {
     ] {
         let made = put_together(&one(source), &repository, &core());
         let error = made.expect_err("a part from outside");
-        let CombineError::Part {
-            fault: PartFault::Outside { allow, .. },
-            ..
-        } = &error
-        else {
+        let CombineError::Part { fault: PartFault::Outside { allow, .. }, .. } = &error else {
             panic!("{source}: {error:?}");
         };
         assert_eq!(Path::new(allow), outside);
@@ -63,11 +59,7 @@ fn a_recipe_takes_parts_from_its_own_folder() {
         put_together(&one(source), &repository, &settings).expect("it is allowed");
         fs::remove_dir_all(repository.join("cell")).expect("a folder");
     }
-    for source in [
-        "robot.urdf",
-        "sub/../robot.urdf",
-        "../repository/robot.urdf",
-    ] {
+    for source in ["robot.urdf", "sub/../robot.urdf", "../repository/robot.urdf"] {
         put_together(&one(source), &repository, &core()).expect("it is inside");
         fs::remove_dir_all(repository.join("cell")).expect("a folder");
     }
@@ -118,13 +110,7 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
     // A legacy URDD.
     let module = folder.join("legacy/adjusted_robot_module");
     fs::create_dir_all(&module).expect("a folder");
-    for name in [
-        "evil.xacro",
-        "legacy/../evil.xacro",
-        "../evil.xacro",
-        "/etc",
-        "..",
-    ] {
+    for name in ["evil.xacro", "legacy/../evil.xacro", "../evil.xacro", "/etc", ".."] {
         let document = json!({
             "name": "short", "base_robot_name": name, "dead_end_link_names": [],
             "fixed_base_joints": [], "deleted_base_links": [], "deleted_base_joints": [],
@@ -141,24 +127,10 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
             assert!(said.contains("not the name of a folder"), "{said}");
         }
         let error = Recipe::of_legacy(&folder.join("legacy")).expect_err("not beside it");
-        assert!(matches!(
-            error,
-            CombineError::Part {
-                fault: PartFault::NotBeside,
-                ..
-            }
-        ));
+        assert!(matches!(error, CombineError::Part { fault: PartFault::NotBeside, .. }));
     }
     // The user names it.
-    let two = [
-        "combine",
-        "evil.xacro",
-        "tool.urdf",
-        "--at",
-        "a",
-        "-o",
-        "out",
-    ];
+    let two = ["combine", "evil.xacro", "tool.urdf", "--at", "a", "-o", "out"];
     let (status, said, ran) = with_xacro(folder, &two);
     assert_eq!((status, ran), (0, true), "{said}");
 }
@@ -178,13 +150,7 @@ fn the_urdf_of_a_legacy_part_is_inside_of_it() {
         std::os::unix::fs::symlink(target, &urdf).expect("a link");
         let error = put_together(&one("part"), folder, &core()).expect_err("not a file of it");
         assert!(
-            matches!(
-                error,
-                CombineError::Part {
-                    fault: PartFault::Unreadable { .. },
-                    ..
-                }
-            ),
+            matches!(error, CombineError::Part { fault: PartFault::Unreadable { .. }, .. }),
             "{error:?}"
         );
         fs::remove_file(&urdf).expect("a link");
@@ -216,26 +182,16 @@ fn very_many_parts_are_refused_before_they_are_read() {
     let CombineError::Recipe { fault, .. } = error else {
         panic!("{error}");
     };
-    assert!(
-        matches!(*fault, RecipeFault::TooManyLinks { limit: 2_000, .. }),
-        "{fault}"
-    );
+    assert!(matches!(*fault, RecipeFault::TooManyLinks { limit: 2_000, .. }), "{fault}");
     // Few parts with too many links: none is read after the one that exceeds the limit.
     fs::write(folder.join("two.urdf"), TWO).expect("a file");
     let error = put_together(&chain(1_001), folder, &core()).expect_err("too many");
     let CombineError::Recipe { fault, .. } = error else {
         panic!("{error}");
     };
-    assert!(
-        matches!(*fault, RecipeFault::TooManyLinks { found: 2_002, .. }),
-        "{fault}"
-    );
+    assert!(matches!(*fault, RecipeFault::TooManyLinks { found: 2_002, .. }), "{fault}");
     // This once took minutes: the checks took time cubic in the number of parts.
-    assert!(
-        start.elapsed() < Duration::from_secs(20),
-        "{:?}",
-        start.elapsed()
-    );
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
 #[test]
@@ -266,16 +222,7 @@ fn words_that_no_urdf_can_hold_are_refused_with_their_place() {
         let CombineError::Recipe { fault, .. } = error else {
             panic!("{error}");
         };
-        assert!(
-            matches!(
-                *fault,
-                RecipeFault::BadWord {
-                    what: "the name",
-                    ..
-                }
-            ),
-            "{fault}"
-        );
+        assert!(matches!(*fault, RecipeFault::BadWord { what: "the name", .. }), "{fault}");
     }
 }
 
@@ -303,9 +250,7 @@ fn a_signal_ends_combining_at_any_moment() {
             .expect("the program");
         std::thread::sleep(Duration::from_millis(wait));
         let pid = child.id().to_string();
-        let kill = std::process::Command::new("kill")
-            .args(["-TERM", &pid])
-            .status();
+        let kill = std::process::Command::new("kill").args(["-TERM", &pid]).status();
         assert!(kill.expect("kill").success());
         let status = child.wait().expect("a status");
         assert_eq!(status.code(), Some(143), "after {wait} ms");
@@ -340,9 +285,7 @@ fn a_recipe_is_a_regular_file_up_to_a_limit() {
     assert!(said.contains("cannot be read"), "{said}");
     #[cfg(unix)]
     {
-        let made = std::process::Command::new("mkfifo")
-            .arg(folder.join("pipe.toml"))
-            .status();
+        let made = std::process::Command::new("mkfifo").arg(folder.join("pipe.toml")).status();
         assert!(made.expect("mkfifo").success());
         assert_eq!(urdd(&["combine", "pipe.toml", "-o", "out"], folder).0, 1);
     }

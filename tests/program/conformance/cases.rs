@@ -61,12 +61,7 @@ fn cases_are_judged_as_they_say() {
         judge::difference(case, &report)
     });
     let wrong: Vec<String> = differences.collect();
-    assert!(
-        wrong.is_empty(),
-        "{} cases are judged wrong:\n{}",
-        wrong.len(),
-        wrong.join("\n")
-    );
+    assert!(wrong.is_empty(), "{} cases are judged wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
 /// In hundreds, so that a new case does not change them. `URDD_UPDATE=1` writes the number of cases.
@@ -85,10 +80,7 @@ fn the_pages_say_how_much_there_is() {
             std::fs::write(in_repository(page), &text).expect(page);
         }
         for words in [cases.as_str(), robots] {
-            assert!(
-                text.contains(words),
-                "{page} does not say `{words}`; URDD_UPDATE=1 writes it"
-            );
+            assert!(text.contains(words), "{page} does not say `{words}`; URDD_UPDATE=1 writes it");
         }
     }
 }
@@ -102,11 +94,7 @@ fn a_case_is_of_one_rule() {
         let rule = rule.unwrap_or_else(|| panic!("{id}: there is no such rule"));
         let others = case.expected.iter().filter(|one| one.code != case.code);
         assert_eq!(others.count(), 0, "{id}: another rule finds something too");
-        assert_eq!(
-            case.expected.is_empty(),
-            case.kind == Kind::NearMiss,
-            "{id}"
-        );
+        assert_eq!(case.expected.is_empty(), case.kind == Kind::NearMiss, "{id}");
         let rejected = case.kind == Kind::Invalid && rule.severity == Severity::Error;
         assert_eq!(case.verdict == Verdict::Reject, rejected, "{id}");
     }
@@ -119,10 +107,7 @@ fn every_rule_has_an_invalid_case_and_a_near_miss() {
         let of_kind = cases.iter().filter(|case| case.kind == kind);
         of_kind.map(|case| case.code.clone()).collect()
     };
-    let all: BTreeSet<String> = rules::all()
-        .iter()
-        .map(|rule| rule.code.to_string())
-        .collect();
+    let all: BTreeSet<String> = rules::all().iter().map(|rule| rule.code.to_string()).collect();
     assert_eq!(of(Kind::Invalid), all);
     assert_eq!(of(Kind::NearMiss), all);
 }

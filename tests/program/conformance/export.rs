@@ -42,22 +42,12 @@ fn everything_that_is_listed_is_there() {
     let meshes = "valid/gripper/mesh_modules/plain_meshes_module/meshes/stl";
     assert!(out.join(meshes).is_dir());
     let wrong = named("DOF001/joint-missing");
-    assert_eq!(
-        (&wrong["kind"], &wrong["verdict"]),
-        (&"invalid".into(), &"reject".into())
-    );
+    assert_eq!((&wrong["kind"], &wrong["verdict"]), (&"invalid".into(), &"reject".into()));
     assert_eq!(wrong["findings"][0]["code"], "DOF001");
     assert!(out.join("robots/gripper.urdf").is_file());
     assert!(out.join("README.md").is_file());
-    for refused in [
-        "KIN001/poses-beyond-numbers",
-        "URD005/link-held-by-two-joints",
-    ] {
-        assert!(
-            out.join("refused")
-                .join(format!("{refused}.urdf"))
-                .is_file()
-        );
+    for refused in ["KIN001/poses-beyond-numbers", "URD005/link-held-by-two-joints"] {
+        assert!(out.join("refused").join(format!("{refused}.urdf")).is_file());
     }
 
     // Other people's files are never overwritten.

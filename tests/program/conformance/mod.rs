@@ -14,10 +14,7 @@ use serde_json::Value;
 
 /// Runs `urdd conformance` in the repository's folder.
 fn conformance(arguments: &[&str]) -> Output {
-    crate::program::output(
-        &[&["conformance"], arguments].concat(),
-        testkit::repository(),
-    )
+    crate::program::output(&[&["conformance"], arguments].concat(), testkit::repository())
 }
 
 /// The result that a command writes as JSON, and its exit status.

@@ -11,16 +11,7 @@ const URDD: &str = env!("CARGO_BIN_EXE_urdd");
 
 #[test]
 fn the_reference_generator_passes() {
-    let command = [
-        "--",
-        URDD,
-        "generate",
-        "--samples",
-        "20",
-        "{urdf}",
-        "-o",
-        "{out}",
-    ];
+    let command = ["--", URDD, "generate", "--samples", "20", "{urdf}", "-o", "{out}"];
     let arguments = [
         &["producer", "--class", "shapes", "--format", "json"][..],
         &["--robot", "gripper", "--robot", "welding_arm"],
@@ -41,20 +32,9 @@ fn the_reference_generator_passes() {
 fn what_is_missing_is_told_by_class_and_module() {
     let folder = testkit::temporary::folder();
     let skips = folder.path().join("skips");
-    let command = [
-        "--",
-        URDD,
-        "generate",
-        "--modules",
-        "core",
-        "{urdf}",
-        "-o",
-        "{out}",
-    ];
+    let command = ["--", URDD, "generate", "--modules", "core", "{urdf}", "-o", "{out}"];
     let arguments = [
-        &[
-            "producer", "--class", "geometry", "--format", "json", "--robot", "gripper",
-        ][..],
+        &["producer", "--class", "geometry", "--format", "json", "--robot", "gripper"][..],
         &["--skip", skips.to_str().expect("UTF-8")],
         &command,
     ]
@@ -74,17 +54,11 @@ fn what_is_missing_is_told_by_class_and_module() {
     let lines = missing.map(|name| format!("gripper {name}_meshes_module # no meshes yet\n"));
     fs::write(&skips, lines.concat()).expect("written");
     let (status, found) = result(&arguments);
-    assert_eq!(
-        (status, &found["robots"][0]["status"]),
-        (0, &"skipped".into())
-    );
+    assert_eq!((status, &found["robots"][0]["status"]), (0, &"skipped".into()));
     fs::write(&skips, lines.concat() + "gripper dof_module # old\n").expect("written");
     let (status, found) = result(&arguments);
     assert_eq!(status, 1);
-    assert_eq!(
-        found["stale_skips"],
-        serde_json::json!(["gripper dof_module"])
-    );
+    assert_eq!(found["stale_skips"], serde_json::json!(["gripper dof_module"]));
     // A robot that was not run is neither passed nor failed.
     fs::write(&skips, lines.concat() + "hand # slow\n").expect("written");
     assert_eq!(result(&arguments).0, 0);
@@ -92,18 +66,10 @@ fn what_is_missing_is_told_by_class_and_module() {
     fs::write(&skips, "gripper\n").expect("written");
     let output = conformance(&arguments);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("line 1: say why"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("line 1: say why"), "{}", stderr(&output));
     fs::write(&skips, "griper # why\n").expect("written");
     let output = conformance(&arguments);
-    assert!(
-        stderr(&output).contains("there is no `griper`"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("there is no `griper`"), "{}", stderr(&output));
 }
 
 #[cfg(unix)]
@@ -111,15 +77,7 @@ fn what_is_missing_is_told_by_class_and_module() {
 fn what_a_producer_does_wrong_is_told() {
     let run_for = |seconds: &str, script: &str| {
         let arguments = [
-            &[
-                "producer",
-                "--format",
-                "json",
-                "--robot",
-                "gripper",
-                "--timeout",
-                seconds,
-            ][..],
+            &["producer", "--format", "json", "--robot", "gripper", "--timeout", seconds][..],
             &["--", "sh", "-c", script, "sh", "{urdf}", "{out}"],
         ];
         let (status, result) = result(&arguments.concat());
@@ -143,14 +101,8 @@ fn what_a_producer_does_wrong_is_told() {
 fn usage() {
     for (arguments, message) in [
         (&["producer", "--", "make", "{urdf}"][..], "{out}"),
-        (
-            &["producer", "--class", "best", "--", "a", "{urdf}", "{out}"],
-            "best",
-        ),
-        (
-            &["producer", "--robot", "r2", "--", "a", "{urdf}", "{out}"],
-            "gripper",
-        ),
+        (&["producer", "--class", "best", "--", "a", "{urdf}", "{out}"], "best"),
+        (&["producer", "--robot", "r2", "--", "a", "{urdf}", "{out}"], "gripper"),
         (&["producer"], "COMMAND"),
     ] {
         let output = conformance(arguments);
@@ -195,23 +147,11 @@ fn what_has_no_urdd_is_refused_or_repaired() {
 
     let line = format!("URDFs to refuse: {0} of {0}", names.len());
     let page = include_str!("../../../conformance/README.md");
-    assert!(
-        page.contains(&line),
-        "conformance/README.md does not say `{line}`: write it"
-    );
+    assert!(page.contains(&line), "conformance/README.md does not say `{line}`: write it");
 
     let asked: Vec<&str> = names.iter().flat_map(|name| ["--robot", name]).collect();
     let start = ["producer", "--format", "json", "--jobs", "2"];
-    let command = [
-        "--",
-        URDD,
-        "generate",
-        "--modules",
-        "core",
-        "{urdf}",
-        "-o",
-        "{out}",
-    ];
+    let command = ["--", URDD, "generate", "--modules", "core", "{urdf}", "-o", "{out}"];
     let (status, result) = result(&[&start[..], &asked, &command].concat());
     assert_eq!(status, 0, "{result:#}");
     let refused = result["refused"].as_array().expect("a list");
@@ -228,20 +168,8 @@ fn what_has_no_urdd_is_refused_or_repaired() {
 fn a_disorderly_refusal_fails() {
     let run = |script: &str, more: &[&str]| {
         let robot = "URD005/link-held-by-two-joints";
-        let timeout = if script.starts_with("sleep") {
-            "1"
-        } else {
-            "20"
-        };
-        let start = [
-            "producer",
-            "--format",
-            "json",
-            "--robot",
-            robot,
-            "--timeout",
-            timeout,
-        ];
+        let timeout = if script.starts_with("sleep") { "1" } else { "20" };
+        let start = ["producer", "--format", "json", "--robot", robot, "--timeout", timeout];
         let command = ["--", "sh", "-c", script, "sh", "{urdf}", "{out}", URDD];
         let (status, result) = result(&[&start[..], more, &command].concat());
         assert_eq!(result["robots"], serde_json::json!([]));
@@ -265,26 +193,14 @@ fn a_disorderly_refusal_fails() {
     for (script, status, outcome) in [
         ("echo two parents >&2; exit 3", 0, "refused"),
         ("echo two parents; exit 1", 0, "refused"),
-        (
-            &format!("$3 generate --modules core {sound} -o $2"),
-            0,
-            "repaired",
-        ),
+        (&format!("$3 generate --modules core {sound} -o $2"), 0, "repaired"),
         (&without_source, 1, "written"),
         ("mkdir $2", 1, "written"),
         ("true", 1, "written"),
         ("echo two parents >&2; mkdir $2; exit 3", 1, "left_over"),
-        (
-            "echo two parents >&2; ln -s nowhere $2; exit 3",
-            1,
-            "left_over",
-        ),
+        ("echo two parents >&2; ln -s nowhere $2; exit 3", 1, "left_over"),
         ("exit 3", 1, "silent"),
-        (
-            "echo 'Traceback (most recent call last):' >&2; exit 1",
-            1,
-            "crashed",
-        ),
+        ("echo 'Traceback (most recent call last):' >&2; exit 1", 1, "crashed"),
         ("kill -9 $$", 1, "crashed"),
         ("sleep 60", 1, "crashed"),
     ] {
@@ -302,12 +218,7 @@ fn a_disorderly_refusal_fails() {
     let stale = "cp -r conformance/valid/single_link $2";
     let (_, urdf) = run(stale, &[]);
     assert_eq!(urdf["outcome"], "written");
-    assert!(
-        urdf["codes"]
-            .as_array()
-            .is_some_and(|codes| !codes.is_empty()),
-        "{urdf:#}"
-    );
+    assert!(urdf["codes"].as_array().is_some_and(|codes| !codes.is_empty()), "{urdf:#}");
 
     let file = folder.path().join("skips");
     fs::write(&file, "URD005/link-held-by-two-joints # soon\n").expect("written");
@@ -329,34 +240,13 @@ fn robots_are_run_at_a_time_and_can_be_kept() {
         "--keep",
         kept.to_str().expect("UTF-8"),
     ];
-    let start = [
-        "producer",
-        "--format",
-        "json",
-        "--robot",
-        "gripper",
-        "--robot",
-        "single_link",
-    ];
-    let command = [
-        "--",
-        URDD,
-        "generate",
-        "--modules",
-        "core",
-        "{urdf}",
-        "-o",
-        "{out}",
-    ];
+    let start = ["producer", "--format", "json", "--robot", "gripper", "--robot", "single_link"];
+    let command = ["--", URDD, "generate", "--modules", "core", "{urdf}", "-o", "{out}"];
     let (status, result) = result(&[&start[..], &more, &command].concat());
     assert_eq!(status, 0, "{result:#}");
     // In the order of the robots, regardless of when they finished.
-    let names: Vec<&serde_json::Value> = result["robots"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .map(|robot| &robot["robot"])
-        .collect();
+    let names: Vec<&serde_json::Value> =
+        result["robots"].as_array().expect("a list").iter().map(|robot| &robot["robot"]).collect();
     assert_eq!(names, ["gripper", "single_link"]);
     assert_eq!(fs::read_to_string(&log).expect("a log").lines().count(), 2);
     assert!(kept.join("gripper/gripper/urdd.json").is_file());

@@ -21,14 +21,8 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     let robots = folder.path().join("robots");
     valid::write_robots(&suite.data, &robots).expect("the robots");
     let urdds = folder.path().join("valid");
-    write_valid(
-        &suite.data,
-        &valid::robots(&suite.data),
-        &robots,
-        &urdds,
-        &Default::default(),
-    )
-    .expect("URDDs");
+    write_valid(&suite.data, &valid::robots(&suite.data), &robots, &urdds, &Default::default())
+        .expect("URDDs");
     let update = std::env::var_os("URDD_UPDATE").is_some();
     let mut stale = BTreeSet::new();
     for robot in valid::robots(&suite.data) {
@@ -58,12 +52,7 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     let report = run.report;
     assert_eq!(report.urdds.len(), 9);
     for urdd in report.urdds {
-        assert!(
-            urdd.findings.is_empty(),
-            "{}: {:#?}",
-            urdd.path,
-            urdd.findings
-        );
+        assert!(urdd.findings.is_empty(), "{}: {:#?}", urdd.path, urdd.findings);
     }
 }
 
@@ -76,17 +65,12 @@ fn what_is_not_kept_is_in_the_hashes() {
         let root: serde_json::Value = serde_json::from_slice(root).expect("JSON");
         let modules = root["modules"].as_array().expect("a list");
         let listed = modules.iter().flat_map(|module| module["files"].as_array());
-        let listed: BTreeSet<&str> = listed
-            .flatten()
-            .filter_map(|file| file["path"].as_str())
-            .collect();
+        let listed: BTreeSet<&str> =
+            listed.flatten().filter_map(|file| file["path"].as_str()).collect();
         assert!(listed.len() > 30, "{robot}");
         for (path, node) in &kept.nodes {
             let path = path.as_str().expect("UTF-8");
-            assert!(
-                path == "urdd.json" || listed.contains(path),
-                "{robot}/{path}"
-            );
+            assert!(path == "urdd.json" || listed.contains(path), "{robot}/{path}");
             assert!(matches!(node, Node::File(_)));
         }
     }

@@ -56,11 +56,7 @@ fn verdicts_are_told_apart() {
     // Another status, a signal, or a missing program is not a verdict.
     for script in ["exit 2", "exit 101", "kill -9 $$"] {
         let (status, none) = shell(&cases, script);
-        assert_eq!(
-            (status, &none["totals"]["undecided"]),
-            (1, &json!(of)),
-            "{script}"
-        );
+        assert_eq!((status, &none["totals"]["undecided"]), (1, &json!(of)), "{script}");
     }
     let (_, none) = run(&cases, &[], &["/no/such/validator", "{dir}"]);
     assert_eq!(none["totals"]["undecided"], json!(of));
@@ -74,10 +70,7 @@ fn printed_codes_are_scored_apart() {
     let (_, right) = run(&cases, &[], &[URDD, "validate", "{dir}"]);
     let codes = &right["printed_codes"];
     assert_eq!(codes["right"], codes["of"], "{codes:#}");
-    assert_eq!(
-        (&codes["missing"], &codes["extra"]),
-        (&json!([]), &json!([]))
-    );
+    assert_eq!((&codes["missing"], &codes["extra"]), (&json!([]), &json!([])));
     // Without valid URDDs, legacy cases, and cases of a SHOULD.
     let suite = urdd::suite::carried().expect("the suite reads");
     let of = |code: &str, kind| {
@@ -107,10 +100,7 @@ fn printed_codes_are_scored_apart() {
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
     let shown = said("echo DOF002; exit 1");
-    assert!(
-        shown.contains("printed codes: ") && shown.contains("not printed: DOF001/"),
-        "{shown}"
-    );
+    assert!(shown.contains("printed codes: ") && shown.contains("not printed: DOF001/"), "{shown}");
     assert!(!said("exit 1").contains("printed codes"));
 }
 
@@ -129,11 +119,7 @@ fn some_paths_are_relative() {
     let (_, found) = run(&relative, &[], &["sh", "-c", accepted, URDD, "{dir}"]);
     assert_eq!(found["wrong"][0]["id"], "relative/invalid", "{found:#}");
     let (status, found) = run(&["relative"], &[], &[URDD, "validate", "{dir}"]);
-    assert_eq!(
-        (status, &found["totals"]["right"]),
-        (0, &json!(2)),
-        "{found:#}"
-    );
+    assert_eq!((status, &found["totals"]["right"]), (0, &json!(2)), "{found:#}");
     // Also for a folder that is kept, from the repository's folder.
     let folder = testkit::temporary::folder();
     let kept = folder.path().join("kept");
@@ -146,9 +132,7 @@ fn some_paths_are_relative() {
 #[ignore = "waits 11 s; .ci/run runs it"]
 fn a_line_every_ten_seconds_where_no_terminal_is() {
     let start = ["validator", "--case", "valid/single_link", "--", "sh", "-c"];
-    let said = stderr(&conformance(
-        &[&start[..], &["sleep 11", "sh", "{dir}"]].concat(),
-    ));
+    let said = stderr(&conformance(&[&start[..], &["sleep 11", "sh", "{dir}"]].concat()));
     assert_eq!(said, "0 of 1, 0 wrong\n");
 }
 
@@ -156,13 +140,7 @@ fn a_line_every_ten_seconds_where_no_terminal_is() {
 fn the_time_limit_is_no_verdict() {
     let command = ["sh", "-c", "sleep 60; exit 1", "sh", "{dir}"];
     let more = ["--timeout", "1"];
-    let start = [
-        "validator",
-        "--format",
-        "json",
-        "--case",
-        "valid/single_link",
-    ];
+    let start = ["validator", "--format", "json", "--case", "valid/single_link"];
     let (status, result) = result(&[&start[..], &more, &["--"], &command].concat());
     assert_eq!(status, 1);
     assert_eq!(result["wrong"][0]["fault"], "undecided");
@@ -189,11 +167,7 @@ fn skips_excuse_and_go_stale() {
     let start = ["validator", "--case", "DOF001"];
     let output = conformance(&[&start[..], &skip, &["--"], &accept].concat());
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("there is no `DOF999`"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("there is no `DOF999`"), "{}", stderr(&output));
 }
 
 #[test]
@@ -202,11 +176,7 @@ fn cases_are_of_versions() {
     let newer = ["validator", "--spec-version", "2.0.0"];
     let output = conformance(&[&newer[..], &command].concat());
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        stderr(&output).contains("no case to run"),
-        "{}",
-        stderr(&output)
-    );
+    assert!(stderr(&output).contains("no case to run"), "{}", stderr(&output));
     let minor = ["validator", "--format", "json", "--spec-version", "1.4.0"];
     let (status, _) = result(&[&minor[..], &["--case", "DOF001"], &command].concat());
     assert_eq!(status, 0);
@@ -225,23 +195,13 @@ fn a_crash_that_ends_with_one_is_warned_of() {
     let start = ["validator", "--case", "DOF001", "--"];
     let output = conformance(&[&start[..], &["sh", "-c", crash, "sh", "{dir}"]].concat());
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    assert!(
-        said.contains("look like crashes") && said.contains("--reject-status"),
-        "{said}"
-    );
+    assert!(said.contains("look like crashes") && said.contains("--reject-status"), "{said}");
     // With a status of its own for rejections, it is no verdict.
-    let (_, result) = run(
-        &cases,
-        &["--reject-status", "3"],
-        &["sh", "-c", crash, "sh", "{dir}"],
-    );
+    let (_, result) = run(&cases, &["--reject-status", "3"], &["sh", "-c", crash, "sh", "{dir}"]);
     assert_eq!(result["totals"]["undecided"], result["totals"]["of"]);
     assert_eq!(result["crashed"], json!([]));
-    let (_, result) = run(
-        &cases,
-        &["--reject-status", "3"],
-        &["sh", "-c", "exit 3", "sh", "{dir}"],
-    );
+    let (_, result) =
+        run(&cases, &["--reject-status", "3"], &["sh", "-c", "exit 3", "sh", "{dir}"]);
     assert_eq!(result["totals"]["undecided"], 0);
     assert_eq!(result["totals"]["missed"], 0);
 }
@@ -253,10 +213,7 @@ fn legacy_is_counted_apart() {
     let (status, with) = run(&cases, &[], &command);
     assert_eq!(status, 0);
     let of = |result: &Value, sum: &str| result[sum]["of"].as_u64().expect("a number");
-    assert!(
-        of(&with, "legacy") > 5 && of(&with, "totals") > 1,
-        "{with:#}"
-    );
+    assert!(of(&with, "legacy") > 5 && of(&with, "totals") > 1, "{with:#}");
     let (status, without) = run(&cases, &["--no-legacy"], &command);
     assert_eq!((status, of(&without, "legacy")), (0, 0));
     assert_eq!(of(&without, "totals"), of(&with, "totals"));
@@ -279,44 +236,23 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
         folder.path().join("ran").display()
     );
     let start = ["validator", "--case", "DOF001", "--case", "DOF002"];
-    let output = conformance(
-        &[
-            &start[..],
-            &more,
-            &["--", "sh", "-c", &script, "sh", "{dir}"],
-        ]
-        .concat(),
-    );
+    let output =
+        conformance(&[&start[..], &more, &["--", "sh", "-c", &script, "sh", "{dir}"]].concat());
     assert_eq!(output.status.code(), None, "it was killed");
     let lines = fs::read_to_string(&log).expect("a log");
-    let lines: Vec<Value> = lines
-        .lines()
-        .map(|line| serde_json::from_str(line).expect("JSON"))
-        .collect();
+    let lines: Vec<Value> =
+        lines.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
     assert_eq!(lines.len(), 1, "{lines:?}");
     assert_eq!(lines[0]["end"], "exit status 1");
-    assert!(
-        lines[0]["id"]
-            .as_str()
-            .is_some_and(|id| id.starts_with("DOF001/"))
-    );
+    assert!(lines[0]["id"].as_str().is_some_and(|id| id.starts_with("DOF001/")));
 
-    let (_, result) = run(
-        &["DOF001"],
-        &[&more[..], &keep].concat(),
-        &[URDD, "validate", "{dir}"],
-    );
+    let (_, result) = run(&["DOF001"], &[&more[..], &keep].concat(), &[URDD, "validate", "{dir}"]);
     let of = result["totals"]["of"].as_u64().expect("a number") as usize;
     let logged = fs::read_to_string(&log).expect("a log");
     assert_eq!(logged.lines().count(), of);
     let cases = fs::read_dir(kept.join("invalid/DOF001")).expect("what was kept");
     for case in cases {
-        assert!(
-            case.expect("an entry")
-                .path()
-                .join("robot/urdd.json")
-                .is_file()
-        );
+        assert!(case.expect("an entry").path().join("robot/urdd.json").is_file());
     }
     // Never into a folder that is not empty.
     let again = conformance(&[&start[..], &keep, &["--", URDD, "validate", "{dir}"]].concat());
@@ -326,11 +262,7 @@ fn results_are_logged_as_they_come_and_folders_can_stay() {
     if cfg!(target_os = "linux") {
         let output = conformance(&[&start[..], &full, &["--", URDD, "validate", "{dir}"]].concat());
         assert_eq!(output.status.code(), Some(2));
-        assert!(
-            stderr(&output).contains("/dev/full: cannot be written"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains("/dev/full: cannot be written"), "{}", stderr(&output));
     }
 }
 
@@ -341,8 +273,7 @@ fn alive(folder: &std::path::Path) -> Vec<String> {
         files.map(|file| fs::read_to_string(file.expect("a file").path()).expect("a number"));
     let runs = |pid: &String| {
         let stat = fs::read_to_string(format!("/proc/{}/stat", pid.trim())).unwrap_or_default();
-        stat.rsplit_once(')')
-            .is_some_and(|(_, rest)| !rest.starts_with(" Z"))
+        stat.rsplit_once(')').is_some_and(|(_, rest)| !rest.starts_with(" Z"))
     };
     pids.filter(runs).collect()
 }
@@ -350,12 +281,8 @@ fn alive(folder: &std::path::Path) -> Vec<String> {
 /// A command whose children differ: in its group, in sessions of their own, without a parent, and without an
 /// environment. Each writes its process id into the folder.
 fn family(folder: &std::path::Path, last: &str) -> String {
-    let child = |name: &str| {
-        format!(
-            "sh -c 'echo $$ > {}/{name}; exec sleep 600'",
-            folder.display()
-        )
-    };
+    let child =
+        |name: &str| format!("sh -c 'echo $$ > {}/{name}; exec sleep 600'", folder.display());
     format!(
         "{} & setsid {} & (setsid {} &) & (env -i setsid {} &) & setsid sh -c \"(setsid {} &) & sleep 600\" & {last}",
         child("group"),
@@ -374,14 +301,7 @@ fn a_signal_ends_all_that_was_started() {
         let folder = testkit::temporary::folder();
         let script = family(folder.path(), "sleep 600");
         let mut run = std::process::Command::new(URDD)
-            .args([
-                "conformance",
-                "validator",
-                "--case",
-                "DOF001",
-                "--jobs",
-                "1",
-            ])
+            .args(["conformance", "validator", "--case", "DOF001", "--jobs", "1"])
             .args(["--", "sh", "-c", &script, "sh", "{dir}"])
             .stderr(std::process::Stdio::null())
             .spawn()
@@ -392,9 +312,7 @@ fn a_signal_ends_all_that_was_started() {
         }
         assert_eq!(alive(folder.path()).len(), 5);
         let pid = run.id().to_string();
-        let kill = std::process::Command::new("kill")
-            .args([&format!("-{signal}"), &pid])
-            .status();
+        let kill = std::process::Command::new("kill").args([&format!("-{signal}"), &pid]).status();
         assert!(kill.expect("kill").success());
         assert_eq!(run.wait().expect("a status").code(), Some(status));
         assert_eq!(alive(folder.path()), [] as [String; 0], "SIG{signal}");
@@ -404,22 +322,14 @@ fn a_signal_ends_all_that_was_started() {
 #[test]
 #[cfg(target_os = "linux")]
 fn whatever_a_command_started_ends_with_it() {
-    for (last, end) in [
-        ("sleep 600", "stopped at the time limit"),
-        ("sleep 1; exit 7", "exit status 7"),
-    ] {
+    for (last, end) in
+        [("sleep 600", "stopped at the time limit"), ("sleep 1; exit 7", "exit status 7")]
+    {
         let folder = testkit::temporary::folder();
         let script = family(folder.path(), last);
         let command = ["sh", "-c", &script, "sh", "{dir}"];
-        let start = [
-            "validator",
-            "--format",
-            "json",
-            "--case",
-            "valid/single_link",
-            "--timeout",
-            "2",
-        ];
+        let start =
+            ["validator", "--format", "json", "--case", "valid/single_link", "--timeout", "2"];
         let (_, result) = result(&[&start[..], &["--"], &command].concat());
         assert_eq!(result["wrong"][0]["end"], end);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 5);
@@ -439,11 +349,7 @@ fn a_log_replaces_no_other_file() {
         fs::write(&file, text).expect("written");
         let output = run(&[]);
         assert_eq!(output.status.code(), Some(2));
-        assert!(
-            stderr(&output).contains("is not a log of this command"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(stderr(&output).contains("is not a log of this command"), "{}", stderr(&output));
         assert_eq!(fs::read_to_string(&file).expect("a file"), text);
     }
     assert_ne!(run(&["--force"]).status.code(), Some(2));

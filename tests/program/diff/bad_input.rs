@@ -14,10 +14,7 @@ fn what_is_no_robot_is_refused_with_advice() {
     let folder = shop.folder.path();
     shop.write("broken.urdf", "<robot name='a'><link name='b'>");
     shop.write("empty.urdf", "");
-    shop.write(
-        "two.urdf",
-        "<robot name='a'><link name='b'/><link name='b'/></robot>",
-    );
+    shop.write("two.urdf", "<robot name='a'><link name='b'/><link name='b'/></robot>");
     shop.write("robot.sdf", "<sdf version='1.6'/>");
     shop.write("robot.xacro", "<robot name='a'/>");
     let bomb = "<!DOCTYPE robot [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;'>]><robot name='&b;'/>";
@@ -47,11 +44,7 @@ fn what_is_no_robot_is_refused_with_advice() {
         ("urdd", "module.json"),
     ] {
         let begun = Instant::now();
-        for arguments in [
-            [path, "welding_arm.urdf"],
-            ["welding_arm.urdf", path],
-            [path, path],
-        ] {
+        for arguments in [[path, "welding_arm.urdf"], ["welding_arm.urdf", path], [path, path]] {
             let (status, out, err) = diff(folder, &arguments);
             assert_eq!((status, out.as_str()), (2, ""), "{path}: {err}");
             assert!(err.contains(words), "{path}: {err}");
@@ -65,9 +58,7 @@ fn what_is_no_robot_is_refused_with_advice() {
 #[test]
 fn a_pipe_is_refused_without_waiting() {
     let shop = Workshop::new();
-    let made = std::process::Command::new("mkfifo")
-        .arg(shop.path("pipe.urdf"))
-        .status();
+    let made = std::process::Command::new("mkfifo").arg(shop.path("pipe.urdf")).status();
     assert!(made.unwrap().success());
     let (status, _, err) = diff(shop.folder.path(), &["pipe.urdf", "welding_arm.urdf"]);
     assert_eq!(status, 2);
@@ -102,15 +93,9 @@ fn hostile_names_stay_text() {
     assert!(!report.same);
     for out in [text(&report), markdown(&report)] {
         assert!(!out.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{out}");
-        assert!(
-            out.lines().all(|line| !line.trim_start().starts_with("::")),
-            "{out}"
-        );
+        assert!(out.lines().all(|line| !line.trim_start().starts_with("::")), "{out}");
     }
-    for line in markdown(&report)
-        .lines()
-        .filter(|line| line.contains("@user"))
-    {
+    for line in markdown(&report).lines().filter(|line| line.contains("@user")) {
         assert!(line.contains("``x"), "{line}");
     }
     let folder = shop.folder.path();
@@ -131,12 +116,7 @@ fn unrelated_robots_are_a_short_list() {
             let report = differences(a, b);
             assert_eq!(report.same, a == b);
             let lines = text(&report).lines().count();
-            assert!(
-                lines < 150,
-                "{} {}: {lines} lines",
-                a.display(),
-                b.display()
-            );
+            assert!(lines < 150, "{} {}: {lines} lines", a.display(), b.display());
         }
     }
 }
@@ -186,10 +166,8 @@ fn many_equal_elements_in_one_link_take_linear_time() {
         )
     };
     let begun = Instant::now();
-    let report = differences(
-        &shop.write("a.urdf", &robot("2")),
-        &shop.write("b.urdf", &robot("3")),
-    );
+    let report =
+        differences(&shop.write("a.urdf", &robot("2")), &shop.write("b.urdf", &robot("3")));
     assert_eq!(places(&report), ["links/a/visual[50000].radius"]);
     assert!(begun.elapsed().as_secs() < 15, "{:?}", begun.elapsed());
 }

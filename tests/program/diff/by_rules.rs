@@ -17,11 +17,7 @@ impl Place {
 
 fn index_among(node: Node) -> usize {
     let same = |other: &Node| other.tag_name() == node.tag_name();
-    node.prev_siblings()
-        .skip(1)
-        .filter(Node::is_element)
-        .filter(same)
-        .count()
+    node.prev_siblings().skip(1).filter(Node::is_element).filter(same).count()
 }
 
 /// The elements from below the robot to this one.
@@ -72,10 +68,7 @@ pub fn place(node: Node, attribute: &str) -> Option<Place> {
             has_axis.contains(&joint_type).then(|| "axis".to_owned())?
         }
         (
-            [
-                "joint",
-                of @ ("limit" | "dynamics" | "mimic" | "safety_controller" | "calibration"),
-            ],
+            ["joint", of @ ("limit" | "dynamics" | "mimic" | "safety_controller" | "calibration")],
             attribute,
         ) => format!("{of}.{attribute}"),
         (["material", "color"], "rgba") => "rgba".to_owned(),
@@ -87,11 +80,7 @@ pub fn place(node: Node, attribute: &str) -> Option<Place> {
         "joint" => "joints",
         _ => "materials",
     };
-    Some(Place {
-        list,
-        part: part.attribute("name").unwrap_or_default().to_owned(),
-        field,
-    })
+    Some(Place { list, part: part.attribute("name").unwrap_or_default().to_owned(), field })
 }
 
 /// Whether a value is what an absent one means.

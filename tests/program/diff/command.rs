@@ -16,11 +16,7 @@ pub fn diff(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
         .output()
         .unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
 /// Two versions of a robot in which one change of each kind was made.
@@ -32,11 +28,7 @@ fn two_versions() -> Workshop {
         text.replacen(from, to, 1)
     };
     let text = from(&text, "<mass value=\"8\"/>", "<mass value=\"8.5\"/>");
-    let text = from(
-        &text,
-        "<box size=\"0.2 0.16 0.24\"/>",
-        "<box size=\"0.2 0.16 0.3\"/>",
-    );
+    let text = from(&text, "<box size=\"0.2 0.16 0.24\"/>", "<box size=\"0.2 0.16 0.3\"/>");
     let text = from(&text, "rgba=\"0.95 0.45 0.1 1\"", "rgba=\"0.9 0.2 0.1 1\"");
     let text = from(&text, "<mass value=\"14\"/>", "");
     let joint = text.find("<joint").unwrap();
@@ -45,10 +37,7 @@ fn two_versions() -> Workshop {
     let end = tail.rfind("</robot>").unwrap();
     let added = "<link name=\"lamp\"/><joint name=\"lamp mount\" type=\"revolute\"><parent link=\"forearm\"/>\
         <child link=\"lamp\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint>";
-    shop.write(
-        "after.urdf",
-        &format!("{head}{}{added}</robot>\n", &tail[..end]),
-    );
+    shop.write("after.urdf", &format!("{head}{}{added}</robot>\n", &tail[..end]));
     shop
 }
 
@@ -69,10 +58,7 @@ fn each_format_says_the_same() {
     let shop = two_versions();
     let run = |format: &str| {
         let folder = shop.folder.path();
-        diff(
-            folder,
-            &["welding_arm.urdf", "after.urdf", "--format", format],
-        )
+        diff(folder, &["welding_arm.urdf", "after.urdf", "--format", format])
     };
     for (format, end) in [("text", "txt"), ("markdown", "md"), ("json", "json")] {
         let (status, out, err) = run(format);

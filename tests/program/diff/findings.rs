@@ -14,29 +14,14 @@ fn a_mass_that_is_removed_is_a_new_finding() {
     let codes = |a, b| -> Vec<String> {
         let report = compare(a, b, 0.0);
         let findings = report.findings.unwrap().into_iter();
-        let texts = findings.map(|it| {
-            format!(
-                "{} {} {}",
-                it.presence,
-                it.code,
-                it.subject.unwrap_or_default()
-            )
-        });
+        let texts = findings
+            .map(|it| format!("{} {} {}", it.presence, it.code, it.subject.unwrap_or_default()));
         texts.collect()
     };
     let new = codes(&a, &b);
-    assert!(
-        new.iter()
-            .any(|it| it.starts_with("added SRC003") && it.contains("base")),
-        "{new:?}"
-    );
+    assert!(new.iter().any(|it| it.starts_with("added SRC003") && it.contains("base")), "{new:?}");
     let gone = codes(&b, &a);
-    assert_eq!(
-        gone,
-        new.iter()
-            .map(|it| it.replace("added", "removed"))
-            .collect::<Vec<_>>()
-    );
+    assert_eq!(gone, new.iter().map(|it| it.replace("added", "removed")).collect::<Vec<_>>());
     assert_eq!(codes(&a, &a), Vec::<String>::new());
     assert_eq!(codes(&b, &b), Vec::<String>::new());
 }
@@ -55,9 +40,6 @@ fn a_broken_module_is_a_new_finding_with_both_verdicts() {
     assert_eq!(report.before.verdict.unwrap().as_str(), "pass");
     assert_eq!(report.after.verdict.unwrap().as_str(), "fail");
     let findings = report.findings.unwrap();
-    assert!(
-        findings.iter().any(|it| it.code.starts_with("BND")),
-        "{findings:?}"
-    );
+    assert!(findings.iter().any(|it| it.code.starts_with("BND")), "{findings:?}");
     assert!(findings.iter().all(|it| it.presence.as_str() == "added"));
 }

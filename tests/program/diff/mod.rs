@@ -55,10 +55,7 @@ impl Workshop {
 
 /// Without findings.
 fn quick() -> Options {
-    Options {
-        without_findings: true,
-        ..Options::default()
-    }
+    Options { without_findings: true, ..Options::default() }
 }
 
 fn open(path: &Path) -> Side {
@@ -88,11 +85,7 @@ fn add(places: &mut Vec<String>, part: &str, presence: Presence, changes: &[Valu
     if presence != Presence::Changed {
         places.push(format!("{part}/{presence}"));
     }
-    places.extend(
-        changes
-            .iter()
-            .map(|change| format!("{part}/{}", change.field)),
-    );
+    places.extend(changes.iter().map(|change| format!("{part}/{}", change.field)));
 }
 
 /// Every difference of a report as `list/part/field` or `list/part/presence`, without what follows from others: poses.
@@ -130,12 +123,7 @@ fn places(report: &DiffReport) -> Vec<String> {
     }
     for configuration in report.configurations.iter().flatten() {
         let name = format!("configurations/{}", configuration.name);
-        add(
-            &mut places,
-            &name,
-            configuration.presence,
-            &configuration.changes,
-        );
+        add(&mut places, &name, configuration.presence, &configuration.changes);
     }
     for module in report.modules.iter().flatten() {
         places.push(format!("modules/{}/{}", module.name, module.presence));

@@ -81,11 +81,7 @@ fn numbers_within_the_tolerance_are_equal() {
     // A power of two, so that the differences are exact.
     let step = f64::exp2(-20.0);
     let (before, after) = (robot("a.urdf", 0.0), robot("b.urdf", step));
-    let named = [
-        "joints/j/limit.upper",
-        "joints/j/origin.xyz",
-        "links/a/inertial.mass",
-    ];
+    let named = ["joints/j/limit.upper", "joints/j/origin.xyz", "links/a/inertial.mass"];
     for (tolerance, expected) in [(0.0, &named[..]), (step / 2.0, &named), (step, &[])] {
         let report = compare(&before, &after, tolerance);
         let mut found = places(&report);
@@ -123,12 +119,7 @@ fn the_order_of_links_is_a_note_and_that_of_joints_moves_dofs() {
     assert!(report.same && report.notes.len() == 1, "{:?}", report.notes);
     let report = differences(&before, &write(["other", "-joint"], "joints.urdf"));
     let moved = places(&report);
-    assert!(
-        moved
-            .iter()
-            .all(|it| it.starts_with("dofs/") && it.ends_with("/index")),
-        "{moved:?}"
-    );
+    assert!(moved.iter().all(|it| it.starts_with("dofs/") && it.ends_with("/index")), "{moved:?}");
     assert_eq!(moved.len(), 6, "{moved:?}");
     assert!(!report.same);
 }
@@ -154,12 +145,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
         let report = compare(&before, &open(&shop.write("other.urdf", &text)), 0.0);
         // glTF is y-up: it is turned when it is read, which is another mesh.
         let expected = if end == "obj" { 0 } else { 2 };
-        assert_eq!(
-            places(&report).len(),
-            expected,
-            "{end}: {:?}",
-            places(&report)
-        );
+        assert_eq!(places(&report).len(), expected, "{end}: {:?}", places(&report));
     }
     mesh.vertices[0][0] += 1e-3;
     std::fs::write(
@@ -177,12 +163,7 @@ fn the_format_of_a_mesh_makes_no_difference_and_a_vertex_does() {
 fn a_urdf_and_the_urdd_made_of_it_mean_the_same() {
     for (name, urdf) in sample(our_robots(), 3) {
         let (_folder, urdd) = made(&urdf);
-        for (a, b) in [
-            (&urdf, &urdd),
-            (&urdd, &urdf),
-            (&urdd, &urdd),
-            (&urdf, &urdf),
-        ] {
+        for (a, b) in [(&urdf, &urdd), (&urdd, &urdf), (&urdd, &urdd), (&urdf, &urdf)] {
             let report = differences(a, b);
             assert!(report.same, "{name}: {:?}", places(&report));
         }
@@ -192,10 +173,8 @@ fn a_urdf_and_the_urdd_made_of_it_mean_the_same() {
 #[test]
 fn the_example_urdds_differ_as_is_known() {
     let folder = repository().join("examples/urdds");
-    let mut names: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|it| it.unwrap().path())
-        .collect();
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|it| it.unwrap().path()).collect();
     names.retain(|path| path.is_dir());
     names.sort();
     assert_eq!(names.len(), 2);

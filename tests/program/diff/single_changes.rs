@@ -87,27 +87,15 @@ fn each_number_is_named_at_its_place() {
             let place = place(node, attribute.name()).unwrap();
             let number: f64 = words[index].parse().unwrap();
             // So small that only an exact comparison finds it; an axis changes its direction.
-            let step = if place.field == "axis" {
-                0.5
-            } else {
-                f64::EPSILON
-            };
-            let number = if number == 0.0 {
-                1e-12 + step
-            } else {
-                number * (1.0 + step)
-            };
+            let step = if place.field == "axis" { 0.5 } else { f64::EPSILON };
+            let number = if number == 0.0 { 1e-12 + step } else { number * (1.0 + step) };
             let mut words: Vec<String> = words.iter().map(|w| (*w).to_owned()).collect();
             words[index] = number.to_string();
             let is_scaled =
                 place.field == "axis" && words.iter().filter(|w| w.parse() != Ok(0.0)).count() == 1;
             let text = replaced(text, attribute.range_value(), &words.join(" "));
             let found = changed(shop, before, &text).expect("a robot");
-            let expected = if is_scaled {
-                vec![]
-            } else {
-                vec![place.text()]
-            };
+            let expected = if is_scaled { vec![] } else { vec![place.text()] };
             assert_eq!(found, expected, "{}", words.join(" "));
             count += 1;
         }
@@ -181,12 +169,8 @@ fn each_element_that_is_removed_is_named_or_had_defaults_alone() {
             let all: Vec<_> = attributes.collect();
             let parts = ["link", "joint", "material"];
             let is_part = parts.iter().any(|tag| node.has_tag_name(*tag))
-                && node
-                    .parent_element()
-                    .is_some_and(|of| of.has_tag_name("robot"));
-            let only_defaults = all
-                .iter()
-                .all(|(place, value)| is_default(&place.field, value));
+                && node.parent_element().is_some_and(|of| of.has_tag_name("robot"));
+            let only_defaults = all.iter().all(|(place, value)| is_default(&place.field, value));
             // The axis of a fixed joint has no place.
             let has_meaning = !all.is_empty() || node.has_tag_name("axis");
             if !is_part && has_meaning && only_defaults && !node.has_tag_name("visual") {
@@ -195,10 +179,8 @@ fn each_element_that_is_removed_is_named_or_had_defaults_alone() {
                 continue;
             }
             let part = node.ancestors().filter(Node::is_element);
-            let part = part.filter(|of| {
-                of.parent_element()
-                    .is_some_and(|of| of.has_tag_name("robot"))
-            });
+            let part =
+                part.filter(|of| of.parent_element().is_some_and(|of| of.has_tag_name("robot")));
             let part = part.last().unwrap();
             let name = part.attribute("name").unwrap_or_default();
             let list = match part.tag_name().name() {
@@ -216,11 +198,7 @@ fn each_element_that_is_removed_is_named_or_had_defaults_alone() {
                     || (list == "other" && place.starts_with("other/"))
             };
             assert!(!found.is_empty(), "not named: {}", &text[node.range()]);
-            assert!(
-                found.iter().all(is_at_place),
-                "{}: {found:?}",
-                &text[node.range()]
-            );
+            assert!(found.iter().all(is_at_place), "{}: {found:?}", &text[node.range()]);
             named += 1;
         }
     });
@@ -254,9 +232,8 @@ fn each_name_that_is_changed_is_one_part_gone_and_one_new() {
                 };
             let mut ranges: Vec<(Range<usize>, Node)> = Vec::new();
             for node in elements(document) {
-                let found = node
-                    .attributes()
-                    .filter(|a| a.value() == name && means(&node, a.name()));
+                let found =
+                    node.attributes().filter(|a| a.value() == name && means(&node, a.name()));
                 ranges.extend(found.map(|attribute| (attribute.range_value(), node)));
             }
             let mut changed_text = text.to_owned();
@@ -264,10 +241,8 @@ fn each_name_that_is_changed_is_one_part_gone_and_one_new() {
                 changed_text = replaced(&changed_text, range.clone(), "renamed part");
             }
             let mut found = changed(shop, before, &changed_text).expect("a robot");
-            let mut expected = vec![
-                format!("{list}/{name}/removed"),
-                format!("{list}/renamed part/added"),
-            ];
+            let mut expected =
+                vec![format!("{list}/{name}/removed"), format!("{list}/renamed part/added")];
             for (_, node) in ranges.iter().filter(|(_, node)| *node != part) {
                 let attribute = match list {
                     "links" => "link",

@@ -22,18 +22,12 @@ impl Bench {
     fn new() -> Bench {
         let mut fixture = Fixture::toy();
         // Reading YAML takes most of the time, and urdd diff does not compare it.
-        fixture
-            .files
-            .retain(|path, _| !path.ends_with("/module.yaml"));
+        fixture.files.retain(|path, _| !path.ends_with("/module.yaml"));
         let folder = testkit::temporary::folder();
         let before = folder.path().join("before");
         fixture.write_to(&before);
         fixture.write_to(&folder.path().join("after"));
-        Bench {
-            before: open(&before),
-            fixture,
-            folder,
-        }
+        Bench { before: open(&before), fixture, folder }
     }
 
     /// The places that differ after values of a module are set. Hashes of documents stay: they make no
@@ -85,10 +79,7 @@ fn each_number_of_the_robot_is_named_at_its_part() {
     let document = bench.fixture.doc("urdf_module").clone();
     let part = |pointer: &str| {
         let words: Vec<&str> = pointer.split('/').collect();
-        (
-            words[1].to_owned(),
-            &document[words[1]][words[2].parse::<usize>().unwrap()],
-        )
+        (words[1].to_owned(), &document[words[1]][words[2].parse::<usize>().unwrap()])
     };
     let mut pointers = Vec::new();
     numbers(&document, "", &mut pointers);
@@ -96,10 +87,7 @@ fn each_number_of_the_robot_is_named_at_its_part() {
     let few = few(pointers.into_iter().map(|pointer| {
         let last = pointer.rsplit('/').next().unwrap();
         let joint_type = &part(&pointer).1["joint_type"];
-        (
-            format!("{} {last} {joint_type}", pattern(&pointer)),
-            pointer,
-        )
+        (format!("{} {last} {joint_type}", pattern(&pointer)), pointer)
     }));
     let mut count = 0;
     for pointer in few {
@@ -270,22 +258,15 @@ fn each_named_configuration_is_named_with_the_dofs_that_moved() {
     let two = write("two", &[("home", "motor=0.1"), ("away", "motor=0")]);
     let other = write("other", &[("home", "motor=0.2"), ("ready", "motor=0")]);
     let report = compare(&two, &other, 0.0);
-    let expected = [
-        "configurations/home/motor",
-        "configurations/away/removed",
-        "configurations/ready/added",
-    ];
+    let expected =
+        ["configurations/home/motor", "configurations/away/removed", "configurations/ready/added"];
     assert_eq!(places(&report), expected);
     let [home, ..] = report.configurations.as_deref().unwrap() else {
         panic!("none differ");
     };
     let change = &home.changes[0];
     assert_eq!(
-        (
-            change.before.as_deref(),
-            change.after.as_deref(),
-            &*change.unit
-        ),
+        (change.before.as_deref(), change.after.as_deref(), &*change.unit),
         (Some("0.1"), Some("0.2"), "rad")
     );
     assert!(!report.same && compare(&two, &two, 0.0).same);

@@ -20,11 +20,7 @@ fn the_page_has_the_table() {
         let text = format!("{}{}{}", &page[..start], carried_table(), &page[end..]);
         std::fs::write(file, text).expect("written");
     } else {
-        assert_eq!(
-            &page[start..end],
-            carried_table(),
-            "URDD_UPDATE=1 writes it"
-        );
+        assert_eq!(&page[start..end], carried_table(), "URDD_UPDATE=1 writes it");
     }
 }
 
@@ -91,27 +87,15 @@ const PROBES: [(&str, &[&str; 9]); 8] = [
         "limits of effort and velocity",
         &["", "7.25", "7.25", "7.25", "", "", "7.25", "7.25", "7.25"],
     ),
-    (
-        "limits of acceleration and jerk",
-        &["", "9.125", "9.125", "", "", "", "9.125", "9.125", ""],
-    ),
+    ("limits of acceleration and jerk", &["", "9.125", "9.125", "", "", "", "9.125", "9.125", ""]),
     (
         "damping and friction of joints",
-        &[
-            "", "0.375", "0.375", "0.375", "", "", "0.375", "0.375", "0.375",
-        ],
+        &["", "0.375", "0.375", "0.375", "", "", "0.375", "0.375", "0.375"],
     ),
-    (
-        "mimic joints",
-        &[
-            "", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875",
-        ],
-    ),
+    ("mimic joints", &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875"]),
     (
         "elements that URDF does not define, such as transmissions",
-        &[
-            "", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "",
-        ],
+        &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", ""],
     ),
 ];
 
@@ -119,10 +103,7 @@ const PROBES: [(&str, &[&str; 9]); 8] = [
 fn what_the_table_says_is_so() {
     let (folder, path) = made_of(URDF);
     let robot = Robot::open(&path).expect("a robot");
-    let options = Options {
-        samples: 100,
-        ..Options::default()
-    };
+    let options = Options { samples: 100, ..Options::default() };
     let table = carried_table();
     for (place, format) in Format::ALL.iter().enumerate() {
         let made = export(&robot, *format, &options).expect("an export");
@@ -138,10 +119,8 @@ fn what_the_table_says_is_so() {
             .collect();
         let report: serde_json::Value = serde_json::from_str(&made.report).expect("JSON");
         for (name, probes) in PROBES {
-            let row = table
-                .lines()
-                .find(|line| line.starts_with(&format!("| {name} |")))
-                .expect(name);
+            let row =
+                table.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
             let cell = row.split('|').nth(place + 2).expect("a cell").trim();
             let list = match cell {
                 "yes" => "carried",
@@ -170,66 +149,36 @@ fn what_the_table_says_is_so() {
         }
         // People are told what is lost.
         let lost = report["lost"].as_array().expect("a list");
-        let said = made
-            .notes
-            .iter()
-            .any(|note| note.to_string().contains("left out, since the format"));
+        let said =
+            made.notes.iter().any(|note| note.to_string().contains("left out, since the format"));
         assert_eq!(said, !lost.is_empty(), "{format:?}");
     }
     let name = path.file_name().expect("a name").to_str().expect("a name");
     let folder = folder.path();
-    let (status, _, said) = urdd(
-        &["export", "mjcf", name, "-o", "m.xml", "--report", "m.json"],
-        folder,
-    );
-    assert!(
-        status == 0 && said.contains("textures in the URDF (1)"),
-        "{said}"
-    );
+    let (status, _, said) =
+        urdd(&["export", "mjcf", name, "-o", "m.xml", "--report", "m.json"], folder);
+    assert!(status == 0 && said.contains("textures in the URDF (1)"), "{said}");
     // A file of a person's is no report.
     std::fs::write(folder.join("mine.json"), "mine").expect("written");
-    let again = [
-        "export",
-        "mjcf",
-        name,
-        "-o",
-        "n.xml",
-        "--report",
-        "mine.json",
-    ];
+    let again = ["export", "mjcf", name, "-o", "n.xml", "--report", "mine.json"];
     let (status, _, said) = urdd(&again, folder);
-    assert!(
-        status == 2 && said.contains("mine.json already exists"),
-        "{said}"
-    );
-    assert_eq!(
-        std::fs::read_to_string(folder.join("mine.json")).expect("a file"),
-        "mine"
-    );
+    assert!(status == 2 && said.contains("mine.json already exists"), "{said}");
+    assert_eq!(std::fs::read_to_string(folder.join("mine.json")).expect("a file"), "mine");
     assert!(!folder.join("n.xml").exists());
     let report = std::fs::read_to_string(folder.join("m.json")).expect("a report");
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
-    assert_eq!(
-        (&report["robot"], &report["format"]),
-        (&"r".into(), &"MJCF".into())
-    );
+    assert_eq!((&report["robot"], &report["format"]), (&"r".into(), &"MJCF".into()));
 }
 
 /// Fewer triangles for simulators, with the deviation said; no option, no change.
 #[test]
 fn visuals_can_have_fewer_triangles() {
     let robots = testkit::robots::our_robots();
-    let (_, urdf) = robots
-        .iter()
-        .find(|(name, _)| name == "welding_arm")
-        .expect("a robot");
+    let (_, urdf) = robots.iter().find(|(name, _)| name == "welding_arm").expect("a robot");
     let (_folder, path) = testkit::robots::made(urdf);
     let robot = Robot::open(path).expect("a robot");
     let of = |detail| {
-        let options = Options {
-            detail,
-            ..Options::default()
-        };
+        let options = Options { detail, ..Options::default() };
         export(&robot, Format::Urdf, &options).expect("an export")
     };
     let full = of(urdd_export::Detail::Full);
@@ -238,21 +187,13 @@ fn visuals_can_have_fewer_triangles() {
         let visuals = made.files.iter().filter(|(path, _)| path.ends_with(".obj"));
         visuals.map(|(_, bytes)| bytes.len()).sum()
     };
-    assert!(
-        bytes(&few) < bytes(&full) * 2 / 3,
-        "{} {}",
-        bytes(&few),
-        bytes(&full)
-    );
+    assert!(bytes(&few) < bytes(&full) * 2 / 3, "{} {}", bytes(&few), bytes(&full));
     let said = few
         .notes
         .iter()
         .map(ToString::to_string)
         .find(|note| note.starts_with("visual geometry has"));
-    assert!(
-        said.expect("a note")
-            .contains("deviates from the original by at most")
-    );
+    assert!(said.expect("a note").contains("deviates from the original by at most"));
     let colours = |made: &urdd_export::Export| made.text.matches("<color").count();
     assert_eq!(colours(&few), colours(&full));
 }

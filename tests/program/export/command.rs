@@ -11,44 +11,19 @@ fn nothing_is_written_over_unless_asked() {
         arguments.extend_from_slice(more);
         urdd(&arguments, folder)
     };
-    assert_eq!(
-        export(&["urdf", urdd_folder, "-o", "arm.urdf"]),
-        (0, String::new(), String::new())
-    );
+    assert_eq!(export(&["urdf", urdd_folder, "-o", "arm.urdf"]), (0, String::new(), String::new()));
     assert!(folder.join("arm.urdf").is_file());
-    assert!(
-        folder
-            .join("arm_meshes")
-            .read_dir()
-            .expect("meshes")
-            .count()
-            > 5
-    );
+    assert!(folder.join("arm_meshes").read_dir().expect("meshes").count() > 5);
     let before = std::fs::read(folder.join("arm.urdf")).expect("a file");
     let (status, _, said) = export(&["urdf", urdd_folder, "-o", "arm.urdf", "--shapes", "boxes"]);
     assert_eq!(status, 2);
     assert!(said.contains("already exists: --force"), "{said}");
+    assert_eq!(std::fs::read(folder.join("arm.urdf")).expect("a file"), before);
     assert_eq!(
-        std::fs::read(folder.join("arm.urdf")).expect("a file"),
-        before
-    );
-    assert_eq!(
-        export(&[
-            "urdf",
-            urdd_folder,
-            "-o",
-            "arm.urdf",
-            "--shapes",
-            "boxes",
-            "--force"
-        ])
-        .0,
+        export(&["urdf", urdd_folder, "-o", "arm.urdf", "--shapes", "boxes", "--force"]).0,
         0
     );
-    assert_ne!(
-        std::fs::read(folder.join("arm.urdf")).expect("a file"),
-        before
-    );
+    assert_ne!(std::fs::read(folder.join("arm.urdf")).expect("a file"), before);
 
     // Its own output does not block a run, and a user's files beside it are kept.
     std::fs::write(folder.join("arm_meshes/notes.txt"), "mine").expect("written");
@@ -79,18 +54,11 @@ fn an_srdf_is_brought_up_to_date() {
     assert_eq!(status, 0);
     let mine = "<robot name=\"welding_arm\">\n  <!-- mine -->\n  <group name=\"arm\"/>\n</robot>\n";
     std::fs::write(folder.join("arm.srdf"), mine).expect("a file");
-    let update = |name: &str| {
-        urdd(
-            &["export", "srdf", urdd_folder, "-o", name, "--update"],
-            folder,
-        )
-    };
+    let update =
+        |name: &str| urdd(&["export", "srdf", urdd_folder, "-o", name, "--update"], folder);
     assert_eq!(update("arm.srdf").0, 0);
     let text = std::fs::read_to_string(folder.join("arm.srdf")).expect("a file");
-    assert!(
-        text.contains("<!-- mine -->\n  <group name=\"arm\"/>"),
-        "{text}"
-    );
+    assert!(text.contains("<!-- mine -->\n  <group name=\"arm\"/>"), "{text}");
     let count = |text: &str| text.matches("<disable_collisions ").count();
     assert_eq!(count(&text), count(&printed));
     assert!(count(&text) > 3);
@@ -98,10 +66,7 @@ fn an_srdf_is_brought_up_to_date() {
     std::fs::write(folder.join("other.srdf"), "<robot name=\"other\"/>").expect("a file");
     let (status, _, said) = update("other.srdf");
     assert_eq!(status, 2);
-    assert!(
-        said.contains("of robot `other`, not of `welding_arm`"),
-        "{said}"
-    );
+    assert!(said.contains("of robot `other`, not of `welding_arm`"), "{said}");
     let (status, _, said) = update("missing.srdf");
     assert_eq!(status, 2);
     assert!(said.contains("omit --update"), "{said}");
@@ -115,34 +80,20 @@ fn what_is_no_urdd_is_told_apart() {
     let (status, _, said) = urdd(&["export", "srdf", "a.urdf", "-o", "-"], folder);
     assert_eq!(status, 2);
     assert!(said.contains("urdd generate a.urdf"), "{said}");
-    let (status, _, said) = urdd(
-        &["export", "mjcf", path.to_str().expect("a path"), "-o", "-"],
-        folder,
-    );
+    let (status, _, said) =
+        urdd(&["export", "mjcf", path.to_str().expect("a path"), "-o", "-"], folder);
     assert_eq!(status, 2);
     assert!(said.contains("give a file"), "{said}");
     std::fs::remove_dir_all(path.join("mesh_modules/convex_decomposition_meshes_module")).ok();
-    let decomposition = walk(&path)
-        .into_iter()
-        .find(|p| p.ends_with("convex_decomposition_meshes_module"));
+    let decomposition =
+        walk(&path).into_iter().find(|p| p.ends_with("convex_decomposition_meshes_module"));
     if let Some(folder) = decomposition {
         std::fs::remove_dir_all(folder).expect("removed");
     }
-    let (status, _, said) = urdd(
-        &[
-            "export",
-            "curobo",
-            path.to_str().expect("a path"),
-            "-o",
-            "-",
-        ],
-        folder,
-    );
+    let (status, _, said) =
+        urdd(&["export", "curobo", path.to_str().expect("a path"), "-o", "-"], folder);
     assert_eq!(status, 2);
-    assert!(
-        said.contains("convex_decomposition_meshes_module is missing"),
-        "{said}"
-    );
+    assert!(said.contains("convex_decomposition_meshes_module is missing"), "{said}");
 }
 
 fn walk(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
@@ -172,10 +123,7 @@ fn an_export_that_cannot_be_written_leaves_nothing() {
             .args([path.as_os_str(), out.join(output).as_os_str()])
             .output()
             .expect("the program");
-        (
-            output.status.code(),
-            String::from_utf8_lossy(&output.stderr).into_owned(),
-        )
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
     let entries = || out.read_dir().expect("a folder").count();
     for output in ["arm.xml", "new/below/arm.xml"] {
@@ -205,9 +153,7 @@ fn update_reads_regular_files_up_to_a_limit() {
     let (folder, path) = made(&our_robots()[8].1);
     let folder = folder.path();
     let path = path.to_str().expect("a path");
-    let pipe = std::process::Command::new("mkfifo")
-        .arg(folder.join("pipe"))
-        .status();
+    let pipe = std::process::Command::new("mkfifo").arg(folder.join("pipe")).status();
     assert!(pipe.expect("mkfifo").success());
     std::os::unix::fs::symlink("/dev/zero", folder.join("zero")).expect("a link");
     let long = std::fs::File::create(folder.join("long")).expect("a file");
@@ -237,10 +183,7 @@ fn update_keeps_what_a_person_wrote_and_says_so() {
         let update = ["export", "srdf", path, "--update", "-o", "arm.srdf"];
         let (status, _, said) = urdd(&update, folder);
         assert_eq!(status, 0, "{said}");
-        assert!(
-            said.contains("kept 2 pairs of links that a person disabled"),
-            "{said}"
-        );
+        assert!(said.contains("kept 2 pairs of links that a person disabled"), "{said}");
         let text = std::fs::read_to_string(&file).expect("a file");
         assert_eq!(text.matches("\"mine\"").count(), 2);
         assert!(!text.contains("link1=\"x\"") && text.contains("reason=\"Adjacent\""));
@@ -249,15 +192,9 @@ fn update_keeps_what_a_person_wrote_and_says_so() {
         last = text;
     }
     // A new file and an updated one are the same.
-    assert_eq!(
-        urdd(&["export", "srdf", path, "-o", "new.srdf"], folder).0,
-        0
-    );
+    assert_eq!(urdd(&["export", "srdf", path, "-o", "new.srdf"], folder).0, 0);
     let new = std::fs::read(folder.join("new.srdf")).expect("a file");
-    let (status, _, said) = urdd(
-        &["export", "srdf", path, "--update", "-o", "new.srdf"],
-        folder,
-    );
+    let (status, _, said) = urdd(&["export", "srdf", path, "--update", "-o", "new.srdf"], folder);
     assert_eq!(status, 0, "{said}");
     assert_eq!(std::fs::read(folder.join("new.srdf")).expect("a file"), new);
 }

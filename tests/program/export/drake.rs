@@ -11,24 +11,17 @@ use testkit::robots::{made, made_of, our_robots};
 /// What Drake 1.51 rejects, found with the program itself.
 fn refused(document: &Document) -> Vec<String> {
     let robot = document.root_element();
-    let joints: Vec<Node> = robot
-        .children()
-        .filter(|n| n.tag_name().name() == "joint")
-        .collect();
+    let joints: Vec<Node> = robot.children().filter(|n| n.tag_name().name() == "joint").collect();
     let kind = |joint: &Node| joint.attribute("type").expect("a type").to_owned();
     let dofs = |joint: &Node| match kind(joint).as_str() {
         "fixed" => 0,
         "revolute" | "continuous" | "prismatic" => 1,
         _ => 3,
     };
-    let child = |node: &Node, name: &str| {
-        node.children()
-            .find(|n| n.has_tag_name(name))
-            .map(|n| n.id())
-    };
+    let child =
+        |node: &Node, name: &str| node.children().find(|n| n.has_tag_name(name)).map(|n| n.id());
     let number = |node: Node, key: &str| {
-        node.attribute(key)
-            .map(|text| text.parse::<f64>().expect("a number"))
+        node.attribute(key).map(|text| text.parse::<f64>().expect("a number"))
     };
     let mut faults = Vec::new();
     for joint in &joints {
@@ -43,21 +36,18 @@ fn refused(document: &Document) -> Vec<String> {
             faults.push(format!("{name}: {}", kind(joint)));
         }
         if let Some(mimic) = child(joint, "mimic").and_then(|id| document.get_node(id)) {
-            let driver = joints
-                .iter()
-                .find(|other| other.attribute("name") == mimic.attribute("joint"));
+            let driver =
+                joints.iter().find(|other| other.attribute("name") == mimic.attribute("joint"));
             if dofs(joint) != 1 || driver.is_none_or(|driver| dofs(driver) != 1) {
                 faults.push(format!("{name}: mimic"));
             }
         }
         if let Some(limit) = child(joint, "limit").and_then(|id| document.get_node(id)) {
             let negative = ["velocity", "effort", "acceleration"];
-            let is_negative = negative
-                .iter()
-                .any(|key| number(limit, key).is_some_and(|value| value < 0.0));
-            let crossed = number(limit, "lower")
-                .zip(number(limit, "upper"))
-                .is_some_and(|(a, b)| a > b);
+            let is_negative =
+                negative.iter().any(|key| number(limit, key).is_some_and(|value| value < 0.0));
+            let crossed =
+                number(limit, "lower").zip(number(limit, "upper")).is_some_and(|(a, b)| a > b);
             if is_negative || crossed {
                 faults.push(format!("{name}: limit"));
             }
@@ -73,9 +63,7 @@ fn our_robots_hold_nothing_that_drake_refuses() {
     for urdf in robots.chain([awkward]) {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
-        let text = export(&robot, Format::Drake, &Options::default())
-            .expect("an export")
-            .text;
+        let text = export(&robot, Format::Drake, &Options::default()).expect("an export").text;
         let document = Document::parse(&text).expect("well-formed");
         assert_eq!(refused(&document), Vec::<String>::new(), "{urdf:?}");
     }
@@ -92,10 +80,7 @@ fn exported(urdf: &str) -> (String, Vec<Note>) {
     let (_folder, path) = made_of(urdf);
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Drake, &Options::default()).expect("an export");
-    let notes = made
-        .notes
-        .into_iter()
-        .filter(|note| !matches!(note, Note::NoShapes(_)));
+    let notes = made.notes.into_iter().filter(|note| !matches!(note, Note::NoShapes(_)));
     (made.text, notes.collect())
 }
 
@@ -103,19 +88,9 @@ fn exported(urdf: &str) -> (String, Vec<Note>) {
 fn joints_are_as_drake_has_them_and_what_is_left_out_is_said() {
     for (kind, inner, expected, notes) in [
         ("spherical", "", "<drake:joint name=\"j\" type=\"ball\">", 0),
-        (
-            "planar",
-            "<axis xyz='0 1 1'/>",
-            "<drake:joint name=\"j\" type=\"planar\">",
-            0,
-        ),
+        ("planar", "<axis xyz='0 1 1'/>", "<drake:joint name=\"j\" type=\"planar\">", 0),
         ("planar", "<dynamics damping='1'/>", "type=\"planar\"", 1),
-        (
-            "floating",
-            "<origin xyz='1 0 0'/>",
-            "<drake:joint name=\"j\" type=\"ball\">",
-            1,
-        ),
+        ("floating", "<origin xyz='1 0 0'/>", "<drake:joint name=\"j\" type=\"ball\">", 1),
         (
             "revolute",
             "<limit lower='1' upper='-1' effort='1' velocity='1'/>",
@@ -149,10 +124,7 @@ fn joints_are_as_drake_has_them_and_what_is_left_out_is_said() {
     }
     // A body that floats in the world corresponds to Drake's floating joint.
     let (text, notes) = exported(&joint("floating", "").replace("'a'", "'world'"));
-    assert!(
-        text.contains("<joint name=\"j\" type=\"floating\">") && notes.is_empty(),
-        "{text}"
-    );
+    assert!(text.contains("<joint name=\"j\" type=\"floating\">") && notes.is_empty(), "{text}");
     let (text, _) = exported(&joint("floating", "<origin xyz='0 0 1'/>").replace("'a'", "'world'"));
     assert!(text.contains("<link name=\"j/trans_x\"/>"), "{text}");
 }
@@ -162,16 +134,10 @@ fn transmissions_that_drake_refuses_are_left_out() {
     let simple = "<type>transmission_interface/SimpleTransmission</type>";
     let of = |inner: &str| format!("<transmission name='t'>{inner}</transmission>");
     for (transmission, is_kept) in [
-        (
-            of(&format!("{simple}<joint name='j'/><actuator name='m'/>")),
-            true,
-        ),
+        (of(&format!("{simple}<joint name='j'/><actuator name='m'/>")), true),
         (of("<type>pal/Differential</type><joint name='x'/>"), true),
         (of(&format!("{simple}<joint name='j'/>")), false),
-        (
-            of(&format!("{simple}<joint name='x'/><actuator name='m'/>")),
-            false,
-        ),
+        (of(&format!("{simple}<joint name='x'/><actuator name='m'/>")), false),
         (of("<joint name='j'/><actuator name='m'/>"), false),
         ("<loop_joint name='l'/>".to_owned(), false),
     ] {
@@ -187,8 +153,5 @@ fn a_frame_that_drake_needs_is_not_a_links_name() {
     let (_folder, path) = made_of(&joint("fixed", "").replace("'a'", "'j_parent'"));
     let robot = Robot::open(path).expect("a robot");
     let error = export(&robot, Format::Drake, &Options::default()).expect_err("a name");
-    assert!(
-        matches!(&error, ExportError::Name { name, .. } if name == "j_parent"),
-        "{error}"
-    );
+    assert!(matches!(&error, ExportError::Name { name, .. } if name == "j_parent"), "{error}");
 }

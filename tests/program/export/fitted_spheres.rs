@@ -37,10 +37,7 @@ fn read(text: &str, robot: &Robot) -> Model {
         links.iter().position(|link| link == name).expect("a link")
     };
     let mut ignored = BTreeSet::new();
-    for (a, others) in document["self_collision_ignore"]
-        .as_mapping()
-        .expect("a mapping")
-    {
+    for (a, others) in document["self_collision_ignore"].as_mapping().expect("a mapping") {
         for b in others.as_sequence().expect("a list") {
             let (a, b) = (index(a), index(b));
             ignored.insert([a.min(b), a.max(b)]);
@@ -49,9 +46,7 @@ fn read(text: &str, robot: &Robot) -> Model {
     let wide = number(&document["collision_sphere_buffer"]);
     let buffer = |name: &String| wide + number(&document["self_collision_buffer"][name.as_str()]);
     let spheres: Vec<_> = links.iter().map(of_link).collect();
-    let named = document["collision_link_names"]
-        .as_sequence()
-        .expect("a list");
+    let named = document["collision_link_names"].as_sequence().expect("a list");
     let named: BTreeSet<usize> = named.iter().map(index).collect();
     let held = |link: &usize| !spheres[*link].is_empty();
     assert_eq!(named, (0..links.len()).filter(held).collect());
@@ -135,16 +130,8 @@ fn rates([missed, colliding, wrong, free]: [usize; 4]) -> [f64; 2] {
 /// The two counts that the file states, each `hits of all`.
 fn stated(text: &str) -> [usize; 4] {
     let count = |what: &str| -> [usize; 2] {
-        let line = text
-            .lines()
-            .find(|line| line.contains(what))
-            .expect("a rate");
-        let words: Vec<&str> = line
-            .split(what)
-            .nth(1)
-            .expect("numbers")
-            .split(' ')
-            .collect();
+        let line = text.lines().find(|line| line.contains(what)).expect("a rate");
+        let words: Vec<&str> = line.split(what).nth(1).expect("numbers").split(' ').collect();
         [words[1], words[3]].map(|word| word.parse().expect("a number"))
     };
     let ([missed, colliding], [wrong, free]) =
@@ -193,11 +180,7 @@ fn fitted_spheres_answer_as_the_pieces_do() {
 fn foams_file_says_the_same_in_its_own_form() {
     let (_folder, path) = made(&our_robots()[0].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options {
-        samples: 300,
-        spheres: SphereBudget::PerLink(4),
-        ..Options::default()
-    };
+    let options = Options { samples: 300, spheres: SphereBudget::PerLink(4), ..Options::default() };
     let text = |format| export(&robot, format, &options).expect("an export").text;
     let model = read(&text(Format::Curobo), &robot);
     let foam: serde_json::Value = serde_json::from_str(&text(Format::Foam)).expect("JSON");
@@ -208,10 +191,7 @@ fn foams_file_says_the_same_in_its_own_form() {
         for (k, (centre, radius)) in spheres.iter().enumerate() {
             let sphere = &of_link["spheres"][k];
             assert_eq!(sphere["radius"].as_f64(), Some(*radius));
-            assert_eq!(
-                [0, 1, 2].map(|axis| sphere["origin"][axis].as_f64()),
-                centre.map(Some)
-            );
+            assert_eq!([0, 1, 2].map(|axis| sphere["origin"][axis].as_f64()), centre.map(Some));
         }
         if !spheres.is_empty() {
             let [best, mean, worst] = ["best", "mean", "worst"].map(|key| of_link[key].as_f64());
@@ -252,28 +232,15 @@ fn pairs_that_spheres_cannot_tell_apart_are_named() {
     );
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options {
-        spheres: SphereBudget::Total(4),
-        samples: 400,
-        ..Options::default()
-    };
-    let cover = Options {
-        cover: true,
-        ..options.clone()
-    };
+    let options = Options { spheres: SphereBudget::Total(4), samples: 400, ..Options::default() };
+    let cover = Options { cover: true, ..options.clone() };
     let Export { text, notes, .. } = export(&robot, Format::Curobo, &cover).expect("an export");
     assert!(text.contains("`lower` and `upper` (0 missed, "), "{text}");
-    assert!(
-        text.contains("in contact, though the exact shapes are free"),
-        "{text}"
-    );
+    assert!(text.contains("in contact, though the exact shapes are free"), "{text}");
     assert!(matches!(&notes[..], [Note::Spheres(note)] if note.contains("`lower` and `upper`")));
     let [missed, colliding, wrong, free] = stated(&text);
     // A quarter of the way is contact.
-    assert!(
-        missed == 0 && wrong == free && (60..140).contains(&colliding),
-        "{text}"
-    );
+    assert!(missed == 0 && wrong == free && (60..140).contains(&colliding), "{text}");
 }
 
 #[test]
@@ -283,32 +250,17 @@ fn a_robot_without_shapes_has_no_spheres() {
     );
     let robot = Robot::open(path).expect("a robot");
     for cover in [false, true] {
-        let options = Options {
-            cover,
-            ..Options::default()
-        };
+        let options = Options { cover, ..Options::default() };
         let Export { text, notes, .. } =
             export(&robot, Format::Curobo, &options).expect("an export");
         assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
         let document: serde_yaml::Value = serde_yaml::from_str(&text).expect("YAML");
-        assert!(
-            document["collision_link_names"]
-                .as_sequence()
-                .is_some_and(Vec::is_empty)
-        );
-        assert!(
-            document["collision_spheres"]
-                .as_mapping()
-                .is_some_and(|links| links.is_empty())
-        );
+        assert!(document["collision_link_names"].as_sequence().is_some_and(Vec::is_empty));
+        assert!(document["collision_spheres"].as_mapping().is_some_and(|links| links.is_empty()));
         let Export { text, notes, .. } = export(&robot, Format::Foam, &options).expect("an export");
         assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
         let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        assert!(
-            document["links"]
-                .as_object()
-                .is_some_and(|links| links.is_empty())
-        );
+        assert!(document["links"].as_object().is_some_and(|links| links.is_empty()));
     }
 }
 
@@ -360,19 +312,11 @@ fn hostile_names_stay_names() {
     urdf += "</robot>";
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options {
-        samples: 100,
-        spheres: SphereBudget::PerLink(1),
-        ..Options::default()
-    };
-    let text = export(&robot, Format::Curobo, &options)
-        .expect("an export")
-        .text;
+    let options = Options { samples: 100, spheres: SphereBudget::PerLink(1), ..Options::default() };
+    let text = export(&robot, Format::Curobo, &options).expect("an export").text;
     let model = read(&text, &robot);
     assert!(model.spheres.iter().all(|spheres| spheres.len() == 1));
-    let foam = export(&robot, Format::Foam, &options)
-        .expect("an export")
-        .text;
+    let foam = export(&robot, Format::Foam, &options).expect("an export").text;
     let foam: serde_json::Value = serde_json::from_str(&foam).expect("JSON");
     let links = foam["links"].as_object().expect("links");
     let found: BTreeSet<&str> = links.keys().map(String::as_str).collect();

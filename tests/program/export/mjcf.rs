@@ -10,11 +10,7 @@ use testkit::robots::{made, made_of, our_robots};
 
 fn numbers(node: Node, key: &str) -> Option<Vec<f64>> {
     let text = node.attribute(key)?;
-    Some(
-        text.split(' ')
-            .map(|word| word.parse().expect("a number"))
-            .collect(),
-    )
+    Some(text.split(' ').map(|word| word.parse().expect("a number")).collect())
 }
 
 fn pose(node: Node) -> Isometry3<f64> {
@@ -62,9 +58,8 @@ fn walk(
 fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<f64>> {
     let dofs = robot.dof_names().expect("DOFs");
     let mut values = HashMap::new();
-    let joints = document
-        .descendants()
-        .filter(|n| n.has_tag_name("joint") && n.has_attribute("type"));
+    let joints =
+        document.descendants().filter(|n| n.has_tag_name("joint") && n.has_attribute("type"));
     for joint in joints {
         let name = joint.attribute("name").expect("a name");
         let at = |dof: &str| dofs.iter().position(|known| known == dof).map(|dof| q[dof]);
@@ -88,9 +83,7 @@ fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<
     for _ in 0..equality.len() {
         for one in &equality {
             let factors = numbers(*one, "polycoef").expect("five numbers");
-            let driver = one
-                .attribute("joint2")
-                .map(|driver| values.get(driver).cloned());
+            let driver = one.attribute("joint2").map(|driver| values.get(driver).cloned());
             let position = match driver {
                 None => Some(factors[0]),
                 Some(driver) => driver.map(|driver| factors[0] + factors[1] * driver[0]),
@@ -106,19 +99,11 @@ fn values(document: &Document, robot: &Robot, q: &[f64]) -> HashMap<String, Vec<
 
 fn assert_moves_alike(robot: &Robot, text: &str, name: &str) {
     let document = Document::parse(text).expect("well-formed");
-    let world = document
-        .descendants()
-        .find(|n| n.has_tag_name("worldbody"))
-        .expect("a world");
+    let world = document.descendants().find(|n| n.has_tag_name("worldbody")).expect("a world");
     for k in 0..20 {
         let q = robot.configurations().expect("bounds").random(k);
         let mut found = HashMap::new();
-        walk(
-            world,
-            Isometry3::identity(),
-            &values(&document, robot, &q),
-            &mut found,
-        );
+        walk(world, Isometry3::identity(), &values(&document, robot, &q), &mut found);
         let links = robot.link_names().expect("links");
         let expected = robot.link_poses(&q).expect("poses");
         for (link, expected) in links.iter().zip(expected) {
@@ -127,10 +112,7 @@ fn assert_moves_alike(robot: &Robot, text: &str, name: &str) {
                 link => found[link],
             };
             let apart = (got.inverse() * expected).to_homogeneous() - nalgebra::Matrix4::identity();
-            assert!(
-                apart.abs().max() < 1e-9,
-                "{name}, {link}: {got} for {expected}"
-            );
+            assert!(apart.abs().max() < 1e-9, "{name}, {link}: {got} for {expected}");
         }
     }
 }
@@ -141,10 +123,7 @@ fn bodies_move_as_links_do() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for shapes in [ShapeKind::Pieces, ShapeKind::Boxes] {
-            let options = Options {
-                shapes,
-                ..Options::default()
-            };
+            let options = Options { shapes, ..Options::default() };
             let made = export(&robot, Format::Mjcf, &options).expect("an export");
             assert_moves_alike(&robot, &made.text, &name);
         }
@@ -171,9 +150,7 @@ fn a_root_called_world_is_the_world() {
     assert_moves_alike(&robot, &made.text, "world");
     // The arm has no mass in the URDF, and moves.
     assert!(
-        made.notes
-            .iter()
-            .any(|note| matches!(note, Note::Inertia { link, .. } if link == "arm"))
+        made.notes.iter().any(|note| matches!(note, Note::Inertia { link, .. } if link == "arm"))
     );
     assert!(made.text.contains("mass=\"1e-9\""));
 }
@@ -205,12 +182,8 @@ fn every_mesh_that_is_named_is_there() {
 fn masses_stay_whatever_the_inertia() {
     let total = |text: &str| -> f64 {
         let document = Document::parse(text).expect("well-formed");
-        let inertials = document
-            .descendants()
-            .filter(|n| n.has_tag_name("inertial"));
-        inertials
-            .map(|n| numbers(n, "mass").expect("a mass")[0])
-            .sum()
+        let inertials = document.descendants().filter(|n| n.has_tag_name("inertial"));
+        inertials.map(|n| numbers(n, "mass").expect("a mass")[0]).sum()
     };
     for (name, urdf) in our_robots() {
         let (_folder, path) = made(&urdf);
@@ -219,21 +192,11 @@ fn masses_stay_whatever_the_inertia() {
         let links = robot.description().expect("a description").links;
         let mass =
             |link: &urdd_format::urdf::Link| Some(link.inertial.as_ref()?.mass.as_ref()?.value);
-        let expected: f64 = links
-            .iter()
-            .filter(|link| link.name != "world")
-            .filter_map(mass)
-            .sum();
+        let expected: f64 = links.iter().filter(|link| link.name != "world").filter_map(mass).sum();
         let assumed = 1e-9
-            * made
-                .notes
-                .iter()
-                .filter(|note| note.to_string().contains("1e-9 kg and"))
-                .count() as f64;
-        assert!(
-            (total(&made.text) - expected - assumed).abs() < 1e-12,
-            "{name}"
-        );
+            * made.notes.iter().filter(|note| note.to_string().contains("1e-9 kg and")).count()
+                as f64;
+        assert!((total(&made.text) - expected - assumed).abs() < 1e-12, "{name}");
     }
     let inertial = |mass: &str, inertia: &str| {
         format!("<inertial><mass value=\"{mass}\"/>{inertia}</inertial>")
@@ -241,12 +204,7 @@ fn masses_stay_whatever_the_inertia() {
     let zero = r#"<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>"#;
     let full = r#"<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>"#;
     // A group that moves: its own inertia is 0, but not that of the links fixed to it.
-    for (own, fixed, noted) in [
-        (zero, full, 0),
-        (zero, zero, 1),
-        (full, zero, 0),
-        ("", "", 1),
-    ] {
+    for (own, fixed, noted) in [(zero, full, 0), (zero, zero, 1), (full, zero, 0), ("", "", 1)] {
         let (_folder, path) = made_of(&format!(
             r#"<robot name="r"><link name="a"/><link name="b">{}</link><link name="c">{}</link>
             <joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
@@ -257,18 +215,9 @@ fn masses_stay_whatever_the_inertia() {
         let robot = Robot::open(path).expect("a robot");
         let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
         assert_eq!(total(&made.text), 0.75, "{own} {fixed}");
-        let notes = made
-            .notes
-            .iter()
-            .filter(|note| matches!(note, Note::Inertia { .. }));
+        let notes = made.notes.iter().filter(|note| matches!(note, Note::Inertia { .. }));
         assert_eq!(notes.count(), noted, "{own} {fixed}: {:?}", made.notes);
-        let said = made
-            .notes
-            .iter()
-            .filter(|note| matches!(note, Note::Inertia { .. }));
-        assert!(
-            said.into_iter()
-                .all(|note| made.text.contains(&note.to_string()))
-        );
+        let said = made.notes.iter().filter(|note| matches!(note, Note::Inertia { .. }));
+        assert!(said.into_iter().all(|note| made.text.contains(&note.to_string())));
     }
 }

@@ -29,21 +29,13 @@ fn mjcf(robot: &Robot, mjcf: MjcfOptions) -> Export {
 }
 
 fn made(robot: &Robot, mjcf: MjcfOptions, floating_base: bool) -> Export {
-    let options = Options {
-        mjcf,
-        floating_base,
-        file: Some("r.xml".to_owned()),
-        ..Options::default()
-    };
+    let options =
+        Options { mjcf, floating_base, file: Some("r.xml".to_owned()), ..Options::default() };
     export(robot, Format::Mjcf, &options).expect("an export")
 }
 
 fn with(actuators: ActuatorKind) -> MjcfOptions {
-    MjcfOptions {
-        actuators: Some(actuators),
-        bandwidth: Some(5.0),
-        ..MjcfOptions::default()
-    }
+    MjcfOptions { actuators: Some(actuators), bandwidth: Some(5.0), ..MjcfOptions::default() }
 }
 
 fn number(node: Node, key: &str) -> f64 {
@@ -65,17 +57,13 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
     let w = TAU * 5.0;
     let text = mjcf(&robot, with(ActuatorKind::Position)).text;
     let document = Document::parse(&text).expect("well-formed");
-    for (name, inertia, range, force) in [
-        ("turn", 0.6, "-1 2", "-50 50"),
-        ("push", 7.0, "0.1 0.3", "-20 20"),
-    ] {
+    for (name, inertia, range, force) in
+        [("turn", 0.6, "-1 2", "-50 50"), ("push", 7.0, "0.1 0.3", "-20 20")]
+    {
         let actuator = one(&document, "position", name);
         let is = |key, expected: f64| {
             let found = number(actuator, key);
-            assert!(
-                (found / expected - 1.0).abs() < 1e-3,
-                "{name} {key} {found}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-3, "{name} {key} {found}");
         };
         is("kp", inertia * w * w);
         is("kv", 2.0 * inertia * w);
@@ -84,9 +72,7 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
         assert_eq!(actuator.attribute("forcerange"), Some(force));
     }
     // The joint that follows has no actuator of its own.
-    let all = document
-        .descendants()
-        .filter(|n| n.has_tag_name("position"));
+    let all = document.descendants().filter(|n| n.has_tag_name("position"));
     assert_eq!(all.count(), 2);
     let text = mjcf(&robot, with(ActuatorKind::Velocity)).text;
     let document = Document::parse(&text).expect("well-formed");
@@ -103,10 +89,7 @@ fn gains_are_those_of_the_inertia_that_a_joint_moves() {
 fn name_configuration(robot: &Robot, path: &Path, name: &str) {
     let edit = ConfigurationEdit {
         name: ConfigurationName::new(name).expect("a name"),
-        positions: vec![DofPosition {
-            dof_name: "turn".to_owned(),
-            position: 0.5,
-        }],
+        positions: vec![DofPosition { dof_name: "turn".to_owned(), position: 0.5 }],
     };
     let edited = robot.with_named_configurations(&[edit]).expect("files");
     for (file, bytes) in edited.files {
@@ -135,36 +118,23 @@ fn named_configurations_are_keyframes() {
     let plain = mjcf(&robot, MjcfOptions::default()).text;
     let document = Document::parse(&plain).expect("well-formed");
     let home = one(&document, "key", "home");
-    assert_eq!(
-        (home.attribute("qpos"), home.attribute("ctrl")),
-        (Some("0.5 0.1 0.25"), None)
-    );
+    assert_eq!((home.attribute("qpos"), home.attribute("ctrl")), (Some("0.5 0.1 0.25"), None));
 }
 
 #[test]
 fn a_free_base_stands_on_the_floor() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
-    let with_scene = MjcfOptions {
-        scene: true,
-        ..MjcfOptions::default()
-    };
+    let with_scene = MjcfOptions { scene: true, ..MjcfOptions::default() };
     let made = self::made(&robot, with_scene.clone(), true);
     let document = Document::parse(&made.text).expect("well-formed");
     // The base's box reaches 0.1 m down.
-    assert_eq!(
-        one(&document, "body", "base").attribute("pos"),
-        Some("0 0 0.1")
-    );
+    assert_eq!(one(&document, "body", "base").attribute("pos"), Some("0 0 0.1"));
     one(&document, "freejoint", "floating_base");
     let key = one(&document, "key", "default");
     assert_eq!(key.attribute("qpos"), Some("0 0 0.1 1 0 0 0 0 0.1 0.25"));
     // The base has no mass, and moves.
-    assert!(
-        made.notes
-            .iter()
-            .any(|note| note.to_string().contains("`base`"))
-    );
+    assert!(made.notes.iter().any(|note| note.to_string().contains("`base`")));
     let (file, scene) = made.files.last().expect("a scene");
     assert_eq!(file, "r_scene.xml");
     let scene = Document::parse(std::str::from_utf8(scene).expect("text")).expect("well-formed");
@@ -174,10 +144,7 @@ fn a_free_base_stands_on_the_floor() {
     let made = mjcf(&robot, with_scene);
     let scene = String::from_utf8(made.files.last().expect("a scene").1.clone()).expect("text");
     let scene = Document::parse(&scene).expect("well-formed");
-    assert_eq!(
-        one(&scene, "geom", "floor").attribute("pos"),
-        Some("0 0 -0.1")
-    );
+    assert_eq!(one(&scene, "geom", "floor").attribute("pos"), Some("0 0 -0.1"));
     assert!(!made.text.contains("freejoint") && !made.text.contains("<key"));
 }
 
@@ -199,9 +166,7 @@ fn names_of_configurations_come_out_as_they_went_in() {
                 let document = Document::parse(&made.text).expect("well-formed");
                 one(&document, "key", name);
             }
-            Err(ExportError::Name {
-                name: said, what, ..
-            }) => {
+            Err(ExportError::Name { name: said, what, .. }) => {
                 assert!(!is_held && said == name && what == "configuration");
             }
             Err(error) => panic!("{error}"),
@@ -216,8 +181,5 @@ fn a_root_called_world_stays_and_that_is_said() {
     let made = made(&robot, MjcfOptions::default(), true);
     assert!(!made.text.contains("<freejoint"));
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
-    assert!(
-        notes.len() == 1 && notes[0].contains("never moves"),
-        "{notes:?}"
-    );
+    assert!(notes.len() == 1 && notes[0].contains("never moves"), "{notes:?}");
 }

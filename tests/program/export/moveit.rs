@@ -28,13 +28,8 @@ const URDF: &str = r#"<robot name="r"><link name="base"/><link name="l1"/><link 
 <limit lower="0" upper="0.04" effort="5" velocity="0.2"/><mimic joint="g"/></joint></robot>"#;
 
 fn files(made: &Export) -> BTreeMap<&str, &str> {
-    let texts = made
-        .files
-        .iter()
-        .filter(|(path, _)| !path.starts_with("meshes/"));
-    texts
-        .map(|(path, bytes)| (path.as_str(), std::str::from_utf8(bytes).expect("text")))
-        .collect()
+    let texts = made.files.iter().filter(|(path, _)| !path.starts_with("meshes/"));
+    texts.map(|(path, bytes)| (path.as_str(), std::str::from_utf8(bytes).expect("text"))).collect()
 }
 
 fn yaml(text: &str) -> Value {
@@ -45,18 +40,12 @@ fn yaml(text: &str) -> Value {
 fn a_package_has_what_moveit_needs() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
-    let guess = Setup::guess(&robot)
-        .expect("guesses")
-        .to_toml(&robot)
-        .expect("text");
+    let guess = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
     let setup = guess.replace("[limits]", "[limits]\njerk = 100.0");
     assert_ne!(setup, guess);
     let setup = Setup::from_toml(&setup, "x", &robot).expect("read");
-    let options = Options {
-        package: Some("r_config".to_owned()),
-        setup: Some(setup),
-        ..Options::default()
-    };
+    let options =
+        Options { package: Some("r_config".to_owned()), setup: Some(setup), ..Options::default() };
     let made = export(&robot, Format::Moveit, &options).expect("an export");
     assert_eq!(made.path.as_deref(), Some("config/r.srdf"));
     let srdf = Document::parse(&made.text).expect("well-formed");
@@ -65,9 +54,7 @@ fn a_package_has_what_moveit_needs() {
         .descendants()
         .filter(|node| node.is_element() && !node.has_tag_name("robot"))
         .map(|node| {
-            let attributes = node
-                .attributes()
-                .map(|of| format!(" {}={}", of.name(), of.value()));
+            let attributes = node.attributes().map(|of| format!(" {}={}", of.name(), of.value()));
             node.tag_name().name().to_owned() + &attributes.collect::<String>()
         })
         .collect();
@@ -95,14 +82,7 @@ fn a_package_has_what_moveit_needs() {
     let expected = json!({"a": limit(2.0, 4.0), "b": limit(2.0, 0.0), "c": limit(0.0, 0.0), "g": limit(0.2, 0.0)});
     assert_eq!(limits["joint_limits"], expected);
     let kinematics = yaml(files["config/kinematics.yaml"]);
-    assert_eq!(
-        kinematics
-            .as_object()
-            .expect("a map")
-            .keys()
-            .collect::<Vec<_>>(),
-        ["arm"]
-    );
+    assert_eq!(kinematics.as_object().expect("a map").keys().collect::<Vec<_>>(), ["arm"]);
     let ompl = yaml(files["config/ompl_planning.yaml"]);
     for group in ["arm", "hand"] {
         for planner in ompl[group]["planner_configs"].as_array().expect("planners") {
@@ -112,10 +92,7 @@ fn a_package_has_what_moveit_needs() {
     // Both sides name the same controllers and joints.
     let moveit = &yaml(files["config/moveit_controllers.yaml"])["moveit_simple_controller_manager"];
     let ros2 = yaml(files["config/ros2_controllers.yaml"]);
-    assert_eq!(
-        moveit["controller_names"],
-        json!(["arm_controller", "hand_controller"])
-    );
+    assert_eq!(moveit["controller_names"], json!(["arm_controller", "hand_controller"]));
     assert_eq!(moveit["arm_controller"]["joints"], json!(["a", "b", "c"]));
     assert_eq!(
         moveit["arm_controller"]["joints"],
@@ -123,11 +100,7 @@ fn a_package_has_what_moveit_needs() {
     );
     assert_eq!(moveit["hand_controller"]["type"], "GripperCommand");
     assert_eq!(ros2["hand_controller"]["ros__parameters"]["joint"], "g");
-    for name in [
-        "arm_controller",
-        "hand_controller",
-        "joint_state_broadcaster",
-    ] {
+    for name in ["arm_controller", "hand_controller", "joint_state_broadcaster"] {
         assert!(ros2["controller_manager"]["ros__parameters"][name]["type"].is_string());
     }
     // The package is named the same everywhere, and the launch file starts what there is.
@@ -144,23 +117,14 @@ fn a_package_has_what_moveit_needs() {
         "root_link = \"base\"",
         "controllers = [\"arm_controller\", \"hand_controller\"]",
     ] {
-        assert!(
-            launch.lines().any(|found| found == line),
-            "{line}\n{launch}"
-        );
+        assert!(launch.lines().any(|found| found == line), "{line}\n{launch}");
     }
     let urdf = Document::parse(files["config/r.urdf"]).expect("well-formed");
-    let hardware = urdf
-        .descendants()
-        .find(|node| node.has_tag_name("ros2_control"))
-        .expect("hardware");
-    let driven = hardware
-        .children()
-        .filter(|node| node.has_tag_name("joint"));
+    let hardware =
+        urdf.descendants().find(|node| node.has_tag_name("ros2_control")).expect("hardware");
+    let driven = hardware.children().filter(|node| node.has_tag_name("joint"));
     assert_eq!(
-        driven
-            .filter_map(|node| node.attribute("name"))
-            .collect::<Vec<_>>(),
+        driven.filter_map(|node| node.attribute("name")).collect::<Vec<_>>(),
         ["a", "b", "c", "g"]
     );
 }
@@ -172,12 +136,7 @@ fn guesses_are_said() {
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Moveit, &Options::default()).expect("an export");
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
-    assert!(
-        notes
-            .iter()
-            .any(|note| note.contains("are guessed: `urdd export init`")),
-        "{notes:?}"
-    );
+    assert!(notes.iter().any(|note| note.contains("are guessed: `urdd export init`")), "{notes:?}");
 }
 
 /// The package of each of our robots: its meshes are in it, its SRDF says what the URDD says, and its URDF is ours.
@@ -190,22 +149,11 @@ fn what_is_written_is_read_back() {
         let folder = folder.path();
         let path = path.to_str().expect("a path");
         let robot = Robot::open(path).expect("a robot");
-        let dof = robot
-            .dof_names()
-            .expect("names")
-            .last()
-            .expect("a DOF")
-            .clone();
+        let dof = robot.dof_names().expect("names").last().expect("a DOF").clone();
         let middle = robot.configurations().expect("bounds").middle();
         let set = format!("{dof}={}", middle.last().expect("a DOF"));
-        assert_eq!(
-            urdd(&["configurations", "set", path, "ready", &set], folder).0,
-            0
-        );
-        assert_eq!(
-            urdd(&["export", "moveit", path, "-o", "arm_moveit"], folder).0,
-            0
-        );
+        assert_eq!(urdd(&["configurations", "set", path, "ready", &set], folder).0, 0);
+        assert_eq!(urdd(&["export", "moveit", path, "-o", "arm_moveit"], folder).0, 0);
         let srdf = std::fs::read_to_string(folder.join(format!("arm_moveit/config/{name}.srdf")))
             .expect("an SRDF");
         let robot = Robot::open(path).expect("a robot");
@@ -216,20 +164,14 @@ fn what_is_written_is_read_back() {
         let urdf = folder.join(format!("arm_moveit/config/{name}.urdf"));
         let text = std::fs::read_to_string(&urdf).expect("a URDF");
         let document = Document::parse(&text).expect("well-formed");
-        let meshes = document
-            .descendants()
-            .filter_map(|node| node.attribute("filename"));
+        let meshes = document.descendants().filter_map(|node| node.attribute("filename"));
         for mesh in meshes {
-            let inside = mesh
-                .strip_prefix("package://arm_moveit/")
-                .expect("of the package");
+            let inside = mesh.strip_prefix("package://arm_moveit/").expect("of the package");
             assert!(folder.join("arm_moveit").join(inside).is_file(), "{mesh}");
         }
         // Our own reader finds the meshes by package.xml.
-        let (status, _, said) = urdd(
-            &["generate", urdf.to_str().expect("a path"), "-o", "again"],
-            folder,
-        );
+        let (status, _, said) =
+            urdd(&["generate", urdf.to_str().expect("a path"), "-o", "again"], folder);
         assert_eq!(status, 0, "{said}");
         let again = Robot::open(folder.join("again")).expect("a robot");
         assert_eq!(again.dof_names(), robot.dof_names());
@@ -242,18 +184,10 @@ fn what_is_written_is_read_back() {
         std::fs::write(&srdf_file, &mine).expect("written");
         let (status, _, said) = urdd(&["export", "moveit", path, "-o", "arm_moveit"], folder);
         assert!(status == 2 && said.contains("already exists"), "{said}");
-        let (status, _, said) = urdd(
-            &["export", "moveit", path, "-o", "arm_moveit", "--update"],
-            folder,
-        );
-        assert!(
-            status == 0 && said.contains("kinematics.yaml stays as it is"),
-            "{said}"
-        );
-        assert_eq!(
-            std::fs::read_to_string(&kinematics).expect("text"),
-            "mine: 1\n"
-        );
+        let (status, _, said) =
+            urdd(&["export", "moveit", path, "-o", "arm_moveit", "--update"], folder);
+        assert!(status == 0 && said.contains("kinematics.yaml stays as it is"), "{said}");
+        assert_eq!(std::fs::read_to_string(&kinematics).expect("text"), "mine: 1\n");
         assert_eq!(std::fs::read_to_string(&srdf_file).expect("text"), mine);
     }
 }
@@ -267,15 +201,8 @@ fn packages_have_names_that_ros_takes() {
     assert_eq!(export(&["My-Robot config"]).0, 0);
     let package =
         std::fs::read_to_string(folder.join("My-Robot config/package.xml")).expect("a package");
-    assert!(
-        package.contains("<name>my_robot_config</name>"),
-        "{package}"
-    );
-    for wrong in [
-        &["x", "--package", "../x"][..],
-        &["x", "--package", "9a"],
-        &["9 lives"],
-    ] {
+    assert!(package.contains("<name>my_robot_config</name>"), "{package}");
+    for wrong in [&["x", "--package", "../x"][..], &["x", "--package", "9a"], &["9 lives"]] {
         let (status, _, said) = export(wrong);
         assert!(status == 2 && said.contains("a letter first"), "{said}");
     }
@@ -294,16 +221,10 @@ fn names_of_groups_come_out_as_they_went_in() {
         ("${x}", false),
         ("", false),
     ] {
-        let escaped: String = name
-            .chars()
-            .map(|c| format!("\\U{:08X}", u32::from(c)))
-            .collect();
+        let escaped: String = name.chars().map(|c| format!("\\U{:08X}", u32::from(c))).collect();
         for what in ["group", "end effector"] {
-            let [group, end] = if what == "group" {
-                [escaped.as_str(), "e"]
-            } else {
-                ["g", escaped.as_str()]
-            };
+            let [group, end] =
+                if what == "group" { [escaped.as_str(), "e"] } else { ["g", escaped.as_str()] };
             let text = format!(
                 "robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"a\"]\n\
                  [[end_effector]]\nname = \"{end}\"\ngroup = \"{group}\"\nparent_link = \"l3\"\n"
@@ -316,15 +237,8 @@ fn names_of_groups_come_out_as_they_went_in() {
                 Ok(made) => {
                     assert!(is_held, "{name:?}");
                     let srdf = Document::parse(&made.text).expect("well-formed");
-                    let tag = if what == "group" {
-                        "group"
-                    } else {
-                        "end_effector"
-                    };
-                    let found = srdf
-                        .descendants()
-                        .find(|node| node.has_tag_name(tag))
-                        .expect("it");
+                    let tag = if what == "group" { "group" } else { "end_effector" };
+                    let found = srdf.descendants().find(|node| node.has_tag_name(tag)).expect("it");
                     assert_eq!(found.attribute("name"), Some(name));
                     for (path, text) in files(&made) {
                         if path.ends_with(".yaml") || path.ends_with(".rviz") {
@@ -332,11 +246,7 @@ fn names_of_groups_come_out_as_they_went_in() {
                         }
                     }
                 }
-                Err(ExportError::Name {
-                    name: said,
-                    what: of,
-                    ..
-                }) => {
+                Err(ExportError::Name { name: said, what: of, .. }) => {
                     assert!(!is_held && said == name && of == what, "{said:?} {of}");
                 }
                 Err(error) => panic!("{error}"),
@@ -372,24 +282,16 @@ fn what_does_not_belong_to_the_robot_is_refused() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
     for package in ["a)\nmessage(x", "../x", "A", ""] {
-        let options = Options {
-            package: Some(package.to_owned()),
-            ..Options::default()
-        };
+        let options = Options { package: Some(package.to_owned()), ..Options::default() };
         let error = export(&robot, Format::Moveit, &options).expect_err(package);
         assert!(matches!(error, ExportError::Package(_)), "{error}");
     }
     let robots = our_robots();
-    let (_, urdf) = robots
-        .iter()
-        .find(|(name, _)| name == "quadruped")
-        .expect("a robot");
+    let (_, urdf) = robots.iter().find(|(name, _)| name == "quadruped").expect("a robot");
     let (_other_folder, other) = made(urdf);
     let other = Robot::open(other).expect("a robot");
-    let options = Options {
-        setup: Some(Setup::guess(&other).expect("guesses")),
-        ..Options::default()
-    };
+    let options =
+        Options { setup: Some(Setup::guess(&other).expect("guesses")), ..Options::default() };
     for format in Format::ALL {
         let error = export(&robot, *format, &options).expect_err("another robot's");
         assert!(matches!(error, ExportError::OtherSetup { .. }), "{error}");

@@ -35,11 +35,7 @@ impl Neutral {
         let mut documents = Vec::new();
         collect(&path, &mut documents);
         assert!(documents.len() > 10);
-        Neutral {
-            _folder: folder,
-            path,
-            documents,
-        }
+        Neutral { _folder: folder, path, documents }
     }
 
     fn robot(&self, names: [&str; 5]) -> Robot {
@@ -61,10 +57,7 @@ fn collect(folder: &Path, documents: &mut Vec<(PathBuf, String)>) {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             collect(&path, documents);
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "json")
-        {
+        } else if path.extension().is_some_and(|extension| extension == "json") {
             documents.push((path.clone(), std::fs::read_to_string(&path).expect("text")));
         }
     }
@@ -86,10 +79,7 @@ fn read(format: Format, text: &str) -> Names {
         Format::Urdf | Format::Drake | Format::Spherized => urdf(text),
         Format::Sdf => sdf(text),
         Format::Mjcf => mjcf(text),
-        Format::Curobo => keys(
-            serde_yaml::from_str(text).expect("YAML"),
-            "collision_spheres",
-        ),
+        Format::Curobo => keys(serde_yaml::from_str(text).expect("YAML"), "collision_spheres"),
         Format::Foam => keys(serde_json::from_str(text).expect("JSON"), "links"),
     }
 }
@@ -111,26 +101,17 @@ fn parsed(text: &str) -> Document<'_> {
 fn of_tag(text: &str, tag: &str, key: &str) -> BTreeSet<String> {
     let document = parsed(text);
     let nodes = document.descendants().filter(|node| node.has_tag_name(tag));
-    nodes
-        .filter_map(|node| node.attribute(key).map(str::to_owned))
-        .collect()
+    nodes.filter_map(|node| node.attribute(key).map(str::to_owned)).collect()
 }
 
 fn robot(text: &str, key: &str) -> Option<String> {
-    parsed(text)
-        .root_element()
-        .attribute(key)
-        .map(str::to_owned)
+    parsed(text).root_element().attribute(key).map(str::to_owned)
 }
 
 fn srdf(text: &str) -> Names {
     let mut links = of_tag(text, "disable_collisions", "link1");
     links.extend(of_tag(text, "disable_collisions", "link2"));
-    Names {
-        robot: robot(text, "name"),
-        links,
-        joints: None,
-    }
+    Names { robot: robot(text, "name"), links, joints: None }
 }
 
 fn urdf(text: &str) -> Names {
@@ -146,9 +127,7 @@ fn sdf(text: &str) -> Names {
     let mut links = of_tag(text, "link", "name");
     let mut joints = of_tag(text, "joint", "name");
     let document = parsed(text);
-    let nodes = document
-        .descendants()
-        .filter(|node| node.has_tag_name("joint"));
+    let nodes = document.descendants().filter(|node| node.has_tag_name("joint"));
     for joint in nodes.filter(|joint| joint.attribute("name") != Some("world_fixed")) {
         let ends = joint
             .children()
@@ -156,9 +135,7 @@ fn sdf(text: &str) -> Names {
         links.extend(ends.filter_map(|node| node.text().map(str::to_owned)));
     }
     joints.remove("world_fixed");
-    let model = document
-        .descendants()
-        .find(|node| node.has_tag_name("model"));
+    let model = document.descendants().find(|node| node.has_tag_name("model"));
     Names {
         robot: model.and_then(|model| model.attribute("name").map(str::to_owned)),
         links,
@@ -170,20 +147,12 @@ fn mjcf(text: &str) -> Names {
     let mut links = of_tag(text, "body", "name");
     let excluded = of_tag(text, "exclude", "body1");
     links.extend(excluded);
-    Names {
-        robot: robot(text, "model"),
-        links,
-        joints: Some(of_tag(text, "joint", "name")),
-    }
+    Names { robot: robot(text, "model"), links, joints: Some(of_tag(text, "joint", "name")) }
 }
 
 fn keys(document: serde_json::Value, key: &str) -> Names {
     let links = document[key].as_object().expect("an object").keys();
-    Names {
-        robot: None,
-        links: links.cloned().collect(),
-        joints: None,
-    }
+    Names { robot: None, links: links.cloned().collect(), joints: None }
 }
 
 /// Whether a format may refuse a name: because XML cannot represent a character in it, or because of the target
@@ -318,11 +287,7 @@ fn hostile() -> Vec<String> {
 fn every_name_comes_out_of_every_format_as_it_went_in() {
     let neutral = Neutral::new();
     // Spheres are the same whatever the names are: as few as can be.
-    let options = Options {
-        spheres: SphereBudget::PerLink(1),
-        samples: 100,
-        ..Options::default()
-    };
+    let options = Options { spheres: SphereBudget::PerLink(1), samples: 100, ..Options::default() };
     let (mut held, mut refused) = (0, 0);
     for name in sample(hostile(), 3) {
         let (other, joint) = (format!("{name}2"), format!("{name}j"));
@@ -368,10 +333,7 @@ fn files_are_safe(made: &Export, name: &str) {
         let file = folders.into_iter().flatten().next().expect("in a folder");
         assert!(path.starts_with("meshes/") || made.path.is_some(), "{path}");
         let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
-        assert!(
-            file.chars().all(is_plain) && !file.starts_with('.'),
-            "{name:?}: {path}"
-        );
+        assert!(file.chars().all(is_plain) && !file.starts_with('.'), "{name:?}: {path}");
         assert!(file.len() < 200, "{path}");
     }
 }
@@ -379,20 +341,14 @@ fn files_are_safe(made: &Export, name: &str) {
 /// A user's own SRDF, with this name in its comments too, and with its pairs updated.
 fn updated(new: &str, name: &str, expected: &BTreeSet<String>) {
     let mut old = String::from("<?xml version=\"1.0\"?>\n<!-- mine - - -->\n");
-    let attribute = new
-        .lines()
-        .find(|line| line.starts_with("<robot"))
-        .expect("a robot");
+    let attribute = new.lines().find(|line| line.starts_with("<robot")).expect("a robot");
     let attribute = attribute.trim_end_matches(['/', '>']);
     old += &format!(
         "{attribute}>\n  <group name=\"g\"/>\n  <disable_collisions link1=\"x\" link2=\"y\" reason=\"Never\"/>\n</robot>\n"
     );
     let merged = merge_srdf(&old, new).expect("merged");
     let names = srdf(&merged.text);
-    assert_eq!(
-        (&names.links, names.robot.as_deref()),
-        (expected, Some(name))
-    );
+    assert_eq!((&names.links, names.robot.as_deref()), (expected, Some(name)));
     assert!(
         merged.text.contains("<!-- mine - - -->\n") && merged.text.contains("<group name=\"g\"/>")
     );
@@ -402,38 +358,25 @@ fn updated(new: &str, name: &str, expected: &BTreeSet<String>) {
 #[test]
 fn names_that_collide_stay_apart() {
     let neutral = Neutral::new();
-    for [a, b] in [
-        ["Arm", "arm"],
-        ["a/b", "a_b"],
-        ["a b", "a_b"],
-        ["a", "a/0"],
-        ["a/0", "a/0/0"],
-        ["é", "ü"],
-    ] {
+    for [a, b] in
+        [["Arm", "arm"], ["a/b", "a_b"], ["a b", "a_b"], ["a", "a/0"], ["a/0", "a/0/0"], ["é", "ü"]]
+    {
         let robot = neutral.robot(["r", a, b, "j", "m"]);
         for &format in Format::ALL {
             let made = export(&robot, format, &Options::default()).expect("an export");
             let expected = BTreeSet::from([a.to_owned(), b.to_owned()]);
             assert_eq!(read(format, &made.text).links, expected, "{format:?}");
-            let folded: BTreeSet<String> = made
-                .files
-                .iter()
-                .map(|(path, _)| path.to_lowercase())
-                .collect();
+            let folded: BTreeSet<String> =
+                made.files.iter().map(|(path, _)| path.to_lowercase()).collect();
             assert_eq!(folded.len(), made.files.len());
         }
-        let text = export(&robot, Format::Mjcf, &Options::default())
-            .expect("an export")
-            .text;
+        let text = export(&robot, Format::Mjcf, &Options::default()).expect("an export").text;
         assert_eq!(of_tag(&text, "geom", "name").len(), 2);
     }
     // Two elements with one name are one too many.
     let robot = neutral.robot(["r", "a", "a", "j", "m"]);
     for &format in Format::ALL {
-        assert!(
-            export(&robot, format, &Options::default()).is_err(),
-            "{format:?}"
-        );
+        assert!(export(&robot, format, &Options::default()).is_err(), "{format:?}");
     }
 }
 
@@ -450,10 +393,7 @@ fn a_name_that_a_part_of_a_joint_needs_is_refused() {
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
         let error = export(&robot, format, &Options::default()).expect_err("a name");
-        assert!(
-            matches!(&error, ExportError::Name { name, .. } if name == "j/trans_x"),
-            "{error}"
-        );
+        assert!(matches!(&error, ExportError::Name { name, .. } if name == "j/trans_x"), "{error}");
     }
     let (_folder, path) = made_of(&urdf("k"));
     let robot = Robot::open(path).expect("a robot");
@@ -471,11 +411,7 @@ fn unknown_elements_add_nothing_that_urdf_defines() {
     let module = neutral.path.join("urdf_module/module.json");
     let mut document: serde_json::Value =
         serde_json::from_slice(&std::fs::read(&module).expect("a module")).expect("JSON");
-    let kept = [
-        "<gazebo><x/></gazebo>",
-        "<!-- c --><gazebo/>",
-        "<?xml version=\"1.0\"?><gazebo/>",
-    ];
+    let kept = ["<gazebo><x/></gazebo>", "<!-- c --><gazebo/>", "<?xml version=\"1.0\"?><gazebo/>"];
     let lost = [
         "<link name='evil'/>",
         "<joint name='evil'/>",
@@ -494,21 +430,12 @@ fn unknown_elements_add_nothing_that_urdf_defines() {
     for format in [Format::Urdf, Format::Drake] {
         let made = export(&robot, format, &Options::default()).expect("an export");
         let names = read(format, &made.text);
-        assert_eq!(
-            names.links,
-            BTreeSet::from(["a".to_owned(), "b".to_owned()])
-        );
+        assert_eq!(names.links, BTreeSet::from(["a".to_owned(), "b".to_owned()]));
         assert_eq!(names.joints, Some(BTreeSet::from(["j".to_owned()])));
         let document = parsed(&made.text);
-        let gazebo = document
-            .descendants()
-            .filter(|node| node.has_tag_name("gazebo"));
+        let gazebo = document.descendants().filter(|node| node.has_tag_name("gazebo"));
         assert_eq!(gazebo.count(), kept.len());
-        assert!(
-            made.notes.contains(&Note::Elements(lost.len())),
-            "{:?}",
-            made.notes
-        );
+        assert!(made.notes.contains(&Note::Elements(lost.len())), "{:?}", made.notes);
     }
 }
 
@@ -518,12 +445,8 @@ fn every_format_of_the_command_line_is_tried() {
     let folder = testkit::temporary::folder();
     let (_, help, _) = crate::program::urdd(&["export", "--help"], folder.path());
     let listed = help.split("Possible values:").nth(1).expect("formats");
-    let listed = listed
-        .lines()
-        .take_while(|line| !line.trim_start().starts_with("<"));
-    let count = listed
-        .filter(|line| line.trim_start().starts_with("- "))
-        .count();
+    let listed = listed.lines().take_while(|line| !line.trim_start().starts_with("<"));
+    let count = listed.filter(|line| line.trim_start().starts_with("- ")).count();
     // `init` is no format.
     assert_eq!(count, Format::ALL.len() + 1, "{help}");
 }

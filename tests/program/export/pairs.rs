@@ -14,9 +14,7 @@ fn pairs_in(text: &str, element: &str, keys: [&str; 2]) -> BTreeSet<Pair> {
     let document = Document::parse(text).expect("well-formed");
     let found = document.descendants().filter(|n| n.has_tag_name(element));
     let name = |n: roxmltree::Node, key: &str| n.attribute(key).expect("a link").to_owned();
-    found
-        .map(|n| (name(n, keys[0]), name(n, keys[1])))
-        .collect()
+    found.map(|n| (name(n, keys[0]), name(n, keys[1]))).collect()
 }
 
 /// The reasons of the shapes of each pair of links.
@@ -51,22 +49,11 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
                 .map(|(pair, _)| pair)
                 .collect();
             disabled += expected.len();
-            let options = Options {
-                shapes: kind,
-                ..Options::default()
-            };
+            let options = Options { shapes: kind, ..Options::default() };
             let text = |format| export(&robot, format, &options).expect("an export").text;
-            let srdf = pairs_in(
-                &text(Format::Srdf),
-                "disable_collisions",
-                ["link1", "link2"],
-            );
+            let srdf = pairs_in(&text(Format::Srdf), "disable_collisions", ["link1", "link2"]);
             assert_eq!(srdf, expected, "{name}");
-            assert_eq!(
-                mjcf_checked(&text(Format::Mjcf)),
-                checked(&robot, kind),
-                "{name}"
-            );
+            assert_eq!(mjcf_checked(&text(Format::Mjcf)), checked(&robot, kind), "{name}");
             assert_eq!(drake_pairs(&text(Format::Drake)), expected, "{name}");
         }
     }
@@ -81,30 +68,21 @@ fn mjcf_checked(text: &str) -> Shapes {
     let document = Document::parse(text).expect("well-formed");
     let mut rigid = BTreeMap::new();
     let mut geoms = Vec::new();
-    for body in document
-        .descendants()
-        .filter(|n| ["body", "worldbody"].iter().any(|t| n.has_tag_name(*t)))
+    for body in
+        document.descendants().filter(|n| ["body", "worldbody"].iter().any(|t| n.has_tag_name(*t)))
     {
         let name = body.attribute("name").unwrap_or("world").to_owned();
         let moves = body.children().any(|n| n.has_tag_name("joint"));
-        let parent = body
-            .parent()
-            .and_then(|parent| parent.attribute("name"))
-            .unwrap_or("world");
+        let parent = body.parent().and_then(|parent| parent.attribute("name")).unwrap_or("world");
         let group = match moves || body.has_tag_name("worldbody") {
             true => name.clone(),
             false => String::clone(&rigid[parent]),
         };
         rigid.insert(name.clone(), group);
-        let own = body
-            .children()
-            .filter(|n| n.attribute("class") == Some("collision"));
-        geoms.extend(own.map(|geom| {
-            (
-                name.clone(),
-                geom.attribute("name").expect("a name").to_owned(),
-            )
-        }));
+        let own = body.children().filter(|n| n.attribute("class") == Some("collision"));
+        geoms.extend(
+            own.map(|geom| (name.clone(), geom.attribute("name").expect("a name").to_owned())),
+        );
     }
     let excluded = pairs_in(text, "exclude", ["body1", "body2"]);
     let mut checked = BTreeSet::new();
@@ -117,10 +95,7 @@ fn mjcf_checked(text: &str) -> Shapes {
         }
     }
     for (one, other) in pairs_in(text, "pair", ["geom1", "geom2"]) {
-        assert!(
-            checked.insert(sorted(&one, &other)),
-            "{one} {other} is checked anyway"
-        );
+        assert!(checked.insert(sorted(&one, &other)), "{one} {other} is checked anyway");
     }
     checked
 }
@@ -140,10 +115,8 @@ fn checked(robot: &Robot, kind: ShapeKind) -> Shapes {
     let skips = robot.skips(kind).expect("skips");
     let description = robot.description().expect("a description");
     let names = robot.link_names().expect("links");
-    let mut rigid: BTreeMap<&str, &str> = names
-        .iter()
-        .map(|name| (name.as_str(), name.as_str()))
-        .collect();
+    let mut rigid: BTreeMap<&str, &str> =
+        names.iter().map(|name| (name.as_str(), name.as_str())).collect();
     for _ in &description.joints {
         for joint in &description.joints {
             if joint.joint_type == urdd_format::urdf::JointType::Fixed {
@@ -194,75 +167,41 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
     let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
     let configurations = robot.configurations().expect("bounds");
     let touches = |k: &u64| {
-        let distances = proximity
-            .closest_points(&configurations.random(*k))
-            .expect("distances");
+        let distances = proximity.closest_points(&configurations.random(*k)).expect("distances");
         distances.iter().any(|pair| pair.distance == 0.0)
     };
     let lost = (0..1000).filter(touches).count();
     assert!(lost > 20, "{lost}");
     for keep_pairs in [false, true] {
-        let options = Options {
-            keep_pairs,
-            ..Options::default()
-        };
+        let options = Options { keep_pairs, ..Options::default() };
         for format in [Format::Srdf, Format::Drake] {
             let made = export(&robot, format, &options).expect("an export");
-            let notes: Vec<&Note> = made
-                .notes
-                .iter()
-                .filter(|note| matches!(note, Note::Mixed { .. }))
-                .collect();
-            let [
-                Note::Mixed {
-                    links,
-                    disabled,
-                    checked,
-                    skipped: of,
-                    contacts: Some(contacts),
-                },
-            ] = notes[..]
+            let notes: Vec<&Note> =
+                made.notes.iter().filter(|note| matches!(note, Note::Mixed { .. })).collect();
+            let [Note::Mixed { links, disabled, checked, skipped: of, contacts: Some(contacts) }] =
+                notes[..]
             else {
                 panic!("{notes:?}");
             };
             assert_eq!(links, &["base".to_owned(), "arm".to_owned()]);
-            assert_eq!(
-                (*disabled, *checked, *of),
-                (!keep_pairs, expected, all - expected)
-            );
+            assert_eq!((*disabled, *checked, *of), (!keep_pairs, expected, all - expected));
             // The arm's foot is inside the base.
-            assert_eq!(
-                (contacts.checked, contacts.skipped, contacts.samples),
-                (lost, 1000, 1000)
-            );
+            assert_eq!((contacts.checked, contacts.skipped, contacts.samples), (lost, 1000, 1000));
             let text = notes[0].to_string();
             let count = if keep_pairs { 1000 } else { lost };
-            assert!(
-                text.contains(&format!("{count} of 1000 sampled configurations")),
-                "{text}"
-            );
+            assert!(text.contains(&format!("{count} of 1000 sampled configurations")), "{text}");
             assert!(made.text.contains(&text), "the file says so too");
             let disables = match format {
                 Format::Srdf => pairs_in(&made.text, "disable_collisions", ["link1", "link2"]),
                 _ => drake_pairs(&made.text),
             };
-            assert_eq!(
-                disables.contains(&("base".into(), "arm".into())),
-                !keep_pairs
-            );
+            assert_eq!(disables.contains(&("base".into(), "arm".into())), !keep_pairs);
         }
         // The MJCF contains pieces, whatever shapes are requested.
         let made = export(&robot, Format::Mjcf, &options).expect("an export");
-        assert!(
-            made.notes
-                .iter()
-                .all(|note| !matches!(note, Note::Mixed { .. }))
-        );
+        assert!(made.notes.iter().all(|note| !matches!(note, Note::Mixed { .. })));
         assert_eq!(mjcf_checked(&made.text), checked(&robot, ShapeKind::Pieces));
-        assert_eq!(
-            pairs_in(&made.text, "pair", ["geom1", "geom2"]).len(),
-            expected
-        );
+        assert_eq!(pairs_in(&made.text, "pair", ["geom1", "geom2"]).len(), expected);
     }
     let run = |more: &[&str]| {
         let arguments = ["export", "srdf", "robot", "-o", "-"];
@@ -290,9 +229,7 @@ fn drake_pairs(text: &str) -> BTreeSet<Pair> {
     let children =
         |group: &roxmltree::Node, kind: &'static str, key: &'static str| -> Vec<String> {
             let found = group.children().filter(|n| n.tag_name().name() == kind);
-            found
-                .map(|n| n.attribute(key).expect("a name").to_owned())
-                .collect()
+            found.map(|n| n.attribute(key).expect("a name").to_owned()).collect()
         };
     let members: BTreeMap<String, Vec<String>> = groups
         .iter()
@@ -319,13 +256,8 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(&path).expect("a robot");
     let of = |robot: &Robot, reasons: Option<Vec<SkippedReason>>| {
-        let options = Options {
-            reasons,
-            ..Options::default()
-        };
-        let text = export(robot, Format::Srdf, &options)
-            .expect("an export")
-            .text;
+        let options = Options { reasons, ..Options::default() };
+        let text = export(robot, Format::Srdf, &options).expect("an export").text;
         pairs_in(&text, "disable_collisions", ["link1", "link2"])
     };
     let by_reason = reasons(&robot, ShapeKind::Pieces);
@@ -340,9 +272,7 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
 
     // A user skips the first pair of these, and checks one that is adjacent.
     let skipped = never.iter().next().expect("a pair").clone();
-    let adjacent = by_reason
-        .iter()
-        .find(|(_, reasons)| reasons.contains("Adjacent"));
+    let adjacent = by_reason.iter().find(|(_, reasons)| reasons.contains("Adjacent"));
     let checked = adjacent.expect("a pair").0.clone();
     let module = path.join("link_shapes_modules/link_shapes_skips_module/module.json");
     let mut document: serde_json::Value =
@@ -355,17 +285,9 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
     let robot = Robot::open(&path).expect("a robot");
     let usual = of(&robot, None);
     assert!(usual.contains(&skipped) && !usual.contains(&checked));
-    assert_eq!(
-        of(&robot, Some(Vec::new())),
-        BTreeSet::from([skipped.clone()])
-    );
-    let text = export(&robot, Format::Srdf, &Options::default())
-        .expect("an export")
-        .text;
-    let user = text
-        .lines()
-        .find(|line| line.contains("\"User\""))
-        .expect("by a person");
+    assert_eq!(of(&robot, Some(Vec::new())), BTreeSet::from([skipped.clone()]));
+    let text = export(&robot, Format::Srdf, &Options::default()).expect("an export").text;
+    let user = text.lines().find(|line| line.contains("\"User\"")).expect("by a person");
     assert!(user.contains(&skipped.0) && user.contains(&skipped.1));
 }
 
@@ -381,29 +303,15 @@ fn reasons_are_named_as_moveit_names_them() {
         SkippedReason::Default,
         SkippedReason::Never,
     ];
-    let options = Options {
-        shapes: ShapeKind::Hulls,
-        reasons: Some(all),
-        ..Options::default()
-    };
-    let text = export(&robot, Format::Srdf, &options)
-        .expect("an export")
-        .text;
+    let options = Options { shapes: ShapeKind::Hulls, reasons: Some(all), ..Options::default() };
+    let text = export(&robot, Format::Srdf, &options).expect("an export").text;
     let document = Document::parse(&text).expect("well-formed");
     let links = robot.link_names().expect("links");
     let mut seen = 0;
-    for pair in document
-        .descendants()
-        .filter(|n| n.has_tag_name("disable_collisions"))
-    {
+    for pair in document.descendants().filter(|n| n.has_tag_name("disable_collisions")) {
         let place = |key: &str| {
-            let link = links
-                .iter()
-                .position(|link| Some(link.as_str()) == pair.attribute(key));
-            let place = skips
-                .places()
-                .iter()
-                .position(|(place, _)| Some(*place) == link);
+            let link = links.iter().position(|link| Some(link.as_str()) == pair.attribute(key));
+            let place = skips.places().iter().position(|(place, _)| Some(*place) == link);
             place.expect("a link with a hull")
         };
         let reason = skips.reason(place("link1"), place("link2"));

@@ -87,8 +87,7 @@ fn depth(robot: &Robot, file: &Value, configuration: &[f64]) -> f64 {
     }
     let is_ignored = |a: &str, b: &str| {
         let list = &file["self_collision_ignore"][a];
-        list.as_array()
-            .is_some_and(|list| list.iter().any(|other| other == b))
+        list.as_array().is_some_and(|list| list.iter().any(|other| other == b))
     };
     let mut deepest = f64::NEG_INFINITY;
     for (place, (a, p, r)) in spheres.iter().enumerate() {
@@ -110,30 +109,18 @@ fn the_file_has_the_keys_of_curobos_template_and_is_free_where_it_retracts() {
         let cspace = &file["cspace"];
         assert_eq!(keys(cspace), CSPACE, "{name}");
         let joints = texts(&cspace["joint_names"]);
-        for key in [
-            "retract_config",
-            "null_space_weight",
-            "cspace_distance_weight",
-        ] {
-            assert_eq!(
-                cspace[key].as_array().expect("numbers").len(),
-                joints.len(),
-                "{name}"
-            );
+        for key in ["retract_config", "null_space_weight", "cspace_distance_weight"] {
+            assert_eq!(cspace[key].as_array().expect("numbers").len(), joints.len(), "{name}");
         }
         assert_eq!(
             (&cspace["max_jerk"], &cspace["max_acceleration"]),
             (&json!(500.0), &json!(15.0))
         );
         // Each joint is in the configuration space or locked; a link of which a joint is in neither has no place.
-        let locked = file["lock_joints"]
-            .as_object()
-            .map_or_else(Vec::new, |locked| locked.keys().collect());
+        let locked =
+            file["lock_joints"].as_object().map_or_else(Vec::new, |locked| locked.keys().collect());
         for dof in robot.dof_names().expect("names") {
-            assert!(
-                joints.contains(&dof.as_str()) != locked.contains(&dof),
-                "{name} {dof}"
-            );
+            assert!(joints.contains(&dof.as_str()) != locked.contains(&dof), "{name} {dof}");
         }
         // Each ignore names links that have spheres.
         let links = texts(&file["collision_link_names"]);
@@ -145,10 +132,7 @@ fn the_file_has_the_keys_of_curobos_template_and_is_free_where_it_retracts() {
             );
         }
         let zero = robot.configurations().expect("bounds").zero();
-        let is_said = made
-            .notes
-            .iter()
-            .any(|note| matches!(note, Note::Retract { .. }));
+        let is_said = made.notes.iter().any(|note| matches!(note, Note::Retract { .. }));
         assert_eq!(depth(&robot, &file, &zero) > 0.0, is_said, "{name}");
         assert!(!is_said || name != "six_axis_arm");
     }
@@ -167,10 +151,7 @@ fn a_person_chooses_the_end_effector_locks_and_limits() {
     );
     let (made, file) = exported(&robot, Some(&text));
     assert_eq!(file["ee_link"], "shoulder");
-    assert_eq!(
-        file["extra_links"]["attached_object"]["parent_link_name"],
-        "shoulder"
-    );
+    assert_eq!(file["extra_links"]["attached_object"]["parent_link_name"], "shoulder");
     assert_eq!(texts(&file["cspace"]["joint_names"]), [dofs[0].as_str()]);
     assert_eq!(file["lock_joints"][joint], 0.25);
     assert_eq!(file["lock_joints"].as_object().expect("a map").len(), 5);
@@ -184,20 +165,12 @@ fn a_person_chooses_the_end_effector_locks_and_limits() {
 fn a_spherized_urdf_has_the_same_spheres() {
     let (_folder, robot) = robot_of("gripper");
     let (_, file) = exported(&robot, None);
-    let options = Options {
-        samples: 500,
-        spheres: SphereBudget::PerLink(4),
-        ..Options::default()
-    };
+    let options = Options { samples: 500, spheres: SphereBudget::PerLink(4), ..Options::default() };
     let made = export(&robot, Format::Spherized, &options).expect("an export");
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     for (link, list) in file["collision_spheres"].as_object().expect("a map") {
-        let mut links = document
-            .descendants()
-            .filter(|node| node.has_tag_name("link"));
-        let found = links
-            .find(|node| node.attribute("name") == Some(link))
-            .expect("a link");
+        let mut links = document.descendants().filter(|node| node.has_tag_name("link"));
+        let found = links.find(|node| node.attribute("name") == Some(link)).expect("a link");
         let spheres: Vec<Value> = found
             .children()
             .filter(|node| node.has_tag_name("collision"))

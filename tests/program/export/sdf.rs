@@ -10,10 +10,7 @@ use urdd_robot::Robot;
 use testkit::robots::{made, made_of, our_robots};
 
 fn sdf(robot: &Robot, floating_base: bool) -> Export {
-    let options = Options {
-        floating_base,
-        ..Options::default()
-    };
+    let options = Options { floating_base, ..Options::default() };
     export(robot, Format::Sdf, &options).expect("an export")
 }
 
@@ -26,17 +23,12 @@ fn text<'a>(node: Node<'a, 'a>, tag: &str) -> Option<&'a str> {
 }
 
 fn numbers(text: &str) -> Vec<f64> {
-    text.split_whitespace()
-        .map(|word| word.parse().expect("a number"))
-        .collect()
+    text.split_whitespace().map(|word| word.parse().expect("a number")).collect()
 }
 
 /// The poses of links and joints in the model with all joints at 0 (SDF 1.9, pose frame semantics).
 fn poses(document: &Document) -> HashMap<String, Isometry3<f64>> {
-    let model = document
-        .descendants()
-        .find(|node| node.has_tag_name("model"))
-        .expect("a model");
+    let model = document.descendants().find(|node| node.has_tag_name("model")).expect("a model");
     let mut open: Vec<Node> = model
         .children()
         .filter(|node| node.has_tag_name("link") || node.has_tag_name("joint"))
@@ -47,21 +39,14 @@ fn poses(document: &Document) -> HashMap<String, Isometry3<f64>> {
         let before = open.len();
         open.retain(|node| {
             let pose = child(*node, "pose");
-            let frame = pose
-                .and_then(|pose| pose.attribute("relative_to"))
-                .unwrap_or("__model__");
+            let frame = pose.and_then(|pose| pose.attribute("relative_to")).unwrap_or("__model__");
             let Some(frame) = poses.get(frame).copied() else {
                 return true;
             };
-            let own = pose
-                .and_then(|pose| pose.text())
-                .map_or_else(|| vec![0.0; 6], numbers);
+            let own = pose.and_then(|pose| pose.text()).map_or_else(|| vec![0.0; 6], numbers);
             let rotation = UnitQuaternion::from_euler_angles(own[3], own[4], own[5]);
             let own = Isometry3::from_parts(Translation3::new(own[0], own[1], own[2]), rotation);
-            poses.insert(
-                node.attribute("name").expect("a name").to_owned(),
-                frame * own,
-            );
+            poses.insert(node.attribute("name").expect("a name").to_owned(), frame * own);
             false
         });
         assert!(open.len() < before, "frames in a circle: {open:?}");
@@ -88,16 +73,11 @@ fn links_are_where_the_urdd_has_them() {
         let space = robot.configurations().expect("bounds");
         // The file has each joint at 0, also where a mimic has an offset.
         let description = robot.description().expect("a description");
-        let mut mimics = description
-            .joints
-            .iter()
-            .filter_map(|joint| joint.mimic.as_ref());
+        let mut mimics = description.joints.iter().filter_map(|joint| joint.mimic.as_ref());
         if mimics.any(|mimic| mimic.offset.unwrap_or(0.0) != 0.0) {
             continue;
         }
-        let expected = robot
-            .link_poses(&vec![0.0; space.num_dofs()])
-            .expect("poses");
+        let expected = robot.link_poses(&vec![0.0; space.num_dofs()]).expect("poses");
         for (link, pose) in robot.link_names().expect("names").iter().zip(expected) {
             let Some(found) = poses.get(link) else {
                 assert_eq!(link, "world", "{name}");
@@ -111,19 +91,14 @@ fn links_are_where_the_urdd_has_them() {
             compared += 1;
         }
         let mass = |node: Node| text(child(node, "inertial")?, "mass")?.parse::<f64>().ok();
-        let links = document
-            .descendants()
-            .filter(|node| node.has_tag_name("link"));
+        let links = document.descendants().filter(|node| node.has_tag_name("link"));
         let total: f64 = links.filter_map(mass).filter(|mass| *mass != 1e-6).sum();
         let masses = description
             .links
             .iter()
             .filter_map(|link| Some(link.inertial.as_ref()?.mass.as_ref()?.value));
         let expected: f64 = masses.filter(|mass| *mass > 0.0).sum();
-        assert!(
-            (total - expected).abs() < 1e-9 * expected.max(1.0),
-            "{name}: {total} {expected}"
-        );
+        assert!((total - expected).abs() < 1e-9 * expected.max(1.0), "{name}: {total} {expected}");
     }
     assert!(compared > 40, "{compared}");
 }
@@ -143,53 +118,27 @@ fn joints_have_limits_dynamics_and_mimics() {
     let robot = Robot::open(path).expect("a robot");
     let made = sdf(&robot, false);
     let document = Document::parse(&made.text).expect("well-formed");
-    assert_eq!(
-        document.root_element().attribute("version"),
-        Some("1.11"),
-        "mimics came with it"
-    );
+    assert_eq!(document.root_element().attribute("version"), Some("1.11"), "mimics came with it");
     let joint = |name: &str| {
-        let mut joints = document
-            .descendants()
-            .filter(|node| node.has_tag_name("joint"));
-        joints
-            .find(|node| node.attribute("name") == Some(name))
-            .expect("a joint")
+        let mut joints = document.descendants().filter(|node| node.has_tag_name("joint"));
+        joints.find(|node| node.attribute("name") == Some(name)).expect("a joint")
     };
     let axis = child(joint("j"), "axis").expect("an axis");
     assert_eq!(text(axis, "xyz"), Some("0 1 0"));
     let of = |tag: &str, key: &str| child(axis, tag).and_then(|of| text(of, key));
-    assert_eq!(
-        [of("limit", "lower"), of("limit", "upper")],
-        [Some("-1"), Some("0.5")]
-    );
-    assert_eq!(
-        [of("limit", "effort"), of("limit", "velocity")],
-        [Some("7"), Some("3")]
-    );
-    assert_eq!(
-        [of("dynamics", "damping"), of("dynamics", "friction")],
-        [Some("0.1"), Some("0.2")]
-    );
-    let mimic = child(joint("k"), "axis")
-        .and_then(|axis| child(axis, "mimic"))
-        .expect("a mimic");
+    assert_eq!([of("limit", "lower"), of("limit", "upper")], [Some("-1"), Some("0.5")]);
+    assert_eq!([of("limit", "effort"), of("limit", "velocity")], [Some("7"), Some("3")]);
+    assert_eq!([of("dynamics", "damping"), of("dynamics", "friction")], [Some("0.1"), Some("0.2")]);
+    let mimic = child(joint("k"), "axis").and_then(|axis| child(axis, "mimic")).expect("a mimic");
     assert_eq!(mimic.attribute("joint"), Some("j"));
-    assert_eq!(
-        [text(mimic, "multiplier"), text(mimic, "offset")],
-        [Some("-2"), Some("0.25")]
-    );
+    assert_eq!([text(mimic, "multiplier"), text(mimic, "offset")], [Some("-2"), Some("0.25")]);
     // Chains from parent to child.
     let chain = |names: &[&str]| -> Vec<[String; 3]> {
         let of = |name: &&str| {
             let joint = joint(name);
             let kind = joint.attribute("type").expect("a type");
-            [
-                kind,
-                text(joint, "parent").expect("a parent"),
-                text(joint, "child").expect("a child"),
-            ]
-            .map(str::to_owned)
+            [kind, text(joint, "parent").expect("a parent"), text(joint, "child").expect("a child")]
+                .map(str::to_owned)
         };
         names.iter().map(of).collect()
     };
@@ -208,18 +157,10 @@ fn joints_have_limits_dynamics_and_mimics() {
         })
     };
     assert_eq!(links("moments of inertia"), Some(vec!["base".to_owned()]));
-    assert_eq!(
-        links("no mass"),
-        Some(["a", "b", "c", "d"].map(str::to_owned).to_vec())
-    );
-    let base = document
-        .descendants()
-        .find(|node| node.has_tag_name("inertia"))
-        .expect("an inertia");
-    assert_eq!(
-        text(base, "ixx").expect("a number").parse::<f64>(),
-        Ok(7.0 / 3.0)
-    );
+    assert_eq!(links("no mass"), Some(["a", "b", "c", "d"].map(str::to_owned).to_vec()));
+    let base =
+        document.descendants().find(|node| node.has_tag_name("inertia")).expect("an inertia");
+    assert_eq!(text(base, "ixx").expect("a number").parse::<f64>(), Ok(7.0 / 3.0));
     assert!(!sdf(&robot, true).text.contains("world_fixed"));
 }
 

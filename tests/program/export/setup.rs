@@ -10,9 +10,7 @@ use testkit::robots::{made, made_of, our_robots};
 /// Lines of a file without comments.
 fn said(text: &str) -> Vec<&str> {
     let lines = text.lines().map(str::trim);
-    lines
-        .filter(|line| !line.is_empty() && !line.starts_with('#'))
-        .collect()
+    lines.filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
 }
 
 fn guessed(name: &str) -> (Robot, String) {
@@ -20,19 +18,14 @@ fn guessed(name: &str) -> (Robot, String) {
     let (_, urdf) = robots.iter().find(|(found, _)| found == name).expect(name);
     let (folder, path) = made(urdf);
     let robot = Robot::open(path).expect("a robot");
-    let text = Setup::guess(&robot)
-        .expect("guesses")
-        .to_toml(&robot)
-        .expect("text");
+    let text = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
     drop(folder);
     (robot, text)
 }
 
 fn names(text: &str) -> Vec<&str> {
     let lines = said(text).into_iter();
-    lines
-        .filter_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"'))
-        .collect()
+    lines.filter_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"')).collect()
 }
 
 /// What a person who looks at the robots sees.
@@ -40,20 +33,10 @@ fn names(text: &str) -> Vec<&str> {
 fn structure_says_what_a_robot_is() {
     let expected: [(&str, &[&str], bool); 6] = [
         ("six_axis_arm", &["arm"], false),
-        (
-            "hand",
-            &["hand", "thumb", "index", "middle", "ring", "little"],
-            false,
-        ),
+        ("hand", &["hand", "thumb", "index", "middle", "ring", "little"], false),
         (
             "quadruped",
-            &[
-                "base",
-                "front_left_leg",
-                "front_right_leg",
-                "rear_left_leg",
-                "rear_right_leg",
-            ],
+            &["base", "front_left_leg", "front_right_leg", "rear_left_leg", "rear_right_leg"],
             true,
         ),
         ("gripper", &["hand"], false),
@@ -141,10 +124,7 @@ fn an_arm_on_wheels_with_a_gripper() {
 fn what_a_person_set_is_written_again() {
     let (_folder, path) = made_of(&mobile());
     let robot = Robot::open(path).expect("a robot");
-    let guess = Setup::guess(&robot)
-        .expect("guesses")
-        .to_toml(&robot)
-        .expect("text");
+    let guess = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
     let mine = guess
         .replace(
             "bandwidth = 10.0\n",
@@ -166,10 +146,7 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
     let robot = Robot::open(path).expect("a robot");
     let group = |inner: &str| format!("robot = \"m\"\n[[group]]\nname = \"g\"\n{inner}\n");
     let cases = [
-        (
-            "robot = \"n\"",
-            ":1:9: this file is for robot `n`, not for `m`",
-        ),
+        ("robot = \"n\"", ":1:9: this file is for robot `n`, not for `m`"),
         ("robot = \"m\"\n[[group", ":2:"),
         ("robot = \"m\"\ngrup = 1", ":2:1: unknown field `grup`"),
         ("[base]\nfloating = true", "missing field `robot`"),
@@ -181,27 +158,12 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
             &group("base = \"j4_link\"\ntip = \"chassis\""),
             ":2:1: the link `j4_link` is not an ancestor of `chassis`",
         ),
-        (
-            &group("base = \"j4_link\"\ntip = \"palm_link\""),
-            "no joint between them moves",
-        ),
+        (&group("base = \"j4_link\"\ntip = \"palm_link\""), "no joint between them moves"),
         (&group("joints = [\"f3\"]"), ":4:11: there is no joint `f3`"),
-        (
-            &group("joints = [\"mount\"]"),
-            ":4:11: the joint `mount` is fixed",
-        ),
-        (
-            &group("joints = []"),
-            ":2:1: the group `g` needs `base` and `tip`",
-        ),
-        (
-            &group("joints = [\"f1\"]\ntip = \"chassis\""),
-            "only one of these",
-        ),
-        (
-            &group("groups = [\"g\"]"),
-            ":2:1: the group `g` contains itself",
-        ),
+        (&group("joints = [\"mount\"]"), ":4:11: the joint `mount` is fixed"),
+        (&group("joints = []"), ":2:1: the group `g` needs `base` and `tip`"),
+        (&group("joints = [\"f1\"]\ntip = \"chassis\""), "only one of these"),
+        (&group("groups = [\"g\"]"), ":2:1: the group `g` contains itself"),
         (&group("groups = [\"h\"]"), ":4:11: there is no group `h`"),
         (
             &group("groups = [\"h\"]\n[[group]]\nname = \"h\"\ngroups = [\"g\"]"),
@@ -217,43 +179,22 @@ fn what_is_wrong_in_the_file_is_said_with_its_place() {
             ),
             ":7:9: there is no group `x`",
         ),
-        (
-            "robot = \"m\"\n[actuators]\nbandwidth = 0.0",
-            ":3:13: `bandwidth` is a number above 0",
-        ),
-        (
-            "robot = \"m\"\n[actuators]\nbandwidth = nan",
-            "`bandwidth` is a number above 0",
-        ),
-        (
-            "robot = \"m\"\n[actuators.joint.j1]\nkp = -1.0",
-            "`kp` is a number that is not below 0",
-        ),
-        (
-            "robot = \"m\"\n[actuators.joint.j1]\nki = 1.0",
-            ":3:1: unknown field `ki`",
-        ),
+        ("robot = \"m\"\n[actuators]\nbandwidth = 0.0", ":3:13: `bandwidth` is a number above 0"),
+        ("robot = \"m\"\n[actuators]\nbandwidth = nan", "`bandwidth` is a number above 0"),
+        ("robot = \"m\"\n[actuators.joint.j1]\nkp = -1.0", "`kp` is a number that is not below 0"),
+        ("robot = \"m\"\n[actuators.joint.j1]\nki = 1.0", ":3:1: unknown field `ki`"),
         (
             "robot = \"m\"\n[curobo]\nretract = \"home\"",
             ":3:11: there is no named configuration `home`",
         ),
-        (
-            "robot = \"m\"\n[curobo]\nlocked = { f1 = inf }",
-            "`locked` is a position, rad or m",
-        ),
-        (
-            "robot = \"m\"\n[frames]\ntools = [\"\\u001b[2J\"]",
-            ":3:10: ",
-        ),
+        ("robot = \"m\"\n[curobo]\nlocked = { f1 = inf }", "`locked` is a position, rad or m"),
+        ("robot = \"m\"\n[frames]\ntools = [\"\\u001b[2J\"]", ":3:10: "),
     ];
     for (text, expected) in cases {
         let error = Setup::from_toml(text, "m.export.toml", &robot).expect_err(text);
         let said = error.to_string();
         assert!(said.contains(expected), "{text}\n{said}");
-        assert!(
-            said.starts_with("m.export.toml:") && !said.contains('\u{1b}'),
-            "{said}"
-        );
+        assert!(said.starts_with("m.export.toml:") && !said.contains('\u{1b}'), "{said}");
     }
     assert!(Setup::from_toml("robot = \"m\"", "x", &robot).is_ok());
 }
@@ -273,15 +214,10 @@ fn hostile_names_are_read_as_they_were_written() {
         "x = 1",
         "\u{10ffff}",
     ] {
-        let urdf = mobile()
-            .replace("palm_link", "STAND")
-            .replace("\"m\"", "\"ROBOT\"");
+        let urdf = mobile().replace("palm_link", "STAND").replace("\"m\"", "\"ROBOT\"");
         let (_folder, path) = made_of(&urdf);
         let robot = Robot::open(&path).expect("a robot");
-        let text = Setup::guess(&robot)
-            .expect("guesses")
-            .to_toml(&robot)
-            .expect("text");
+        let text = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
         assert!(text.contains("tools = [\"STAND\"]"));
         let json = serde_json::to_string(name).expect("JSON");
         let module = path.join("urdf_module/module.json");
@@ -303,9 +239,7 @@ fn hostile_names_are_read_as_they_were_written() {
                 .lines()
                 .filter(|l| !l.starts_with("# Guess"))
                 .collect::<Vec<_>>(),
-            text.lines()
-                .filter(|l| !l.starts_with("# Guess"))
-                .collect::<Vec<_>>()
+            text.lines().filter(|l| !l.starts_with("# Guess")).collect::<Vec<_>>()
         );
         assert!(text.contains("tools = ["), "{text}");
     }
@@ -321,10 +255,8 @@ fn the_file_beside_the_urdd_is_read_and_never_overwritten() {
     let (status, told, _) = urdd(&["export", "init", name], folder);
     assert!(status == 0 && told.contains("written; check"), "{told}");
     let mine = std::fs::read_to_string(&file).expect("a file");
-    let mine = mine.replace(
-        "bandwidth = 10.0",
-        "bandwidth = 5.0\njoint.j1 = { kp = 7.0, armature = 0.25 }",
-    );
+    let mine = mine
+        .replace("bandwidth = 10.0", "bandwidth = 5.0\njoint.j1 = { kp = 7.0, armature = 0.25 }");
     let mine = mine
         .replace("# friction = 0.8", "friction = 0.6")
         .replace("imus = []", "imus = [\"chassis\"]");
@@ -356,11 +288,8 @@ fn the_file_beside_the_urdd_is_read_and_never_overwritten() {
     assert!(text.contains("a bandwidth of 5 Hz") && text.contains("friction=\"0.6\""));
 
     // A wrong name in it stops every export, and says where.
-    std::fs::write(
-        &file,
-        mine.replace("tools = [\"palm_link\"]", "tools = [\"pal_link\"]"),
-    )
-    .expect("written");
+    std::fs::write(&file, mine.replace("tools = [\"palm_link\"]", "tools = [\"pal_link\"]"))
+        .expect("written");
     for format in ["mjcf", "urdf", "sdf"] {
         let (status, _, said) = urdd(&["export", format, name, "-o", "x", "--force"], folder);
         assert!(
@@ -394,9 +323,7 @@ fn options_stand_over_the_file() {
             },
             ..Options::default()
         };
-        export(&robot, Format::Mjcf, &options)
-            .expect("an export")
-            .text
+        export(&robot, Format::Mjcf, &options).expect("an export").text
     };
     assert!(text(None).contains("a bandwidth of 5 Hz"));
     assert!(text(Some(20.0)).contains("a bandwidth of 20 Hz"));

@@ -10,48 +10,26 @@ type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 
 /// Covering spheres, measured in few configurations.
 fn covering(spheres: SphereBudget) -> Options {
-    Options {
-        spheres,
-        cover: true,
-        samples: 100,
-        ..Options::default()
-    }
+    Options { spheres, cover: true, samples: 100, ..Options::default() }
 }
 
 fn foam(robot: &Robot, options: Options) -> Spheres {
-    let text = export(robot, Format::Foam, &options)
-        .expect("an export")
-        .text;
+    let text = export(robot, Format::Foam, &options).expect("an export").text;
     let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let links = document["links"].as_object().expect("links");
     let number = |value: &serde_json::Value| value.as_f64().expect("a number");
     let sphere = |value: &serde_json::Value| {
-        let centre: Vec<f64> = value["origin"]
-            .as_array()
-            .expect("3")
-            .iter()
-            .map(number)
-            .collect();
+        let centre: Vec<f64> = value["origin"].as_array().expect("3").iter().map(number).collect();
         (Vector3::from_vec(centre), number(&value["radius"]))
     };
     let of_link = |link: &serde_json::Value| {
-        link["spheres"]
-            .as_array()
-            .expect("a list")
-            .iter()
-            .map(sphere)
-            .collect()
+        link["spheres"].as_array().expect("a list").iter().map(sphere).collect()
     };
-    links
-        .iter()
-        .map(|(name, link)| (name.clone(), of_link(link)))
-        .collect()
+    links.iter().map(|(name, link)| (name.clone(), of_link(link))).collect()
 }
 
 fn curobo(robot: &Robot, options: &Options) -> Spheres {
-    let text = export(robot, Format::Curobo, options)
-        .expect("an export")
-        .text;
+    let text = export(robot, Format::Curobo, options).expect("an export").text;
     spheres_of(&text)
 }
 
@@ -60,43 +38,23 @@ fn spheres_of(text: &str) -> Spheres {
     let document: serde_yaml::Value = serde_yaml::from_str(text).expect("YAML");
     let number = |value: &serde_yaml::Value| value.as_f64().expect("a number");
     let sphere = |value: &serde_yaml::Value| {
-        let centre: Vec<f64> = value["center"]
-            .as_sequence()
-            .expect("3")
-            .iter()
-            .map(number)
-            .collect();
+        let centre: Vec<f64> =
+            value["center"].as_sequence().expect("3").iter().map(number).collect();
         (Vector3::from_vec(centre), number(&value["radius"]))
     };
     let links = document["collision_spheres"].as_mapping().expect("links");
     let of_link = |(name, list): (&serde_yaml::Value, &serde_yaml::Value)| {
         let list = list.as_sequence().expect("a list");
-        (
-            name.as_str().expect("a name").to_owned(),
-            list.iter().map(sphere).collect(),
-        )
+        (name.as_str().expect("a name").to_owned(), list.iter().map(sphere).collect())
     };
     links.iter().map(of_link).collect()
 }
 
 /// The volume that spheres fill, by counting points of a grid, and the largest radius.
 fn filled(spheres: &[(Vector3<f64>, f64)]) -> (f64, f64) {
-    let low = |axis: usize| {
-        spheres
-            .iter()
-            .map(|(c, r)| c[axis] - r)
-            .fold(f64::MAX, f64::min)
-    };
-    let high = |axis: usize| {
-        spheres
-            .iter()
-            .map(|(c, r)| c[axis] + r)
-            .fold(f64::MIN, f64::max)
-    };
-    let step = (0..3)
-        .map(|axis| high(axis) - low(axis))
-        .fold(0.0, f64::max)
-        / 60.0;
+    let low = |axis: usize| spheres.iter().map(|(c, r)| c[axis] - r).fold(f64::MAX, f64::min);
+    let high = |axis: usize| spheres.iter().map(|(c, r)| c[axis] + r).fold(f64::MIN, f64::max);
+    let step = (0..3).map(|axis| high(axis) - low(axis)).fold(0.0, f64::max) / 60.0;
     let count = |axis: usize| ((high(axis) - low(axis)) / step).ceil() as usize;
     let of_numbers: Vec<[f64; 4]> = spheres.iter().map(|(c, r)| [c.x, c.y, c.z, *r]).collect();
     // In plain numbers: there are a million points, and this is compiled without optimisation.
@@ -119,14 +77,8 @@ fn filled(spheres: &[(Vector3<f64>, f64)]) -> (f64, f64) {
             }
         }
     }
-    let radius = spheres
-        .iter()
-        .map(|(_, radius)| *radius)
-        .fold(0.0, f64::max);
-    (
-        f64::from(u32::try_from(inside).expect("a count")) * step.powi(3),
-        radius,
-    )
+    let radius = spheres.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
+    (f64::from(u32::try_from(inside).expect("a count")) * step.powi(3), radius)
 }
 
 /// Points inside the pieces, at the corners and between them.
@@ -165,14 +117,9 @@ fn covering_spheres_of_a_link_hold_its_pieces() {
                     .sum::<Vector3<f64>>()
             });
             for point in corners.iter().copied().chain(mixed) {
-                let held = of_link
-                    .iter()
-                    .any(|(centre, radius)| (point - centre).norm() <= radius + 1e-9);
-                assert!(
-                    held,
-                    "{name}: {point} of {} is in no sphere",
-                    links[shape.link]
-                );
+                let held =
+                    of_link.iter().any(|(centre, radius)| (point - centre).norm() <= radius + 1e-9);
+                assert!(held, "{name}: {point} of {} is in no sphere", links[shape.link]);
             }
         }
     }
@@ -186,21 +133,12 @@ fn more_covering_spheres_waste_less_and_keep_to_their_number() {
     let mut sums = Vec::new();
     for count in [1, 4, 16, 64] {
         let spheres = foam(&robot, covering(SphereBudget::PerLink(count)));
-        assert!(
-            spheres
-                .values()
-                .all(|of_link| (1..=count).contains(&of_link.len()))
-        );
-        let now: BTreeMap<String, (f64, f64)> = spheres
-            .iter()
-            .map(|(link, of_link)| (link.clone(), filled(of_link)))
-            .collect();
+        assert!(spheres.values().all(|of_link| (1..=count).contains(&of_link.len())));
+        let now: BTreeMap<String, (f64, f64)> =
+            spheres.iter().map(|(link, of_link)| (link.clone(), filled(of_link))).collect();
         for (link, (volume, radius)) in &last {
             let (new_volume, new_radius) = now[link];
-            assert!(
-                new_radius <= *radius,
-                "{link}: {new_radius} with {count}, {radius} before"
-            );
+            assert!(new_radius <= *radius, "{link}: {new_radius} with {count}, {radius} before");
             assert!(
                 new_volume < 1.02 * volume,
                 "{link}: {new_volume} with {count}, {volume} before"

@@ -16,10 +16,7 @@ fn a_name_cannot_leave_its_attribute() {
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     let root = document.root_element();
     assert_eq!(root.attribute("name"), Some("\"/><x-->"));
-    let pair = root
-        .children()
-        .find(roxmltree::Node::is_element)
-        .expect("a pair");
+    let pair = root.children().find(roxmltree::Node::is_element).expect("a pair");
     assert_eq!(pair.attribute("link1"), Some("a\"<&"));
     assert_eq!(pair.attribute("link2"), Some("b'>"));
     // Its own output replaces its own output.
@@ -29,9 +26,7 @@ fn a_name_cannot_leave_its_attribute() {
 
 #[test]
 fn a_robot_without_pairs_is_an_empty_srdf() {
-    let single = our_robots()
-        .into_iter()
-        .find(|(name, _)| name == "single_link");
+    let single = our_robots().into_iter().find(|(name, _)| name == "single_link");
     let (_folder, path) = testkit::robots::made(&single.expect("single_link").1);
     let robot = Robot::open(path).expect("a robot");
     let made = export(&robot, Format::Srdf, &Options::default()).expect("an export");

@@ -58,10 +58,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
         let import = ["skips", "import", "x.srdf", "robot"];
         crate::program::urdd(&[&import[..], more].concat(), folder.path())
     };
-    let told = run(
-        &srdf(&format!("{}{}{}", pair(0, 1), pair(4, 2), pair(0, 3))),
-        &[],
-    );
+    let told = run(&srdf(&format!("{}{}{}", pair(0, 1), pair(4, 2), pair(0, 3))), &[]);
     assert_eq!(
         told,
         (
@@ -70,10 +67,7 @@ fn pairs_become_edits_and_nothing_is_lost() {
             String::new()
         )
     );
-    assert_eq!(
-        skipped(&urdd),
-        [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]
-    );
+    assert_eq!(skipped(&urdd), [(0, 1), (0, 3), (1, 2), (2, 3), (2, 4), (3, 4)]);
     // Readers find correct hashes and matrices.
     let validated = urdd_validate::validate(&[&urdd], &Default::default()).expect("a URDD");
     let found: Vec<_> = validated.report.urdds[0]
@@ -94,12 +88,8 @@ fn pairs_become_edits_and_nothing_is_lost() {
     assert_eq!(skipped(&urdd).len(), 6);
     assert_eq!(run(&contrary, &["--force"]).0, 0);
     assert_eq!(skipped(&urdd), [(0, 1), (1, 2), (2, 3), (2, 4), (3, 4)]);
-    let edits = Robot::open(&urdd)
-        .expect("a robot")
-        .skips(ShapeKind::Hulls)
-        .expect("skips")
-        .edits()
-        .len();
+    let edits =
+        Robot::open(&urdd).expect("a robot").skips(ShapeKind::Hulls).expect("skips").edits().len();
     assert_eq!(edits, 3);
 }
 
@@ -111,11 +101,8 @@ fn disable_default_is_all_pairs_of_a_link_but_those_enabled() {
         "<disable_default_collisions link=\"l0\"/><enable_collisions link1=\"l4\" link2=\"l0\"/>",
     );
     let imported = import_srdf(&robot, &text, false).expect("edits");
-    let pairs: Vec<_> = imported
-        .edits
-        .iter()
-        .map(|of| (of.link_a.as_str(), of.link_b.as_str(), of.skip))
-        .collect();
+    let pairs: Vec<_> =
+        imported.edits.iter().map(|of| (of.link_a.as_str(), of.link_b.as_str(), of.skip)).collect();
     assert_eq!(pairs, [("l0", "l2", true), ("l0", "l3", true)]);
     assert_eq!((imported.already, imported.unlisted), (2, 3));
 }
@@ -129,15 +116,9 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
         fault("<robot name=\"other\"/>"),
         ImportError::Srdf(SrdfError::OtherRobot { .. })
     ));
-    assert!(matches!(
-        fault("no"),
-        ImportError::Srdf(SrdfError::Xml { .. })
-    ));
+    assert!(matches!(fault("no"), ImportError::Srdf(SrdfError::Xml { .. })));
     let error = fault(&srdf("<disable_collisions link1=\"l1\"/>"));
-    assert_eq!(
-        error.to_string(),
-        "line 2: `<disable_collisions>` has no `link2`"
-    );
+    assert_eq!(error.to_string(), "line 2: `<disable_collisions>` has no `link2`");
     let error = fault(&srdf("<disable_collisions link1=\"l1\" link2=\"l11\"/>"));
     assert!(
         error.to_string().starts_with("line 2: ") && error.to_string().contains("`l11`"),
@@ -155,20 +136,13 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     let robot = Robot::open(&urdd).expect("a robot");
     let imported = import_srdf(&robot, &text, false).expect("edits");
     assert_eq!((imported.added, imported.already), (3, 1));
-    let made = urdd_export::export(
-        &robot,
-        urdd_export::Format::Srdf,
-        &urdd_export::Options::default(),
-    );
+    let made =
+        urdd_export::export(&robot, urdd_export::Format::Srdf, &urdd_export::Options::default());
     let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());
     // This once took minutes.
-    assert!(
-        start.elapsed() < std::time::Duration::from_secs(30),
-        "{:?}",
-        start.elapsed()
-    );
+    assert!(start.elapsed() < std::time::Duration::from_secs(30), "{:?}", start.elapsed());
     drop(folder);
 }
 
@@ -180,10 +154,7 @@ fn an_srdf_is_counted_before_it_is_parsed() {
     let entities = "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"line\"/>";
     for text in [srdf(&deep), entities.to_owned(), "\0".to_owned()] {
         let error = import_srdf(&robot, &text, false).expect_err("not read");
-        assert!(
-            matches!(error, ImportError::Srdf(SrdfError::Xml { .. })),
-            "{error}"
-        );
+        assert!(matches!(error, ImportError::Srdf(SrdfError::Xml { .. })), "{error}");
         let merged = urdd_export::merge_srdf(&text, &srdf(""));
         assert!(matches!(merged, Err(SrdfError::Xml { .. })));
     }

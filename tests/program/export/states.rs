@@ -11,9 +11,8 @@ const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name
 <joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
 
 fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
-    let joints = joints
-        .iter()
-        .map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
+    let joints =
+        joints.iter().map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
     format!(
         "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
         joints.collect::<String>()
@@ -51,32 +50,21 @@ fn states_of_groups_are_configurations() {
     );
     let robot = Robot::open(&path).expect("a robot");
     assert_eq!(robot.named_configuration("home"), Ok(&[0.5, -0.5][..]));
-    assert!(
-        import(&[])
-            .1
-            .contains("0 configurations imported; 1 of the SRDF unchanged")
-    );
+    assert!(import(&[]).1.contains("0 configurations imported; 1 of the SRDF unchanged"));
 
     // A person's configuration stays, unless --force.
     let (status, ..) =
         crate::program::urdd(&["configurations", "set", name, "home", "j=0.25"], folder);
     assert_eq!(status, 0);
     let (status, _, said) = import(&[]);
-    assert!(
-        status == 2 && said.contains("another configuration `home`; --force"),
-        "{said}"
-    );
+    assert!(status == 2 && said.contains("another configuration `home`; --force"), "{said}");
     assert_eq!(
-        Robot::open(&path)
-            .expect("a robot")
-            .named_configuration("home"),
+        Robot::open(&path).expect("a robot").named_configuration("home"),
         Ok(&[0.25, 0.0][..])
     );
     assert_eq!(import(&["--force"]).0, 0);
     assert_eq!(
-        Robot::open(&path)
-            .expect("a robot")
-            .named_configuration("home"),
+        Robot::open(&path).expect("a robot").named_configuration("home"),
         Ok(&[0.5, -0.5][..])
     );
 }
@@ -88,43 +76,22 @@ fn wrong_states_are_refused_with_their_line() {
     let cases = [
         (
             state("s", "g", &[("jj", "0")]),
-            StateFault::NoJoint {
-                joint: "jj".into(),
-                nearest: Some("j".into()),
-            },
+            StateFault::NoJoint { joint: "jj".into(), nearest: Some("j".into()) },
         ),
-        (
-            state("s", "g", &[("j", "x")]),
-            StateFault::NotANumber("x".into()),
-        ),
-        (
-            state("s", "g", &[("j", "NaN")]),
-            StateFault::NotANumber("NaN".into()),
-        ),
-        (
-            state("s", "g", &[("j", "0 1")]),
-            StateFault::NotANumber("0 1".into()),
-        ),
+        (state("s", "g", &[("j", "x")]), StateFault::NotANumber("x".into())),
+        (state("s", "g", &[("j", "NaN")]), StateFault::NotANumber("NaN".into())),
+        (state("s", "g", &[("j", "0 1")]), StateFault::NotANumber("0 1".into())),
         (
             state("s", "g", &[("j", "")]),
-            StateFault::Missing {
-                element: "joint",
-                attribute: "value",
-            },
+            StateFault::Missing { element: "joint", attribute: "value" },
         ),
         (
             state("", "g", &[("j", "0")]),
-            StateFault::Missing {
-                element: "group_state",
-                attribute: "name",
-            },
+            StateFault::Missing { element: "group_state", attribute: "name" },
         ),
         (
             state("s", "g", &[("j", "0"), ("j", "1")]),
-            StateFault::Conflict {
-                state: "s".into(),
-                joint: "j".into(),
-            },
+            StateFault::Conflict { state: "s".into(), joint: "j".into() },
         ),
     ];
     for (inner, expected) in cases {

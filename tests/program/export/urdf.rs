@@ -27,10 +27,7 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
         let robot = Robot::open(path).expect("a robot");
         let source = robot.description().expect("a description");
         for kind in [ShapeKind::Hulls, ShapeKind::PieceBoxes, ShapeKind::Spheres] {
-            let options = Options {
-                shapes: kind,
-                ..Options::default()
-            };
+            let options = Options { shapes: kind, ..Options::default() };
             let exported = export(&robot, Format::Urdf, &options).expect("an export");
             let folder = testkit::temporary::folder();
             let file = write(folder.path(), &exported);
@@ -40,18 +37,12 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
                 ..Settings::default()
             };
             generate(&file, &target, &core, &()).expect("a URDD");
-            let again = Robot::open(&target)
-                .expect("a robot")
-                .description()
-                .expect("a description");
+            let again =
+                Robot::open(&target).expect("a robot").description().expect("a description");
             assert_same_motion(&again.joints, &source.joints, &name);
             assert_eq!(again.unknown_elements, source.unknown_elements, "{name}");
             for (new, old) in again.links.iter().zip(&source.links) {
-                assert_eq!(
-                    (&new.name, &new.inertial),
-                    (&old.name, &old.inertial),
-                    "{name}"
-                );
+                assert_eq!((&new.name, &new.inertial), (&old.name, &old.inertial), "{name}");
             }
             let count = robot.shapes(kind).expect("shapes").len();
             let collisions: usize = again.links.iter().map(|link| link.collision.len()).sum();
@@ -66,17 +57,10 @@ fn assert_same_motion(again: &[Joint], source: &[Joint], name: &str) {
         joints.iter().find(|joint| joint.name == wanted).cloned()
     };
     for (new, old) in again.iter().zip(source) {
-        let without = |joint: &Joint| Joint {
-            mimic: None,
-            ..joint.clone()
-        };
+        let without = |joint: &Joint| Joint { mimic: None, ..joint.clone() };
         assert_eq!(without(new), without(old), "{name}");
         let (mut factor, mut offset, mut at) = (1.0, 0.0, old.clone());
-        while let Some(mimic) = at
-            .mimic
-            .clone()
-            .filter(|_| at.joint_type != JointType::Fixed)
-        {
+        while let Some(mimic) = at.mimic.clone().filter(|_| at.joint_type != JointType::Fixed) {
             offset += factor * mimic.offset.unwrap_or(0.0);
             factor *= mimic.multiplier.unwrap_or(1.0);
             at = find(source, &mimic.joint).expect("a joint");
@@ -85,14 +69,8 @@ fn assert_same_motion(again: &[Joint], source: &[Joint], name: &str) {
             (None, true) => {}
             (Some(mimic), false) => {
                 assert_eq!(mimic.joint, at.name, "{name}");
-                assert!(
-                    (mimic.multiplier.unwrap_or(1.0) - factor).abs() < 1e-12,
-                    "{name}"
-                );
-                assert!(
-                    (mimic.offset.unwrap_or(0.0) - offset).abs() < 1e-12,
-                    "{name}"
-                );
+                assert!((mimic.multiplier.unwrap_or(1.0) - factor).abs() < 1e-12, "{name}");
+                assert!((mimic.offset.unwrap_or(0.0) - offset).abs() < 1e-12, "{name}");
             }
             other => panic!("{name}: {other:?}"),
         }
@@ -108,37 +86,20 @@ fn an_awkward_robot_moves_as_before() {
     let exported = export(&robot, Format::Urdf, &Options::default()).expect("an export");
     assert!(!exported.text.contains("quat_xyzw"));
     let document = roxmltree::Document::parse(&exported.text).expect("well-formed");
-    let mimics: Vec<_> = document
-        .descendants()
-        .filter(|n| n.has_tag_name("mimic"))
-        .collect();
+    let mimics: Vec<_> = document.descendants().filter(|n| n.has_tag_name("mimic")).collect();
     assert_eq!(mimics.len(), 3);
-    assert!(
-        mimics
-            .iter()
-            .all(|mimic| mimic.attribute("joint") == Some("j1"))
-    );
-    let stand = document
-        .descendants()
-        .find(|n| n.attribute("name") == Some("stand"))
-        .expect("a joint");
+    assert!(mimics.iter().all(|mimic| mimic.attribute("joint") == Some("j1")));
+    let stand =
+        document.descendants().find(|n| n.attribute("name") == Some("stand")).expect("a joint");
     assert_eq!(stand.attribute("type"), Some("fixed"));
     let folder = testkit::temporary::folder();
     let target = folder.path().join("again");
-    generate(
-        &write(folder.path(), &exported),
-        &target,
-        &Settings::default(),
-        &(),
-    )
-    .expect("a URDD");
+    generate(&write(folder.path(), &exported), &target, &Settings::default(), &()).expect("a URDD");
     let again = Robot::open(&target).expect("a robot");
     for k in 0..50 {
         let q = robot.configurations().expect("bounds").random(k);
-        let (one, other) = (
-            robot.link_poses(&q).expect("poses"),
-            again.link_poses(&q).expect("poses"),
-        );
+        let (one, other) =
+            (robot.link_poses(&q).expect("poses"), again.link_poses(&q).expect("poses"));
         for (one, other) in one.iter().zip(&other) {
             let apart = (one.inverse() * other).to_homogeneous() - nalgebra::Matrix4::identity();
             assert!(apart.abs().max() < 1e-12, "{apart}");
@@ -155,10 +116,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Urdf, Format::Drake, Format::Mjcf] {
         let made = export(&robot, format, &Options::default()).expect("an export");
-        assert!(
-            made.notes.contains(&Note::NoShapes(ShapeKind::Pieces)),
-            "{format:?}"
-        );
+        assert!(made.notes.contains(&Note::NoShapes(ShapeKind::Pieces)), "{format:?}");
         assert!(made.text.contains("no link has pieces"), "{format:?}");
         assert!(made.files.is_empty());
     }
@@ -166,11 +124,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
     assert!(made.notes.is_empty());
     let made = export(&robot, Format::Curobo, &Options::default()).expect("an export");
     assert!(made.text.contains("# No link has shapes"), "{}", made.text);
-    assert!(
-        made.text.contains("\ncollision_spheres: {}\n"),
-        "{}",
-        made.text
-    );
+    assert!(made.text.contains("\ncollision_spheres: {}\n"), "{}", made.text);
     let made = export(&robot, Format::Foam, &Options::default()).expect("an export");
     let foam: serde_json::Value = serde_json::from_str(&made.text).expect("JSON");
     assert_eq!(foam["links"], serde_json::json!({}));
@@ -181,39 +135,24 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
 fn boxes_stand_where_the_module_has_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options {
-        shapes: ShapeKind::Boxes,
-        visuals: false,
-        ..Options::default()
-    };
+    let options = Options { shapes: ShapeKind::Boxes, visuals: false, ..Options::default() };
     let made = export(&robot, Format::Urdf, &options).expect("an export");
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     let numbers = |node: roxmltree::Node, key: &str| -> Vec<f64> {
         let text = node.attribute(key).expect("an attribute");
-        text.split(' ')
-            .map(|word| word.parse().expect("a number"))
-            .collect()
+        text.split(' ').map(|word| word.parse().expect("a number")).collect()
     };
-    let collisions: Vec<_> = document
-        .descendants()
-        .filter(|n| n.has_tag_name("collision"))
-        .collect();
+    let collisions: Vec<_> =
+        document.descendants().filter(|n| n.has_tag_name("collision")).collect();
     let shapes = robot.shapes(ShapeKind::Boxes).expect("boxes");
     assert_eq!(collisions.len(), shapes.len());
     for (collision, shape) in collisions.iter().zip(&shapes) {
         let Solid::Box { pose, half_extents } = &shape.solid else {
             panic!("a box");
         };
-        let child = |name: &str| {
-            collision
-                .descendants()
-                .find(|n| n.has_tag_name(name))
-                .expect("there")
-        };
-        let (xyz, rpy) = (
-            numbers(child("origin"), "xyz"),
-            numbers(child("origin"), "rpy"),
-        );
+        let child =
+            |name: &str| collision.descendants().find(|n| n.has_tag_name(name)).expect("there");
+        let (xyz, rpy) = (numbers(child("origin"), "xyz"), numbers(child("origin"), "rpy"));
         let size = numbers(child("box"), "size");
         // Fixed-axis roll, pitch, yaw, by hand (SPEC 5.4).
         let (cr, sr) = (rpy[0].cos(), rpy[0].sin());
@@ -233,11 +172,7 @@ fn boxes_stand_where_the_module_has_them() {
                 }));
             for axis in 0..3 {
                 let got = xyz[axis] + (0..3).map(|k| rows[axis][k] * local[k]).sum::<f64>();
-                assert!(
-                    (got - expected[axis]).abs() < 1e-7,
-                    "{got} for {}",
-                    expected[axis]
-                );
+                assert!((got - expected[axis]).abs() < 1e-7, "{got} for {}", expected[axis]);
             }
         }
     }
@@ -258,10 +193,7 @@ fn a_line_break_in_an_attribute_is_a_space() {
 #[test]
 fn the_same_urdd_gives_the_same_bytes() {
     let (_folder, path) = made(&our_robots()[0].1);
-    let options = Options {
-        samples: 2_000,
-        ..Options::default()
-    };
+    let options = Options { samples: 2_000, ..Options::default() };
     let exports = || {
         let robot = Robot::open(&path).expect("a robot");
         Format::ALL
@@ -275,8 +207,5 @@ fn the_same_urdd_gives_the_same_bytes() {
 }
 
 fn rayon_of(threads: usize) -> rayon::ThreadPool {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .expect("a pool")
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool")
 }

@@ -23,10 +23,7 @@ fn folder() -> tempfile::TempDir {
         ("hand/Robot.urdf", GOOD),
         ("hand/left/deep/robot.urdf", GOOD),
         ("bad/broken.urdf", "<robot name=\"r\"><link"),
-        (
-            "bad/loose.urdf",
-            "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/></robot>",
-        ),
+        ("bad/loose.urdf", "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/></robot>"),
         ("arm/arm.urdf.xacro", "not looked at"),
         ("made/urdd.json", "{}"),
         ("made/robot.urdf", "not looked at"),
@@ -71,12 +68,8 @@ fn a_bad_robot_stops_nothing() {
     // Again: the same lines, except for unchanged robots; the output folder is not searched.
     let (_, again) = run(folder.path(), &["--threads", "1"]);
     assert_eq!(again[7]["summary"]["unchanged"], 5);
-    let outputs = |lines: &[Value]| {
-        lines
-            .iter()
-            .map(|line| line["output"].clone())
-            .collect::<Vec<_>>()
-    };
+    let outputs =
+        |lines: &[Value]| lines.iter().map(|line| line["output"].clone()).collect::<Vec<_>>();
     assert_eq!(outputs(&lines), outputs(&again));
 }
 
@@ -104,10 +97,7 @@ impl Observer for Watcher {
     }
 
     fn done(&self, job: &Job, outcome: &Result<Generated, GenerateError>) {
-        let outcome = outcome
-            .as_ref()
-            .map(|_| ())
-            .map_err(|error| error.to_string());
+        let outcome = outcome.as_ref().map(|_| ()).map_err(|error| error.to_string());
         self.told.lock().unwrap().push((job.name.clone(), outcome));
     }
 }
@@ -117,14 +107,8 @@ fn a_crash_stops_nothing() {
     let folder = folder();
     let jobs = jobs(&["arm", "leg", "hand/left"].map(|name| folder.path().join(name))).unwrap();
     let out = folder.path().join("out");
-    let watcher = Watcher {
-        told: Mutex::default(),
-        last: out.join("deep-robot"),
-    };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(2)
-        .build()
-        .unwrap();
+    let watcher = Watcher { told: Mutex::default(), last: out.join("deep-robot") };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
     let settings = Settings::default();
     let failed = pool.install(|| urdd_generate::batch::run(&jobs, &out, &settings, &watcher));
     assert_eq!(failed, 2);
@@ -132,15 +116,10 @@ fn a_crash_stops_nothing() {
     let names: Vec<&str> = told.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["arm", "leg-robot", "deep-robot"], "in order");
     let crash = told[0].1.as_ref().unwrap_err();
-    assert!(
-        crash.contains("the program is wrong") && crash.contains("report it"),
-        "{crash}"
-    );
+    assert!(crash.contains("the program is wrong") && crash.contains("report it"), "{crash}");
     assert!(told[2].1.is_ok());
-    let made: Vec<_> = fs::read_dir(&out)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name())
-        .collect();
+    let made: Vec<_> =
+        fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(made, ["deep-robot"], "and no left-overs");
 }
 
@@ -149,36 +128,20 @@ fn names_tell_robots_apart() {
     let folder = folder();
     let names = |paths: &[PathBuf]| {
         let jobs = jobs(paths).unwrap();
-        let below = |path: &Path| {
-            path.strip_prefix(folder.path())
-                .unwrap()
-                .display()
-                .to_string()
-        };
-        jobs.iter()
-            .map(|job| (below(&job.source), job.name.clone()))
-            .collect::<Vec<_>>()
+        let below = |path: &Path| path.strip_prefix(folder.path()).unwrap().display().to_string();
+        jobs.iter().map(|job| (below(&job.source), job.name.clone())).collect::<Vec<_>>()
     };
     let found = names(&[folder.path().to_owned()]);
-    let found: Vec<(&str, &str)> = found
-        .iter()
-        .map(|(a, b)| (a.as_str(), b.as_str()))
-        .collect();
+    let found: Vec<(&str, &str)> = found.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
     assert_eq!(
         found,
         [
             ("arm/arm.urdf", "arm"),
             ("bad/broken.urdf", "broken"),
             ("bad/loose.urdf", "loose"),
-            (
-                "hand/Robot.urdf",
-                &*format!("{}-hand-Robot", plain_parts(folder.path()))
-            ),
+            ("hand/Robot.urdf", &*format!("{}-hand-Robot", plain_parts(folder.path()))),
             ("hand/left/deep/robot.urdf", "deep-robot"),
-            (
-                "hand/robot.urdf",
-                &*format!("{}-hand-robot_2", plain_parts(folder.path()))
-            ),
+            ("hand/robot.urdf", &*format!("{}-hand-robot_2", plain_parts(folder.path()))),
             ("leg/robot.urdf", "leg-robot"),
         ]
     );
@@ -216,36 +179,21 @@ fn shards_are_the_whole() {
 fn exit_status_tells_usage_from_failure() {
     let folder = folder();
     let status = |arguments: &[&str]| {
-        let output = urdd(&["generate"])
-            .args(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
-        (
-            output.status.code(),
-            String::from_utf8(output.stderr).unwrap(),
-        )
+        let output =
+            urdd(&["generate"]).args(arguments).current_dir(folder.path()).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
     };
     assert_eq!(status(&["arm/arm.urdf", "-o", "o1"]).0, Some(0));
     assert_eq!(status(&["bad/broken.urdf", "-o", "o2"]).0, Some(1));
     assert_eq!(status(&["nothing.urdf", "-o", "o3"]).0, Some(1));
     for (arguments, word) in [
         (&["arm/arm.urdf"] as &[&str], "--output"),
-        (
-            &["arm/arm.urdf", "-o", "o4", "--modules", "dofs"],
-            "kinematics_samples",
-        ),
+        (&["arm/arm.urdf", "-o", "o4", "--modules", "dofs"], "kinematics_samples"),
         (&["arm/arm.urdf", "-o", "o4", "--package", "x"], "NAME=PATH"),
-        (
-            &["arm/arm.urdf", "-o", "o4", "--package", "x=/no/such"],
-            "not a folder",
-        ),
+        (&["arm/arm.urdf", "-o", "o4", "--package", "x=/no/such"], "not a folder"),
         (&["arm/arm.urdf", "-o", "o4", "--shard", "1/2"], "batches"),
         (&["arm/arm.urdf", "-o", "o4", "--samples", "0"], "1.."),
-        (
-            &[".hidden/../readme.txt", "nothing", "-o", "o4"],
-            "no such file",
-        ),
+        (&[".hidden/../readme.txt", "nothing", "-o", "o4"], "no such file"),
         (&["o1", "-o", "o4"], "no .urdf"),
     ] {
         let (code, message) = status(arguments);

@@ -49,19 +49,11 @@ fn two_spheres_that_overlap_have_no_findings() {
 }
 
 fn on_arbitrary_robots(cases: u32, selection: &Selection) {
-    let config = Config {
-        cases,
-        failure_persistence: None,
-        max_shrink_iters: 100,
-        ..Config::default()
-    };
-    let settings = Settings {
-        selection: selection.clone(),
-        ..Settings::default()
-    };
-    let outcome = TestRunner::new(config).run(&arbitrary_robot(), |robot| {
-        compare(&robot, &settings).map_err(TestCaseError::fail)
-    });
+    let config =
+        Config { cases, failure_persistence: None, max_shrink_iters: 100, ..Config::default() };
+    let settings = Settings { selection: selection.clone(), ..Settings::default() };
+    let outcome = TestRunner::new(config)
+        .run(&arbitrary_robot(), |robot| compare(&robot, &settings).map_err(TestCaseError::fail));
     outcome.unwrap_or_else(|failure| panic!("{failure}"));
 }
 
@@ -81,10 +73,7 @@ fn compare(robot: &Robot, settings: &Settings) -> Result<(), String> {
     }
     let theirs = Fixture::core(robot);
     let mut compared = 0;
-    for kind in ModuleKind::ALL
-        .iter()
-        .filter(|kind| !kind.folder().contains('/'))
-    {
+    for kind in ModuleKind::ALL.iter().filter(|kind| !kind.folder().contains('/')) {
         let Some(theirs) = theirs.documents.get(kind.name()) else {
             continue;
         };
@@ -103,20 +92,14 @@ fn compare(robot: &Robot, settings: &Settings) -> Result<(), String> {
 fn what_is_asked_for_is_made_and_the_core_class_with_it() {
     let folder = testkit::temporary::folder();
     let selection = Selection::parse(["dof"]).unwrap();
-    let settings = Settings {
-        selection,
-        ..Settings::default()
-    };
+    let settings = Settings { selection, ..Settings::default() };
     let (_, robot) = our_robots().remove(0);
     let target = folder.path().join("out");
     generate(&robot, &target, &settings, &()).unwrap();
     assert!(exists(&target, "connections_module"));
     assert!(!exists(&target, "kinematics_samples_module"));
     assert!(!exists(&target, "mesh_modules"));
-    let codes: Vec<String> = findings_of(&target)
-        .into_iter()
-        .map(|(code, ..)| code)
-        .collect();
+    let codes: Vec<String> = findings_of(&target).into_iter().map(|(code, ..)| code).collect();
     assert_eq!(codes, ["KIN005"], "the samples are recommended");
     let error = Selection::parse(["dof", "dofs"]).unwrap_err();
     assert_eq!(error.word, "dofs");

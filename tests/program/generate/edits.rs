@@ -17,10 +17,7 @@ const ROBOT: &str = r#"<robot name="r">
 const SKIPS: &str = "link_shapes_modules/link_shapes_skips_module";
 
 fn settings() -> Settings {
-    Settings {
-        num_samples: 5,
-        ..Settings::default()
-    }
+    Settings { num_samples: 5, ..Settings::default() }
 }
 
 fn edit() -> Value {
@@ -62,10 +59,7 @@ fn edits_are_kept() {
             None => fs::remove_file(&metadata).unwrap(),
             Some(text) => fs::write(&metadata, text).unwrap(),
         }
-        let forced = Settings {
-            force: true,
-            ..settings()
-        };
+        let forced = Settings { force: true, ..settings() };
         generate(&source, &target, &forced, &()).unwrap();
         let module = read_json(&target.join(SKIPS).join("module.json"));
         assert_eq!(module["edits"], json!([edit()]), "{text:?}");
@@ -73,11 +67,7 @@ fn edits_are_kept() {
     }
     // And if the module has the keys of an earlier draft.
     let file = target.join(SKIPS).join("module.json");
-    fs::write(
-        &file,
-        json!({"edits": [edit()], "of_another_draft": 1}).to_string(),
-    )
-    .unwrap();
+    fs::write(&file, json!({"edits": [edit()], "of_another_draft": 1}).to_string()).unwrap();
     fs::remove_file(target.join(SKIPS).join("module.yaml")).unwrap();
     generate(&source, &target, &settings(), &()).unwrap();
     assert_eq!(read_json(&file)["edits"], json!([edit()]));
@@ -111,34 +101,14 @@ fn edits_that_cannot_be_read_stop_the_run() {
             whole(json!([without("reason")])),
             "module.json:1:11: this edit cannot be used: missing field `reason`",
         ),
-        (
-            "a null reason",
-            whole(json!([with("reason", Value::Null)])),
-            "`reason` is null",
-        ),
-        (
-            "no link",
-            whole(json!([edit(), without("link_b")])),
-            "missing field `link_b`",
-        ),
-        (
-            "a word for a boolean",
-            whole(json!([with("skip", json!("yes"))])),
-            "invalid type",
-        ),
-        (
-            "an unknown key",
-            whole(json!([with("because", json!("x"))])),
-            "`because`",
-        ),
+        ("a null reason", whole(json!([with("reason", Value::Null)])), "`reason` is null"),
+        ("no link", whole(json!([edit(), without("link_b")])), "missing field `link_b`"),
+        ("a word for a boolean", whole(json!([with("skip", json!("yes"))])), "invalid type"),
+        ("an unknown key", whole(json!([with("because", json!("x"))])), "`because`"),
         ("no list", whole(json!({})), "`edits` must be a list"),
         ("null", whole(Value::Null), "`edits` must be a list"),
         ("no edits", "{}".to_owned(), "`edits` is missing"),
-        (
-            "twice",
-            format!("{{\"edits\": [{}],\n\"edits\": []}}", edit()),
-            "module.json:2:1: ",
-        ),
+        ("twice", format!("{{\"edits\": [{}],\n\"edits\": []}}", edit()), "module.json:2:1: "),
     ];
     for (case, text, words) in cases {
         for metadata in [None, Some("{")] {
@@ -157,23 +127,13 @@ fn edits_that_cannot_be_read_stop_the_run() {
             let said = String::from_utf8(output.stderr).unwrap();
             assert!(said.contains(words), "{case}: {said}");
             assert!(said.contains("--drop-edits"), "{case}: {said}");
-            assert!(
-                bytes_below(&target) == before,
-                "{case}: something was written"
-            );
+            assert!(bytes_below(&target) == before, "{case}: something was written");
             // On purpose.
-            let output = urdd(&[
-                "generate",
-                "--samples",
-                "5",
-                "--force",
-                "--drop-edits",
-                "-o",
-            ])
-            .arg(&target)
-            .arg(&source)
-            .output()
-            .unwrap();
+            let output = urdd(&["generate", "--samples", "5", "--force", "--drop-edits", "-o"])
+                .arg(&target)
+                .arg(&source)
+                .output()
+                .unwrap();
             assert!(output.status.success(), "{case}: {output:?}");
             let module = read_json(&target.join(SKIPS).join("module.json"));
             assert_eq!(module["edits"], json!([]), "{case}");
@@ -189,10 +149,8 @@ fn an_edit_of_the_yaml_file_alone_stops_the_run() {
     let text = fs::read_to_string(&file).unwrap();
     let reason = "reason: \"a cable\"";
     assert!(text.contains(reason), "{text}");
-    for other in [
-        text.replace(reason, "reason: a longer cable"),
-        text.replace(reason, "reason: ["),
-    ] {
+    for other in [text.replace(reason, "reason: a longer cable"), text.replace(reason, "reason: [")]
+    {
         fs::write(&file, other).unwrap();
         let error = generate(&source, &target, &settings(), &()).unwrap_err();
         assert_eq!(error.code(), "edits");
@@ -209,10 +167,7 @@ fn an_edit_of_the_yaml_file_alone_stops_the_run() {
 fn modules_without_the_edits_do_not_replace_them() {
     let (_folder, source, target) = edited();
     let before = bytes_below(&target);
-    let core = Settings {
-        selection: Selection::parse(["core"]).unwrap(),
-        ..settings()
-    };
+    let core = Settings { selection: Selection::parse(["core"]).unwrap(), ..settings() };
     let error = generate(&source, &target, &core, &()).unwrap_err();
     assert_eq!(error.code(), "edits");
     assert!(error.to_string().contains("holds 1 edit"), "{error}");
@@ -231,10 +186,7 @@ fn edits_of_which_only_the_yaml_file_is_left_stop_the_run() {
     let before = bytes_below(&target);
     let error = generate(&source, &target, &settings(), &()).unwrap_err();
     assert_eq!(error.code(), "edits");
-    assert!(
-        error.to_string().contains("module.json is missing"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("module.json is missing"), "{error}");
     assert!(bytes_below(&target) == before);
 }
 
@@ -253,9 +205,5 @@ fn an_edit_of_a_link_that_never_was_stops_the_run() {
     write_edits(&target, &json!([edit()]));
     fs::write(&source, ROBOT.replace("\"b\"", "\"c\"")).unwrap();
     let made = generate(&source, &target, &settings(), &()).unwrap();
-    assert!(
-        made.notes
-            .iter()
-            .any(|note| note.to_string().contains("`b`"))
-    );
+    assert!(made.notes.iter().any(|note| note.to_string().contains("`b`")));
 }

@@ -157,25 +157,14 @@ fn each_has_its_message() {
                 let is_verbatim =
                     fs::read(target.join(carried)).unwrap() == fs::read(&source).unwrap();
                 let found = target.join(format!("{carried}.as-found"));
-                assert_eq!(
-                    is_verbatim,
-                    !found.exists(),
-                    "{name}: what was found is carried too"
-                );
+                assert_eq!(is_verbatim, !found.exists(), "{name}: what was found is carried too");
                 if !is_verbatim {
                     lines.push_str("  (a repaired URDF is carried)\n");
-                    assert_eq!(
-                        fs::read(found).unwrap(),
-                        fs::read(&source).unwrap(),
-                        "{name}"
-                    );
+                    assert_eq!(fs::read(found).unwrap(), fs::read(&source).unwrap(), "{name}");
                 }
             }
             Err(error) => {
-                assert!(
-                    !target.exists(),
-                    "{name}: refused, and something was written"
-                );
+                assert!(!target.exists(), "{name}: refused, and something was written");
                 for line in error.to_string().lines() {
                     writeln!(lines, "  refused: {line}").unwrap();
                 }

@@ -58,10 +58,7 @@ fn wait_for_work(folder: &Path) {
 }
 
 fn send(signal: &str, child: &Child) {
-    let status = Command::new("kill")
-        .args([signal, &child.id().to_string()])
-        .status()
-        .unwrap();
+    let status = Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
     assert!(status.success());
 }
 
@@ -165,18 +162,14 @@ fn runs_at_once_into_one_place_wait_for_each_other() {
     fs::write(&other, robot("other", 4)).unwrap();
     let wanted: Vec<BTreeMap<String, Vec<u8>>> = [&source, &other]
         .map(|source| {
-            let place = folder
-                .path()
-                .join("wanted")
-                .join(source.file_stem().unwrap());
+            let place = folder.path().join("wanted").join(source.file_stem().unwrap());
             generate(source, &place, &Settings::default(), &()).unwrap();
             bytes_below(&place)
         })
         .into();
     let target = folder.path().join("out");
-    let runs: Vec<Child> = (0..24)
-        .map(|i| start(if i % 2 == 0 { &source } else { &other }, &target))
-        .collect();
+    let runs: Vec<Child> =
+        (0..24).map(|i| start(if i % 2 == 0 { &source } else { &other }, &target)).collect();
     for mut run in runs {
         assert!(run.wait().unwrap().success());
     }
@@ -188,11 +181,7 @@ fn runs_at_once_into_one_place_wait_for_each_other() {
 fn files_of_a_person_in_the_folders_of_modules_stay() {
     let (folder, source) = workshop(2);
     let target = folder.path().join("mine");
-    let mine = [
-        "mesh_modules/mystuff/a",
-        "urdf_module/mine.txt",
-        "notes/b.txt",
-    ];
+    let mine = ["mesh_modules/mystuff/a", "urdf_module/mine.txt", "notes/b.txt"];
     for path in mine {
         let path = target.join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -205,10 +194,7 @@ fn files_of_a_person_in_the_folders_of_modules_stay() {
         let metadata = fs::metadata(target.join(path)).unwrap();
         metadata.permissions().mode() & 0o777
     };
-    let forced = Settings {
-        force: true,
-        ..Settings::default()
-    };
+    let forced = Settings { force: true, ..Settings::default() };
     for run in 0..2 {
         generate(&source, &target, &forced, &()).unwrap();
         for path in mine {
@@ -237,10 +223,7 @@ fn a_file_of_a_person_in_the_place_of_the_urdf_is_not_overwritten() {
     let target = folder.path().join("mine");
     fs::create_dir(&target).unwrap();
     fs::write(target.join("robot.urdf"), "<robot name='mine'/>").unwrap();
-    let forced = Settings {
-        force: true,
-        ..Settings::default()
-    };
+    let forced = Settings { force: true, ..Settings::default() };
     let error = generate(&source, &target, &forced, &()).unwrap_err();
     assert!(error.to_string().contains("move it away"), "{error}");
     assert_eq!(bytes_below(&target).len(), 1);

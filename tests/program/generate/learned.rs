@@ -13,17 +13,9 @@ use urdd_robot::Robot;
 use super::{findings_of, read_json};
 
 /// Enough training for a useful model, in a short time.
-const LITTLE: Effort = Effort {
-    training: 4_000,
-    calibration: 3_000,
-    epochs: 4,
-};
+const LITTLE: Effort = Effort { training: 4_000, calibration: 3_000, epochs: 4 };
 /// Enough for some model.
-const LEAST: Effort = Effort {
-    training: 500,
-    calibration: 500,
-    epochs: 1,
-};
+const LEAST: Effort = Effort { training: 500, calibration: 500, epochs: 1 };
 
 const MODULE: &str = "link_shapes_modules/self_collision_model_module/module.json";
 
@@ -117,10 +109,8 @@ fn a_model_says_how_often_it_is_right_and_a_validator_agrees() {
 
     // A number of cleared configurations below the true one is detected.
     let text = std::fs::read_to_string(made.join(MODULE)).unwrap();
-    let (from, to) = (
-        format!("\"num_cleared\": {cleared}"),
-        format!("\"num_cleared\": {}", cleared - 20),
-    );
+    let (from, to) =
+        (format!("\"num_cleared\": {cleared}"), format!("\"num_cleared\": {}", cleared - 20));
     assert!(text.contains(&from));
     std::fs::write(made.join(MODULE), text.replace(&from, &to)).unwrap();
     let codes: Vec<String> = findings_of(&made).into_iter().map(|of| of.0).collect();
@@ -180,23 +170,13 @@ fn robots_for_which_it_is_of_no_use_go_without() {
     std::fs::write(&fixed, text.replace("'revolute'", "'fixed'")).unwrap();
     let planar = pair(folder.path(), "planar");
     for (urdf, why) in [
-        (
-            &planar,
-            "DOF `left_joint/trans_x` is a length without limits",
-        ),
+        (&planar, "DOF `left_joint/trans_x` is a length without limits"),
         (&apart, "0 of 4000 sampled configurations are in collision"),
-        (
-            &fixed,
-            "no two links that are not skipped move relative to each other",
-        ),
+        (&fixed, "no two links that are not skipped move relative to each other"),
     ] {
         let made = folder.path().join("made");
         let outcome = make(urdf, &made, &settings());
-        let notes: Vec<_> = outcome
-            .notes
-            .iter()
-            .filter(|n| n.kind == NoteKind::OfNoUse)
-            .collect();
+        let notes: Vec<_> = outcome.notes.iter().filter(|n| n.kind == NoteKind::OfNoUse).collect();
         assert_eq!(notes.len(), 1, "{:?}", outcome.notes);
         assert!(notes[0].problem.contains(why), "{}", notes[0].problem);
         assert!(!made.join(MODULE).exists());
@@ -238,11 +218,7 @@ fn robots_that_are_too_large_go_without() {
     let line = format!("{first}<link name='l1'>{middle}<link name='l102'>{last}");
     for (name, text, why) in [
         ("star", star, "more than 512 pairs of links are not skipped"),
-        (
-            "line",
-            line,
-            "the robot has 103 DOFs, but a model supports at most 100",
-        ),
+        ("line", line, "the robot has 103 DOFs, but a model supports at most 100"),
     ] {
         let urdf = folder.path().join(format!("{name}.urdf"));
         std::fs::write(&urdf, text).unwrap();
@@ -262,9 +238,6 @@ fn a_robot_of_ours_with_lengths_turns_and_mimics() {
     let made = folder.path().join("made");
     let outcome = make(&robot("scaled_parts.urdf"), &made, &with(LEAST));
     assert_eq!(findings_of(&made), []);
-    let refused = outcome
-        .notes
-        .iter()
-        .any(|note| note.kind == NoteKind::OfNoUse);
+    let refused = outcome.notes.iter().any(|note| note.kind == NoteKind::OfNoUse);
     assert_eq!(refused, !made.join(MODULE).exists());
 }

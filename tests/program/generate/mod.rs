@@ -46,13 +46,7 @@ pub fn findings_of(urdd: &Path) -> Vec<(String, String, String)> {
     let findings = report["urdds"][0]["findings"].as_array().unwrap().iter();
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     findings
-        .map(|found| {
-            (
-                text(&found["code"]),
-                text(&found["severity"]),
-                text(&found["message"]),
-            )
-        })
+        .map(|found| (text(&found["code"]), text(&found["severity"]), text(&found["message"])))
         .collect()
 }
 

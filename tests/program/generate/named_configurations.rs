@@ -21,10 +21,7 @@ const ROBOT: &str = r#"<robot name="r">
 const MODULE: &str = "named_configurations_module";
 
 fn settings() -> Settings {
-    Settings {
-        selection: Selection::parse(["core"]).expect("a class"),
-        ..Settings::default()
-    }
+    Settings { selection: Selection::parse(["core"]).expect("a class"), ..Settings::default() }
 }
 
 /// A URDD of the robot in the folder `out`.
@@ -83,17 +80,11 @@ fn configurations_are_set_listed_and_removed() {
     };
     assert_eq!(nearest.as_deref(), Some("home"));
     let (status, out, _) = urdd(&["configurations", "remove", "out", "home"], folder);
-    assert_eq!(
-        (status, out.as_str()),
-        (0, "out: removed; 1 named configuration\n")
-    );
+    assert_eq!((status, out.as_str()), (0, "out: removed; 1 named configuration\n"));
     assert_eq!(list(), "ready:\n");
     assert_eq!(findings_of(&target), []);
     let (status, ..) = urdd(&["configurations", "remove", "out", "ready"], folder);
-    assert_eq!(
-        (status, list().as_str()),
-        (0, "out: no named configurations\n")
-    );
+    assert_eq!((status, list().as_str()), (0, "out: no named configurations\n"));
     assert_eq!(findings_of(&target), []);
     // A new run writes no empty module.
     again(folder, ROBOT).expect("a robot");
@@ -109,10 +100,7 @@ fn what_cannot_be_set_changes_nothing() {
     let before = bytes_below(&target);
     let refused: [(&[&str], &str); 10] = [
         (&["list", "."], "chain_module is missing"),
-        (
-            &["set", "out", "home", "am=1"],
-            "there is no DOF `am`; did you mean `arm`?",
-        ),
+        (&["set", "out", "home", "am=1"], "there is no DOF `am`; did you mean `arm`?"),
         (
             &["set", "out", "home", "arm=1.5"],
             "the DOF `arm` cannot be at 1.5: its bounds are -1 and 1",
@@ -122,23 +110,11 @@ fn what_cannot_be_set_changes_nothing() {
             "the DOF `lift` cannot be at 0: its bounds are 0.5 and 2",
         ),
         (&["set", "out", "home", "arm"], "`arm` is not DOF=POSITION"),
-        (
-            &["set", "out", "home", "arm=90deg"],
-            "`90deg` is not a number",
-        ),
+        (&["set", "out", "home", "arm=90deg"], "`90deg` is not a number"),
         (&["set", "out", "home", "arm=nan"], "`nan` is not a number"),
-        (
-            &["set", "out", "home", "arm=1", "arm=1"],
-            "the DOF `arm` is given twice",
-        ),
-        (
-            &["set", "out", "", "arm=1"],
-            "the name of a configuration is empty",
-        ),
-        (
-            &["remove", "out", "hom"],
-            "there is no configuration `hom`; did you mean `home`?",
-        ),
+        (&["set", "out", "home", "arm=1", "arm=1"], "the DOF `arm` is given twice"),
+        (&["set", "out", "", "arm=1"], "the name of a configuration is empty"),
+        (&["remove", "out", "hom"], "there is no configuration `hom`; did you mean `home`?"),
     ];
     for (words, message) in refused {
         let words = [&["configurations"], words].concat();
@@ -157,21 +133,12 @@ fn a_new_run_keeps_them_and_computes_their_values_again() {
     set(folder, &["up", "lift=2", "arm=-1"]);
     // The DOFs are in another order, the lift is lower, the arm has smaller limits, and the wheel is gone.
     let other = ROBOT
-        .replace(
-            "lower=\"0.5\" upper=\"2\"",
-            "lower=\"-0.5\" upper=\"-0.25\"",
-        )
+        .replace("lower=\"0.5\" upper=\"2\"", "lower=\"-0.5\" upper=\"-0.25\"")
         .replace("lower=\"-1\" upper=\"1\"", "lower=\"-0.5\" upper=\"1\"")
-        .replace(
-            "name=\"wheel\" type=\"continuous\"",
-            "name=\"wheel\" type=\"fixed\"",
-        );
+        .replace("name=\"wheel\" type=\"continuous\"", "name=\"wheel\" type=\"fixed\"");
     let generated = again(folder, &other).expect("a robot");
     let notes: Vec<String> = generated.notes.iter().map(ToString::to_string).collect();
-    let lost: Vec<&String> = notes
-        .iter()
-        .filter(|note| note.contains("configuration `"))
-        .collect();
+    let lost: Vec<&String> = notes.iter().filter(|note| note.contains("configuration `")).collect();
     assert_eq!(lost.len(), 3, "{notes:?}");
     for (note, words) in lost.iter().zip([
         "the configuration `home` has a position of the DOF `wheel`, but the robot has no such DOF",
@@ -194,10 +161,7 @@ fn a_new_run_keeps_them_and_computes_their_values_again() {
     edited["configurations"][1]["positions"] = json!([position("arm", 0.75)]);
     fs::write(&file, edited.to_string()).expect("a file");
     again(folder, &other).expect("a robot");
-    assert_eq!(
-        document(&target)["configurations"][1]["configuration"],
-        json!([-0.25, 0.75])
-    );
+    assert_eq!(document(&target)["configurations"][1]["configuration"], json!([-0.25, 0.75]));
     assert_eq!(findings_of(&target), []);
 }
 
@@ -219,34 +183,16 @@ fn configurations_that_cannot_be_read_stop_the_run() {
     let cases = [
         ("{".to_owned(), "module.json:1:"),
         ("{}".to_owned(), "`configurations` must be a list"),
-        (
-            with("/configurations", Value::Null),
-            "`configurations` must be a list",
-        ),
-        (
-            with("/configurations", json!([{"name": "x"}])),
-            "`positions` is missing",
-        ),
-        (
-            with("/configurations", twice),
-            "an earlier one has this name",
-        ),
-        (
-            with(&format!("{at}/name"), json!("")),
-            "expected a string matching",
-        ),
-        (
-            with(&format!("{at}/positions/0/position"), Value::Null),
-            "invalid type: null",
-        ),
+        (with("/configurations", Value::Null), "`configurations` must be a list"),
+        (with("/configurations", json!([{"name": "x"}])), "`positions` is missing"),
+        (with("/configurations", twice), "an earlier one has this name"),
+        (with(&format!("{at}/name"), json!("")), "expected a string matching"),
+        (with(&format!("{at}/positions/0/position"), Value::Null), "invalid type: null"),
         (
             with(&format!("{at}/positions/0/dof_name"), json!("amr")),
             "the robot of this URDD has no DOF `amr`",
         ),
-        (
-            with(&format!("{at}/positions"), both),
-            "it sets the DOF `arm` twice",
-        ),
+        (with(&format!("{at}/positions"), both), "it sets the DOF `arm` twice"),
     ];
     for (text, words) in cases {
         fs::write(&file, &text).expect("a file");
@@ -264,10 +210,7 @@ fn configurations_that_cannot_be_read_stop_the_run() {
     fs::write(&yaml, text.replace("0.25", "0.5")).expect("a file");
     let error = again(folder, ROBOT).expect_err("a refusal").to_string();
     assert!(error.contains("module.yaml"), "{error}");
-    let dropped = Settings {
-        drop_edits: true,
-        ..settings()
-    };
+    let dropped = Settings { drop_edits: true, ..settings() };
     generate(&folder.join("r.urdf"), &target, &dropped, &()).expect("a robot");
     assert!(!target.join(MODULE).exists());
 }

@@ -91,9 +91,7 @@ fn carried(target: &Path) -> BTreeMap<String, Vec<u8>> {
 fn errors_of(target: &Path) -> Vec<String> {
     let findings = findings_of(target).into_iter();
     let errors = findings.filter(|(_, severity, _)| severity == "error");
-    errors
-        .map(|(code, _, words)| format!("{code}: {words}"))
-        .collect()
+    errors.map(|(code, _, words)| format!("{code}: {words}")).collect()
 }
 
 fn assert_no_secret(target: &Path, case: &str) {
@@ -108,17 +106,9 @@ fn a_mesh_outside_of_the_robots_folders_is_refused() {
     let machine = machine();
     let here = machine.path().display().to_string();
     let root = machine.path().join("ws/robot");
-    symlink(
-        machine.path().join("private/part.stl"),
-        root.join("meshes/link.stl"),
-    )
-    .unwrap();
+    symlink(machine.path().join("private/part.stl"), root.join("meshes/link.stl")).unwrap();
     symlink(machine.path().join("private"), root.join("linked")).unwrap();
-    symlink(
-        machine.path().join("secret/id_rsa"),
-        root.join("meshes/key.stl"),
-    )
-    .unwrap();
+    symlink(machine.path().join("secret/id_rsa"), root.join("meshes/key.stl")).unwrap();
     for name in [
         "/etc/passwd",
         "/proc/self/pagemap",
@@ -149,11 +139,7 @@ fn a_mesh_outside_of_the_robots_folders_is_refused() {
         assert!(!target.exists(), "{name}: something was written");
     }
     // A name that no package has.
-    for name in [
-        "package://../secret/id_rsa",
-        "package://./../secret/id_rsa",
-        "package://",
-    ] {
+    for name in ["package://../secret/id_rsa", "package://./../secret/id_rsa", "package://"] {
         let (target, made) = made(machine.path(), &[name], &[]);
         let made = made.unwrap();
         assert_eq!(made.notes[0].kind, NoteKind::MeshNotFound, "{name}");
@@ -202,11 +188,7 @@ fn what_is_no_mesh_is_not_carried_wherever_it_lies() {
     symlink(root.join("secret.txt"), root.join("meshes/inside.stl")).unwrap();
     symlink("secret.txt", root.join("secret.obj")).unwrap();
     fs::write(root.join("token.obj"), format!("token {SECRET}\n")).unwrap();
-    fs::write(
-        root.join("token.gltf"),
-        format!("{{\"token\": \"{SECRET}\"}}"),
-    )
-    .unwrap();
+    fs::write(root.join("token.gltf"), format!("{{\"token\": \"{SECRET}\"}}")).unwrap();
     let cases: &[(&str, &[&str])] = &[
         ("../secret.txt", &[]),
         ("../meshes/inside.stl", &[]),
@@ -236,12 +218,7 @@ fn what_is_no_mesh_is_not_carried_wherever_it_lies() {
 #[test]
 fn files_without_end_are_not_read_without_end() {
     let machine = machine();
-    for name in [
-        "/proc/self/pagemap",
-        "/proc/kmsg",
-        "/proc/self/mem",
-        "/proc/kpagecount",
-    ] {
+    for name in ["/proc/self/pagemap", "/proc/kmsg", "/proc/self/mem", "/proc/kpagecount"] {
         let (target, made) = made(machine.path(), &[name], &["/"]);
         let made = made.unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(made.notes[0].kind, NoteKind::MeshNotFound, "{name}");
@@ -253,9 +230,7 @@ fn files_without_end_are_not_read_without_end() {
 fn what_stands_in_the_place_of_a_mesh_is_said() {
     let machine = machine();
     let meshes = machine.path().join("ws/robot/meshes");
-    let status = std::process::Command::new("mkfifo")
-        .arg(meshes.join("pipe.stl"))
-        .status();
+    let status = std::process::Command::new("mkfifo").arg(meshes.join("pipe.stl")).status();
     assert!(status.unwrap().success());
     symlink("ring.stl", meshes.join("ring.stl")).unwrap();
     symlink("gone.stl", meshes.join("link.stl")).unwrap();
@@ -278,18 +253,9 @@ fn pipes_and_devices_are_no_meshes() {
     let status = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(status.unwrap().success());
     symlink("/dev/zero", machine.path().join("ws/robot/meshes/zero.stl")).unwrap();
-    for name in [
-        "../meshes/pipe.stl",
-        "../meshes/zero.stl",
-        "/dev/zero",
-        "/dev/tty",
-    ] {
+    for name in ["../meshes/pipe.stl", "../meshes/zero.stl", "/dev/zero", "/dev/tty"] {
         let (target, made) = made(machine.path(), &[name], &["/"]);
-        assert_eq!(
-            made.unwrap().notes[0].kind,
-            NoteKind::MeshNotFound,
-            "{name}"
-        );
+        assert_eq!(made.unwrap().notes[0].kind, NoteKind::MeshNotFound, "{name}");
         assert_eq!(carried(&target), BTreeMap::new(), "{name}");
     }
 }
@@ -301,11 +267,7 @@ fn side_files_are_carried_only_as_what_they_are() {
     let root = machine.path().join("ws/robot/meshes");
     symlink(machine.path().join("secret/key.mtl"), root.join("link.mtl")).unwrap();
     symlink(machine.path().join("secret/key.png"), root.join("link.png")).unwrap();
-    symlink(
-        machine.path().join("private/photo.png"),
-        root.join("photo.png"),
-    )
-    .unwrap();
+    symlink(machine.path().join("private/photo.png"), root.join("photo.png")).unwrap();
     fs::write(root.join("fake.png"), SECRET).unwrap();
     fs::write(root.join("fake.mtl"), SECRET).unwrap();
     fs::write(root.join("fake.bin"), SECRET).unwrap();
@@ -343,11 +305,7 @@ fn side_files_are_carried_only_as_what_they_are() {
         ("a.obj", obj("far_photo.mtl"), &["far_photo.mtl"]),
         ("a.obj", obj("faked.mtl"), &["faked.mtl"]),
         ("a.obj", obj("bin.mtl"), &["bin.mtl"]),
-        (
-            "a.obj",
-            obj("own.mtl"),
-            &["meshes/own.mtl", "textures/own.png"],
-        ),
+        ("a.obj", obj("own.mtl"), &["meshes/own.mtl", "textures/own.png"]),
         ("a.dae", dae("link.png"), &[]),
         ("a.dae", dae("../../../secret/key.png"), &[]),
         ("a.dae", dae("photo.png"), &[]),
@@ -360,11 +318,8 @@ fn side_files_are_carried_only_as_what_they_are() {
         let (target, made) = made(machine.path(), &[&mesh], &[]);
         let made = made.unwrap_or_else(|error| panic!("{text}: {error}"));
         let files = carried(&target);
-        let beside: Vec<&str> = files
-            .keys()
-            .map(String::as_str)
-            .filter(|path| !path.ends_with(name))
-            .collect();
+        let beside: Vec<&str> =
+            files.keys().map(String::as_str).filter(|path| !path.ends_with(name)).collect();
         assert_eq!(beside, *expected, "{text}");
         assert_no_secret(&target, text);
         let is_whole = expected.iter().any(|path| path.ends_with(".png"));
@@ -387,12 +342,7 @@ fn what_is_taken_from_elsewhere_is_named_and_no_path_of_the_machine_is_carried()
     )
     .unwrap();
     let deep = format!("{here}/deep/er/meshes/o.obj");
-    let names = [
-        "../meshes/a.stl",
-        "package://other/meshes/b.stl",
-        &private,
-        &deep,
-    ];
+    let names = ["../meshes/a.stl", "package://other/meshes/b.stl", &private, &deep];
     let (target, outcome) = made(machine.path(), &names, &["private", "deep"]);
     let outcome = outcome.unwrap();
     let files: Vec<String> = carried(&target).into_keys().collect();
@@ -414,23 +364,15 @@ fn what_is_taken_from_elsewhere_is_named_and_no_path_of_the_machine_is_carried()
         .map(|note| note.problem.as_str())
         .collect();
     assert_eq!(said.len(), 5, "{said:?}");
-    for (said, file) in said
-        .iter()
-        .zip(["b.stl", "part.stl", "o.obj", "m.mtl", "photo.png"])
-    {
+    for (said, file) in said.iter().zip(["b.stl", "part.stl", "o.obj", "m.mtl", "photo.png"]) {
         assert!(said.ends_with(file) && said.contains(&here), "{said}");
     }
     // The URDF is carried unchanged; nothing else reveals paths of the machine.
     let folder = machine.path().file_name().unwrap().to_str().unwrap();
     for (path, bytes) in bytes_below(&target) {
-        let text = String::from_utf8_lossy(&bytes)
-            .replace(&private, "")
-            .replace(&deep, "");
+        let text = String::from_utf8_lossy(&bytes).replace(&private, "").replace(&deep, "");
         assert!(!text.contains(folder), "{path}");
-        assert!(
-            !path.contains("private") && !path.contains("deep"),
-            "{path}"
-        );
+        assert!(!path.contains("private") && !path.contains("deep"), "{path}");
     }
     // Without the folders it is refused.
     let (_, outcome) = made(machine.path(), &names, &["private"]);
@@ -445,19 +387,12 @@ fn links_of_an_installed_package_to_its_sources_are_followed() {
     for package in ["robot", "other"] {
         fs::create_dir_all(share.join(package).join("meshes")).unwrap();
         let source = machine.path().join("ws").join(package);
-        symlink(
-            source.join("package.xml"),
-            share.join(package).join("package.xml"),
-        )
-        .unwrap();
+        symlink(source.join("package.xml"), share.join(package).join("package.xml")).unwrap();
     }
     let mesh = machine.path().join("ws/other/meshes/b.stl");
     symlink(mesh, share.join("other/meshes/b.stl")).unwrap();
     fs::create_dir_all(share.join("robot/urdf")).unwrap();
-    let text = robot(&[
-        "package://other/meshes/b.stl",
-        "package://robot/meshes/a.stl",
-    ]);
+    let text = robot(&["package://other/meshes/b.stl", "package://robot/meshes/a.stl"]);
     let source = machine.path().join("ws/robot/urdf/r.urdf");
     fs::write(&source, text).unwrap();
     let linked = share.join("robot/urdf/r.urdf");
@@ -480,11 +415,7 @@ fn meshes_beside_a_folder_of_urdfs_are_the_robots_own() {
     let robot_folder = machine.path().join("ws/plain");
     fs::create_dir(robot_folder.join("urdf")).unwrap();
     let source = robot_folder.join("urdf/r.urdf");
-    fs::write(
-        &source,
-        robot(&["../meshes/c.stl", "package://plain/meshes/c.stl"]),
-    )
-    .unwrap();
+    fs::write(&source, robot(&["../meshes/c.stl", "package://plain/meshes/c.stl"])).unwrap();
     let core = Settings {
         selection: Selection::parse(["original_meshes"]).unwrap(),
         ..Settings::default()
@@ -520,8 +451,5 @@ fn a_folder_to_allow_that_is_none_is_wrong_usage() {
         .unwrap();
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     let words = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        words.contains("--allow-folder: no/such/folder is not a folder"),
-        "{words}"
-    );
+    assert!(words.contains("--allow-folder: no/such/folder is not a folder"), "{words}");
 }

@@ -24,10 +24,7 @@ fn workspace() -> tempfile::TempDir {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(&path, ascii_stl(&path.display().to_string(), "0 1 0")).unwrap();
     }
-    for (path, name) in [
-        ("ws/own_description", "own"),
-        ("ros/deep/er/another_name", "by_xml"),
-    ] {
+    for (path, name) in [("ws/own_description", "own"), ("ros/deep/er/another_name", "by_xml")] {
         let text = format!("<package><name> {name} </name></package>");
         fs::write(folder.path().join(path).join("package.xml"), text).unwrap();
     }
@@ -59,10 +56,7 @@ fn found(folder: &Path, filename: &str) -> Result<String, String> {
         Some(path) => {
             let text = fs::read_to_string(target.join(path)).unwrap();
             let place = text.lines().next().unwrap().strip_prefix("solid ").unwrap();
-            Ok(place
-                .strip_prefix(&format!("{}/", folder.display()))
-                .unwrap()
-                .to_owned())
+            Ok(place.strip_prefix(&format!("{}/", folder.display())).unwrap().to_owned())
         }
         None => Err(said),
     }
@@ -74,57 +68,26 @@ fn each_way_to_name_a_mesh() {
     let here = folder.path().display().to_string();
     for (filename, place) in [
         ("meshes/near.stl", "ws/own_description/urdf/meshes/near.stl"),
-        (
-            "./meshes/../../meshes/own.stl",
-            "ws/own_description/meshes/own.stl",
-        ),
+        ("./meshes/../../meshes/own.stl", "ws/own_description/meshes/own.stl"),
         ("../meshes/own.stl", "ws/own_description/meshes/own.stl"),
-        (
-            "package://own/meshes/own.stl",
-            "ws/own_description/meshes/own.stl",
-        ),
-        (
-            "package://own_description/meshes/own.stl",
-            "ws/own_description/meshes/own.stl",
-        ),
+        ("package://own/meshes/own.stl", "ws/own_description/meshes/own.stl"),
+        ("package://own_description/meshes/own.stl", "ws/own_description/meshes/own.stl"),
         ("package://beside/meshes/a.stl", "ws/beside/meshes/a.stl"),
         ("package://given/meshes/a.stl", "given/meshes/a.stl"),
-        (
-            "package://found_by_folder/a.stl",
-            "ros/found_by_folder/a.stl",
-        ),
+        ("package://found_by_folder/a.stl", "ros/found_by_folder/a.stl"),
         ("package://by_xml/a.stl", "ros/deep/er/another_name/a.stl"),
         ("package://by_ament/a.stl", "ament/share/by_ament/a.stl"),
         ("model://by_model/a.stl", "models/by_model/a.stl"),
-        (
-            "$(find own)/meshes/own.stl",
-            "ws/own_description/meshes/own.stl",
-        ),
+        ("$(find own)/meshes/own.stl", "ws/own_description/meshes/own.stl"),
         (" ../meshes/own.stl ", "ws/own_description/meshes/own.stl"),
         ("..\\meshes\\own.stl", "ws/own_description/meshes/own.stl"),
-        (
-            "package://own/meshes/with%20space.stl",
-            "ws/own_description/meshes/with space.stl",
-        ),
+        ("package://own/meshes/with%20space.stl", "ws/own_description/meshes/with space.stl"),
         (&*format!("{here}/given/meshes/a.stl"), "given/meshes/a.stl"),
-        (
-            &*format!("file://{here}/given/meshes/a.stl"),
-            "given/meshes/a.stl",
-        ),
-        (
-            &*format!("file://localhost{here}/given/meshes/a.stl"),
-            "given/meshes/a.stl",
-        ),
-        (
-            "file://../meshes/own.stl",
-            "ws/own_description/meshes/own.stl",
-        ),
+        (&*format!("file://{here}/given/meshes/a.stl"), "given/meshes/a.stl"),
+        (&*format!("file://localhost{here}/given/meshes/a.stl"), "given/meshes/a.stl"),
+        ("file://../meshes/own.stl", "ws/own_description/meshes/own.stl"),
     ] {
-        assert_eq!(
-            found(folder.path(), filename).as_deref(),
-            Ok(place),
-            "{filename}"
-        );
+        assert_eq!(found(folder.path(), filename).as_deref(), Ok(place), "{filename}");
     }
 }
 
@@ -151,11 +114,7 @@ fn a_package_that_is_given_is_looked_for_nowhere_else() {
     let folder = workspace();
     // There is one with the same name above the URDF.
     fs::create_dir_all(folder.path().join("ws/given/meshes")).unwrap();
-    fs::write(
-        folder.path().join("ws/given/meshes/b.stl"),
-        ascii_stl("b", "0 1 0"),
-    )
-    .unwrap();
+    fs::write(folder.path().join("ws/given/meshes/b.stl"), ascii_stl("b", "0 1 0")).unwrap();
     let said = found(folder.path(), "package://given/meshes/b.stl").unwrap_err();
     assert!(!said.contains("ws/given"), "{said}");
 }

@@ -34,12 +34,7 @@ fn a_urdd_is_made_again_with_as_many_pieces_as_asked_for() {
     assert!(2 < most && most <= 7, "{usual:?}");
 
     // Replaced: the stage's key contains the requested settings.
-    let at_most = |n: usize| {
-        usual
-            .iter()
-            .map(move |&count| count.min(n))
-            .collect::<Vec<_>>()
-    };
+    let at_most = |n: usize| usual.iter().map(move |&count| count.min(n)).collect::<Vec<_>>();
     assert_eq!(counts(&target, &["--pieces", "1"]), at_most(1));
     assert!(counts(&target, &["--pieces", "2"]).iter().all(|&n| n <= 2));
     // 10 m is not a plausible tolerance for a hand.

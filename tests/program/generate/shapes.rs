@@ -14,10 +14,7 @@ const PIECES: &str = "mesh_modules/convex_decomposition_meshes_module";
 const SHAPES: &str = "link_shapes_modules";
 
 fn settings(num_samples: u32) -> Settings {
-    Settings {
-        num_samples,
-        ..Settings::default()
-    }
+    Settings { num_samples, ..Settings::default() }
 }
 
 /// A URDD of a robot in `conformance/robots`.
@@ -50,9 +47,7 @@ fn stl(path: &Path) -> Vec<Triangle> {
     let count = u32::from_le_bytes(bytes[80..84].try_into().unwrap()) as usize;
     assert_eq!(bytes.len(), 84 + 50 * count, "{}", path.display());
     let corner = |at: usize| [0, 4, 8].map(|k| f64::from(number(at + k)));
-    (0..count)
-        .map(|n| [12, 24, 36].map(|k| corner(84 + 50 * n + k)))
-        .collect()
+    (0..count).map(|n| [12, 24, 36].map(|k| corner(84 + 50 * n + k))).collect()
 }
 
 /// The triangles of an OBJ file.
@@ -70,9 +65,8 @@ fn obj(path: &Path) -> Vec<Triangle> {
         .collect();
     rows("f")
         .map(|words| {
-            let corners: Vec<usize> = words
-                .map(|word| word.split('/').next().unwrap().parse().unwrap())
-                .collect();
+            let corners: Vec<usize> =
+                words.map(|word| word.split('/').next().unwrap().parse().unwrap()).collect();
             [0, 1, 2].map(|k| points[corners[k] - 1])
         })
         .collect()
@@ -115,12 +109,8 @@ fn glb(path: &Path) -> Vec<Triangle> {
 fn bounds(triangles: &[Triangle]) -> [[f64; 3]; 2] {
     let corners = || triangles.iter().flatten();
     [
-        corners().fold([f64::INFINITY; 3], |low, p| {
-            [0, 1, 2].map(|k| low[k].min(p[k]))
-        }),
-        corners().fold([f64::NEG_INFINITY; 3], |high, p| {
-            [0, 1, 2].map(|k| high[k].max(p[k]))
-        }),
+        corners().fold([f64::INFINITY; 3], |low, p| [0, 1, 2].map(|k| low[k].min(p[k]))),
+        corners().fold([f64::NEG_INFINITY; 3], |high, p| [0, 1, 2].map(|k| high[k].max(p[k]))),
     ]
 }
 
@@ -136,10 +126,7 @@ fn volume(triangles: &[Triangle]) -> f64 {
 
 #[track_caller]
 fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{found}, expected {expected}"
-    );
+    assert!((found - expected).abs() <= tolerance, "{found}, expected {expected}");
 }
 
 fn file(urdd: &Path, pointer: &str, module: &str) -> PathBuf {
@@ -160,11 +147,7 @@ fn scale_and_mirrors_are_applied_with_the_winding_put_right() {
         (2, [-0.2, -0.04, -0.12], [0.0, 0.04, 0.0]),
     ];
     for (link, low, high) in expected {
-        let triangles = stl(&file(
-            &urdd,
-            &format!("/link_meshes/{link}/files/stl"),
-            PLAIN,
-        ));
+        let triangles = stl(&file(&urdd, &format!("/link_meshes/{link}/files/stl"), PLAIN));
         let found = bounds(&triangles);
         for k in 0..3 {
             assert_near(found[0][k], low[k], 1e-7);
@@ -221,19 +204,14 @@ fn hulls_stand_on_corners_of_the_mesh_and_pieces_hold_its_volume() {
     let module = read_json(&urdd.join(PIECES).join("module.json"));
     // Links of one closed body each.
     for link in 1..6 {
-        let mesh = stl(&file(
-            &urdd,
-            &format!("/link_meshes/{link}/files/stl"),
-            PLAIN,
-        ));
+        let mesh = stl(&file(&urdd, &format!("/link_meshes/{link}/files/stl"), PLAIN));
         let hull = stl(&file(&urdd, &format!("/link_hulls/{link}/stl"), HULLS));
         for corner in hull.iter().flatten() {
             assert!(mesh.iter().flatten().any(|p| p == corner), "link {link}");
         }
         let pieces = module["link_pieces"][link].as_array().expect("pieces");
-        let volumes = pieces
-            .iter()
-            .map(|piece| volume(&stl(&urdd.join(piece["stl"].as_str().unwrap()))));
+        let volumes =
+            pieces.iter().map(|piece| volume(&stl(&urdd.join(piece["stl"].as_str().unwrap()))));
         let sum: f64 = volumes.sum();
         let (inside, outside) = (volume(&mesh), volume(&hull));
         assert!(sum >= inside * (1.0 - 1e-6), "link {link}: {sum} {inside}");
@@ -269,9 +247,7 @@ fn statistics_of_two_cubes_on_a_rail() {
     let samples = 200;
     let (_folder, urdd) = made_of(&text, samples);
     assert_eq!(findings_of(&urdd), Vec::new());
-    let folder = urdd
-        .join(SHAPES)
-        .join("link_shapes_distance_statistics_module");
+    let folder = urdd.join(SHAPES).join("link_shapes_distance_statistics_module");
     let found = read_json(&folder.join("module.json"));
     let centres = (0..u64::from(samples)).map(|k| 0.05 + 0.4 * unit(k, 0));
     for (shapes, less) in [
@@ -294,16 +270,10 @@ fn statistics_of_two_cubes_on_a_rail() {
         assert_near(at("mean_distances"), mean, 1e-7);
         let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
         assert_near(at("min_distances"), least, 1e-7);
-        assert_near(
-            at("max_distances"),
-            distances.into_iter().fold(0.0, f64::max),
-            1e-7,
-        );
+        assert_near(at("max_distances"), distances.into_iter().fold(0.0, f64::max), 1e-7);
     }
     let shapes = read_json(
-        &urdd
-            .join(SHAPES)
-            .join("link_shapes_max_distance_from_origin_module/module.json"),
+        &urdd.join(SHAPES).join("link_shapes_max_distance_from_origin_module/module.json"),
     );
     let far = 0.05 * f64::sqrt(3.0);
     for list in ["full_convex_hulls", "full_obbs", "full_bounding_spheres"] {
@@ -329,19 +299,11 @@ fn edits_of_skips_outlive_a_new_run() {
         )
     };
     let robot = |parts: &[String]| format!("<robot name=\"r\">{}</robot>", parts.concat());
-    let both = [
-        link("a"),
-        link("b"),
-        link("c"),
-        joint("b", 1.0),
-        joint("c", -1.0),
-    ];
+    let both = [link("a"), link("b"), link("c"), joint("b", 1.0), joint("c", -1.0)];
     fs::write(&source, robot(&both)).expect("written");
     let run = || generate(&source, &target, &settings(10), &()).expect("a URDD");
     run();
-    let module = target
-        .join(SHAPES)
-        .join("link_shapes_skips_module/module.json");
+    let module = target.join(SHAPES).join("link_shapes_skips_module/module.json");
     let mut document = read_json(&module);
     let edit = |link: &str| json!({"link_a": "a", "link_b": link, "skip": true, "reason": "they never meet"});
     document["edits"] = json!([edit("b"), edit("c")]);
@@ -374,9 +336,6 @@ fn a_mesh_beyond_all_measure_is_refused() {
     let target = folder.path().join("made");
     let error = generate(&source, &target, &settings(10), &()).expect_err("no URDD");
     let text = error.to_string();
-    assert!(
-        text.contains("link `probe`") && text.contains("--modules geometry"),
-        "{text}"
-    );
+    assert!(text.contains("link `probe`") && text.contains("--modules geometry"), "{text}");
     assert!(!target.exists());
 }

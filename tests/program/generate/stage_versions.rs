@@ -22,10 +22,7 @@ fn made() -> BTreeMap<String, Value> {
         }
         let folder = testkit::temporary::folder();
         let target = folder.path().join("out");
-        let settings = Settings {
-            num_samples: 10,
-            ..Settings::default()
-        };
+        let settings = Settings { num_samples: 10, ..Settings::default() };
         generate(&source, &target, &settings, &()).unwrap();
         let metadata = read_json(&target.join("urdd.json"));
         for module in metadata["modules"].as_array().unwrap() {

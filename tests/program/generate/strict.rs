@@ -28,21 +28,13 @@ fn workshop(robot: &str) -> tempfile::TempDir {
 }
 
 fn generate(folder: &Path, more: &[&str]) -> Output {
-    urdd(&["generate", "-o", "out"])
-        .args(more)
-        .current_dir(folder)
-        .output()
-        .unwrap()
+    urdd(&["generate", "-o", "out"]).args(more).current_dir(folder).output().unwrap()
 }
 
 fn run(folder: &Path, more: &[&str]) -> (Option<i32>, String, String) {
     let output = generate(folder, &[&["--modules", "plain_meshes"], more].concat());
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    (output.status.code(), text(output.stdout), text(output.stderr))
 }
 
 #[test]
@@ -57,17 +49,10 @@ fn a_summary_counts_meshes_that_were_not_found() {
     let count = serde_json::json!({"named": 4, "not_found": 2, "not_usable": 1});
     assert_eq!(line["meshes"], count);
     fs::create_dir(folder.path().join("all")).unwrap();
-    fs::rename(
-        folder.path().join("r.urdf"),
-        folder.path().join("all/r.urdf"),
-    )
-    .unwrap();
+    fs::rename(folder.path().join("r.urdf"), folder.path().join("all/r.urdf")).unwrap();
     let (_, summary, _) = run(folder.path(), &["--force", "all"]);
     let last = summary.lines().last().unwrap();
-    assert_eq!(
-        last,
-        "1 robot: 1 generated, 0 unchanged, 0 failed; 4 of 4 meshes were not found"
-    );
+    assert_eq!(last, "1 robot: 1 generated, 0 unchanged, 0 failed; 4 of 4 meshes were not found");
 }
 
 #[test]
@@ -136,20 +121,14 @@ fn a_urdf_may_come_through_a_pipe() {
 fn what_is_no_file_is_said() {
     let folder = workshop(ROBOT);
     let path = folder.path();
-    let status = std::process::Command::new("mkfifo")
-        .arg(path.join("pipe.urdf"))
-        .status();
+    let status = std::process::Command::new("mkfifo").arg(path.join("pipe.urdf")).status();
     assert!(status.unwrap().success());
     std::os::unix::fs::symlink("loop.urdf", path.join("loop.urdf")).unwrap();
     fs::create_dir(path.join("empty.urdf")).unwrap();
     let huge = fs::File::create(path.join("huge.urdf")).unwrap();
     huge.set_len(600 << 20).unwrap();
     let cases = [
-        (
-            "pipe.urdf",
-            1,
-            "pipe.urdf: cannot be read: it is not a regular file",
-        ),
+        ("pipe.urdf", 1, "pipe.urdf: cannot be read: it is not a regular file"),
         ("/dev/zero", 1, "it is not a regular file"),
         ("huge.urdf", 1, "it is longer than 64 MiB"),
         ("loop.urdf", 1, "loop.urdf: cannot be read: "),
@@ -164,10 +143,7 @@ fn what_is_no_file_is_said() {
         assert!(!path.join("out").exists(), "{source}");
     }
     // In a batch each has its line, and the good one is generated.
-    let (status, lines, _) = run(
-        path,
-        &["--format", "json", "pipe.urdf", "huge.urdf", "r.urdf"],
-    );
+    let (status, lines, _) = run(path, &["--format", "json", "pipe.urdf", "huge.urdf", "r.urdf"]);
     assert_eq!(status, Some(1), "{lines}");
     assert_eq!(lines.lines().count(), 4, "{lines}");
     assert!(path.join("out/r/urdd.json").exists());
@@ -184,15 +160,9 @@ fn a_robot_beyond_the_limits_is_refused() {
         let all: String = names.chain(joints).collect();
         format!("<robot name=\"r\">{all}</robot>")
     };
-    let unknown = format!(
-        "<robot name=\"r\"><link name=\"a\"/>{}</robot>",
-        "<x/>".repeat(400_000)
-    );
+    let unknown = format!("<robot name=\"r\"><link name=\"a\"/>{}</robot>", "<x/>".repeat(400_000));
     for (text, words) in [
-        (
-            star(2_001),
-            "the robot has 2001 links, but a URDD has at most 2000",
-        ),
+        (star(2_001), "the robot has 2001 links, but a URDD has at most 2000"),
         (unknown, "at most 100000"),
     ] {
         let folder = workshop(&text);
@@ -269,10 +239,7 @@ fn shapes_that_files_do_not_tell_from_points_or_lines_are_refused() {
     ] {
         let folder = workshop(&robot(at, size));
         let output = generate(folder.path(), &["r.urdf"]);
-        let (status, said) = (
-            output.status.code(),
-            String::from_utf8(output.stderr).unwrap(),
-        );
+        let (status, said) = (output.status.code(), String::from_utf8(output.stderr).unwrap());
         let out = folder.path().join("out");
         if made {
             assert_eq!(status, Some(0), "{at}, {size}: {said}");
@@ -337,10 +304,7 @@ fn paths_that_are_left_out_are_said_and_strict_allows_it() {
         assert_eq!(found, kinds, "{said}");
         let made = read_json(&folder.path().join("out/connections_module/module.json"));
         assert_eq!(made["link_to_link_paths"].is_null(), links == 181);
-        let validated = urdd(&["validate", "out"])
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
+        let validated = urdd(&["validate", "out"]).current_dir(folder.path()).output().unwrap();
         assert_eq!(validated.status.code(), Some(0), "{validated:?}");
     }
 }

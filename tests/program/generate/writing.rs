@@ -26,11 +26,7 @@ fn workshop() -> (tempfile::TempDir, PathBuf) {
         let path = folder.path().join(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         // Meshes without a surface: the shapes derived from them take no time.
-        let text = if is_mesh {
-            ascii_stl(text, "0 0 0")
-        } else {
-            text.to_owned()
-        };
+        let text = if is_mesh { ascii_stl(text, "0 0 0") } else { text.to_owned() };
         fs::write(path, text).unwrap();
     }
     let source = folder.path().join("robot.urdf");
@@ -100,9 +96,7 @@ fn each_mesh_is_carried_once_under_a_name_of_its_own() {
         .iter()
         .map(|reference| reference["path"].as_str().unwrap())
         .collect();
-    let [left, right, again, other_case] = paths[..] else {
-        panic!("{paths:?}")
-    };
+    let [left, right, again, other_case] = paths[..] else { panic!("{paths:?}") };
     assert_eq!(left, again, "one file, two names");
     let mut lower = [left, right, other_case].map(str::to_lowercase);
     lower.sort();
@@ -121,18 +115,9 @@ fn a_second_run_changes_nothing() {
     let target = folder.path().join("out");
     assert!(make(&source, &target).changed);
     let before = bytes_below(&target);
-    let when = fs::metadata(target.join("urdd.json"))
-        .unwrap()
-        .modified()
-        .unwrap();
+    let when = fs::metadata(target.join("urdd.json")).unwrap().modified().unwrap();
     assert!(!make(&source, &target).changed);
-    assert_eq!(
-        fs::metadata(target.join("urdd.json"))
-            .unwrap()
-            .modified()
-            .unwrap(),
-        when
-    );
+    assert_eq!(fs::metadata(target.join("urdd.json")).unwrap().modified().unwrap(), when);
     // A damaged file is generated again.
     fs::write(target.join("dof_module/module.json"), "{}").unwrap();
     assert!(make(&source, &target).changed);
@@ -162,11 +147,7 @@ fn modules_are_kept_while_what_they_are_made_of_is_the_same() {
         LinkShapesApproximations,
         LinkShapesMaxDistanceFromOrigin,
     ];
-    let distances = [
-        LinkShapesDistanceStatistics,
-        LinkShapesSimpleSkips,
-        LinkShapesSkips,
-    ];
+    let distances = [LinkShapesDistanceStatistics, LinkShapesSimpleSkips, LinkShapesSkips];
     let all = [&[Connections, PlainMeshes], &shapes[..], &distances].concat();
     assert_eq!(kept(&make(&source, &target)), []);
     assert_eq!(kept(&make(&source, &target)), all);
@@ -189,11 +170,7 @@ fn modules_are_kept_while_what_they_are_made_of_is_the_same() {
     assert_eq!(kept(&make(&source, &target)), rest);
     assert_eq!(fs::read(&file).unwrap(), right);
     let metadata = fs::read_to_string(target.join("urdd.json")).unwrap();
-    fs::write(
-        target.join("urdd.json"),
-        metadata.replace("x_urdd_inputs", "x_other"),
-    )
-    .unwrap();
+    fs::write(target.join("urdd.json"), metadata.replace("x_urdd_inputs", "x_other")).unwrap();
     assert_eq!(kept(&make(&source, &target)), []);
     // Kept or not, the bytes are those of a first run.
     make(&source, &target);
@@ -213,14 +190,8 @@ fn files_of_the_users_outlive_a_new_run() {
     let changed = ROBOT.replace("continuous", "fixed");
     fs::write(&source, &changed).unwrap();
     assert!(make(&source, &target).changed);
-    assert_eq!(
-        fs::read_to_string(target.join("README.md")).unwrap(),
-        "mine"
-    );
-    assert_eq!(
-        fs::read_to_string(target.join(".git/refs/main")).unwrap(),
-        "0"
-    );
+    assert_eq!(fs::read_to_string(target.join("README.md")).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(target.join(".git/refs/main")).unwrap(), "0");
     assert_eq!(findings_of(&target), []);
     // The previously carried source is deleted when another replaces it.
     let other = folder.path().join("other.urdf");
@@ -238,10 +209,7 @@ fn files_of_the_users_in_a_module_that_is_not_made_any_more_are_named() {
         let found = kinds.filter(|note| note.kind == NoteKind::LeftBehind);
         found.map(|note| note.file).collect::<Vec<_>>()
     };
-    let core = Settings {
-        selection: Selection::parse(["core"]).unwrap(),
-        ..Settings::default()
-    };
+    let core = Settings { selection: Selection::parse(["core"]).unwrap(), ..Settings::default() };
     let hulls = ModuleKind::ConvexHullMeshes.folder();
     let mine = target.join(hulls).join("notes.txt");
     make(&source, &target);
@@ -270,13 +238,10 @@ fn an_extension_module_stays_and_is_listed() {
     let files = ["VERSION", "module.json", "module.yaml", "schema.json"].map(|name| {
         serde_json::json!({"path": format!("x_me_colours_module/{name}"), "size": 0, "sha256": "0".repeat(64)})
     });
-    metadata["modules"]
-        .as_array_mut()
-        .unwrap()
-        .push(serde_json::json!({
-            "name": "x_me_colours_module", "version": "1.0.0", "path": "x_me_colours_module",
-            "depends_on": ["urdf_module"], "files": files,
-        }));
+    metadata["modules"].as_array_mut().unwrap().push(serde_json::json!({
+        "name": "x_me_colours_module", "version": "1.0.0", "path": "x_me_colours_module",
+        "depends_on": ["urdf_module"], "files": files,
+    }));
     fs::write(target.join("urdd.json"), metadata.to_string()).unwrap();
     make(&source, &target);
     assert_eq!(findings_of(&target), []);
@@ -298,15 +263,9 @@ fn another_folder_is_not_written_to_unless_forced() {
     assert_eq!(error.code(), "not-written");
     assert!(error.to_string().contains("--force"), "{error}");
     assert_eq!(fs::read_dir(&target).unwrap().count(), 1);
-    let forced = Settings {
-        force: true,
-        ..Settings::default()
-    };
+    let forced = Settings { force: true, ..Settings::default() };
     generate(&source, &target, &forced, &()).unwrap();
-    assert_eq!(
-        fs::read_to_string(target.join("chapter.tex")).unwrap(),
-        "text"
-    );
+    assert_eq!(fs::read_to_string(target.join("chapter.tex")).unwrap(), "text");
     assert_eq!(findings_of(&target), []);
     // Never over the source itself.
     let error = generate(&source, folder.path(), &forced, &()).unwrap_err();
@@ -338,9 +297,7 @@ fn an_ended_or_failed_run_leaves_the_old_or_nothing() {
     let names = || {
         let names = fs::read_dir(folder.path()).unwrap();
         let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        names
-            .filter(|name| name.contains("out") || name.starts_with('.'))
-            .collect::<Vec<_>>()
+        names.filter(|name| name.contains("out") || name.starts_with('.')).collect::<Vec<_>>()
     };
     // With an error: the program reports it, and cleans up.
     let output = with_small_files(&source, &target, "trap '' XFSZ;");

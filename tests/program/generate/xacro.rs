@@ -35,10 +35,7 @@ fn run_with(
         .env("PATH", programs)
         .output()
         .unwrap();
-    (
-        output.status.code(),
-        String::from_utf8(output.stderr).unwrap(),
-    )
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
 #[test]
@@ -53,10 +50,7 @@ fn is_expanded_by_the_program() {
     assert_eq!(status, Some(0), "{said}");
     let out = folder.path().join("out");
     assert_eq!(fs::read_to_string(out.join("arm.urdf")).unwrap(), EXPANDED);
-    assert_eq!(
-        fs::read_to_string(out.join("arm.urdf.as-found")).unwrap(),
-        source
-    );
+    assert_eq!(fs::read_to_string(out.join("arm.urdf.as-found")).unwrap(), source);
     assert_eq!(read_json(&out.join("urdd.json"))["robot_name"], "expanded");
     assert_eq!(findings_of(&out), []);
 }
@@ -75,11 +69,8 @@ fn without_the_program_the_message_says_what_to_do() {
 fn what_the_program_says_is_passed_on() {
     let folder = testkit::temporary::folder();
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
-    let (status, said) = run(
-        folder.path(),
-        "arm.xacro",
-        Some("echo 'no such package: arm' >&2; exit 2"),
-    );
+    let (status, said) =
+        run(folder.path(), "arm.xacro", Some("echo 'no such package: arm' >&2; exit 2"));
     assert_eq!(status, Some(1));
     assert!(said.contains("no such package: arm"), "{said}");
 }
@@ -114,11 +105,7 @@ fn it_gets_arguments_and_packages() {
     fs::write(folder.path().join("arm.xacro"), EXPANDED).unwrap();
     let package = folder.path().join("my_arm");
     fs::create_dir(&package).unwrap();
-    fs::write(
-        package.join("package.xml"),
-        "<package><name>my_arm</name></package>",
-    )
-    .unwrap();
+    fs::write(package.join("package.xml"), "<package><name>my_arm</name></package>").unwrap();
     let script = "shift; p=${AMENT_PREFIX_PATH%%:*}; r=${ROS_PACKAGE_PATH%%:*}
 [ -f $p/share/my_arm/package.xml ] && [ -f $p/share/ament_index/resource_index/packages/my_arm ] && [ -f $r/my_arm/package.xml ] || exit 4
 echo \"<robot name='$*'><link name='a'/></robot>\"";
@@ -159,10 +146,7 @@ fn arguments_that_no_file_takes_are_wrong_usage() {
     fs::write(folder.path().join("r.urdf"), EXPANDED).unwrap();
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_"]);
     assert_eq!(status, Some(2), "{said}");
-    assert!(
-        said.contains("`prefix:=left_` is an argument for xacro"),
-        "{said}"
-    );
+    assert!(said.contains("`prefix:=left_` is an argument for xacro"), "{said}");
     assert!(!folder.path().join("out").exists());
     // With `--xacro`, a file without macros is accepted too.
     let (status, said) = run_with(folder.path(), "r.urdf", None, &["prefix:=left_", "--xacro"]);
@@ -184,8 +168,7 @@ fn what_left_its_session_ends_too() {
     let is_alive = || {
         let pid = fs::read_to_string(&number).unwrap_or_default();
         let stat = fs::read_to_string(format!("/proc/{}/stat", pid.trim())).unwrap_or_default();
-        stat.rsplit_once(')')
-            .is_some_and(|(_, rest)| !rest.starts_with(" Z"))
+        stat.rsplit_once(')').is_some_and(|(_, rest)| !rest.starts_with(" Z"))
     };
     let more = ["--xacro-timeout", "2"];
     let (status, said) = run_with(folder.path(), "arm.xacro", Some(&script), &more);
@@ -205,9 +188,7 @@ fn what_left_its_session_ends_too() {
         std::thread::sleep(Duration::from_millis(20));
     }
     let (pid, asked) = (run.id().to_string(), Instant::now());
-    let kill = std::process::Command::new("kill")
-        .args(["-TERM", &pid])
-        .status();
+    let kill = std::process::Command::new("kill").args(["-TERM", &pid]).status();
     assert!(kill.unwrap().success());
     assert_eq!(run.wait().unwrap().code(), Some(143));
     assert!(asked.elapsed() < Duration::from_secs(4));

@@ -22,10 +22,7 @@ pub fn json(bytes: &[u8]) {
             assert!(!unreadable.to_string().is_empty());
             check_faults(&unreadable.faults, bytes);
             let is_deep = unreadable.faults.total(Kind::TooDeep) > 0;
-            assert!(
-                peer.is_err() || is_deep,
-                "{unreadable}: and serde_json reads it"
-            );
+            assert!(peer.is_err() || is_deep, "{unreadable}: and serde_json reads it");
             return;
         }
     };
@@ -43,11 +40,7 @@ pub fn json(bytes: &[u8]) {
         let offset = found[0].expect("it is there");
         let mut rest = serde_json::Deserializer::from_str(&document.text[offset..]).into_iter();
         let found: Option<Result<Value, _>> = rest.next();
-        assert_eq!(
-            found.expect("a value").expect("a value"),
-            *value,
-            "{pointer}"
-        );
+        assert_eq!(found.expect("a value").expect("a value"), *value, "{pointer}");
         let around = json_scan::pointer_at(&document.text, offset + 1);
         assert_eq!(around, pointer);
     }

@@ -24,11 +24,7 @@ pub fn dae(bytes: &[u8]) {
 }
 
 /// Fewer than by default: an input may ask for far more than it contains.
-const OPTIONS: Options = Options {
-    gltf_up: GltfUp::Keep,
-    max_triangles: 100_000,
-    uncut: false,
-};
+const OPTIONS: Options = Options { gltf_up: GltfUp::Keep, max_triangles: 100_000, uncut: false };
 
 /// A mesh that was read has finite vertices, indices in range and colours from 0 to 1. Reading it again gives the same.
 /// Written in any format and read again, it has the same triangles.
@@ -42,11 +38,7 @@ fn check(bytes: &[u8], name: &str) {
             return;
         }
     };
-    assert_eq!(
-        read_with(bytes, name, &mut fetch, &OPTIONS).as_ref(),
-        Ok(&scene),
-        "read twice"
-    );
+    assert_eq!(read_with(bytes, name, &mut fetch, &OPTIONS).as_ref(), Ok(&scene), "read twice");
     for note in &scene.notes {
         assert!(!note.to_string().is_empty() && note.count > 0);
     }
@@ -104,10 +96,9 @@ fn triangles(parts: &[Part]) -> Vec<[[u64; 3]; 3]> {
     let of = |part: &Part| {
         let mesh = part.mesh.clone();
         let triangles = mesh.triangles.clone();
-        triangles.into_iter().map(move |triangle| {
-            mesh.corners(triangle)
-                .map(|corner| corner.map(f64::to_bits))
-        })
+        triangles
+            .into_iter()
+            .map(move |triangle| mesh.corners(triangle).map(|corner| corner.map(f64::to_bits)))
     };
     parts.iter().flat_map(of).collect()
 }

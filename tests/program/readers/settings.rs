@@ -16,9 +16,7 @@ pub fn settings(bytes: &[u8]) {
     };
     for ignore in &settings.ignores {
         assert!(!ignore.reason.trim().is_empty());
-        ignore
-            .path
-            .is_match("arms/z1/mesh_modules/plain_meshes_module/meshes/0_base.stl");
+        ignore.path.is_match("arms/z1/mesh_modules/plain_meshes_module/meshes/0_base.stl");
         ignore.path.is_match("");
     }
     // No URDD was examined, so no ignore matched.

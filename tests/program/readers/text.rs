@@ -25,9 +25,7 @@ pub fn same(a: &Value, b: &Value) -> bool {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b))
         }
         (Value::Object(a), Value::Object(b)) => {
-            a.len() == b.len()
-                && a.iter()
-                    .all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
         }
         _ => a == b,
     }
@@ -41,13 +39,10 @@ pub fn leaves(document: &Value, most: usize) -> Vec<(String, &Value)> {
         let escape = |key: &str| key.replace('~', "~0").replace('/', "~1");
         match value {
             Value::Array(list) => open.extend(
-                list.iter()
-                    .enumerate()
-                    .map(|(index, value)| (format!("{pointer}/{index}"), value)),
+                list.iter().enumerate().map(|(index, value)| (format!("{pointer}/{index}"), value)),
             ),
             Value::Object(map) => open.extend(
-                map.iter()
-                    .map(|(key, value)| (format!("{pointer}/{}", escape(key)), value)),
+                map.iter().map(|(key, value)| (format!("{pointer}/{}", escape(key)), value)),
             ),
             _ => found.push((pointer, value)),
         }

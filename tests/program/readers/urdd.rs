@@ -72,26 +72,14 @@ static SMALL: LazyLock<Small> = LazyLock::new(|| {
     let folder = testkit::temporary::folder();
     let source = folder.path().join("robot.urdf");
     fs::write(&source, ROBOT).expect("the robot");
-    generate(
-        &source,
-        &folder.path().join("r"),
-        &Generation::default(),
-        &(),
-    )
-    .expect("its URDD");
-    let mut small = Small {
-        folder,
-        contents: Vec::new(),
-    };
+    generate(&source, &folder.path().join("r"), &Generation::default(), &()).expect("its URDD");
+    let mut small = Small { folder, contents: Vec::new() };
     let extension = small.path("x_fuzz_extension_module");
     fs::create_dir(&extension).expect("a folder");
     fs::write(extension.join("VERSION"), "1.0.0").expect("a version");
     fs::write(extension.join("schema.json"), r#"{"type": "object"}"#).expect("a schema");
     fs::write(extension.join("module.json"), "{}").expect("a document");
-    small.contents = FILES
-        .iter()
-        .map(|file| fs::read(small.path(file)).ok())
-        .collect();
+    small.contents = FILES.iter().map(|file| fs::read(small.path(file)).ok()).collect();
     small
 });
 

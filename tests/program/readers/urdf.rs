@@ -20,10 +20,7 @@ pub fn urdf(bytes: &[u8]) {
         Err(error) => {
             assert!(!error.to_string().is_empty());
             let readable = direct.problems.is_empty() && std::str::from_utf8(unmarked).is_ok();
-            assert!(
-                !readable || is_the_robots(&error),
-                "only the generator: {error}"
-            );
+            assert!(!readable || is_the_robots(&error), "only the generator: {error}");
             return;
         }
     };
@@ -34,11 +31,7 @@ pub fn urdf(bytes: &[u8]) {
     let carried = carried.strip_prefix('\u{FEFF}').unwrap_or(carried);
     let reading = urdf_text::read(carried);
     check(&reading, carried);
-    assert!(
-        reading.problems.is_empty(),
-        "{:?}\n{carried}",
-        reading.problems
-    );
+    assert!(reading.problems.is_empty(), "{:?}\n{carried}", reading.problems);
     assert_eq!(reading.robot.as_ref(), Some(&source.robot), "{carried}");
 
     let again = read_urdf(&source.carried, "file").expect("what is carried is read again");

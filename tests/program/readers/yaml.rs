@@ -43,10 +43,7 @@ fn alone(yaml: &[u8]) {
     check_faults(&faults, yaml);
     let others = faults.totals().any(|(kind, _)| kind != Kind::YamlDiffers);
     let not_finite = has_not_finite(yaml, &value);
-    assert!(
-        faults.is_empty() || others || not_finite,
-        "{faults}: not from {value}"
-    );
+    assert!(faults.is_empty() || others || not_finite, "{faults}: not from {value}");
     if !faults.is_empty() {
         return;
     }

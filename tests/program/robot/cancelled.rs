@@ -35,17 +35,11 @@ fn generate_leaves_what_was_there() {
         let folder = testkit::temporary::folder();
         let target = folder.path().join("robot");
         let cancellation = Cancellation::default();
-        let settings = Settings {
-            cancellation: cancellation.clone(),
-            num_samples: 10,
-            ..Settings::default()
-        };
+        let settings =
+            Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
         let progress = StopsAt(stop, cancellation);
         let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
-        assert!(
-            matches!(stopped, GenerateError::Cancelled),
-            "{stop}: {stopped}"
-        );
+        assert!(matches!(stopped, GenerateError::Cancelled), "{stop}: {stopped}");
         assert_eq!(stopped.code(), "cancelled");
         assert_eq!(below(folder.path()), BTreeMap::new(), "{stop}");
     }
@@ -53,11 +47,8 @@ fn generate_leaves_what_was_there() {
     let (folder, target) = made(&urdf);
     let before = below(folder.path());
     let cancellation = Cancellation::default();
-    let settings = Settings {
-        cancellation: cancellation.clone(),
-        num_samples: 10,
-        ..Settings::default()
-    };
+    let settings =
+        Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
     let progress = StopsAt(12, cancellation);
     let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
     assert!(matches!(stopped, GenerateError::Cancelled), "{stopped}");
@@ -94,10 +85,8 @@ fn validate_says_nothing_of_what_it_did_not_finish() {
     let (_folder, path) = made(&our_robots()[8].1);
     let ask = |reads: usize| {
         let cancellation = Cancellation::default();
-        let settings = ValidateSettings {
-            cancellation: cancellation.clone(),
-            ..ValidateSettings::default()
-        };
+        let settings =
+            ValidateSettings { cancellation: cancellation.clone(), ..ValidateSettings::default() };
         let source = StopsWhenRead {
             disk: Disk::open(&path).unwrap(),
             left: AtomicUsize::new(reads),
@@ -108,18 +97,12 @@ fn validate_says_nothing_of_what_it_did_not_finish() {
     // While modules are loaded, and while rules read meshes.
     for reads in [1, 2, 20, 40] {
         let stopped = ask(reads).err().expect("it stopped");
-        assert!(
-            matches!(stopped, ValidateError::Cancelled(_)),
-            "{reads}: {stopped}"
-        );
+        assert!(matches!(stopped, ValidateError::Cancelled(_)), "{reads}: {stopped}");
     }
     assert!(ask(usize::MAX).is_ok());
     let cancellation = Cancellation::default();
     cancellation.cancel();
-    let settings = ValidateSettings {
-        cancellation,
-        ..ValidateSettings::default()
-    };
+    let settings = ValidateSettings { cancellation, ..ValidateSettings::default() };
     let stopped = validate(&[&path], &settings).err().expect("it stopped");
     assert!(matches!(stopped, ValidateError::Cancelled(_)), "{stopped}");
     assert_eq!(stopped.to_string(), "stopped before it was finished");
@@ -142,23 +125,10 @@ fn batches_of_distances_stop() {
         })
     };
     for found in [
+        stopped(&|token| proximity.cancellable(token).in_collision_batch(&batch).map(drop)),
+        stopped(&|token| proximity.cancellable(token).self_distance_batch(&batch).map(drop)),
         stopped(&|token| {
-            proximity
-                .cancellable(token)
-                .in_collision_batch(&batch)
-                .map(drop)
-        }),
-        stopped(&|token| {
-            proximity
-                .cancellable(token)
-                .self_distance_batch(&batch)
-                .map(drop)
-        }),
-        stopped(&|token| {
-            proximity
-                .cancellable(token)
-                .distances_batch(&batch[..q.len() * 10_000])
-                .map(drop)
+            proximity.cancellable(token).distances_batch(&batch[..q.len() * 10_000]).map(drop)
         }),
     ] {
         assert!(matches!(found, Err(RobotError::Cancelled(_))), "{found:?}");
@@ -168,12 +138,6 @@ fn batches_of_distances_stop() {
     let token = Cancellation::default();
     let until = proximity.cancellable(&token);
     assert_eq!(until.distances_batch(few), proximity.distances_batch(few));
-    assert_eq!(
-        until.in_collision_batch(few),
-        proximity.in_collision_batch(few)
-    );
-    assert_eq!(
-        until.self_distance_batch(few),
-        proximity.self_distance_batch(few)
-    );
+    assert_eq!(until.in_collision_batch(few), proximity.in_collision_batch(few));
+    assert_eq!(until.self_distance_batch(few), proximity.self_distance_batch(few));
 }

@@ -36,18 +36,12 @@ fn a_ball_that_a_sliding_box_carries() {
     for (x, [expected, without]) in [(-0.54, [false, false]), (-0.56, [true, false])] {
         assert_eq!(with.in_collision(&[x]), Ok(expected), "{x}");
         assert_eq!(alone.in_collision(&[x]), Ok(without), "{x}");
-        assert_eq!(
-            with.collisions(&[x]).expect("pairs").len(),
-            usize::from(expected)
-        );
+        assert_eq!(with.collisions(&[x]).expect("pairs").len(), usize::from(expected));
     }
     assert_eq!(with.is_within(&[0.0], 0.54), Ok(false));
     assert_eq!(with.is_within(&[0.0], 0.56), Ok(true));
     // From x = 1 to x = -1 the ball touches at x = -0.55.
-    let proved = EdgeSettings {
-        margin: 0.0,
-        resolution: None,
-    };
+    let proved = EdgeSettings { margin: 0.0, resolution: None };
     let part = with.blocked_edge(&[1.0], &[-1.0], &proved);
     let part = part.expect("an answer").expect("blocked");
     assert!(part <= 0.775 && (part - 0.775).abs() < 1e-3, "{part}");
@@ -69,10 +63,7 @@ fn penetrations_of_a_sliding_box() {
     for (overlap, [name, depth]) in found.iter().zip([["box", "0.15"], ["ball", "0.15"]]) {
         assert_eq!(&*overlap.pair.links[1], name);
         let depth: f64 = depth.parse().expect("a number");
-        assert!(
-            (overlap.depth - depth).abs() < 1e-6 || name == "ball",
-            "{overlap:?}"
-        );
+        assert!((overlap.depth - depth).abs() < 1e-6 || name == "ball", "{overlap:?}");
         assert_eq!(overlap.pair.distance, 0.0);
     }
     let of_box = &found[0];
@@ -130,10 +121,7 @@ fn gradients_of_depths_are_differences() {
                 let sides = [(more - overlap.depth) / step, (overlap.depth - less) / step];
                 // Not where the depth is that of two translations.
                 if (sides[0] - sides[1]).abs() < 1e-4 {
-                    assert!(
-                        (sides[0] - expected).abs() < 1e-3,
-                        "{k} {dof} {sides:?} {expected}"
-                    );
+                    assert!((sides[0] - expected).abs() < 1e-3, "{k} {dof} {sides:?} {expected}");
                     compared += 1;
                 }
             }
@@ -151,15 +139,10 @@ fn obstacles_see_what_is_carried() {
     let nearest = |with: &Proximity, post: Obstacle| {
         let world = with.world_proximity(&World::new([post])).expect("a world");
         let found = world.nearest(&[0.0], 1).expect("pairs");
-        found
-            .first()
-            .map(|found| (found.link.to_string(), found.distance))
+        found.first().map(|found| (found.link.to_string(), found.distance))
     };
     let (name, distance) = nearest(&with, post.clone()).expect("a pair");
-    assert!(
-        name == "ball" && (distance - 1.15).abs() < 1e-9,
-        "{distance}"
-    );
+    assert!(name == "ball" && (distance - 1.15).abs() < 1e-9, "{distance}");
     // Who ignores the link does not ignore what it carries.
     let ignoring = post.clone().ignoring("box").ignoring("base");
     assert_eq!(nearest(&with, ignoring.clone()).expect("a pair").0, "ball");
@@ -167,17 +150,12 @@ fn obstacles_see_what_is_carried() {
     let (name, distance) = nearest(&with, post.clone().ignoring("ball")).expect("a pair");
     assert!(name == "box" && (distance - 1.4).abs() < 1e-6, "{distance}");
     // One metre that the box slides toward the post is one metre less.
-    let world = with
-        .world_proximity(&World::new([post.ignoring("base")]))
-        .expect("a world");
+    let world = with.world_proximity(&World::new([post.ignoring("base")])).expect("a world");
     for found in world.gradients(&[0.0], 2).expect("gradients") {
         let gradient = found.gradient.expect("apart");
         assert!((gradient[0] + 1.0).abs() < 1e-9, "{gradient:?}");
     }
-    assert_eq!(
-        world.gradients(&[1.5], 1).expect("gradients")[0].gradient,
-        None
-    );
+    assert_eq!(world.gradients(&[1.5], 1).expect("gradients")[0].gradient, None);
 }
 
 /// A plate that is fixed to the box, 0.05 m in front of it, toward the base.
@@ -185,31 +163,14 @@ fn obstacles_see_what_is_carried() {
 fn links_that_cannot_move_against_each_other_have_no_margin() {
     let (_folder, path) = made_of(&SLIDE.replace("</robot>", &plate_text("-0.2")));
     let robot = Robot::open(path).expect("a robot");
-    let all = robot
-        .proximity_of(ShapeKind::Hulls, |_| true)
-        .expect("shapes");
-    let least = all
-        .self_distance(&[0.0])
-        .expect("an answer")
-        .expect("pairs");
-    assert!(
-        (least - 0.05).abs() < 1e-6,
-        "the distance of the fixed pair: {least}"
-    );
+    let all = robot.proximity_of(ShapeKind::Hulls, |_| true).expect("shapes");
+    let least = all.self_distance(&[0.0]).expect("an answer").expect("pairs");
+    assert!((least - 0.05).abs() < 1e-6, "the distance of the fixed pair: {least}");
     // The plate ends 0.65 m from the base at x = 0.
-    assert_eq!(
-        [0.64, 0.66].map(|margin| all.is_within(&[0.0], margin)),
-        [Ok(false), Ok(true)]
-    );
-    let proved = |margin: f64| EdgeSettings {
-        margin,
-        resolution: None,
-    };
+    assert_eq!([0.64, 0.66].map(|margin| all.is_within(&[0.0], margin)), [Ok(false), Ok(true)]);
+    let proved = |margin: f64| EdgeSettings { margin, resolution: None };
     assert_eq!(all.blocked_edge(&[0.0], &[3.0], &proved(0.6)), Ok(None));
-    assert_eq!(
-        all.blocked_edge(&[0.0], &[3.0], &proved(0.7)),
-        Ok(Some(0.0))
-    );
+    assert_eq!(all.blocked_edge(&[0.0], &[3.0], &proved(0.7)), Ok(Some(0.0)));
     // What the plate carries need not name the box, which it reaches into.
     let plate = robot.link("plate").expect("plate");
     let with = all.attach(plate, &ball("ball", 0.05)).expect("attached");
@@ -219,15 +180,10 @@ fn links_that_cannot_move_against_each_other_have_no_margin() {
     let touching = SLIDE.replace("</robot>", &plate_text("-0.14"));
     let (_folder, path) = made_of(&touching);
     let robot = Robot::open(path).expect("a robot");
-    let all = robot
-        .proximity_of(ShapeKind::Hulls, |_| true)
-        .expect("shapes");
+    let all = robot.proximity_of(ShapeKind::Hulls, |_| true).expect("shapes");
     assert_eq!(all.in_collision(&[0.0]), Ok(true));
     assert_eq!(all.is_within(&[0.0], 0.0), Ok(true));
-    assert_eq!(
-        all.blocked_edge(&[0.0], &[3.0], &proved(0.0)),
-        Ok(Some(0.0))
-    );
+    assert_eq!(all.blocked_edge(&[0.0], &[3.0], &proved(0.0)), Ok(Some(0.0)));
 }
 
 fn plate_text(x: &str) -> String {
@@ -247,16 +203,9 @@ fn what_two_links_carry_may_collide() {
     assert_eq!(two.num_pairs(), 4);
     let touching = two.collisions(&[-0.25]).expect("pairs");
     assert_eq!(touching.len(), 1);
-    assert_eq!(
-        touching[0].links.each_ref().map(|name| &**name),
-        ["one", "two"]
-    );
+    assert_eq!(touching[0].links.each_ref().map(|name| &**name), ["one", "two"]);
     let same = one.attach(base, &ball("two", -0.5)).expect("attached");
-    assert_eq!(
-        same.num_pairs(),
-        3,
-        "what one link carries does not move against itself"
-    );
+    assert_eq!(same.num_pairs(), 3, "what one link carries does not move against itself");
     let apart = one.attach(link, &ball("two", -0.2).ignoring("one"));
     assert_eq!(apart.expect("attached").num_pairs(), 3);
 }
@@ -265,17 +214,8 @@ fn what_two_links_carry_may_collide() {
 fn what_cannot_be_carried() {
     let (_folder, _, alone) = sliding();
     let out_of_range = alone.attach(7, &ball("ball", 0.0)).map(|_| ());
-    assert!(matches!(
-        out_of_range,
-        Err(RobotError::OutOfRange {
-            index: 7,
-            count: 2,
-            ..
-        })
-    ));
-    let unknown = alone
-        .attach(0, &ball("ball", 0.0).ignoring("bax"))
-        .map(|_| ());
+    assert!(matches!(out_of_range, Err(RobotError::OutOfRange { index: 7, count: 2, .. })));
+    let unknown = alone.attach(0, &ball("ball", 0.0).ignoring("bax")).map(|_| ());
     assert!(
         matches!(unknown, Err(RobotError::Unknown { nearest: Some(near), .. }) if near == "box")
     );
@@ -284,10 +224,7 @@ fn what_cannot_be_carried() {
     let twice = alone.attach(0, &ball("ball", 0.0)).expect("attached");
     assert!(twice.attach(1, &ball("ball", 0.0)).is_err());
     let lost = Isometry3::translation(f64::NAN, 0.0, 0.0);
-    assert!(matches!(
-        ball("ball", 0.0).at(lost),
-        Err(RobotError::Obstacle { .. })
-    ));
+    assert!(matches!(ball("ball", 0.0).at(lost), Err(RobotError::Obstacle { .. })));
 }
 
 /// What a link carries is as far from another link as an obstacle that is moved along.
@@ -301,14 +238,8 @@ fn carried_is_moved_along() {
     );
     let of_sphere = Isometry3::translation(0.0, 0.0, 0.1);
     let objects = [
-        (
-            Obstacle::cuboid("carried", in_torch, [0.05, 0.1, 0.02]),
-            in_torch,
-        ),
-        (
-            Obstacle::sphere("carried", [0.0, 0.0, 0.1], 0.06),
-            of_sphere,
-        ),
+        (Obstacle::cuboid("carried", in_torch, [0.05, 0.1, 0.02]), in_torch),
+        (Obstacle::sphere("carried", [0.0, 0.0, 0.1], 0.06), of_sphere),
         (Obstacle::capsule("carried", in_torch, 0.03, 0.2), in_torch),
         (Obstacle::cylinder("carried", in_torch, 0.05, 0.1), in_torch),
     ];
@@ -321,26 +252,15 @@ fn carried_is_moved_along() {
             let mut world = World::default();
             for q in (0..20).map(|k| space.random(k)) {
                 let pose = robot.link_poses(&q).expect("poses")[torch];
-                world.put(
-                    object
-                        .clone()
-                        .ignoring("torch")
-                        .at(pose * local)
-                        .expect("moved"),
-                );
+                world.put(object.clone().ignoring("torch").at(pose * local).expect("moved"));
                 assert_eq!(world.obstacles().len(), 1);
                 let around = proximity.world_proximity(&world).expect("a world");
                 let expected = around.min_distance(&q).expect("a distance").expect("pairs");
                 let of_object = with.closest_points(&q).expect("pairs").into_iter();
                 let of_object = of_object
                     .filter(|pair| &*pair.links[1] == "carried" || &*pair.links[0] == "carried");
-                let least = of_object
-                    .map(|pair| pair.distance)
-                    .fold(f64::INFINITY, f64::min);
-                assert!(
-                    (least - expected).abs() < 2e-9,
-                    "{kind:?} {least} {expected}"
-                );
+                let least = of_object.map(|pair| pair.distance).fold(f64::INFINITY, f64::min);
+                assert!((least - expected).abs() < 2e-9, "{kind:?} {least} {expected}");
                 let alone = proximity.in_collision(&q).expect("an answer");
                 assert_eq!(with.in_collision(&q), Ok(alone || expected == 0.0));
             }

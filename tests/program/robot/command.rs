@@ -15,19 +15,10 @@ fn check(urdd: &Path, arguments: &[&str], input: &str) -> (i32, String, String) 
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    child
-        .stdin
-        .take()
-        .unwrap()
-        .write_all(input.as_bytes())
-        .unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(output.stdout),
-        text(output.stderr),
-    )
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
 #[test]
@@ -41,16 +32,10 @@ fn it_reads_configurations_in_each_form() {
         .map(|input| check(&path, &["-c", "-", "--format", "json"], input))
         .into_iter()
         .collect();
-    let lines: Vec<serde_json::Value> = asked[0]
-        .1
-        .lines()
-        .map(|line| serde_json::from_str(line).unwrap())
-        .collect();
+    let lines: Vec<serde_json::Value> =
+        asked[0].1.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines.len(), 2, "{asked:?}");
-    assert_eq!(
-        lines[0]["values"],
-        serde_json::json!([0.5, 0.0, 0.0, 0.0, 0.25, 0.0])
-    );
+    assert_eq!(lines[0]["values"], serde_json::json!([0.5, 0.0, 0.0, 0.0, 0.25, 0.0]));
     assert_eq!(lines[1]["in_collision"], false);
     assert_eq!(lines[1]["nearest"].as_array().unwrap().len(), 3);
     assert!(asked.iter().all(|one| *one == asked[0]), "{asked:?}");
@@ -120,14 +105,7 @@ fn very_many_random_configurations_are_not_held_in_memory() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_urdd"))
         .arg("check-collisions")
         .arg(&path)
-        .args([
-            "--random",
-            "1000000000",
-            "--format",
-            "json",
-            "--nearest",
-            "18446744073709551615",
-        ])
+        .args(["--random", "1000000000", "--format", "json", "--nearest", "18446744073709551615"])
         .stdout(Stdio::piped())
         .spawn()
         .unwrap();
@@ -140,16 +118,9 @@ fn very_many_random_configurations_are_not_held_in_memory() {
     assert!(child.wait().unwrap().code().is_some_and(|code| code < 2));
     // The same answers for any batch size.
     let (_, text, _) = check(&path, &["--random", "5000"], "");
-    let (_, lines, _) = check(
-        &path,
-        &["--random", "5000", "--format", "json", "--nearest=0"],
-        "",
-    );
+    let (_, lines, _) = check(&path, &["--random", "5000", "--format", "json", "--nearest=0"], "");
     let colliding = lines.matches("\"in_collision\":true").count();
-    assert!(
-        text.starts_with(&format!("{colliding} of 5000 configurations collide")),
-        "{text}"
-    );
+    assert!(text.starts_with(&format!("{colliding} of 5000 configurations collide")), "{text}");
     assert!(colliding > 0 && lines.lines().count() == 5000);
 }
 
@@ -162,16 +133,11 @@ fn a_robot_without_dofs_collides_in_each_configuration_or_in_none() {
     let folder = testkit::temporary::folder();
     let urdf = folder.path().join("still.urdf");
     std::fs::write(&urdf, boxes).unwrap();
-    let settings = urdd_generate::Settings {
-        skipped_reasons: Some(Vec::new()),
-        ..Default::default()
-    };
+    let settings =
+        urdd_generate::Settings { skipped_reasons: Some(Vec::new()), ..Default::default() };
     let path = folder.path().join("still");
     urdd_generate::generate(&urdf, &path, &settings, &()).unwrap();
     let (status, text, _) = check(&path, &["--random", "20"], "");
     assert_eq!(status, 1, "{text}");
-    assert!(
-        text.starts_with("20 of 20 configurations collide"),
-        "{text}"
-    );
+    assert!(text.starts_with("20 of 20 configurations collide"), "{text}");
 }

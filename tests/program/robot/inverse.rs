@@ -19,9 +19,7 @@ const PLANAR: &str = r#"<robot name="planar">
 </robot>"#;
 
 fn ask(robot: &Robot, target: Target, start: &[f64]) -> Inverse {
-    robot
-        .inverse_kinematics(&target, start, &InverseSettings::default())
-        .unwrap()
+    robot.inverse_kinematics(&target, start, &InverseSettings::default()).unwrap()
 }
 
 #[test]
@@ -53,11 +51,7 @@ fn what_is_out_of_reach_is_approached() {
     let robot = Robot::open(path).unwrap();
     let tip = robot.link("tip").unwrap();
     // Stretched out, and 1.2 m short.
-    let found = ask(
-        &robot,
-        Target::position(tip, [0.0, 2.0, 0.0]),
-        &[0.3, 1.0, 0.0],
-    );
+    let found = ask(&robot, Target::position(tip, [0.0, 2.0, 0.0]), &[0.3, 1.0, 0.0]);
     assert!(!found.is_reached());
     let nearest = found.nearest();
     assert!((nearest.position_error - 1.2).abs() < 1e-4, "{nearest:?}");
@@ -71,10 +65,7 @@ fn what_is_out_of_reach_is_approached() {
         UnitQuaternion::from_euler_angles(std::f64::consts::FRAC_PI_2, 0.0, 0.0),
     );
     let found = ask(&robot, Target::pose(tip, turned), &[0.3, 1.0, 0.0]);
-    assert!(
-        !found.is_reached() && found.nearest().rotation_error > 1.5,
-        "{found:?}"
-    );
+    assert!(!found.is_reached() && found.nearest().rotation_error > 1.5, "{found:?}");
     // A link that no DOF moves stays in place.
     let base = robot.link("base").unwrap();
     assert!(ask(&robot, Target::position(base, [0.0; 3]), &[0.0; 3]).is_reached());
@@ -94,9 +85,7 @@ fn bounds_hold_and_may_be_others() {
             bounds: Some(vec![[-pi, pi], bounds, [0.0, 0.0]]),
             ..InverseSettings::default()
         };
-        robot
-            .inverse_kinematics(&target, &[0.0; 3], &settings)
-            .unwrap()
+        robot.inverse_kinematics(&target, &[0.0; 3], &settings).unwrap()
     };
     // The elbow bent the other way, which the robot's own bounds forbid.
     let q = elbow([-2.5, 0.0]).reached().unwrap().configuration;
@@ -105,10 +94,7 @@ fn bounds_hold_and_may_be_others() {
     let found = elbow([0.0, 0.5]);
     let reach = f64::sqrt(0.34 + 0.3 * f64::cos(0.5));
     assert!(!found.is_reached());
-    assert!(
-        (found.nearest().position_error - (reach - 0.5)).abs() < 1e-6,
-        "{found:?}"
-    );
+    assert!((found.nearest().position_error - (reach - 0.5)).abs() < 1e-6, "{found:?}");
     assert_eq!(found.nearest().configuration[1], 0.5);
 }
 
@@ -135,9 +121,7 @@ fn every_pose_of_every_robot_is_found_again() {
                 ] {
                     let found = ask(&robot, target, &start);
                     assert_eq!(found, ask(&robot, target, &start), "the same answer again");
-                    let found = found
-                        .reached()
-                        .unwrap_or_else(|| panic!("{name}, {link}, {k}"));
+                    let found = found.reached().unwrap_or_else(|| panic!("{name}, {link}, {k}"));
                     let q = &found.configuration;
                     assert!(space.is_within_bounds(q), "{name}, {link}, {k}: {q:?}");
                     let there = robot.link_poses(q).unwrap()[link];
@@ -165,53 +149,26 @@ fn questions_that_are_none() {
     let there = Target::position(3, [0.0; 3]);
     assert_eq!(
         ask(Target::position(9, [0.0; 3]), &[0.0; 3], &settings),
-        Err(RobotError::OutOfRange {
-            what: "link",
-            index: 9,
-            count: 6
-        })
+        Err(RobotError::OutOfRange { what: "link", index: 9, count: 6 })
     );
     let nowhere = Target::position(3, [0.0, f64::NAN, 0.0]);
-    assert!(matches!(
-        ask(nowhere, &[0.0; 3], &settings),
-        Err(RobotError::Target(_))
-    ));
+    assert!(matches!(ask(nowhere, &[0.0; 3], &settings), Err(RobotError::Target(_))));
     let infinite = there.of_point([f64::INFINITY, 0.0, 0.0]);
-    assert!(matches!(
-        ask(infinite, &[0.0; 3], &settings),
-        Err(RobotError::Target(_))
-    ));
-    assert!(matches!(
-        ask(there, &[0.0; 2], &settings),
-        Err(RobotError::Configuration(_))
-    ));
+    assert!(matches!(ask(infinite, &[0.0; 3], &settings), Err(RobotError::Target(_))));
+    assert!(matches!(ask(there, &[0.0; 2], &settings), Err(RobotError::Configuration(_))));
     assert!(matches!(
         ask(there, &[0.0, f64::NAN, 0.0], &settings),
         Err(RobotError::Configuration(_))
     ));
     for bounds in [vec![[0.0, 1.0]; 2], vec![[0.0, f64::INFINITY]; 3]] {
-        let settings = InverseSettings {
-            bounds: Some(bounds),
-            ..InverseSettings::default()
-        };
-        assert!(matches!(
-            ask(there, &[0.0; 3], &settings),
-            Err(RobotError::Target(_))
-        ));
+        let settings = InverseSettings { bounds: Some(bounds), ..InverseSettings::default() };
+        assert!(matches!(ask(there, &[0.0; 3], &settings), Err(RobotError::Target(_))));
     }
     // Numbers at the end of the range: no answer, and no panic.
     let far = Target::position(3, [1e308, -1e308, 1e308]);
     assert!(!ask(far, &[0.0; 3], &settings).unwrap().is_reached());
-    let none = InverseSettings {
-        restarts: 0,
-        iterations: 0,
-        ..settings
-    };
-    assert!(
-        !ask(Target::position(3, [0.1, 0.2, 0.0]), &[0.0; 3], &none)
-            .unwrap()
-            .is_reached()
-    );
+    let none = InverseSettings { restarts: 0, iterations: 0, ..settings };
+    assert!(!ask(Target::position(3, [0.1, 0.2, 0.0]), &[0.0; 3], &none).unwrap().is_reached());
 }
 
 /// Why a target is not reached, where geometry says it: the tip is at 0.2 m to 0.8 m from the base without bounds, and from
@@ -238,16 +195,10 @@ fn verdicts_are_those_of_geometry() {
         let found = ask(&robot, target, &[0.3, 0.2, 0.0]);
         assert_eq!(found.nearest().verdict, expected, "{target:?}");
         assert_eq!(found.is_reached(), expected == Verdict::Reached);
-        let quick = InverseSettings {
-            explain: false,
-            ..InverseSettings::default()
-        };
+        let quick = InverseSettings { explain: false, ..InverseSettings::default() };
         let quick = robot.inverse_kinematics(&target, &[0.3, 0.2, 0.0], &quick);
         let quick = quick.unwrap().nearest().verdict;
-        assert!(
-            matches!(quick, Verdict::Reached | Verdict::Unknown),
-            "{quick:?}"
-        );
+        assert!(matches!(quick, Verdict::Reached | Verdict::Unknown), "{quick:?}");
     }
 }
 
@@ -273,29 +224,19 @@ fn weights_leave_directions_free() {
     let whole = Target::pose(tip, pose);
     let start = [0.0, 0.5, 0.0];
     assert!(!ask(&robot, whole, &start).is_reached());
-    let found = ask(
-        &robot,
-        whole.weighted([1.0, 1.0, 1.0, 1.0, 1.0, 0.0]),
-        &start,
-    );
+    let found = ask(&robot, whole.weighted([1.0, 1.0, 1.0, 1.0, 1.0, 0.0]), &start);
     let q = found.reached().expect("reached").configuration;
     let there = robot.link_poses(&q).unwrap()[tip].translation.vector;
     assert!((there - pose.translation.vector).norm() < 1e-6, "{there}");
     // Along the target's own y axis the position is free: the tip is on the line through the point along its x axis.
     let on_line = whole.weighted([0.0, 1.0, 1.0, 1.0, 1.0, 1.0]);
-    let q = ask(&robot, on_line, &start)
-        .reached()
-        .expect("reached")
-        .configuration;
+    let q = ask(&robot, on_line, &start).reached().expect("reached").configuration;
     let there = robot.link_poses(&q).unwrap()[tip];
     let off = pose.inverse() * Point3::from(there.translation.vector);
     assert!(off.y.abs() < 1e-6 && off.x.abs() > 0.01, "{off}");
     assert!(there.rotation.angle_to(&turn) < 1e-6);
-    let wrong = robot.inverse_kinematics(
-        &whole.weighted([-1.0; 6]),
-        &start,
-        &InverseSettings::default(),
-    );
+    let wrong =
+        robot.inverse_kinematics(&whole.weighted([-1.0; 6]), &start, &InverseSettings::default());
     assert!(matches!(wrong, Err(RobotError::Target(_))), "{wrong:?}");
 }
 
@@ -306,25 +247,16 @@ fn locked_dofs_keep_their_values() {
     let tip = robot.link("tip").unwrap();
     let there = robot.link_poses(&[0.3, 1.1, 0.0]).unwrap()[tip];
     let target = Target::position(tip, there.translation.vector.into());
-    let settings = InverseSettings {
-        locked: vec![0],
-        ..InverseSettings::default()
-    };
+    let settings = InverseSettings { locked: vec![0], ..InverseSettings::default() };
     let ask = |shoulder: f64| {
         let found = robot.inverse_kinematics(&target, &[shoulder, 0.2, 0.0], &settings);
         found.unwrap()
     };
     let found = ask(0.3).reached().expect("reached").configuration;
-    assert!(
-        found[0] == 0.3 && (found[1] - 1.1).abs() < 1e-5,
-        "{found:?}"
-    );
+    assert!(found[0] == 0.3 && (found[1] - 1.1).abs() < 1e-5, "{found:?}");
     let off = ask(0.5);
     assert!(!off.is_reached() && off.nearest().configuration[0] == 0.5);
-    let none = InverseSettings {
-        locked: vec![3],
-        ..InverseSettings::default()
-    };
+    let none = InverseSettings { locked: vec![3], ..InverseSettings::default() };
     let none = robot.inverse_kinematics(&target, &[0.0; 3], &none);
     assert!(matches!(none, Err(RobotError::OutOfRange { index: 3, .. })));
 }
@@ -335,18 +267,11 @@ fn redundant() -> String {
         format!(
             r#"<link name="l{k}"/><joint name="j{k}" type="revolute"><parent link="{}"/><child link="l{k}"/>
             <origin xyz="{x} 0 0"/><axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>"#,
-            if k == 0 {
-                "base".to_owned()
-            } else {
-                format!("l{}", k - 1)
-            },
+            if k == 0 { "base".to_owned() } else { format!("l{}", k - 1) },
         )
     };
-    let joints: String = [0.0, 0.4, 0.3]
-        .into_iter()
-        .enumerate()
-        .map(|(k, x)| joint(k, x))
-        .collect();
+    let joints: String =
+        [0.0, 0.4, 0.3].into_iter().enumerate().map(|(k, x)| joint(k, x)).collect();
     format!(r#"<robot name="r"><link name="base"/>{joints}</robot>"#)
 }
 
@@ -361,11 +286,7 @@ fn the_solution_nearest_to_a_posture() {
             let angle = f64::from(k) / 1000.0;
             let (wx, wy) = (x - 0.2 * angle.cos(), y - 0.2 * angle.sin());
             let cos = (wx * wx + wy * wy - 0.25) / 0.24;
-            let elbow = if cos.abs() > 1.0 {
-                f64::NAN
-            } else {
-                cos.acos()
-            };
+            let elbow = if cos.abs() > 1.0 { f64::NAN } else { cos.acos() };
             [elbow, -elbow].map(|elbow| {
                 let shoulder = wy.atan2(wx) - (0.3 * elbow.sin()).atan2(0.4 + 0.3 * elbow.cos());
                 let whole = |x: f64| {
@@ -376,32 +297,21 @@ fn the_solution_nearest_to_a_posture() {
             })
         })
     };
-    let distance = |a: &[f64], b: &[f64]| {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| (a - b).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
+    let distance =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     for ([x, y], posture) in [
         ([0.5, 0.3], [0.0, 0.0, 0.0]),
         ([0.5, 0.3], [0.5, -1.0, 2.0]),
         ([-0.3, 0.4], [2.0, 1.0, -1.0]),
         ([0.1, -0.6], [-2.5, 1.0, 0.3]),
     ] {
-        let settings = InverseSettings {
-            posture: Some(posture.to_vec()),
-            ..InverseSettings::default()
-        };
+        let settings =
+            InverseSettings { posture: Some(posture.to_vec()), ..InverseSettings::default() };
         let target = Target::position(last, [x, y, 0.0]).of_point([0.2, 0.0, 0.0]);
-        let found = robot
-            .inverse_kinematics(&target, &[0.1; 3], &settings)
-            .unwrap();
+        let found = robot.inverse_kinematics(&target, &[0.1; 3], &settings).unwrap();
         let found = found.reached().expect("reached").configuration;
         let within = all(x, y).filter(|q| q.iter().all(|value| value.abs() <= 3.0));
-        let least = within
-            .map(|q| distance(&q, &posture))
-            .fold(f64::INFINITY, f64::min);
+        let least = within.map(|q| distance(&q, &posture)).fold(f64::INFINITY, f64::min);
         let own = distance(&found, &posture);
         assert!(own < least + 1e-4 && own > least - 2e-3, "{own} {least}");
     }

@@ -24,10 +24,8 @@ fn a_planar_arm_as_the_textbook_has_it() {
     let (a, b) = (0.4, -1.1);
     let tip = robot.link("tip").unwrap();
     let pose = robot.link_poses(&[a, b]).unwrap()[tip];
-    let (x, y) = (
-        0.5 * f64::cos(a) + 0.3 * f64::cos(a + b),
-        0.5 * f64::sin(a) + 0.3 * f64::sin(a + b),
-    );
+    let (x, y) =
+        (0.5 * f64::cos(a) + 0.3 * f64::cos(a + b), 0.5 * f64::sin(a) + 0.3 * f64::sin(a + b));
     assert!((pose.translation.vector - Vector3::new(x, y, 0.0)).norm() < 1e-15);
 
     let jacobian = robot.jacobian(&[a, b], tip).unwrap();
@@ -58,9 +56,7 @@ fn difference(
     let at = |pose: &Isometry3<f64>| pose.translation.vector + pose.rotation * point;
     let linear = (at(above) - at(below)) / (2.0 * h);
     let angular = (above.rotation * below.rotation.inverse()).scaled_axis() / (2.0 * h);
-    [
-        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
-    ]
+    [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
 }
 
 #[test]
@@ -106,27 +102,16 @@ fn a_batch_is_each_of_its_configurations() {
     let space = robot.configurations().unwrap();
     let all: Vec<Vec<f64>> = (0..201).map(|k| space.random(k)).collect();
     let batch = robot.link_poses_batch(&all.concat()).unwrap();
-    let one_by_one: Vec<_> = all
-        .iter()
-        .flat_map(|q| robot.link_poses(q).unwrap())
-        .collect();
+    let one_by_one: Vec<_> = all.iter().flat_map(|q| robot.link_poses(q).unwrap()).collect();
     assert_eq!(batch, one_by_one);
     assert_eq!(robot.link_poses_batch(&[]).unwrap(), []);
     let dofs = space.num_dofs();
     let found = dofs + 1;
-    assert_eq!(
-        robot.link_poses_batch(&vec![0.0; found]),
-        Err(RobotError::Batch { found, dofs })
-    );
+    assert_eq!(robot.link_poses_batch(&vec![0.0; found]), Err(RobotError::Batch { found, dofs }));
     let mut broken = all.concat();
     broken[dofs * 150 + 1] = f64::NAN;
     let error = robot.link_poses_batch(&broken).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("value 1 of the configuration is NaN"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("value 1 of the configuration is NaN"), "{error}");
 }
 
 #[test]
@@ -150,15 +135,9 @@ fn a_batch_of_jacobians_is_each_of_them_to_the_bit() {
     let missing = RobotError::OutOfRange { what, index, count };
     assert_eq!(robot.jacobian_batch(&[0.0; 4], 5), Err(missing));
     let (found, dofs) = (3, 2);
-    assert_eq!(
-        robot.jacobian_batch(&[0.0; 3], 1),
-        Err(RobotError::Batch { found, dofs })
-    );
+    assert_eq!(robot.jacobian_batch(&[0.0; 3], 1), Err(RobotError::Batch { found, dofs }));
     let broken = [0.0, 0.0, 0.0, f64::NAN];
-    assert!(matches!(
-        robot.jacobian_batch(&broken, 1),
-        Err(RobotError::Configuration(_))
-    ));
+    assert!(matches!(robot.jacobian_batch(&broken, 1), Err(RobotError::Configuration(_))));
 }
 
 #[test]
@@ -168,10 +147,7 @@ fn configurations_are_within_bounds_where_they_are_said_to_be() {
     let space = robot.configurations().unwrap();
     assert_eq!(space.bounds(), [[-3.0, 3.0], [-2.0, 2.0]]);
     assert_eq!((space.zero(), space.middle()), (vec![0.0; 2], vec![0.0; 2]));
-    assert_eq!(
-        (space.lower(), space.upper()),
-        (vec![-3.0, -2.0], vec![3.0, 2.0])
-    );
+    assert_eq!((space.lower(), space.upper()), (vec![-3.0, -2.0], vec![3.0, 2.0]));
     let mut beyond = [9.0, -0.5];
     assert!(!space.is_within_bounds(&beyond));
     // It still has a pose.
@@ -217,19 +193,11 @@ fn limits_masses_and_the_dofs_between_links() {
     assert_eq!(between("right", "still"), [0]);
     assert_eq!(between("still", "base"), [0, 1]);
     assert!(between("tip", "still").is_empty() && between("tip", "tip").is_empty());
-    assert!(matches!(
-        robot.dofs_between(0, 9),
-        Err(RobotError::OutOfRange { index: 9, .. })
-    ));
+    assert!(matches!(robot.dofs_between(0, 9), Err(RobotError::OutOfRange { index: 9, .. })));
 
     // The right link and the tip turn together.
-    let pose = robot
-        .relative_pose(&[0.3, 1.2], link("still"), link("right"))
-        .unwrap();
+    let pose = robot.relative_pose(&[0.3, 1.2], link("still"), link("right")).unwrap();
     let off = pose.translation.vector - Vector3::new(0.3, 2.0, 0.0);
-    assert!(
-        off.norm() < 1e-15 && pose.rotation.angle() < 1e-15,
-        "{pose}"
-    );
+    assert!(off.norm() < 1e-15 && pose.rotation.angle() < 1e-15, "{pose}");
     assert!(robot.relative_pose(&[0.0; 2], 9, 0).is_err());
 }

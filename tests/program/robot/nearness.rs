@@ -20,28 +20,16 @@ const SLIDERS: &str = r#"<robot name="sliders">
 
 fn pair<'a>(pairs: &'a [PairDistance], a: &str, b: &str) -> &'a PairDistance {
     let wanted = |pair: &&PairDistance| *pair.links[0] == *a && *pair.links[1] == *b;
-    pairs
-        .iter()
-        .find(wanted)
-        .unwrap_or_else(|| panic!("{a} and {b}"))
+    pairs.iter().find(wanted).unwrap_or_else(|| panic!("{a} and {b}"))
 }
 
 #[test]
 fn blocks_as_their_sizes_have_them() {
     let (_folder, path) = made_of(SLIDERS);
     let robot = Robot::open(path).unwrap();
-    for kind in [
-        ShapeKind::Hulls,
-        ShapeKind::Boxes,
-        ShapeKind::Pieces,
-        ShapeKind::PieceBoxes,
-    ] {
+    for kind in [ShapeKind::Hulls, ShapeKind::Boxes, ShapeKind::Pieces, ShapeKind::PieceBoxes] {
         let proximity = robot.proximity(kind).unwrap();
-        assert_eq!(
-            (proximity.num_pairs(), proximity.num_shapes()),
-            (3, 3),
-            "{kind}"
-        );
+        assert_eq!((proximity.num_pairs(), proximity.num_shapes()), (3, 3), "{kind}");
         for q in [-0.3, 0.0, 0.7, -1.39] {
             let pairs = proximity.closest_points(&[q, 1.0]).unwrap();
             let pair = pair(&pairs, "cube", "block");
@@ -58,10 +46,7 @@ fn blocks_as_their_sizes_have_them() {
             assert_eq!(pair.distance, 0.0);
             assert_eq!(pair.points[0], pair.points[1]);
             let [x, y, z] = pair.points[0];
-            assert!(
-                (x - (2.0 + q)).abs() <= 0.1 + 1e-7 && x <= 0.5 + 1e-7,
-                "{pair:?}"
-            );
+            assert!((x - (2.0 + q)).abs() <= 0.1 + 1e-7 && x <= 0.5 + 1e-7, "{pair:?}");
             assert!(y.abs() <= 0.1 + 1e-7 && z.abs() <= 0.1 + 1e-7, "{pair:?}");
             assert!(proximity.in_collision(&[q, 1.0]).unwrap());
             assert_eq!(proximity.collisions(&[q, 1.0]).unwrap().len(), 1);
@@ -73,15 +58,9 @@ fn blocks_as_their_sizes_have_them() {
     let pairs = spheres.closest_points(&[0.5, 0.5]).unwrap();
     // The sphere around a box reaches its corners; that around the ball is the ball.
     let found = pair(&pairs, "cube", "block").distance;
-    assert!(
-        (found - (2.5 - 0.6 * f64::sqrt(3.0))).abs() < 1e-6,
-        "{found}"
-    );
+    assert!((found - (2.5 - 0.6 * f64::sqrt(3.0))).abs() < 1e-6, "{found}");
     let found = pair(&pairs, "cube", "ball");
-    assert!(
-        (found.distance - (2.0 - 0.5 * f64::sqrt(3.0) - 0.1)).abs() < 1e-6,
-        "{found:?}"
-    );
+    assert!((found.distance - (2.0 - 0.5 * f64::sqrt(3.0) - 0.1)).abs() < 1e-6, "{found:?}");
     assert!((found.points[1][1] - 1.9).abs() < 1e-6, "{found:?}");
 }
 
@@ -94,9 +73,7 @@ fn relative_distances_are_by_the_mean_that_is_recorded() {
     )
     .unwrap();
     let module: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let mean = module["full_convex_hulls"]["mean_distances"][0][1]
-        .as_f64()
-        .unwrap();
+    let mean = module["full_convex_hulls"]["mean_distances"][0][1].as_f64().unwrap();
     let proximity = robot.proximity(ShapeKind::Hulls).unwrap();
     let pairs = proximity.closest_points(&[0.0, 0.0]).unwrap();
     let relative = pair(&pairs, "cube", "block").relative.unwrap();
@@ -175,12 +152,7 @@ fn every_question_agrees_with_each_pair_asked_alone() {
                 expected.sort_by(f64::total_cmp);
                 let pairs = proximity.closest_points(&q).unwrap();
                 let values = proximity.distances(&q).unwrap();
-                assert!(
-                    pairs
-                        .iter()
-                        .zip(&values)
-                        .all(|(pair, value)| pair.distance == *value)
-                );
+                assert!(pairs.iter().zip(&values).all(|(pair, value)| pair.distance == *value));
                 for pair in &pairs {
                     let apart = (0..3).map(|k| (pair.points[0][k] - pair.points[1][k]).powi(2));
                     let apart = apart.sum::<f64>().sqrt();
@@ -196,11 +168,7 @@ fn every_question_agrees_with_each_pair_asked_alone() {
                 assert_eq!(least, found[..found.len().min(5)], "{name}, {kind}, {k}");
                 assert_eq!(proximity.self_distance(&q).unwrap(), found.first().copied());
                 let collides = expected.first() == Some(&0.0);
-                assert_eq!(
-                    proximity.in_collision(&q).unwrap(),
-                    collides,
-                    "{name}, {kind}, {k}"
-                );
+                assert_eq!(proximity.in_collision(&q).unwrap(), collides, "{name}, {kind}, {k}");
                 let touching = expected.iter().filter(|distance| **distance == 0.0).count();
                 assert_eq!(proximity.collisions(&q).unwrap().len(), touching);
                 collisions[usize::from(collides)] += 1;
@@ -226,10 +194,7 @@ fn points_of_the_least_distance_are_in_their_shapes() {
             .iter()
             .map(|triangle| {
                 let [a, b, c] = triangle.map(|i| nalgebra::Point3::from(mesh.vertices[i as usize]));
-                let normal = (b - a)
-                    .cross(&(c - a))
-                    .try_normalize(1e-12)
-                    .unwrap_or_default();
+                let normal = (b - a).cross(&(c - a)).try_normalize(1e-12).unwrap_or_default();
                 normal.dot(&(point - a))
             })
             .fold(f64::NEG_INFINITY, f64::max)
@@ -256,15 +221,10 @@ fn many_at_once_are_each_by_itself_for_any_number_of_threads() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).unwrap();
     let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
-    let all: Vec<Vec<f64>> = (0..100)
-        .map(|k| robot.configurations().unwrap().random(k))
-        .collect();
+    let all: Vec<Vec<f64>> = (0..100).map(|k| robot.configurations().unwrap().random(k)).collect();
     let batch = all.concat();
     let ask = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             (
                 proximity.in_collision_batch(&batch).unwrap(),

@@ -22,9 +22,7 @@ fn folder_zip_and_memory_are_the_same_robot() {
     let zip = folder.path().join("robot.zip");
     let mut writer = zip::ZipWriter::new(std::fs::File::create(&zip).unwrap());
     for (name, bytes) in files(&path) {
-        writer
-            .start_file(name, zip::write::SimpleFileOptions::default())
-            .unwrap();
+        writer.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
         writer.write_all(&bytes).unwrap();
     }
     writer.finish().unwrap();
@@ -36,10 +34,7 @@ fn folder_zip_and_memory_are_the_same_robot() {
     let asked = robots.each_ref().map(|robot| {
         let q = robot.configurations().unwrap().random(3);
         let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
-        (
-            robot.link_poses(&q).unwrap(),
-            proximity.closest_points(&q).unwrap(),
-        )
+        (robot.link_poses(&q).unwrap(), proximity.closest_points(&q).unwrap())
     });
     assert!(!asked[0].1.is_empty());
     assert_eq!(asked[0], asked[1]);
@@ -70,10 +65,7 @@ impl Source for Watched {
 fn only_what_is_asked_for_is_read() {
     let (_folder, path) = made(&our_robots()[8].1);
     let opened = Arc::new(Mutex::new(Vec::new()));
-    let watched = Watched {
-        disk: Disk::open(&path).unwrap(),
-        opened: Arc::clone(&opened),
-    };
+    let watched = Watched { disk: Disk::open(&path).unwrap(), opened: Arc::clone(&opened) };
     let robot = Robot::of(watched);
     let modules = |suffix: &str| -> Vec<String> {
         let mut opened = opened.lock().unwrap().clone();
@@ -83,20 +75,13 @@ fn only_what_is_asked_for_is_read() {
     };
     assert_eq!(modules(""), [""; 0]);
     robot.link("base").unwrap();
-    assert_eq!(
-        modules("module.json"),
-        ["chain_module/module.json", "dof_module/module.json"]
-    );
+    assert_eq!(modules("module.json"), ["chain_module/module.json", "dof_module/module.json"]);
     let before = modules("").len();
     robot.link_poses(&[0.0; 6]).unwrap();
     assert_eq!(modules("").len(), before, "nothing is read twice");
     robot.shapes(ShapeKind::Boxes).unwrap();
     assert_eq!(modules("urdf"), [""; 0]);
-    assert!(
-        modules(".stl").is_empty() && modules(".yaml").is_empty(),
-        "{:?}",
-        modules("")
-    );
+    assert!(modules(".stl").is_empty() && modules(".yaml").is_empty(), "{:?}", modules(""));
     robot.shapes(ShapeKind::Hulls).unwrap();
     assert!(!modules(".stl").is_empty());
     assert!(modules(".glb").is_empty() && modules(".obj").is_empty());
@@ -119,10 +104,7 @@ fn what_is_missing_is_said_when_it_is_needed() {
         "bounds_module is missing: generate it with `urdd generate ROBOT.urdf -o DIR --modules bounds`"
     );
     let error = robot.proximity(ShapeKind::Hulls).unwrap_err().to_string();
-    assert!(
-        error.starts_with("link_shapes_skips_module is missing: "),
-        "{error}"
-    );
+    assert!(error.starts_with("link_shapes_skips_module is missing: "), "{error}");
     let error = robot.shapes(ShapeKind::Boxes).unwrap_err();
     assert!(matches!(error, RobotError::Unusable { .. }));
     let error = error.to_string();
@@ -146,10 +128,7 @@ fn a_mesh_that_cannot_be_read_is_named() {
         .unwrap();
     std::fs::write(path.join(&file), "solid").unwrap();
     let error = robot.proximity(ShapeKind::Hulls).unwrap_err();
-    assert!(
-        matches!(&error, RobotError::Mesh { path, .. } if *path == file),
-        "{error}"
-    );
+    assert!(matches!(&error, RobotError::Mesh { path, .. } if *path == file), "{error}");
     std::fs::remove_file(path.join(&file)).unwrap();
     let error = robot.shapes(ShapeKind::Hulls).unwrap_err().to_string();
     assert_eq!(error, format!("{file}: there is no such file"));
@@ -159,10 +138,7 @@ fn a_mesh_that_cannot_be_read_is_named() {
 fn names_that_are_not_there_bring_the_nearest() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(&path).unwrap();
-    assert_eq!(
-        robot.link_names().unwrap()[robot.link("turret").unwrap()],
-        "turret"
-    );
+    assert_eq!(robot.link_names().unwrap()[robot.link("turret").unwrap()], "turret");
     assert_eq!(
         robot.link("turet").unwrap_err().to_string(),
         "there is no link `turet`; did you mean `turret`?"

@@ -30,9 +30,7 @@ pub(super) const SLIDE: &str = r#"<robot name="r"><link name="base"><visual><ori
 fn a_sliding_box_has_closed_forms() {
     let (_folder, path) = made_of(SLIDE);
     let robot = Robot::open(path).expect("a robot");
-    let proximity = robot
-        .proximity_of(ShapeKind::Hulls, |_| true)
-        .expect("shapes");
+    let proximity = robot.proximity_of(ShapeKind::Hulls, |_| true).expect("shapes");
     let within = |x: f64, margin: f64| proximity.is_within(&[x], margin).expect("an answer");
     assert!(!within(0.0, 0.799) && within(0.0, 0.801));
     assert!(within(-0.9, 0.0) && !within(-0.7, 0.0));
@@ -41,60 +39,34 @@ fn a_sliding_box_has_closed_forms() {
     assert!((found[0].pair.distance - 1.3).abs() < 1e-6);
     let gradient = found[0].gradient.as_ref().expect("apart");
     assert!((gradient[0] - 1.0).abs() < 1e-12, "{gradient:?}");
-    assert_eq!(
-        proximity.gradients(&[-0.9], 1).expect("gradients")[0].gradient,
-        None
-    );
+    assert_eq!(proximity.gradients(&[-0.9], 1).expect("gradients")[0].gradient, None);
 
     // From x = 1 to x = -1: they are 0.3 m apart at x = -0.5, after 3/4 of the motion.
     let edge = |resolution: Option<f64>, margin: f64| {
         let settings = EdgeSettings { margin, resolution };
-        proximity
-            .blocked_edge(&[1.0], &[-1.0], &settings)
-            .expect("an answer")
+        proximity.blocked_edge(&[1.0], &[-1.0], &settings).expect("an answer")
     };
     let proved = edge(None, 0.3).expect("blocked");
     assert!((proved - 0.75).abs() < 1e-4 && proved <= 0.75, "{proved}");
     assert_eq!(edge(Some(0.01), 0.3), Some(1.0));
-    let away = EdgeSettings {
-        margin: 0.3,
-        resolution: None,
-    };
+    let away = EdgeSettings { margin: 0.3, resolution: None };
     assert_eq!(proximity.blocked_edge(&[1.0], &[3.0], &away), Ok(None));
     assert_eq!(proximity.blocked_edge(&[1.0], &[1.0], &away), Ok(None));
 
     // An obstacle from x = 2 to 2.2 is 0.9 m from the box at x = 1.
-    let wall = Obstacle::cuboid(
-        "wall",
-        Isometry3::translation(2.1, 0.0, 0.0),
-        [0.1, 1.0, 1.0],
-    )
-    .expect("a wall");
+    let wall = Obstacle::cuboid("wall", Isometry3::translation(2.1, 0.0, 0.0), [0.1, 1.0, 1.0])
+        .expect("a wall");
     let proximity = robot.proximity(ShapeKind::Hulls).expect("shapes");
-    let world = proximity
-        .world_proximity(&World::new([wall.ignoring("base")]))
-        .expect("a world");
+    let world = proximity.world_proximity(&World::new([wall.ignoring("base")])).expect("a world");
     assert!(!world.is_within(&[1.0], 0.89).expect("an answer"));
     assert!(world.is_within(&[1.0], 0.91).expect("an answer"));
-    let settings = EdgeSettings {
-        margin: 0.0,
-        resolution: None,
-    };
-    let at = world
-        .blocked_edge(&[0.0], &[4.0], &settings)
-        .expect("an answer")
-        .expect("blocked");
+    let settings = EdgeSettings { margin: 0.0, resolution: None };
+    let at = world.blocked_edge(&[0.0], &[4.0], &settings).expect("an answer").expect("blocked");
     assert!((at - 1.9 / 4.0).abs() < 1e-4 && at <= 1.9 / 4.0, "{at}");
     // Sampled, the wall is between two configurations that are too far apart, and the halves come first.
-    let coarse = EdgeSettings {
-        margin: 0.0,
-        resolution: Some(10.0),
-    };
+    let coarse = EdgeSettings { margin: 0.0, resolution: Some(10.0) };
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &coarse), Ok(None));
-    let fine = EdgeSettings {
-        margin: 0.0,
-        resolution: Some(0.1),
-    };
+    let fine = EdgeSettings { margin: 0.0, resolution: Some(0.1) };
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &fine), Ok(Some(0.5)));
 }
 
@@ -106,17 +78,10 @@ fn margins_are_those_of_distances() {
     let mut both = [0, 0];
     for k in 0..200 {
         let q = space.random(k);
-        let least = proximity
-            .self_distance(&q)
-            .expect("a distance")
-            .expect("pairs");
+        let least = proximity.self_distance(&q).expect("a distance").expect("pairs");
         for margin in [0.0, 0.01, 0.05, 0.2] {
             let expected = least <= margin;
-            assert_eq!(
-                proximity.is_within(&q, margin),
-                Ok(expected),
-                "{k} {margin}"
-            );
+            assert_eq!(proximity.is_within(&q, margin), Ok(expected), "{k} {margin}");
             both[usize::from(expected)] += 1;
         }
     }
@@ -134,10 +99,7 @@ fn gradients_are_central_differences() {
             let q = space.random(k);
             let place = |pair: &urdd_robot::PairDistance| {
                 let wanted = [0, 1].map(|of| (pair.link_idxs[of], pair.pieces[of]));
-                proximity
-                    .pairs()
-                    .position(|pair| pair == wanted)
-                    .expect("a pair")
+                proximity.pairs().position(|pair| pair == wanted).expect("a pair")
             };
             for found in proximity.gradients(&q, 4).expect("gradients") {
                 let Some(gradient) = &found.gradient else {
@@ -181,11 +143,7 @@ fn no_point_travels_farther_than_the_bound() {
             let (start, end) = (space.random(2 * k), space.random(2 * k + 1));
             let travel = kinematics.travel(&start, &end).expect("finite");
             let at = |part: f64| -> Vec<f64> {
-                start
-                    .iter()
-                    .zip(&end)
-                    .map(|(from, to)| from + part * (to - from))
-                    .collect()
+                start.iter().zip(&end).map(|(from, to)| from + part * (to - from)).collect()
             };
             let root = kinematics.root();
             for link in 0..kinematics.num_links() {
@@ -194,9 +152,8 @@ fn no_point_travels_farther_than_the_bound() {
                 let mut lengths = [0.0; 3];
                 let mut before: Option<Vec<Point3<f64>>> = None;
                 for step in 0..=200 {
-                    let pose = kinematics
-                        .link_poses(&at(f64::from(step) / 200.0))
-                        .expect("poses")[link];
+                    let pose =
+                        kinematics.link_poses(&at(f64::from(step) / 200.0)).expect("poses")[link];
                     let now: Vec<Point3<f64>> =
                         points.iter().map(|p| pose * Point3::from(*p)).collect();
                     if let Some(before) = &before {
@@ -230,38 +187,22 @@ fn proofs_hold_at_every_sample() {
     let (_folder, robot) = robot_of("six_axis_arm");
     let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
     let space = robot.configurations().expect("bounds");
-    let proof = EdgeSettings {
-        margin: 0.02,
-        resolution: None,
-    };
-    let dense = EdgeSettings {
-        margin: 0.02,
-        resolution: Some(0.002),
-    };
+    let proof = EdgeSettings { margin: 0.02, resolution: None };
+    let dense = EdgeSettings { margin: 0.02, resolution: Some(0.002) };
     let mut counts = [0, 0];
     for k in 0..60 {
         let (start, mut end) = (space.random(2 * k), space.random(2 * k + 1));
         for (to, from) in end.iter_mut().zip(&start) {
             *to = from + 0.2 * (*to - from);
         }
-        let proved = proximity
-            .blocked_edge(&start, &end, &proof)
-            .expect("an answer");
-        let sampled = proximity
-            .blocked_edge(&start, &end, &dense)
-            .expect("an answer");
+        let proved = proximity.blocked_edge(&start, &end, &proof).expect("an answer");
+        let sampled = proximity.blocked_edge(&start, &end, &dense).expect("an answer");
         match proved {
             None => assert_eq!(sampled, None, "{k}"),
             Some(part) => {
-                let q: Vec<f64> = start
-                    .iter()
-                    .zip(&end)
-                    .map(|(from, to)| from + part * (to - from))
-                    .collect();
-                let least = proximity
-                    .self_distance(&q)
-                    .expect("a distance")
-                    .expect("pairs");
+                let q: Vec<f64> =
+                    start.iter().zip(&end).map(|(from, to)| from + part * (to - from)).collect();
+                let least = proximity.self_distance(&q).expect("a distance").expect("pairs");
                 assert!(least <= 0.02 + 1.01e-4, "{k}: {least}");
             }
         }
@@ -276,30 +217,17 @@ fn settings_that_make_no_sense_are_refused() {
     let robot = Robot::open(path).expect("a robot");
     let proximity = robot.proximity(ShapeKind::Hulls).expect("shapes");
     for margin in [-1e-9, f64::NAN, f64::INFINITY] {
-        assert!(matches!(
-            proximity.is_within(&[0.0], margin),
-            Err(RobotError::Setting(_))
-        ));
+        assert!(matches!(proximity.is_within(&[0.0], margin), Err(RobotError::Setting(_))));
     }
     let edge = |resolution: f64, end: f64| {
-        let settings = EdgeSettings {
-            margin: 0.0,
-            resolution: Some(resolution),
-        };
+        let settings = EdgeSettings { margin: 0.0, resolution: Some(resolution) };
         proximity.blocked_edge(&[0.0], &[end], &settings)
     };
     for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(edge(resolution, 1.0), Err(RobotError::Setting(_))));
     }
-    assert!(matches!(
-        edge(0.01, f64::NAN),
-        Err(RobotError::Configuration(_))
-    ));
-    assert!(
-        proximity
-            .blocked_edge(&[0.0, 1.0], &[0.0], &EdgeSettings::default())
-            .is_err()
-    );
+    assert!(matches!(edge(0.01, f64::NAN), Err(RobotError::Configuration(_))));
+    assert!(proximity.blocked_edge(&[0.0, 1.0], &[0.0], &EdgeSettings::default()).is_err());
 }
 
 /// The example finds paths between random configurations, which are free at a tenth of its resolution.
@@ -314,20 +242,14 @@ fn the_example_plans_fifty_motions_of_fifty() {
     let is_free = |a: &[f64], b: &[f64], resolution: f64| {
         rrt_connect::is_free(checks, a, b, Some(resolution)).expect("an answer")
     };
-    let mut ends = (0..)
-        .map(|k| space.random(k))
-        .filter(|q| is_free(q, q, 1.0));
+    let mut ends = (0..).map(|k| space.random(k)).filter(|q| is_free(q, q, 1.0));
     for query in 0..50 {
         let [start, goal] = [(); 2].map(|()| ends.next().expect("a free one"));
         let mut samples = (1_000_000 * (query + 1)..).map(|k| space.random(k));
         let sample = || samples.next().expect("another one");
         let path = rrt_connect::plan(checks, &start, &goal, sample).expect("an answer");
         let path = path.unwrap_or_else(|| panic!("{query}: no path"));
-        assert_eq!(
-            (&path[0], &path[path.len() - 1]),
-            (&start, &goal),
-            "{query}"
-        );
+        assert_eq!((&path[0], &path[path.len() - 1]), (&start, &goal), "{query}");
         for edge in path.windows(2) {
             assert!(is_free(&edge[0], &edge[1], 0.002), "{query}");
         }

@@ -21,9 +21,7 @@ const MOVERS: &str = r#"<robot name="movers">
 
 fn of<'a>(all: &'a [ObstacleDistance], link: &str, obstacle: &str) -> &'a ObstacleDistance {
     let wanted = |one: &&ObstacleDistance| *one.link == *link && *one.obstacle == *obstacle;
-    all.iter()
-        .find(wanted)
-        .unwrap_or_else(|| panic!("{link} and {obstacle}"))
+    all.iter().find(wanted).unwrap_or_else(|| panic!("{link} and {obstacle}"))
 }
 
 fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
@@ -79,9 +77,7 @@ fn spheres_reach_as_far_as_their_radii() {
     let world = World::new([Obstacle::sphere("sun", [0.0, 3.0, 0.0], 0.5).unwrap()]);
     let proximity = robot.proximity(ShapeKind::Spheres).unwrap();
     let among = proximity.world_proximity(&world).unwrap();
-    let ball = &among
-        .closest_points(&[0.0, std::f64::consts::FRAC_PI_2])
-        .unwrap()[1];
+    let ball = &among.closest_points(&[0.0, std::f64::consts::FRAC_PI_2]).unwrap()[1];
     assert!((ball.distance - 1.4).abs() < 1e-6, "{ball:?}");
     assert!((ball.points[0][1] - 1.1).abs() < 1e-6 && (ball.points[1][1] - 2.5).abs() < 1e-6);
     // Deep penetration: one point common to both.
@@ -110,17 +106,11 @@ fn cup() -> Mesh {
         let first = mesh.vertices.len() as u32;
         for i in 0..8 {
             let sign = |bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
-            mesh.vertices
-                .push([0, 1, 2].map(|k: usize| centre[k] + sign(k) * half[k]));
+            mesh.vertices.push([0, 1, 2].map(|k: usize| centre[k] + sign(k) * half[k]));
         }
-        for [a, b, c, d] in [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ] {
+        for [a, b, c, d] in
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+        {
             for t in [[a, b, c], [a, c, d]] {
                 mesh.triangles.push(t.map(|v: u32| first + v));
             }
@@ -142,11 +132,7 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
     // The block is in the middle of the cup, the ball outside.
     let q = [0.0, 0.0];
     let world = World::new([pieces]);
-    let all = proximity
-        .world_proximity(&world)
-        .unwrap()
-        .closest_points(&q)
-        .unwrap();
+    let all = proximity.world_proximity(&world).unwrap().closest_points(&q).unwrap();
     let inside = of(&all, "block", "cup");
     assert!((inside.distance - 0.3).abs() < 2e-4, "{inside:?}");
     let among = proximity.world_proximity(&world).unwrap();
@@ -157,13 +143,7 @@ fn a_mesh_keeps_its_cavity_and_a_hull_fills_it() {
         assert!((value - one.distance).abs() < 1e-12, "{value} {one:?}");
     }
     let world = World::new([hull]);
-    assert!(
-        proximity
-            .world_proximity(&world)
-            .unwrap()
-            .in_collision(&q)
-            .unwrap()
-    );
+    assert!(proximity.world_proximity(&world).unwrap().in_collision(&q).unwrap());
 }
 
 #[test]
@@ -176,10 +156,7 @@ fn as_parry_has_it() {
     let turned = UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1);
     let pose = Isometry3::from_parts(Translation3::new(0.4, 0.2, 0.4), turned);
     let axis = turned.scaled_axis();
-    let theirs = Pose::new(
-        Vector::new(0.4, 0.2, 0.4),
-        Vector::new(axis.x, axis.y, axis.z),
-    );
+    let theirs = Pose::new(Vector::new(0.4, 0.2, 0.4), Vector::new(axis.x, axis.y, axis.z));
     let world = World::new([
         Obstacle::cuboid("box", pose, [0.2, 0.3, 0.1]).unwrap(),
         Obstacle::capsule("rod", pose, 0.1, 0.3).unwrap(),
@@ -199,17 +176,12 @@ fn as_parry_has_it() {
         for (one, other) in without_points.iter().zip(&values) {
             assert!((one - other).abs() < 1e-12, "{one} {other}");
         }
-        let pairs: Vec<([usize; 2], usize)> = all
-            .iter()
-            .map(|one| ([one.link_idx, one.piece], one.obstacle_idx))
-            .collect();
+        let pairs: Vec<([usize; 2], usize)> =
+            all.iter().map(|one| ([one.link_idx, one.piece], one.obstacle_idx)).collect();
         assert_eq!(among.pairs().collect::<Vec<_>>(), pairs);
         let mut nearest = all.clone();
         nearest.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        assert_eq!(
-            among.nearest(&q, 1).unwrap()[0].distance,
-            nearest[0].distance
-        );
+        assert_eq!(among.nearest(&q, 1).unwrap()[0].distance, nearest[0].distance);
         assert_eq!(
             among.min_distance(&q).unwrap(),
             without_points.iter().copied().reduce(f64::min)
@@ -217,27 +189,18 @@ fn as_parry_has_it() {
         assert_eq!(among.in_collision(&q).unwrap(), nearest[0].distance == 0.0);
         for one in &all {
             let shape = robot.shapes(ShapeKind::Hulls).unwrap();
-            let shape = shape
-                .iter()
-                .find(|shape| shape.link == one.link_idx)
-                .unwrap();
+            let shape = shape.iter().find(|shape| shape.link == one.link_idx).unwrap();
             let urdd_robot::Solid::Mesh(mesh) = &shape.solid else {
                 panic!("a hull is a mesh");
             };
             let placed = mesh.vertices.iter().map(|v| {
-                let [x, y, z] = (poses[one.link_idx] * nalgebra::Point3::from(*v))
-                    .coords
-                    .into();
+                let [x, y, z] = (poses[one.link_idx] * nalgebra::Point3::from(*v)).coords.into();
                 Vector::new(x, y, z)
             });
             let hull = ConvexPolyhedron::from_convex_hull(&placed.collect::<Vec<_>>()).unwrap();
-            let (_, body) = bodies
-                .iter()
-                .find(|(name, _)| **name == *one.obstacle)
-                .unwrap();
-            let distance = query::distance(&Pose::identity(), &hull, &theirs, *body)
-                .unwrap()
-                .distance;
+            let (_, body) = bodies.iter().find(|(name, _)| **name == *one.obstacle).unwrap();
+            let distance =
+                query::distance(&Pose::identity(), &hull, &theirs, *body).unwrap().distance;
             assert!((distance - one.distance).abs() < 2e-6, "{distance} {one:?}");
             match one.distance > 0.0 {
                 true => apart += 1,
@@ -256,13 +219,7 @@ fn links_that_an_obstacle_ignores() {
     let table = Obstacle::cuboid("table", at(0.0, 0.0, -0.2), [0.5, 0.5, 0.15]).unwrap();
     let q = [0.0, 0.0];
     let world = World::new([table.clone()]);
-    assert!(
-        proximity
-            .world_proximity(&world)
-            .unwrap()
-            .in_collision(&q)
-            .unwrap()
-    );
+    assert!(proximity.world_proximity(&world).unwrap().in_collision(&q).unwrap());
     let world = World::new([table.clone().ignoring("block")]);
     let among = proximity.world_proximity(&world).unwrap();
     assert!(!among.in_collision(&q).unwrap());

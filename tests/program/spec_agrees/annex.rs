@@ -23,11 +23,7 @@ pub fn tables() -> String {
             _ => {}
         }
         let schema = subject.schema(Variant::Strict);
-        let title = if subject.name() == "root_metadata" {
-            "urdd.json"
-        } else {
-            subject.name()
-        };
+        let title = if subject.name() == "root_metadata" { "urdd.json" } else { subject.name() };
         let _ = writeln!(text, "### `{title}` {}\n", subject.version());
         object(&schema, &schema, &mut text);
         for (name, definition) in definitions(&schema) {
@@ -56,19 +52,12 @@ pub fn tables() -> String {
 }
 
 fn definitions(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
-    schema
-        .get("$defs")
-        .and_then(Value::as_object)
-        .into_iter()
-        .flatten()
+    schema.get("$defs").and_then(Value::as_object).into_iter().flatten()
 }
 
 fn properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
     let properties = schema.get("properties").and_then(Value::as_object);
-    properties
-        .into_iter()
-        .flatten()
-        .filter(|(key, _)| *key != "$schema")
+    properties.into_iter().flatten().filter(|(key, _)| *key != "$schema")
 }
 
 fn object(schema: &Value, root: &Value, text: &mut String) {
@@ -85,25 +74,17 @@ fn object(schema: &Value, root: &Value, text: &mut String) {
 }
 
 fn description(schema: &Value) -> String {
-    let text = schema
-        .get("description")
-        .and_then(Value::as_str)
-        .unwrap_or_default();
+    let text = schema.get("description").and_then(Value::as_str).unwrap_or_default();
     // The values of an enumeration follow as a list, which `type_of` describes.
     let text = text.split("\n- ").next().unwrap_or_default();
     text.replace('\n', " ").replace('|', "\\|")
 }
 
 fn resolve<'a>(schema: &'a Value, root: &'a Value) -> &'a Value {
-    let reference = schema
-        .get("$ref")
-        .or_else(|| schema.pointer("/allOf/0/$ref"));
-    let pointer = reference
-        .and_then(Value::as_str)
-        .and_then(|reference| reference.strip_prefix('#'));
-    pointer
-        .and_then(|pointer| root.pointer(pointer))
-        .unwrap_or(schema)
+    let reference = schema.get("$ref").or_else(|| schema.pointer("/allOf/0/$ref"));
+    let pointer =
+        reference.and_then(Value::as_str).and_then(|reference| reference.strip_prefix('#'));
+    pointer.and_then(|pointer| root.pointer(pointer)).unwrap_or(schema)
 }
 
 /// The type of a value, in words.
@@ -118,10 +99,7 @@ fn type_of(schema: &Value, root: &Value) -> String {
         return words.join(", ");
     }
     if !std::ptr::eq(target, schema) {
-        let title = target
-            .get("title")
-            .and_then(Value::as_str)
-            .unwrap_or("object");
+        let title = target.get("title").and_then(Value::as_str).unwrap_or("object");
         return title.to_owned();
     }
     match schema.get("type") {
@@ -143,10 +121,7 @@ fn word_for(word: &str, schema: &Value, root: &Value) -> String {
         let items: Vec<String> = items.iter().map(|item| type_of(item, root)).collect();
         return format!("list of {}", items.join(", then "));
     }
-    let items = schema
-        .get("items")
-        .map(|items| type_of(items, root))
-        .unwrap_or_default();
+    let items = schema.get("items").map(|items| type_of(items, root)).unwrap_or_default();
     let (least, most) = (schema.get("minItems"), schema.get("maxItems"));
     match least {
         Some(length) if least == most => format!("{length} of {items}"),
@@ -159,9 +134,6 @@ fn is_kind(name: &str, root: &Value) -> bool {
     let reference = format!("#/$defs/{name}");
     definitions(root).any(|(_, definition)| {
         let kinds = definition.get("oneOf").and_then(Value::as_array);
-        kinds
-            .into_iter()
-            .flatten()
-            .any(|kind| kind["$ref"] == *reference)
+        kinds.into_iter().flatten().any(|kind| kind["$ref"] == *reference)
     })
 }

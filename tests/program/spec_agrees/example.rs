@@ -22,11 +22,7 @@ pub fn text() -> String {
     let mut text = String::new();
     for (path, language) in FILES {
         let file = fs::read_to_string(format!("{FOLDER}/{path}")).expect("a file of the example");
-        let _ = writeln!(
-            text,
-            "\n`{path}`\n\n```{language}\n{}\n```",
-            file.trim_end()
-        );
+        let _ = writeln!(text, "\n`{path}`\n\n```{language}\n{}\n```", file.trim_end());
     }
     text.push('\n');
     text

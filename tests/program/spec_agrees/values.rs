@@ -27,9 +27,7 @@ fn rows(header: &str) -> Vec<Vec<Vec<f64>>> {
 
 /// The numbers in a text: "(1, -2.5e-3)" and words between them.
 fn numbers(text: &str) -> Vec<f64> {
-    text.split([' ', ',', '(', ')'])
-        .filter_map(|word| word.parse().ok())
-        .collect()
+    text.split([' ', ',', '(', ')']).filter_map(|word| word.parse().ok()).collect()
 }
 
 fn flat(value: &Value) -> Vec<f64> {
@@ -77,9 +75,7 @@ fn sampled_numbers() {
     for row in rows("| k | i | u(k, i) |") {
         let row = row.concat();
         let of = |case: &Value| ["k", "i", "u"].map(|key| case[key].as_f64());
-        let found = known
-            .iter()
-            .any(|case| of(case) == [row[0], row[1], row[2]].map(Some));
+        let found = known.iter().any(|case| of(case) == [row[0], row[1], row[2]].map(Some));
         assert!(found, "{row:?} is in no vector");
     }
 }

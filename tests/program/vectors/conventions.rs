@@ -77,11 +77,7 @@ fn roll_pitch_yaw() {
         let place = format!("rpy {:?}", case.rpy);
         assert_rotation(&from_rpy(case.rpy), case.quaternion_wxyz, &place);
         assert_matrix(&rotation_of_rpy(case.rpy), case.quaternion_wxyz, &place);
-        assert_matrix(
-            &rotation_of_quaternion(case.quaternion_wxyz),
-            case.quaternion_wxyz,
-            &place,
-        );
+        assert_matrix(&rotation_of_quaternion(case.quaternion_wxyz), case.quaternion_wxyz, &place);
     }
     assert!(!rotations.gimbal_lock.is_empty());
     for case in rotations.gimbal_lock {
@@ -115,12 +111,7 @@ fn rotation_vectors() {
         // Back again, where it is the only vector of its rotation.
         if angle < 3.1 {
             let back = to_rotation_vector(&quaternion(case.quaternion_wxyz));
-            assert_near(
-                &back,
-                &case.rotation_vector,
-                TOLERANCE * (1.0 + angle),
-                &place,
-            );
+            assert_near(&back, &case.rotation_vector, TOLERANCE * (1.0 + angle), &place);
         }
     }
 }
@@ -167,11 +158,6 @@ fn in_plane_bases() {
         let about = Rotation3::from_axis_angle(&axis, 0.5);
         let poses = reference.link_poses(&[0.0, 0.0, 0.5]).unwrap();
         let found = poses[1].rotation.to_rotation_matrix();
-        assert_near(
-            found.matrix().as_slice(),
-            about.matrix().as_slice(),
-            TOLERANCE,
-            &place,
-        );
+        assert_near(found.matrix().as_slice(), about.matrix().as_slice(), TOLERANCE, &place);
     }
 }

@@ -80,36 +80,20 @@ fn mimics() {
         let target = generated(&urdf, folder.path());
         let text = fs::read_to_string(target.join("dof_module/module.json")).unwrap();
         let module: DofModule = serde_json::from_str(&text).unwrap();
-        assert_eq!(
-            module.num_dofs.get(),
-            robot.configuration.len(),
-            "{}",
-            robot.name
-        );
-        assert_eq!(
-            module.joint_idx_to_mimic_mapping.len(),
-            robot.resolved.len()
-        );
-        let resolved = module
-            .joint_idx_to_mimic_mapping
-            .iter()
-            .zip(&robot.resolved);
+        assert_eq!(module.num_dofs.get(), robot.configuration.len(), "{}", robot.name);
+        assert_eq!(module.joint_idx_to_mimic_mapping.len(), robot.resolved.len());
+        let resolved = module.joint_idx_to_mimic_mapping.iter().zip(&robot.resolved);
         for (found, expected) in resolved {
             let dof = |mimic: &Option<ResolvedMimic>| mimic.as_ref().map(|mimic| mimic.dof_idx);
             assert_eq!(dof(found), dof(expected), "{}", robot.name);
             let numbers = |mimic: &Option<ResolvedMimic>| {
-                mimic
-                    .as_ref()
-                    .map_or([0.0; 2], |mimic| [mimic.multiplier, mimic.offset])
+                mimic.as_ref().map_or([0.0; 2], |mimic| [mimic.multiplier, mimic.offset])
             };
             assert_near(&numbers(found), &numbers(expected), 1e-15, &robot.name);
         }
         let own = module.joint_idx_to_dof_idxs_mapping.iter();
         for (dofs, (expected, mimic)) in own.zip(robot.positions.iter().zip(&robot.resolved)) {
-            let found: Vec<f64> = dofs
-                .iter()
-                .map(|dof| robot.configuration[dof.get()])
-                .collect();
+            let found: Vec<f64> = dofs.iter().map(|dof| robot.configuration[dof.get()]).collect();
             assert!(mimic.is_some() || found == *expected, "{}", robot.name);
         }
         let reference = Reference::new(
@@ -170,14 +154,7 @@ fn inertia() {
     let tensors: Tensors = vectors("inertia.json");
     assert!(tensors.tensors.len() > 10);
     for case in tensors.tensors {
-        let Inertia {
-            ixx,
-            ixy,
-            ixz,
-            iyy,
-            iyz,
-            izz,
-        } = case.inertia;
+        let Inertia { ixx, ixy, ixz, iyy, iyz, izz } = case.inertia;
         let urdf = format!(
             r#"<robot name="r"><link name="a"><inertial><mass value="1"/><inertia ixx="{ixx}" ixy="{ixy}" ixz="{ixz}" iyy="{iyy}" iyz="{iyz}" izz="{izz}"/></inertial></link></robot>"#
         );
@@ -201,10 +178,7 @@ fn inertia() {
                 .split(", ")
                 .map(|number| number.trim_end_matches(" kg m²").parse().unwrap())
                 .collect();
-            let largest = case
-                .principal_moments
-                .iter()
-                .fold(0.0, |a: f64, b| a.max(b.abs()));
+            let largest = case.principal_moments.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
             assert_near(&shown, &case.principal_moments, 6e-5 * largest, &case.name);
         }
     }

@@ -59,12 +59,7 @@ fn intervals() {
     for of in file.intervals {
         let rate = Rate::new(of.count, of.of);
         let what = format!("{} of {}", of.count, of.of);
-        assert_near(
-            &[rate.lower, rate.upper],
-            &[of.lower, of.upper],
-            1e-14,
-            &what,
-        );
+        assert_near(&[rate.lower, rate.upper], &[of.lower, of.upper], 1e-14, &what);
     }
 }
 
@@ -77,19 +72,11 @@ fn clearances() {
         let found = model.clearances(&vector.configuration).unwrap();
         assert_near(&found, &vector.clearances, 1e-13, &format!("vector {k}"));
         let judged = judge.clearances(&vector.configuration);
-        assert_near(
-            &judged,
-            &vector.clearances,
-            1e-13,
-            &format!("vector {k}, the validator"),
-        );
+        assert_near(&judged, &vector.clearances, 1e-13, &format!("vector {k}, the validator"));
         all.extend(found);
     }
     // In a batch, the bits are the same.
-    let configurations: Vec<f64> = vectors
-        .iter()
-        .flat_map(|of| of.configuration.clone())
-        .collect();
+    let configurations: Vec<f64> = vectors.iter().flat_map(|of| of.configuration.clone()).collect();
     assert_eq!(model.clearances_batch(&configurations).unwrap(), all);
     let many: Vec<f64> = configurations.repeat(9);
     assert_eq!(model.clearances_batch(&many).unwrap(), all.repeat(9));
@@ -115,11 +102,7 @@ fn derivatives_are_those_of_differences() {
             assert_near(&found, &expected, 1e-7, &format!("{q:?}, pair {pair}"));
         }
         let least = model.min_clearance(q).unwrap().unwrap();
-        let smallest = vector
-            .clearances
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
+        let smallest = vector.clearances.iter().copied().fold(f64::INFINITY, f64::min);
         assert!((least.value - smallest).abs() < 1e-13);
         assert_eq!(Some(least.gradient), model.gradient(q, least.pair).unwrap());
     }
@@ -132,10 +115,7 @@ fn bad_input_is_an_error() {
     assert!(model.may_collide(&[0.0, 0.0, f64::NAN, 0.0, 0.0]).is_err());
     assert!(model.clearances_batch(&[f64::INFINITY; 5]).is_err());
     assert_eq!(model.gradient(&[0.0; 5], 3).unwrap(), None);
-    assert!(
-        CollisionModel::new(&module, 4).is_err(),
-        "a DOF beyond the last"
-    );
+    assert!(CollisionModel::new(&module, 4).is_err(), "a DOF beyond the last");
     module.layers[1].weights[2].pop();
     assert!(CollisionModel::new(&module, 5).is_err(), "a row too short");
     module.layers.clear();

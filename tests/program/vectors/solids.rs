@@ -70,21 +70,9 @@ fn smallest_boxes_and_spheres() {
         let hull = ConvexHull::new(&case.points).unwrap();
         let found = oriented_box::OrientedBox::around(&hull).volume() / case.smallest_box.volume;
         // The search for boxes may stop at 1e-6 above the minimum. Ours may beat boxes that were found by search.
-        assert!(
-            found < 1.0 + 2e-6,
-            "{}: box {found} times as large",
-            case.name
-        );
-        let least = if case.smallest_box.from == "closed form" {
-            1e-12
-        } else {
-            1e-3
-        };
-        assert!(
-            found > 1.0 - least,
-            "{}: box {found} times as large",
-            case.name
-        );
+        assert!(found < 1.0 + 2e-6, "{}: box {found} times as large", case.name);
+        let least = if case.smallest_box.from == "closed form" { 1e-12 } else { 1e-3 };
+        assert!(found > 1.0 - least, "{}: box {found} times as large", case.name);
         let sphere = BoundingSphere::around(&hull);
         let SmallestSphere { centre, radius } = case.smallest_sphere;
         assert_near(&[sphere.radius], &[radius], 1e-12 * radius, &case.name);
@@ -137,10 +125,9 @@ fn compare<T, S: Shape>(pairs: &[Pair<T>], shape: impl Fn(&T) -> S) {
     for pair in pairs {
         let (a, b) = (shape(&pair.a), shape(&pair.b));
         let pose = isometry(&pair.b_in_a);
-        for (found, way) in [
-            (distance(&a, &b, &pose), "a to b"),
-            (distance(&b, &a, &pose.inverse()), "b to a"),
-        ] {
+        for (found, way) in
+            [(distance(&a, &b, &pose), "a to b"), (distance(&b, &a, &pose.inverse()), "b to a")]
+        {
             let place = format!("{}, {way}", pair.name);
             assert_near(&[found], &[pair.distance], TOLERANCE, &place);
         }
@@ -156,9 +143,7 @@ fn distances() {
     compare(&distances.boxes, |cuboid| {
         OrientedBox::new(Isometry3::identity(), cuboid.half_extents).unwrap()
     });
-    compare(&distances.hulls, |points| {
-        ConvexShape::of_points(&points.points).unwrap()
-    });
+    compare(&distances.hulls, |points| ConvexShape::of_points(&points.points).unwrap());
     // Boxes as hulls, which is another way to their distance.
     compare(&distances.boxes, |cuboid| {
         let [x, y, z] = cuboid.half_extents;

@@ -47,23 +47,13 @@ impl Running {
         let cancellation = Cancellation::default();
         let wish = cancellation.clone();
         let thread = Some(std::thread::spawn(move || server.run(&wish)));
-        Self {
-            port,
-            token,
-            cancellation,
-            thread,
-        }
+        Self { port, token, cancellation, thread }
     }
 
     /// A server of another process, by the address that it printed.
     pub fn at(address: &str) -> Self {
         let (port, token) = port_and_token(address);
-        Self {
-            port,
-            token,
-            cancellation: Cancellation::default(),
-            thread: None,
-        }
+        Self { port, token, cancellation: Cancellation::default(), thread: None }
     }
 
     /// Sends a request with exactly these headers, and returns the whole response.
@@ -128,16 +118,10 @@ pub struct Answer {
 
 impl Answer {
     fn of(bytes: &[u8]) -> Self {
-        let end = bytes
-            .windows(4)
-            .position(|four| four == b"\r\n\r\n")
-            .expect("headers");
+        let end = bytes.windows(4).position(|four| four == b"\r\n\r\n").expect("headers");
         let head = String::from_utf8(bytes[..end].to_vec()).expect("text");
         let mut lines = head.lines();
-        let status = lines
-            .next()
-            .and_then(|line| line.split(' ').nth(1))
-            .expect("a status");
+        let status = lines.next().and_then(|line| line.split(' ').nth(1)).expect("a status");
         let headers: Vec<(String, String)> = lines
             .filter_map(|line| line.split_once(": "))
             .map(|(name, value)| (name.to_ascii_lowercase(), value.to_owned()))
@@ -166,10 +150,7 @@ impl Answer {
 fn unchunked(mut rest: &[u8]) -> Vec<u8> {
     let mut body = Vec::new();
     loop {
-        let end = rest
-            .windows(2)
-            .position(|two| two == b"\r\n")
-            .expect("a size");
+        let end = rest.windows(2).position(|two| two == b"\r\n").expect("a size");
         let size = std::str::from_utf8(&rest[..end]).expect("a size");
         let size = usize::from_str_radix(size.trim(), 16).expect("a size");
         if size == 0 {

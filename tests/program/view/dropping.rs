@@ -17,10 +17,8 @@ const URDF: &str = r#"<robot name="arm"><link name="a"><visual><geometry>
     <mesh filename="package://arm_description/meshes/a.obj"/></geometry></visual></link></robot>"#;
 
 fn body(files: &[(&str, &str)]) -> Vec<u8> {
-    let list: Vec<Value> = files
-        .iter()
-        .map(|(path, text)| json!({ "path": path, "size": text.len() }))
-        .collect();
+    let list: Vec<Value> =
+        files.iter().map(|(path, text)| json!({ "path": path, "size": text.len() })).collect();
     let mut body = Value::from(list).to_string();
     body.push('\n');
     body.extend(files.iter().map(|(_, text)| *text));
@@ -52,10 +50,8 @@ fn meshes_are_found_in_what_was_dropped() {
     let folder = testkit::temporary::folder();
     let collection = Collection::default().with_drops(folder.path().join("in"), false);
     living(collection, |server| {
-        let whole = [
-            ("arm_description/urdf/arm.urdf", URDF),
-            ("arm_description/meshes/a.obj", MESH),
-        ];
+        let whole =
+            [("arm_description/urdf/arm.urdf", URDF), ("arm_description/meshes/a.obj", MESH)];
         // The content of the package, without the folder of its name.
         let content = [("urdf/arm.urdf", URDF), ("meshes/a.obj", MESH)];
         for files in [whole, content] {
@@ -135,17 +131,10 @@ fn no_path_leaves_the_folder_and_nothing_is_replaced() {
     assert_eq!(files(folder.path()), Vec::<String>::new());
     assert_eq!(server.json("/robots.json"), json!([]));
     let host = server.host();
-    let answer = server.raw(
-        "POST /drops",
-        &[("Host", &host)],
-        &body(&[("a.urdf", URDF)]),
-    );
+    let answer = server.raw("POST /drops", &[("Host", &host)], &body(&[("a.urdf", URDF)]));
     assert_eq!(answer.status, 403);
-    let other = [
-        ("Host", &*host),
-        ("Origin", "http://evil.example"),
-        ("X-Urdd-Token", &*server.token),
-    ];
+    let other =
+        [("Host", &*host), ("Origin", "http://evil.example"), ("X-Urdd-Token", &*server.token)];
     let answer = server.raw("POST /drops", &other, &body(&[("a.urdf", URDF)]));
     assert_eq!(answer.status, 403);
     assert_eq!(files(folder.path()), Vec::<String>::new());
@@ -154,9 +143,8 @@ fn no_path_leaves_the_folder_and_nothing_is_replaced() {
 /// A package of 1,500 folders, whose URDF names 20,000 packages that are not there.
 fn vast() -> Vec<u8> {
     let meshes = (0..1500).map(|k| format!("vast/a{}/b{k}/{k}.obj", k % 90));
-    let mut list: Vec<Value> = meshes
-        .map(|path| json!({ "path": path, "size": MESH.len() }))
-        .collect();
+    let mut list: Vec<Value> =
+        meshes.map(|path| json!({ "path": path, "size": MESH.len() })).collect();
     let named = (0..20_000).map(|k| {
         format!(
             r#"<visual><geometry><mesh filename="package://p{k}/m/{k}.obj"/></geometry></visual>"#
@@ -213,11 +201,7 @@ fn a_hostile_zip_is_refused_and_leaves_nothing() {
     let mut cut = inner.clone();
     cut.truncate(inner.len() - 30);
     let cases: [(Vec<u8>, u16, &str); 6] = [
-        (
-            zipped(&[("../arm.urdf", URDF.as_bytes())]),
-            400,
-            "../arm.urdf",
-        ),
+        (zipped(&[("../arm.urdf", URDF.as_bytes())]), 400, "../arm.urdf"),
         (zipped(&[("/arm.urdf", URDF.as_bytes())]), 400, "/arm.urdf"),
         (zipped(&[("arm.urdf", &vast)]), 413, "256 MiB"),
         (zipped(&[("inner.zip", &inner)]), 400, "no .urdf"),

@@ -159,12 +159,7 @@ fn one_file_rounds_normals_and_nothing_else() {
             let mut all = primitives.iter();
             all.any(|primitive| primitive["attributes"]["NORMAL"] == view)
         };
-        for (number, view) in json["bufferViews"]
-            .as_array()
-            .expect("it")
-            .iter()
-            .enumerate()
-        {
+        for (number, view) in json["bufferViews"].as_array().expect("it").iter().enumerate() {
             let at = |key: &str| usize::try_from(view[key].as_u64().expect(key)).expect(key);
             let range = at("byteOffset")..at("byteOffset") + at("byteLength");
             let (data, old) = (&data[range.clone()], &old[range]);
@@ -241,16 +236,10 @@ fn a_page_takes_the_place_of_an_unchanged_page_alone() {
     for (text, may) in [
         ("", true),
         ("<!doctype html><title>mine</title>", false),
-        (
-            "<head>\n<meta name=\"urdd-mode\" content=\"inline\" />",
-            false,
-        ),
+        ("<head>\n<meta name=\"urdd-mode\" content=\"inline\" />", false),
         (&*page, true),
         (&format!("{page}<p>mine</p>"), false),
-        (
-            &page.replacen("<title>urdd</title>", "<title>mine</title>", 1),
-            false,
-        ),
+        (&page.replacen("<title>urdd</title>", "<title>mine</title>", 1), false),
         (&page.replace('\n', "\r\n"), false),
         (&cut, false),
     ] {
@@ -276,9 +265,6 @@ fn a_page_that_a_person_edited_stays() {
     let refused = export();
     assert_eq!(refused.status.code(), Some(2));
     let words = String::from_utf8_lossy(&refused.stderr);
-    assert!(
-        words.contains("changed since") && words.contains("Move it away"),
-        "{words}"
-    );
+    assert!(words.contains("changed since") && words.contains("Move it away"), "{words}");
     assert_eq!(fs::read_to_string(&file).expect("it stays"), edited);
 }

@@ -163,10 +163,7 @@ fn the_command_shows_what_it_reads() {
     while !said.contains("longer than 1 MiB") {
         assert!(errors.read_line(&mut said).expect("text") > 0, "{said}");
     }
-    assert!(
-        said.contains("standard input:3: ") && said.contains("standard input:5: "),
-        "{said}"
-    );
+    assert!(said.contains("standard input:3: ") && said.contains("standard input:5: "), "{said}");
     drop(input);
     child.kill().expect("ended");
     child.wait().expect("ended");

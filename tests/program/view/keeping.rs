@@ -13,10 +13,7 @@ use super::asking::{Running, made};
 /// A server that shows a generated URDD.
 fn generated(path: &Path) -> (Running, Arc<Shown>) {
     let collection = Collection::default();
-    let source = Source {
-        file: path.with_extension("urdf"),
-        packages: Vec::new(),
-    };
+    let source = Source { file: path.with_extension("urdf"), packages: Vec::new() };
     let shown = collection.add_source("gripper".to_owned(), source);
     (Running::with(collection), shown)
 }
@@ -25,11 +22,7 @@ fn generated(path: &Path) -> (Running, Arc<Shown>) {
 fn the_page_hears_how_far_it_is() {
     let (_folder, path) = made("gripper");
     let (server, shown) = generated(&path);
-    shown.set_making(Making::Running {
-        what: "dof_module".to_owned(),
-        done: 3,
-        of: 15,
-    });
+    shown.set_making(Making::Running { what: "dof_module".to_owned(), done: 3, of: 15 });
     let entry = || server.json("/robots.json")[0].clone();
     let expected = json!({ "what": "dof_module", "done": 3, "of": 15 });
     assert_eq!(entry()["making"], expected);
@@ -39,21 +32,14 @@ fn the_page_hears_how_far_it_is() {
     let notes = vec!["a mass was assumed".to_owned()];
     shown.show(path, notes, Making::Done);
     assert_eq!(entry()["notes"], json!(["a mass was assumed"]));
-    assert_eq!(
-        (&entry()["making"], &entry()["failure"]),
-        (&Value::Null, &Value::Null)
-    );
+    assert_eq!((&entry()["making"], &entry()["failure"]), (&Value::Null, &Value::Null));
 }
 
 #[test]
 fn a_generated_urdd_is_saved_once_and_passes() {
     let (folder, path) = made("gripper");
     let (server, shown) = generated(&path);
-    let running = Making::Running {
-        what: "dof_module".to_owned(),
-        done: 3,
-        of: 15,
-    };
+    let running = Making::Running { what: "dof_module".to_owned(), done: 3, of: 15 };
     shown.show(path.clone(), Vec::new(), running);
     let wish = json!({ "folder": folder.path().join("early").to_str() });
     let early = server.post("/robots/gripper/keep", &wish);
@@ -75,10 +61,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
     // From now on, that folder is shown and written to.
     fs::remove_dir_all(&path).expect("removed");
     let entry = server.json("/robots.json")[0].clone();
-    assert_eq!(
-        (&entry["temporary"], &entry["writable"]),
-        (&json!(false), &json!(true))
-    );
+    assert_eq!((&entry["temporary"], &entry["writable"]), (&json!(false), &json!(true)));
     let skips = json!({ "revision": revision(), "edits": [] });
     let answer = server.post("/robots/gripper/skips", &skips);
     assert_eq!(answer.status, 200, "{}", answer.text());
@@ -107,10 +90,7 @@ fn nothing_is_overwritten() {
         assert_eq!(answer.status, status, "{place}: {}", answer.text());
         assert!(answer.text().contains(words), "{}", answer.text());
     }
-    assert_eq!(
-        fs::read_to_string(full.join("mine")).expect("there"),
-        "mine"
-    );
+    assert_eq!(fs::read_to_string(full.join("mine")).expect("there"), "mine");
     assert_eq!(fs::read_dir(&full).expect("a folder").count(), 1);
     // Without the token, nothing can be saved.
     let free = folder.path().join("free");
@@ -126,23 +106,14 @@ fn a_picture_and_what_the_gallery_says() {
     let (_folder, path) = made("welding_arm");
     let server = Running::on(&path);
     let picture = server.get("/robots/welding_arm/picture.png");
-    assert_eq!(
-        (picture.status, picture.header("content-type")),
-        (200, Some("image/png"))
-    );
+    assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
     assert_eq!(&picture.body[..8], b"\x89PNG\r\n\x1a\n");
     assert!(picture.body.len() < 60_000, "{} bytes", picture.body.len());
-    assert_eq!(
-        picture.body,
-        server.get("/robots/welding_arm/picture.png").body
-    );
+    assert_eq!(picture.body, server.get("/robots/welding_arm/picture.png").body);
     let entry = server.json("/robots/welding_arm/summary.json");
     assert_eq!((&entry["links"], &entry["dofs"]), (&json!(9), &json!(6)));
     assert_eq!(entry["verdict"], "pass");
     fs::remove_dir_all(path.join("mesh_modules")).expect("removed");
     assert_eq!(server.get("/robots/welding_arm/picture.png").status, 204);
-    assert_eq!(
-        server.json("/robots/welding_arm/summary.json")["verdict"],
-        "fail"
-    );
+    assert_eq!(server.json("/robots/welding_arm/summary.json")["verdict"], "fail");
 }

@@ -49,12 +49,7 @@ fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Runni
     let folder = testkit::temporary::folder();
     let settings = Settings::default();
     let collection = Arc::new(collection);
-    let live = Live {
-        folder: folder.path(),
-        settings: &settings,
-        observer: &Quiet,
-        pause,
-    };
+    let live = Live { folder: folder.path(), settings: &settings, observer: &Quiet, pause };
     std::thread::scope(|scope| {
         scope.spawn(|| live.run(&collection));
         let _ends = Ends(settings.cancellation.clone());
@@ -65,10 +60,7 @@ fn living_after(pause: Duration, collection: Collection, act: impl FnOnce(&Runni
 fn of(urdfs: &[&Path]) -> Collection {
     let collection = Collection::default();
     for urdf in urdfs {
-        let source = Source {
-            file: urdf.to_path_buf(),
-            packages: Vec::new(),
-        };
+        let source = Source { file: urdf.to_path_buf(), packages: Vec::new() };
         let name = urdf.file_stem().unwrap_or_default().to_string_lossy();
         collection.add_source(name.into_owned(), source);
     }
@@ -107,19 +99,13 @@ fn robot(upper: f64, geometry: &str) -> String {
 
 fn upper(server: &Running) -> f64 {
     let bounds = server.json("/robots/arm/files/urdf_module/module.json");
-    bounds["joints"][0]["limit"]["upper"]
-        .as_f64()
-        .expect("a limit")
+    bounds["joints"][0]["limit"]["upper"].as_f64().expect("a limit")
 }
 
 fn has(server: &Running, module: &str) -> bool {
     let files = server.json("/robots/arm/files.json");
     let mut files = files["files"].as_array().expect("a list").iter();
-    files.any(|file| {
-        file["path"]
-            .as_str()
-            .is_some_and(|path| path.contains(module))
-    })
+    files.any(|file| file["path"].as_str().is_some_and(|path| path.contains(module)))
 }
 
 #[test]
@@ -193,10 +179,7 @@ fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
         let first = report();
         assert_eq!(first["text"], text);
         let found = &first["urdds"][0];
-        assert_eq!(
-            (&found["kind"], &found["path"]),
-            (&"urdf".into(), &"arm.urdf".into())
-        );
+        assert_eq!((&found["kind"], &found["path"]), (&"urdf".into(), &"arm.urdf".into()));
         let has = |report: &Value, code: &str, of: &str| {
             let all = match of {
                 "rules" => &report["rules"],
@@ -205,10 +188,7 @@ fn the_report_is_that_of_lint_with_the_text_and_the_rules() {
             let mut all = all.as_array().expect("a list").iter();
             all.any(|one| one["code"] == code)
         };
-        assert!(
-            has(&first, "LNT017", "findings") && has(&first, "LNT017", "rules"),
-            "{first}"
-        );
+        assert!(has(&first, "LNT017", "findings") && has(&first, "LNT017", "rules"), "{first}");
 
         // It is that of the file as it is now, also where no robot can be made of it.
         fs::write(&urdf, &text[..text.len() - 9]).expect("written");
@@ -323,37 +303,21 @@ fn a_package_shows_its_urdfs_and_runs_xacro_only_if_it_may() {
     let folder = testkit::temporary::folder();
     let package = folder.path().join("arms");
     fs::create_dir_all(package.join("urdf")).expect("a folder");
-    fs::write(
-        package.join("package.xml"),
-        "<package><name>arms</name></package>",
-    )
-    .expect("it");
+    fs::write(package.join("package.xml"), "<package><name>arms</name></package>").expect("it");
     let text = robot(1.0, r#"<sphere radius="0.3"/>"#);
     for name in ["one.urdf", "two.urdf", "three.urdf.xacro"] {
         fs::write(package.join("urdf").join(name), &text).expect("written");
     }
     let site = folder.path().join("site");
-    let done = view(&[&package])
-        .arg("--export")
-        .arg(&site)
-        .output()
-        .expect("it runs");
-    let (said, errors) = (
-        String::from_utf8_lossy(&done.stdout),
-        String::from_utf8_lossy(&done.stderr),
-    );
+    let done = view(&[&package]).arg("--export").arg(&site).output().expect("it runs");
+    let (said, errors) =
+        (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
     assert!(done.status.success(), "{errors}");
     assert!(said.contains("a site of 2 robots"), "{said}");
-    assert!(
-        errors.contains("left out 1 .urdf.xacro file; --xacro runs them"),
-        "{errors}"
-    );
+    assert!(errors.contains("left out 1 .urdf.xacro file; --xacro runs them"), "{errors}");
     fs::remove_file(package.join("urdf/one.urdf")).expect("removed");
     fs::remove_file(package.join("urdf/two.urdf")).expect("removed");
-    let done = view(&[&package])
-        .arg("--no-open")
-        .output()
-        .expect("it runs");
+    let done = view(&[&package]).arg("--no-open").output().expect("it runs");
     assert_eq!(done.status.code(), Some(2));
 }
 

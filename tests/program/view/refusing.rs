@@ -10,9 +10,7 @@ use super::asking::{Running, made};
 /// The first line of the response to a request of which only the head is sent.
 fn answer_to_head(server: &Running, head: &str) -> String {
     let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
-    stream
-        .set_read_timeout(Some(Duration::from_secs(5)))
-        .expect("set");
+    stream.set_read_timeout(Some(Duration::from_secs(5))).expect("set");
     stream.write_all(head.as_bytes()).expect("sent");
     let mut answer = [0; 64];
     let read = stream.read(&mut answer).expect("an answer before the body");
@@ -39,11 +37,7 @@ fn who_may_not_ask_is_refused_before_a_body_is_read() {
             403,
         ),
         // An authorised client sends no more than the route accepts.
-        (
-            keep,
-            format!("Host: {host}\r\nX-Urdd-Token: {token}\r\n"),
-            413,
-        ),
+        (keep, format!("Host: {host}\r\nX-Urdd-Token: {token}\r\n"), 413),
         (
             "GET /robots.json HTTP/1.1\r\n",
             format!("Host: {host}\r\nX-Urdd-Token: {token}\r\n"),
@@ -52,10 +46,7 @@ fn who_may_not_ask_is_refused_before_a_body_is_read() {
         ("POST / HTTP/1.1\r\n", format!("Host: {host}\r\n"), 413),
     ] {
         let first = answer_to_head(&server, &format!("{line}{headers}{long}\r\n"));
-        assert!(
-            first.contains(&format!(" {status} ")),
-            "{line}{headers}: {first}"
-        );
+        assert!(first.contains(&format!(" {status} ")), "{line}{headers}: {first}");
     }
 }
 
@@ -89,11 +80,7 @@ fn who_says_nothing_does_not_shut_the_page_out() {
         let begun = Instant::now();
         assert_eq!(server.get("/robots.json").status, 200);
         assert_eq!(server.get("/robots/gripper/files/urdd.json").status, 200);
-        assert!(
-            begun.elapsed() < Duration::from_secs(5),
-            "{:?}",
-            begun.elapsed()
-        );
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
     }
 }
 
@@ -103,9 +90,7 @@ fn a_dripping_connection_ends() {
     let (_folder, path) = made("gripper");
     let server = Running::on(&path);
     let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
-    stream
-        .set_read_timeout(Some(Duration::from_millis(200)))
-        .expect("set");
+    stream.set_read_timeout(Some(Duration::from_millis(200))).expect("set");
     let begun = Instant::now();
     loop {
         let sent = stream.write_all(b"x");
@@ -119,11 +104,7 @@ fn a_dripping_connection_ends() {
         }
         assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
     }
-    assert!(
-        begun.elapsed() > Duration::from_secs(4),
-        "{:?}",
-        begun.elapsed()
-    );
+    assert!(begun.elapsed() > Duration::from_secs(4), "{:?}", begun.elapsed());
 }
 
 /// An archive is read once for all requests, and its files are sent as they are inflated.
@@ -143,12 +124,8 @@ fn an_archive_is_served_as_its_folder() {
         .collect();
     names.push(".env");
     for name in &names {
-        writer
-            .start_file(*name, zip::write::SimpleFileOptions::default())
-            .expect("an entry");
-        writer
-            .write_all(&fs::read(path.join(name)).expect("a file"))
-            .expect("written");
+        writer.start_file(*name, zip::write::SimpleFileOptions::default()).expect("an entry");
+        writer.write_all(&fs::read(path.join(name)).expect("a file")).expect("written");
     }
     writer.finish().expect("an archive");
     let of_zip = Running::on(&zip);

@@ -32,11 +32,7 @@ fn content(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 
 fn findings(path: &Path) -> usize {
     let run = urdd_validate::validate(&[path], &Settings::default()).expect("a run");
-    run.report
-        .urdds
-        .iter()
-        .map(|urdd| urdd.findings.len())
-        .sum()
+    run.report.urdds.iter().map(|urdd| urdd.findings.len()).sum()
 }
 
 fn edits() -> Value {
@@ -63,16 +59,9 @@ fn a_saved_urdd_passes_and_undo_restores_its_bytes() {
         .map(|(name, _)| name.as_path())
         .collect();
     let module = |name: &str| PathBuf::from(format!("{FOLDER}/{name}"));
-    let expected = [
-        module("module.json"),
-        module("module.yaml"),
-        "urdd.json".into(),
-    ];
+    let expected = [module("module.json"), module("module.yaml"), "urdd.json".into()];
     assert_eq!(changed, expected);
-    assert_eq!(
-        before.keys().collect::<Vec<_>>(),
-        after.keys().collect::<Vec<_>>()
-    );
+    assert_eq!(before.keys().collect::<Vec<_>>(), after.keys().collect::<Vec<_>>());
     assert_eq!(findings(&path), errors, "it is as sound as before");
     let text = fs::read_to_string(path.join(FOLDER).join("module.json")).expect("a file");
     let document: Value = serde_json::from_str(&text).expect("JSON");
@@ -107,14 +96,10 @@ fn a_change_that_keeps_size_and_time_is_not_overwritten() {
     let (_folder, path) = made("welding_arm");
     let file = path.join(FOLDER).join("module.json");
     let text = fs::read_to_string(&file).expect("a file");
-    let time = fs::metadata(&file)
-        .and_then(|metadata| metadata.modified())
-        .expect("a time");
+    let time = fs::metadata(&file).and_then(|metadata| metadata.modified()).expect("a time");
     let server = Running::on(&path);
     let revision = server.json("/robots/welding_arm/files.json")["revision"].clone();
-    let changed = text
-        .replacen("true", "null", 1)
-        .replacen("false", "true ", 1);
+    let changed = text.replacen("true", "null", 1).replacen("false", "true ", 1);
     assert!(changed != text && changed.len() == text.len());
     fs::write(&file, &changed).expect("written");
     let written = fs::File::options().write(true).open(&file).expect("it");
@@ -135,10 +120,7 @@ fn what_makes_no_sense_is_refused() {
     for (wish, status) in [
         (json!({ "revision": revision, "edits": unknown }), 400),
         (json!({ "revision": revision, "edits": [1] }), 400),
-        (
-            json!({ "revision": revision, "edits": edits(), "more": 1 }),
-            400,
-        ),
+        (json!({ "revision": revision, "edits": edits(), "more": 1 }), 400),
         (json!([]), 400),
         (json!({ "revision": "gone", "edits": edits() }), 409),
     ] {
@@ -147,11 +129,7 @@ fn what_makes_no_sense_is_refused() {
     }
     let wish = json!({ "revision": revision, "edits": unknown });
     let answer = server.post("/robots/welding_arm/skips", &wish);
-    assert!(
-        answer.text().contains("did you mean `torch`"),
-        "{}",
-        answer.text()
-    );
+    assert!(answer.text().contains("did you mean `torch`"), "{}", answer.text());
     assert_eq!(content(&path), before);
 }
 
@@ -172,10 +150,7 @@ fn a_pose_is_saved_under_a_name() {
     assert_eq!(findings(&path), 0);
     let saved = |name: &str| {
         let robot = urdd_robot::Robot::open(&path).expect("a robot");
-        robot
-            .named_configuration(name)
-            .expect("a configuration")
-            .to_vec()
+        robot.named_configuration(name).expect("a configuration").to_vec()
     };
     assert_eq!(saved("home <b>"), middle);
     let before = content(&path);
@@ -184,10 +159,7 @@ fn a_pose_is_saved_under_a_name() {
         (wish("", &zero), 400),
         (wish("short", &zero[1..]), 400),
         (wish("far", &vec![1e9; zero.len()]), 400),
-        (
-            json!({ "revision": "gone", "name": "x", "configuration": zero }),
-            409,
-        ),
+        (json!({ "revision": "gone", "name": "x", "configuration": zero }), 409),
         (json!({ "revision": revision(), "name": "x" }), 400),
     ] {
         let answer = post(&wish);

@@ -12,42 +12,22 @@ fn the_page_has_a_strict_policy_and_no_robot_in_it() {
     let server = Running::on(&path);
     let answer = server.raw("GET /", &[("Host", &*server.host())], b"");
     assert_eq!(answer.status, 200);
-    assert!(
-        answer.text().contains(r#"content="live""#),
-        "{}",
-        answer.text()
-    );
+    assert!(answer.text().contains(r#"content="live""#), "{}", answer.text());
     assert!(!answer.text().contains("gripper"));
     let policy = answer.header("content-security-policy").expect("a policy");
     assert!(policy.starts_with("default-src 'none';"), "{policy}");
-    let unsafe_words: Vec<&str> = policy
-        .split([' ', ';'])
-        .filter(|word| word.contains("unsafe"))
-        .collect();
+    let unsafe_words: Vec<&str> =
+        policy.split([' ', ';']).filter(|word| word.contains("unsafe")).collect();
     assert_eq!(unsafe_words, ["'wasm-unsafe-eval'"], "{policy}");
     assert_eq!(answer.header("x-content-type-options"), Some("nosniff"));
-    assert_eq!(
-        answer.header("cross-origin-resource-policy"),
-        Some("same-origin")
-    );
+    assert_eq!(answer.header("cross-origin-resource-policy"), Some("same-origin"));
     for name in ["app.js", "worker.js", "style.css", "urdd.wasm"] {
         let line = format!("GET /{name}");
         let plain = server.raw(&line, &[("Host", &*server.host())], b"");
-        assert_eq!(
-            (plain.status, plain.header("content-encoding")),
-            (200, None),
-            "{name}"
-        );
-        let headers = [
-            ("Host", &*server.host()),
-            ("Accept-Encoding", "gzip, br;q=1"),
-        ];
+        assert_eq!((plain.status, plain.header("content-encoding")), (200, None), "{name}");
+        let headers = [("Host", &*server.host()), ("Accept-Encoding", "gzip, br;q=1")];
         let short = server.raw(&line, &headers, b"");
-        assert_eq!(
-            (short.status, short.header("content-encoding")),
-            (200, Some("br")),
-            "{name}"
-        );
+        assert_eq!((short.status, short.header("content-encoding")), (200, Some("br")), "{name}");
         assert!(short.body.len() < plain.body.len(), "{name}");
     }
 }
@@ -67,10 +47,7 @@ fn files_and_the_report_are_those_on_disk() {
         let content = fs::read(path.join(name)).expect("a file");
         let answer = server.get(&format!("/robots/welding_arm/files/{name}"));
         assert_eq!(answer.body, content, "{name}");
-        assert_eq!(
-            answer.header("content-type"),
-            Some("application/octet-stream")
-        );
+        assert_eq!(answer.header("content-type"), Some("application/octet-stream"));
     }
     let run = urdd_validate::validate(&[&path], &Settings::default()).expect("a run");
     let report = urdd_validate::report::json(&run.report).expect("a report");
@@ -90,10 +67,7 @@ fn the_revision_follows_the_files() {
     let second = revision();
     assert_ne!(first, second);
     let report = server.json("/robots/gripper/report.json");
-    assert!(
-        report["totals"]["error"].as_u64() > Some(0),
-        "the change is judged"
-    );
+    assert!(report["totals"]["error"].as_u64() > Some(0), "the change is judged");
     fs::remove_dir_all(&path).expect("removed");
     assert_eq!(revision(), "gone");
     assert_eq!(server.get("/robots/gripper/files.json").status, 404);
@@ -123,18 +97,12 @@ fn others_are_refused() {
         refused(line, &[("Host", &host), ("X-Urdd-Token", "0")]);
         refused(line, &[("Host", "evil.example"), ("X-Urdd-Token", &token)]);
         refused(line, &[("X-Urdd-Token", &token)]);
-        let foreign = [
-            ("Host", &*host),
-            ("Origin", "http://evil.example"),
-            ("X-Urdd-Token", &*token),
-        ];
+        let foreign =
+            [("Host", &*host), ("Origin", "http://evil.example"), ("X-Urdd-Token", &*token)];
         refused(line, &foreign);
     }
     refused("GET /", &[("Host", "evil.example")]);
-    refused(
-        "GET /app.js",
-        &[("Host", &host), ("Sec-Fetch-Site", "cross-site")],
-    );
+    refused("GET /app.js", &[("Host", &host), ("Sec-Fetch-Site", "cross-site")]);
     // A user who follows a link on any page reaches the page: its HTML, and nothing of a robot.
     let followed = [
         ("Host", &*host),
@@ -153,11 +121,7 @@ fn others_are_refused() {
         _ => (name, value),
     });
     refused("GET /", &framed);
-    let right = [
-        ("Host", &*host),
-        ("Origin", &*own),
-        ("X-Urdd-Token", &*token),
-    ];
+    let right = [("Host", &*host), ("Origin", &*own), ("X-Urdd-Token", &*token)];
     assert_eq!(server.raw("GET /robots.json", &right, b"").status, 200);
     assert_eq!(server.raw("DELETE /robots.json", &right, b"").status, 405);
 }
@@ -182,14 +146,7 @@ fn nothing_outside_of_the_urdd_is_read() {
         "nothing",
     ] {
         let answer = server.get(&format!("/robots/gripper/files/{rest}"));
-        assert!(
-            matches!(answer.status, 403 | 404),
-            "{rest}: {}",
-            answer.status
-        );
-        assert!(
-            !answer.text().contains("secret\n") && answer.text() != "secret",
-            "{rest}"
-        );
+        assert!(matches!(answer.status, 403 | 404), "{rest}: {}", answer.status);
+        assert!(!answer.text().contains("secret\n") && answer.text() != "secret", "{rest}");
     }
 }

@@ -22,12 +22,7 @@ pub fn collection(path: &Path) -> Collection {
 }
 
 fn exported(path: &Path, site: &Path) -> Result<Vec<PathBuf>, ExportError> {
-    export(
-        &collection(path),
-        site,
-        &Cancellation::default(),
-        &mut |_| {},
-    )
+    export(&collection(path), site, &Cancellation::default(), &mut |_| {})
 }
 
 fn json(path: &Path) -> Value {
@@ -38,14 +33,9 @@ fn json(path: &Path) -> Value {
 /// The files that the page names.
 fn named(site: &Path) -> BTreeMap<String, String> {
     let page = fs::read_to_string(site.join("index.html")).expect("a page");
-    let rest = page
-        .split_once(r#"name="urdd-files" content=""#)
-        .expect("names")
-        .1;
+    let rest = page.split_once(r#"name="urdd-files" content=""#).expect("names").1;
     let words: Vec<&str> = rest.split_once('"').expect("an end").0.split(' ').collect();
-    let pairs = words
-        .chunks(2)
-        .map(|pair| (pair[0].to_owned(), pair[1].to_owned()));
+    let pairs = words.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned()));
     pairs.collect()
 }
 
@@ -132,15 +122,10 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
     let before = listed(&path);
     put(&path, &secrets);
     let site = folder.path().join("site");
-    assert_eq!(
-        exported(&path, &site).expect("written"),
-        Vec::<PathBuf>::new()
-    );
+    assert_eq!(exported(&path, &site).expect("written"), Vec::<PathBuf>::new());
     assert_eq!(robot_files(&site), before);
     for (name, bytes) in all(&site) {
-        let is_page = ["html", "js", "css", "wasm"]
-            .iter()
-            .any(|end| name.ends_with(end));
+        let is_page = ["html", "js", "css", "wasm"].iter().any(|end| name.ends_with(end));
         if is_page {
             continue;
         }
@@ -153,31 +138,15 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
         }
     }
     let page = fs::read_to_string(site.join("index.html")).expect("a page");
-    assert!(
-        page.contains(r#"content="static""#) && page.contains("default-src 'none'"),
-        "{page}"
-    );
+    assert!(page.contains(r#"content="static""#) && page.contains("default-src 'none'"), "{page}");
     let names = named(&site);
-    assert!(
-        page.contains(&format!("src=\"{}\"", names["app.js"])),
-        "{page}"
-    );
-    assert!(
-        fs::read(site.join(&names["urdd.wasm"]))
-            .expect("it")
-            .starts_with(b"\0asm")
-    );
+    assert!(page.contains(&format!("src=\"{}\"", names["app.js"])), "{page}");
+    assert!(fs::read(site.join(&names["urdd.wasm"])).expect("it").starts_with(b"\0asm"));
     let robots = json(&site.join(&names["robots.json"]));
     assert_eq!(robots[0]["verdict"], "pass");
-    assert_eq!(
-        (&robots[0]["links"], &robots[0]["writable"]),
-        (&9.into(), &false.into())
-    );
+    assert_eq!((&robots[0]["links"], &robots[0]["writable"]), (&9.into(), &false.into()));
     let report = json(&site.join(robots[0]["report"].as_str().expect("a report")));
-    assert_eq!(
-        report["urdds"][0]["findings"],
-        Value::from(Vec::<Value>::new())
-    );
+    assert_eq!(report["urdds"][0]["findings"], Value::from(Vec::<Value>::new()));
 }
 
 /// A listed SVG or HTML file keeps its content, and a server that derives types from names does not serve it as
@@ -186,13 +155,7 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
 fn a_listed_file_that_browsers_run_is_inert() {
     let (folder, path) = made("gripper");
     let evil = "<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>";
-    put(
-        &path,
-        &[
-            ("dof_module/evil.svg", evil),
-            ("dof_module/evil.html", evil),
-        ],
-    );
+    put(&path, &[("dof_module/evil.svg", evil), ("dof_module/evil.html", evil)]);
     let mut metadata = json(&path.join("urdd.json"));
     for module in metadata["modules"].as_array_mut().expect("modules") {
         if module["path"] == "dof_module" {
@@ -230,10 +193,7 @@ fn urdd_json_cannot_name_files_outside_of_modules() {
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
     for (name, bytes) in all(&site) {
-        assert!(
-            !String::from_utf8_lossy(&bytes).contains("SECRET"),
-            "{name}"
-        );
+        assert!(!String::from_utf8_lossy(&bytes).contains("SECRET"), "{name}");
     }
     let server = super::asking::Running::on(&path);
     for name in [".env", ".git/config", "dof_module/link"] {
@@ -249,20 +209,10 @@ fn a_urdd_without_urdd_json_has_the_files_that_its_modules_name() {
     let mut expected = listed(&path);
     expected.remove("urdd.json");
     fs::remove_file(path.join("urdd.json")).expect("removed");
-    put(
-        &path,
-        &[
-            (".env", "SECRET"),
-            ("dof_module/notes.txt", "SECRET"),
-            ("a/b.urdf", "SECRET"),
-        ],
-    );
+    put(&path, &[(".env", "SECRET"), ("dof_module/notes.txt", "SECRET"), ("a/b.urdf", "SECRET")]);
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
-    assert_eq!(
-        robot_files(&site).keys().collect::<Vec<_>>(),
-        expected.keys().collect::<Vec<_>>()
-    );
+    assert_eq!(robot_files(&site).keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
 }
 
 #[test]
@@ -276,9 +226,7 @@ fn a_second_export_replaces_its_own_files_alone() {
     exported(&path, &site).expect("written");
     let mut expected = first.clone();
     expected.extend(
-        OF_A_PERSON
-            .iter()
-            .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
+        OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
     assert_eq!(all(&site), expected);
     // Another robot: its files replace the old ones, and a user's files are unchanged.
@@ -289,16 +237,10 @@ fn a_second_export_replaces_its_own_files_alone() {
     exported(&other, &fresh).expect("written");
     let mut expected = all(&fresh);
     expected.extend(
-        OF_A_PERSON
-            .iter()
-            .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
+        OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
     assert_eq!(all(&site), expected);
-    assert_eq!(
-        fs::read_dir(folder.path()).expect("a folder").count(),
-        3,
-        "nothing beside it"
-    );
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing beside it");
 }
 
 #[test]
@@ -340,12 +282,7 @@ fn a_list_of_somebody_elses_removes_nothing() {
     put(folder.path(), &[("outside", "mine")]);
     let hash = hexadecimal(&Sha256::digest("mine"));
     let mut list = json(&site.join("urdd-site.json"));
-    for name in [
-        "robots/notes.txt",
-        "../outside",
-        "CNAME",
-        "urdd-site/../robots/notes.txt",
-    ] {
+    for name in ["robots/notes.txt", "../outside", "CNAME", "urdd-site/../robots/notes.txt"] {
         let entry = serde_json::json!({ "path": name, "sha256": hash });
         list["files"].as_array_mut().expect("files").push(entry);
     }
@@ -361,10 +298,7 @@ fn a_list_of_somebody_elses_removes_nothing() {
     std::os::unix::fs::symlink(&elsewhere, site.join("urdd-site")).expect("a link");
     let before = all(&elsewhere);
     let result = exported(&path, &site);
-    assert!(
-        matches!(result, Err(ExportError::InTheWay { .. })),
-        "{result:?}"
-    );
+    assert!(matches!(result, Err(ExportError::InTheWay { .. })), "{result:?}");
     assert_eq!(all(&elsewhere), before);
 }
 
@@ -374,27 +308,14 @@ fn a_site_of_0_2_0_is_left_alone_until_its_files_are_gone() {
     let (folder, path) = made("gripper");
     let site = folder.path().join("site");
     let mark = r#"{"made by":"urdd view --export","version":"0.2.0"}"#;
-    put(
-        &site,
-        &[
-            ("urdd-site.json", mark),
-            ("index.html", "old"),
-            ("robots.json", "[]"),
-        ],
-    );
-    put(
-        &site,
-        &[("robots/gripper/files/.env", "old"), ("CNAME", "mine")],
-    );
+    put(&site, &[("urdd-site.json", mark), ("index.html", "old"), ("robots.json", "[]")]);
+    put(&site, &[("robots/gripper/files/.env", "old"), ("CNAME", "mine")]);
     let before = all(&site);
     let error = exported(&path, &site).expect_err("refused");
     assert!(matches!(error, ExportError::Unlisted { .. }), "{error}");
     let words = error.to_string();
     for name in ["index.html", "robots.json", "robots"] {
-        assert!(
-            words.contains(&site.join(name).display().to_string()),
-            "{words}"
-        );
+        assert!(words.contains(&site.join(name).display().to_string()), "{words}");
     }
     assert_eq!(all(&site), before);
     for name in ["index.html", "robots.json"] {
@@ -414,10 +335,7 @@ fn a_folder_with_something_else_is_left_alone() {
         put(&site, files);
         let before = all(&site);
         let result = exported(&path, &site);
-        assert!(
-            matches!(result, Err(ExportError::Occupied(_))),
-            "{result:?}"
-        );
+        assert!(matches!(result, Err(ExportError::Occupied(_))), "{result:?}");
         assert_eq!(all(&site), before);
     }
 }
@@ -448,10 +366,7 @@ fn a_killed_export_leaves_a_whole_site() {
         std::thread::sleep(share.max(Duration::from_millis(1)));
         let _ = child.kill();
         let _ = child.wait();
-        assert!(
-            robots.contains(&robot_files(&site)),
-            "killed after {share:?}"
-        );
+        assert!(robots.contains(&robot_files(&site)), "killed after {share:?}");
         for (name, text) in OF_A_PERSON {
             assert_eq!(fs::read_to_string(site.join(name)).expect(name), *text);
         }
@@ -461,12 +376,7 @@ fn a_killed_export_leaves_a_whole_site() {
     exported(&path, &fresh).expect("written");
     let mut expected = all(&fresh);
     expected.extend(
-        OF_A_PERSON
-            .iter()
-            .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
+        OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
-    assert_eq!(
-        all(&site).keys().collect::<Vec<_>>(),
-        expected.keys().collect::<Vec<_>>()
-    );
+    assert_eq!(all(&site).keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
 }

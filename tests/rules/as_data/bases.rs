@@ -39,9 +39,7 @@ impl Bases {
     /// The bases of the stored suite, rebuilt. The bases of removed cases are dropped.
     pub fn made_again(cases: &[Case]) -> Bases {
         let fixture = |fixture: Fixture| {
-            tree_of(&Make::Fixture(Box::new(move || {
-                crate::canonical(fixture.clone())
-            })))
+            tree_of(&Make::Fixture(Box::new(move || crate::canonical(fixture.clone()))))
         };
         let trees = [
             fixture(Fixture::toy()),
@@ -64,10 +62,7 @@ impl Bases {
         let foreign = |base: &Tree| -> (usize, usize) {
             let nodes = tree.nodes.iter();
             let missing = nodes.filter(|(path, node)| base.nodes.get(path) != Some(node));
-            let gone = base
-                .nodes
-                .keys()
-                .filter(|path| !tree.nodes.contains_key(path));
+            let gone = base.nodes.keys().filter(|path| !tree.nodes.contains_key(path));
             (missing.map(|(_, node)| size(node)).sum(), gone.count())
         };
         let mut order: Vec<usize> = (0..self.0.len()).collect();
@@ -75,10 +70,7 @@ impl Bases {
         let mut nearest: Option<(usize, Difference)> = None;
         for at in order.into_iter().take(4) {
             let way = difference(&self.0[at].1, tree);
-            if nearest
-                .as_ref()
-                .is_none_or(|(_, best)| length(&way) < length(best))
-            {
+            if nearest.as_ref().is_none_or(|(_, best)| length(&way) < length(best)) {
                 nearest = Some((at, way));
             }
             if nearest.as_ref().is_some_and(|(_, way)| length(way) < SMALL) {
@@ -152,10 +144,7 @@ impl Bases {
             }
         }
         let copies = serde_json::to_value(copies).expect("paths are JSON");
-        files.insert(
-            COPIES.to_owned(),
-            canonical::json_string(&copies).into_bytes(),
-        );
+        files.insert(COPIES.to_owned(), canonical::json_string(&copies).into_bytes());
         files
     }
 }
@@ -173,8 +162,7 @@ fn base_of(case: &Case, tree: &Tree) -> Tree {
     let base = base.filter(|base| bytes(base) <= 2 * bytes(tree));
     let mut base = base.unwrap_or_else(|| tree.clone());
     // A base contains only files; changes add everything else.
-    base.nodes
-        .retain(|path, node| path.as_str().is_some() && matches!(node, Node::File(_)));
+    base.nodes.retain(|path, node| path.as_str().is_some() && matches!(node, Node::File(_)));
     base
 }
 

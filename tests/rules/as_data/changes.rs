@@ -21,10 +21,7 @@ const SHORT: usize = 200;
 
 /// The changes from `old` to `new`.
 pub fn difference(old: &Tree, new: &Tree) -> Difference {
-    let mut work = Work {
-        tree: old.clone(),
-        changes: Vec::new(),
-    };
+    let mut work = Work { tree: old.clone(), changes: Vec::new() };
     work.patch_documents(old, new);
     work.change_files(new);
     work.add_and_delete(new);
@@ -129,17 +126,12 @@ fn untrue_entries(tree: &Tree) -> BTreeSet<String> {
     let mut metadata = document(tree, &ROOT.into()).unwrap_or_default();
     let entries = file_entry::all(&mut metadata);
     let untrue = entries.filter(|entry| is_right(tree, entry) == Some(false));
-    untrue
-        .filter_map(|entry| entry["path"].as_str().map(str::to_owned))
-        .collect()
+    untrue.filter_map(|entry| entry["path"].as_str().map(str::to_owned)).collect()
 }
 
 impl Work {
     fn push(&mut self, file: &FilePath, action: Action) {
-        let change = Change {
-            file: file.clone(),
-            action,
-        };
+        let change = Change { file: file.clone(), action };
         let done = change.apply(&mut self.tree);
         done.unwrap_or_else(|error| panic!("a change that does not fit: {error}"));
         self.changes.push(change);
@@ -237,12 +229,8 @@ impl Work {
                 }
             }
         }
-        while let Some(path) = self
-            .tree
-            .nodes
-            .keys()
-            .find(|path| !new.nodes.contains_key(path))
-            .cloned()
+        while let Some(path) =
+            self.tree.nodes.keys().find(|path| !new.nodes.contains_key(path)).cloned()
         {
             let folder = widest_folder_without(&path, new);
             self.push(&folder, Action::Delete(Yes));
@@ -299,14 +287,7 @@ fn repetition(bytes: &[u8]) -> Option<(Vec<u8>, Action)> {
         let rest = &bytes[start + times * period..];
         let short = [&bytes[..start + period], rest].concat();
         let text = text.to_owned();
-        Some((
-            short,
-            Action::Repeat {
-                at: start,
-                text,
-                times,
-            },
-        ))
+        Some((short, Action::Repeat { at: start, text, times }))
     })
 }
 
@@ -317,10 +298,7 @@ fn repetitions_are_short_and_right() {
     assert!(short.len() < 20, "{}", short.len());
     let mut tree = Tree::default();
     tree.put("file".into(), short);
-    let change = Change {
-        file: "file".into(),
-        action: repeat,
-    };
+    let change = Change { file: "file".into(), action: repeat };
     change.apply(&mut tree).expect("it fits");
     assert_eq!(tree.file("file"), Some(large.as_slice()));
     assert!(change.apply(&mut Tree::default()).is_err(), "no file");
@@ -333,10 +311,7 @@ fn edit(before: &[u8], after: &[u8]) -> Action {
         ways.push(Action::CutTo(after.len()));
     }
     let start = before.iter().zip(after).take_while(|(a, b)| a == b).count();
-    let rest = before[start..]
-        .iter()
-        .rev()
-        .zip(after[start..].iter().rev());
+    let rest = before[start..].iter().rev().zip(after[start..].iter().rev());
     let end = rest.take_while(|(a, b)| a == b).count();
     let (gone, come) = (start..before.len() - end, start..after.len() - end);
     ways.push(Action::Splice {
@@ -375,18 +350,13 @@ fn replacement(before: &str, after: &str, start: usize, end: usize) -> Option<Ac
     }
     // From the beginning of the word, for readability.
     let word = before[..start].rfind(|c: char| c.is_whitespace());
-    start = word
-        .map_or(start, |space| space + 1)
-        .max(start.saturating_sub(60));
+    start = word.map_or(start, |space| space + 1).max(start.saturating_sub(60));
     loop {
         let from = before.get(start..before.len() - end);
         let first = |from: &str| !from.is_empty() && before.find(from) == Some(start);
         if let Some(from) = from.filter(|from| first(from)) {
             let by = after.get(start..after.len() - end)?.to_owned();
-            return Some(Action::Replace {
-                from: from.to_owned(),
-                by,
-            });
+            return Some(Action::Replace { from: from.to_owned(), by });
         }
         match start {
             0 if end == 0 => return None,

@@ -80,13 +80,7 @@ fn found(case: &case::Case, urdd: &Tree) -> Vec<Expected> {
     let found = judge::found(&case.code, &report);
     let codes: BTreeSet<&str> = found.iter().map(|finding| finding.code.as_str()).collect();
     let right = (case.kind == Kind::Invalid).then_some(case.code.as_str());
-    assert_eq!(
-        codes,
-        right.into_iter().collect(),
-        "{} {}: {found:#?}",
-        case.code,
-        case.name
-    );
+    assert_eq!(codes, right.into_iter().collect(), "{} {}: {found:#?}", case.code, case.name);
     found
 }
 
@@ -138,8 +132,7 @@ fn files(cases: &[Case], all: bool) -> BTreeMap<String, Vec<u8>> {
             data.push((path, as_data(case, base, way, old.as_ref()), urdd));
         }
         if update() {
-            data.par_iter_mut()
-                .for_each(|(_, case, urdd)| case.expected = found(case, urdd));
+            data.par_iter_mut().for_each(|(_, case, urdd)| case.expected = found(case, urdd));
         }
         for (path, case, _) in data {
             let value: Value = serde_json::to_value(case).expect("a case is JSON");
@@ -201,10 +194,7 @@ fn the_suite_is_what_the_closures_say() {
             fs::remove_file(&path).expect("removed");
             // Its folders, unless they contain anything else.
             let mut folders = path.ancestors().skip(1);
-            while folders
-                .next()
-                .is_some_and(|folder| fs::remove_dir(folder).is_ok())
-            {}
+            while folders.next().is_some_and(|folder| fs::remove_dir(folder).is_ok()) {}
         }
         for (path, bytes) in stale {
             println!("wrote conformance/{path}");

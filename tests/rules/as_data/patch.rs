@@ -45,12 +45,7 @@ fn compare_lists(old: &[Value], new: &[Value], at: &str, out: &mut Vec<Value>) {
     let (old, new) = (&old[start..old.len() - end], &new[start..new.len() - end]);
     let both = old.len().min(new.len());
     for index in 0..both {
-        compare(
-            &old[index],
-            &new[index],
-            &format!("{at}/{}", start + index),
-            out,
-        );
+        compare(&old[index], &new[index], &format!("{at}/{}", start + index), out);
     }
     for _ in both..old.len() {
         out.push(json!({"op": "remove", "path": format!("{at}/{}", start + both)}));
@@ -65,22 +60,10 @@ fn compare_lists(old: &[Value], new: &[Value], at: &str, out: &mut Vec<Value>) {
 fn patches_are_small_and_right() {
     let old = json!({"a": [1, 2, 3, 4], "b": {"x/y": 1, "z": [0]}, "c": 18});
     for (new, operations) in [
-        (
-            json!({"a": [1, 3, 4], "b": {"x/y": 1, "z": [0]}, "c": 18}),
-            1,
-        ),
-        (
-            json!({"a": [1, 2, 9, 3, 4], "b": {"x/y": 1, "z": [0]}, "c": 18}),
-            1,
-        ),
-        (
-            json!({"a": [1, 2, 3, 4, 5, 6], "b": {"x/y": 2, "z": []}, "c": 18}),
-            4,
-        ),
-        (
-            json!({"a": [7, 8], "b": {"z": [0], "~": null}, "c": 18.0}),
-            7,
-        ),
+        (json!({"a": [1, 3, 4], "b": {"x/y": 1, "z": [0]}, "c": 18}), 1),
+        (json!({"a": [1, 2, 9, 3, 4], "b": {"x/y": 1, "z": [0]}, "c": 18}), 1),
+        (json!({"a": [1, 2, 3, 4, 5, 6], "b": {"x/y": 2, "z": []}, "c": 18}), 4),
+        (json!({"a": [7, 8], "b": {"z": [0], "~": null}, "c": 18.0}), 7),
         (json!([]), 1),
     ] {
         let patch = patch(&old, &new);

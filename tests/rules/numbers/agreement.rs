@@ -37,11 +37,7 @@ fn move_origin(f: &mut Fixture, by: f64) {
 pub fn numbers() -> Vec<Number> {
     let turn = |f: &mut Fixture, by: f64| {
         let (sin, cos) = (0.25 + by / 2.0).sin_cos();
-        f.set(
-            CHAIN,
-            "/joints_in_chain/0/origin/quaternion_wxyz",
-            json!([cos, sin, 0, 0]),
-        );
+        f.set(CHAIN, "/joints_in_chain/0/origin/quaternion_wxyz", json!([cos, sin, 0, 0]));
     };
     vec![
         number(
@@ -58,12 +54,7 @@ pub fn numbers() -> Vec<Number> {
                     3e-9,
                 ),
                 // 1 m for a planar joint.
-                most(
-                    CHN008,
-                    || one_joint(JointType::Planar, None),
-                    move_origin,
-                    1e-9,
-                ),
+                most(CHN008, || one_joint(JointType::Planar, None), move_origin, 1e-9),
                 most(
                     KIN003,
                     || one_joint(JointType::Prismatic, Some((-3.0, 1.0))),
@@ -125,18 +116,8 @@ pub fn numbers() -> Vec<Number> {
             "at most 1e-9 of the larger absolute value, or by at most 1e-12",
             ("1e-9", 1e-9),
             vec![
-                most(
-                    BND003,
-                    Fixture::toy,
-                    |f, by| bound(f, 0, -2.5, 2.5 * (1.0 + by)),
-                    1e-9,
-                ),
-                most(
-                    BND006,
-                    Fixture::toy,
-                    |f, by| bound(f, 15, -PI * (1.0 + by), PI),
-                    1e-9,
-                ),
+                most(BND003, Fixture::toy, |f, by| bound(f, 0, -2.5, 2.5 * (1.0 + by)), 1e-9),
+                most(BND006, Fixture::toy, |f, by| bound(f, 15, -PI * (1.0 + by), PI), 1e-9),
                 most(
                     BND005,
                     Fixture::toy,
@@ -148,10 +129,7 @@ pub fn numbers() -> Vec<Number> {
                     crate::shapes::fits::lone_box,
                     |f, by| {
                         let list = "/full_obbs_maximum_distances/0";
-                        let old = f
-                            .get(crate::shapes::REACH, list)
-                            .as_f64()
-                            .expect("a number");
+                        let old = f.get(crate::shapes::REACH, list).as_f64().expect("a number");
                         f.set(crate::shapes::REACH, list, json!(old * (1.0 + by)));
                     },
                     1e-9,
@@ -169,21 +147,14 @@ pub fn numbers() -> Vec<Number> {
             "5.6",
             "or by at most 1e-12",
             ("1e-12", 1e-12),
-            vec![most(
-                BND003,
-                Fixture::toy,
-                |f, by| bound(f, 2, -by, 0.2),
-                1e-12,
-            )],
+            vec![most(BND003, Fixture::toy, |f, by| bound(f, 2, -by, 0.2), 1e-12)],
         ),
         number(
             "rotation-vector",
             "5.6",
             "not longer than pi times 1 + 1e-9",
             ("1e-9", 1e-9),
-            vec![Sides::Elsewhere(
-                "of a billion sampled rotation vectors one is as long",
-            )],
+            vec![Sides::Elsewhere("of a billion sampled rotation vectors one is as long")],
         ),
         number(
             "configuration",

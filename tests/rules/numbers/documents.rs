@@ -25,9 +25,7 @@ fn toy_with(change: impl Fn(&mut Robot)) -> Fixture {
 /// A planar joint whose axis is this far from -z.
 fn planar(sine: f64) -> Fixture {
     let mut robot = star(&[("j", JointType::Planar)]);
-    robot.joint_mut("j").axis = Some(Axis {
-        xyz: Some([sine, 0.0, -1.0]),
-    });
+    robot.joint_mut("j").axis = Some(Axis { xyz: Some([sine, 0.0, -1.0]) });
     Fixture::core(&robot)
 }
 
@@ -40,9 +38,7 @@ fn becomes(f: &mut Fixture, other: Fixture) {
 fn axis_of(f: &mut Fixture, length: f64) {
     let of = |length: f64| {
         let mut robot = star(&[("j", JointType::Revolute)]);
-        robot.joint_mut("j").axis = Some(Axis {
-            xyz: Some([0.0, 0.0, length]),
-        });
+        robot.joint_mut("j").axis = Some(Axis { xyz: Some([0.0, 0.0, length]) });
         Fixture::core(&robot)
     };
     let (mut other, urdf) = (of(1.0), of(length));
@@ -165,24 +161,14 @@ pub fn numbers() -> Vec<Number> {
             "6.1.7",
             "more than 1e-9 of the largest",
             ("1e-9", 1e-9),
-            vec![least(
-                SRC004,
-                toy_core,
-                |f, by| moments(f, [1.0, 1.0, by]),
-                1e-9,
-            )],
+            vec![least(SRC004, toy_core, |f, by| moments(f, [1.0, 1.0, by]), 1e-9)],
         ),
         number(
             "triangle",
             "6.1.7",
             "to 1e-6 of itself",
             ("1e-6", 1e-6),
-            vec![most(
-                SRC005,
-                toy_core,
-                |f, by| moments(f, [0.01, 0.02, 0.03 / (1.0 - by)]),
-                1e-6,
-            )],
+            vec![most(SRC005, toy_core, |f, by| moments(f, [0.01, 0.02, 0.03 / (1.0 - by)]), 1e-6)],
         ),
         number(
             "unit-quaternion",
@@ -190,18 +176,8 @@ pub fn numbers() -> Vec<Number> {
             "of a norm within 1e-9 of 1",
             ("1e-9", 1e-9),
             vec![
-                most(
-                    CHN010,
-                    || turned([0.0; 3]),
-                    |f, by| longer(f, 1.0 + by),
-                    1e-9,
-                ),
-                most(
-                    CHN010,
-                    || turned([0.0; 3]),
-                    |f, by| longer(f, 1.0 - by),
-                    1e-9,
-                ),
+                most(CHN010, || turned([0.0; 3]), |f, by| longer(f, 1.0 + by), 1e-9),
+                most(CHN010, || turned([0.0; 3]), |f, by| longer(f, 1.0 - by), 1e-9),
             ],
         ),
         number(
@@ -216,20 +192,14 @@ pub fn numbers() -> Vec<Number> {
             "6.4.6",
             "at most 2,000,000 links together",
             ("2,000,000", 2_000_000.0),
-            vec![there(
-                "CON006/a-line-of-180-links",
-                "CON006/a-line-of-181-links",
-            )],
+            vec![there("CON006/a-line-of-180-links", "CON006/a-line-of-181-links")],
         ),
         number(
             "values-of-a-frozen-joint",
             "6.6.6",
             "1, 3 or 6. [CMP006]",
             ("3", 3.0),
-            vec![there(
-                "CMP006/frozen-with-two-values",
-                "CMP006/frozen-elsewhere",
-            )],
+            vec![there("CMP006/frozen-with-two-values", "CMP006/frozen-elsewhere")],
         ),
         number(
             "unit-quaternion-of-a-pose",
@@ -261,10 +231,7 @@ pub fn numbers() -> Vec<Number> {
             "10.3",
             "it has upper + 1e-7",
             ("1e-7", 1e-7),
-            vec![there(
-                "BND003/legacy-locked-far-off",
-                "LEG006/locked-and-equal",
-            )],
+            vec![there("BND003/legacy-locked-far-off", "LEG006/locked-and-equal")],
         ),
         number(
             "legacy-configurations",
@@ -278,9 +245,7 @@ pub fn numbers() -> Vec<Number> {
             "2.14",
             "at most 4,096 bytes, and 1,020 between two slashes",
             ("4,096", 4096.0),
-            vec![Sides::Elsewhere(
-                "cases are folders; crates/urdd-directory tests archives",
-            )],
+            vec![Sides::Elsewhere("cases are folders; crates/urdd-directory tests archives")],
         ),
         number(
             "validators-documents",
@@ -314,19 +279,13 @@ pub fn numbers() -> Vec<Number> {
             "13.4",
             "costs a validator 100,000 configurations",
             ("100,000", 100_000.0),
-            vec![Sides::Elsewhere(
-                "a cost, and no limit; 8.8.9 and 8.8.12 have the counts",
-            )],
+            vec![Sides::Elsewhere("a cost, and no limit; 8.8.9 and 8.8.12 have the counts")],
         ),
     ]
 }
 
 fn longer(f: &mut Fixture, length: f64) {
-    f.set(
-        CHAIN,
-        "/joints_in_chain/0/origin/quaternion_wxyz",
-        json!([length, 0, 0, 0]),
-    );
+    f.set(CHAIN, "/joints_in_chain/0/origin/quaternion_wxyz", json!([length, 0, 0, 0]));
 }
 
 /// The poses of an axis that counts as -z, beside an axis of this distance from it.

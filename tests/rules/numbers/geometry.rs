@@ -41,10 +41,7 @@ fn toy() -> Fixture {
 
 /// A box of this size, and a link without a shape.
 fn box_of(size: [f64; 3]) -> Fixture {
-    let shown = Link {
-        visual: vec![visual(None, cuboid(size))],
-        ..link("b")
-    };
+    let shown = Link { visual: vec![visual(None, cuboid(size))], ..link("b") };
     let mut f = Fixture::full(&robot_of(vec![link("a"), shown]));
     geometry_alone(&mut f);
     f
@@ -101,10 +98,7 @@ fn unit_cube() -> Fixture {
 fn shown_mesh() -> Fixture {
     let mut robot = robot_of(vec![link("a"), boxy("b")]);
     robot.meshes.insert("part.stl".to_owned(), [0.1; 3]);
-    robot
-        .link_mut("a")
-        .visual
-        .push(visual(None, mesh("part.stl", None)));
+    robot.link_mut("a").visual.push(visual(None, mesh("part.stl", None)));
     let mut f = Fixture::full(&robot);
     geometry_alone(&mut f);
     f.set(PIECES, "/method/surface_tolerance", Value::Null);
@@ -117,26 +111,14 @@ fn roof(f: &mut Fixture, by: f64) {
     let top = |mesh: &Mesh, triangle: &[u32; 3]| {
         mesh.corners(*triangle).iter().all(|corner| corner[2] > 0.0)
     };
-    let faces: Vec<[u32; 3]> = mesh
-        .triangles
-        .iter()
-        .filter(|t| top(&mesh, t))
-        .copied()
-        .collect();
-    mesh.triangles = mesh
-        .triangles
-        .iter()
-        .filter(|t| !top(&mesh, t))
-        .copied()
-        .collect();
+    let faces: Vec<[u32; 3]> = mesh.triangles.iter().filter(|t| top(&mesh, t)).copied().collect();
+    mesh.triangles = mesh.triangles.iter().filter(|t| !top(&mesh, t)).copied().collect();
     let height = mesh.vertices[faces[0][0] as usize][2];
     let middle = mesh.vertices.len() as u32;
     mesh.vertices.push([0.0, 0.0, height + by]);
     // The four edges around the two triangles, each with the middle.
-    let edges: Vec<[u32; 2]> = (faces
-        .iter()
-        .flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]))
-    .collect();
+    let edges: Vec<[u32; 2]> =
+        (faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]])).collect();
     for [a, b] in &edges {
         if !edges.contains(&[*b, *a]) {
             mesh.triangles.push([*a, *b, middle]);
@@ -145,11 +127,7 @@ fn roof(f: &mut Fixture, by: f64) {
     for format in ALL {
         put(f, PLAIN, 0, format, &mesh);
     }
-    let original = f
-        .get(ORIGINAL, "/files/0/path")
-        .as_str()
-        .expect("a path")
-        .to_owned();
+    let original = f.get(ORIGINAL, "/files/0/path").as_str().expect("a path").to_owned();
     let bytes = write::stl(&[Part::from(mesh)]).expect("a mesh");
     f.put_file(&original, bytes);
 }
@@ -212,19 +190,13 @@ fn nearly_convex(f: &mut Fixture, sine: f64) {
     geometry_alone(f);
     let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
     let mut paths = files.iter().filter_map(|file| file["path"].as_str());
-    let original = paths
-        .find(|path| path.ends_with(".obj"))
-        .expect("an OBJ")
-        .to_owned();
+    let original = paths.find(|path| path.ends_with(".obj")).expect("an OBJ").to_owned();
     let obj = String::from_utf8(f.file(&original).to_vec()).expect("text");
     let corners: Vec<[f64; 3]> = obj
         .lines()
         .filter(|line| line.starts_with("v "))
         .map(|line| {
-            let numbers = line
-                .split(' ')
-                .skip(1)
-                .map(|word| word.parse().expect("a number"));
+            let numbers = line.split(' ').skip(1).map(|word| word.parse().expect("a number"));
             numbers.collect::<Vec<f64>>().try_into().expect("three")
         })
         .collect();
@@ -277,12 +249,7 @@ pub fn numbers() -> Vec<Number> {
             "7.6",
             "the *resolution*: 8 * 2^-23 of the largest absolute coordinate",
             ("8 * 2^-23", RESOLUTION),
-            vec![most(
-                MSH014,
-                Fixture::toy,
-                lift_in_one_format,
-                RESOLUTION * 0.08,
-            )],
+            vec![most(MSH014, Fixture::toy, lift_in_one_format, RESOLUTION * 0.08)],
         ),
         number(
             "placing-of-large-meshes",
@@ -332,10 +299,7 @@ pub fn numbers() -> Vec<Number> {
             "7.10",
             "by more than 2 % of the diagonal",
             ("2 %", 0.02),
-            vec![there(
-                "MSH021/just-above-2-percent",
-                "MSH023/just-below-2-percent",
-            )],
+            vec![there("MSH021/just-above-2-percent", "MSH023/just-below-2-percent")],
         ),
         number(
             "barely-out-of-hull",
@@ -360,9 +324,7 @@ pub fn numbers() -> Vec<Number> {
 /// What is accepted below 2 % is a warning of another rule.
 pub fn cases() -> Vec<crate::Case> {
     let case = |code, name, of: f64| {
-        crate::changed(code, name, true, lone_box, move |f| {
-            reach_out(f, of * 0.02 * DIAGONAL)
-        })
+        crate::changed(code, name, true, lone_box, move |f| reach_out(f, of * 0.02 * DIAGONAL))
     };
     vec![
         case(MSH021, "just-above-2-percent", 1.005),

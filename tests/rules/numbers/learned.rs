@@ -12,11 +12,7 @@ fn clearance(f: &mut Fixture, by: f64) {
     let clip = value(f, MODEL, "/clip_distance");
     let old = value(f, MODEL, "/test_vectors/1/clearances/0");
     let scale = clip.abs().max(old.abs());
-    f.set(
-        MODEL,
-        "/test_vectors/1/clearances/0",
-        json!(old + by * scale),
-    );
+    f.set(MODEL, "/test_vectors/1/clearances/0", json!(old + by * scale));
 }
 
 pub fn numbers() -> Vec<Number> {
@@ -35,10 +31,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.4",
             "at most 100 test vectors",
             ("100", 100.0),
-            vec![there(
-                "LRN005/a-hundred-and-one-test-vectors",
-                "LRN005/a-hundred-test-vectors",
-            )],
+            vec![there("LRN005/a-hundred-and-one-test-vectors", "LRN005/a-hundred-test-vectors")],
         ),
         number(
             "clearance",
@@ -52,10 +45,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.8",
             "below 2^31",
             ("2^31", 2_147_483_648.0),
-            vec![there(
-                "LRN009/trained-on-the-evaluation",
-                "LRN009/trained-up-to-the-evaluation",
-            )],
+            vec![there("LRN009/trained-on-the-evaluation", "LRN009/trained-up-to-the-evaluation")],
         ),
         number(
             "all-configurations",
@@ -69,10 +59,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.9",
             "2^31 to 2^31 + 49,999: 50,000 that are the same",
             ("50,000", 50_000.0),
-            vec![there(
-                "LRN010/misses-off-by-three",
-                "LRN010/misses-off-by-two",
-            )],
+            vec![there("LRN010/misses-off-by-three", "LRN010/misses-off-by-two")],
         ),
         number(
             "counted-among",
@@ -86,10 +73,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.9",
             "A validator counts all 50,000",
             ("50,000", 50_000.0),
-            vec![there(
-                "LRN010/misses-off-by-three",
-                "LRN010/misses-off-by-two",
-            )],
+            vec![there("LRN010/misses-off-by-three", "LRN010/misses-off-by-two")],
         ),
         number(
             "fewest-collisions",
@@ -103,10 +87,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.9",
             "by n / 10,000, rounded up",
             ("10,000", 10_000.0),
-            vec![there(
-                "LRN010/five-more-cleared",
-                "LRN010/four-more-cleared",
-            )],
+            vec![there("LRN010/five-more-cleared", "LRN010/four-more-cleared")],
         ),
         number(
             "near-contact",
@@ -136,9 +117,7 @@ pub fn numbers() -> Vec<Number> {
             "8.8.12",
             "the first 29 bits",
             ("29", 29.0),
-            vec![Sides::Elsewhere(
-                "a statistic: other configurations give about the same rates",
-            )],
+            vec![Sides::Elsewhere("a statistic: other configurations give about the same rates")],
         ),
     ]
 }

@@ -41,17 +41,13 @@ fn elements(f: &mut Fixture, elements: f64) {
 
 /// As many attributes of one element; one of them declares a namespace.
 fn attributes(f: &mut Fixture, attributes: f64) {
-    let all: String = (1..attributes as usize)
-        .map(|i| format!(" a{i}=\"\""))
-        .collect();
+    let all: String = (1..attributes as usize).map(|i| format!(" a{i}=\"\"")).collect();
     in_limit(f, &format!("<a xmlns=\"n\"{all}/>"));
 }
 
 /// As many prefixes; one of them is declared twice.
 fn prefixes(f: &mut Fixture, prefixes: f64) {
-    let all: String = (0..prefixes as usize)
-        .map(|i| format!("<a xmlns:p{i}=\"n\"/>"))
-        .collect();
+    let all: String = (0..prefixes as usize).map(|i| format!("<a xmlns:p{i}=\"n\"/>")).collect();
     in_limit(f, &format!("<a xmlns:p0=\"m\"/>{all}"));
 }
 
@@ -85,10 +81,7 @@ fn long_name() -> Fixture {
 fn with_mesh() -> Fixture {
     let mut robot = robot_of(vec![link("a"), boxy("b")]);
     robot.meshes.insert("part.stl".to_owned(), [0.1; 3]);
-    robot
-        .link_mut("a")
-        .visual
-        .push(visual(None, mesh("part.stl", None)));
+    robot.link_mut("a").visual.push(visual(None, mesh("part.stl", None)));
     Fixture::full(&robot)
 }
 
@@ -96,10 +89,7 @@ fn with_mesh() -> Fixture {
 /// STL, of other triangles.
 fn facet_ends_at(f: &mut Fixture, end: f64) {
     let mesh = read(f, PLAIN, 0);
-    let mut text = format!(
-        "solid {}\n",
-        "a".repeat(end as usize - "solid \nfacet".len())
-    );
+    let mut text = format!("solid {}\n", "a".repeat(end as usize - "solid \nfacet".len()));
     for triangle in &mesh.triangles {
         text.push_str("facet normal 0 0 0\nouter loop\n");
         for [x, y, z] in mesh.corners(*triangle) {
@@ -108,11 +98,7 @@ fn facet_ends_at(f: &mut Fixture, end: f64) {
         text.push_str("endloop\nendfacet\n");
     }
     text.push_str("endsolid\n");
-    let path = f
-        .get(ORIGINAL, "/files/0/path")
-        .as_str()
-        .expect("a path")
-        .to_owned();
+    let path = f.get(ORIGINAL, "/files/0/path").as_str().expect("a path").to_owned();
     f.put_file(&path, text);
 }
 
@@ -207,36 +193,28 @@ pub fn numbers() -> Vec<Number> {
             "7.5",
             "has `COLLADA` in its first 64 KiB",
             ("64 KiB", 65_536.0),
-            vec![Sides::Elsewhere(
-                "the same 64 KiB as of STL; crates/urdd-geometry tests it",
-            )],
+            vec![Sides::Elsewhere("the same 64 KiB as of STL; crates/urdd-geometry tests it")],
         ),
         number(
             "first-bytes-of-text",
             "7.5",
             "in its first 64 KiB, no byte below that of a space",
             ("64 KiB", 65_536.0),
-            vec![Sides::Elsewhere(
-                "the same 64 KiB as of STL; crates/urdd-geometry tests it",
-            )],
+            vec![Sides::Elsewhere("the same 64 KiB as of STL; crates/urdd-geometry tests it")],
         ),
         number(
             "stl-header",
             "7.5",
             "is named `.stl` and has 84 bytes or more",
             ("84", 84.0),
-            vec![Sides::Elsewhere(
-                "with 83 bytes or 84 no triangle is whole: neither is usable",
-            )],
+            vec![Sides::Elsewhere("with 83 bytes or 84 no triangle is whole: neither is usable")],
         ),
         number(
             "triangles-of-a-file",
             "7.5",
             "more than 20 million triangles",
             ("20", 20.0),
-            vec![Sides::Elsewhere(
-                "a file of 1 GB; crates/urdd-geometry tests the limit",
-            )],
+            vec![Sides::Elsewhere("a file of 1 GB; crates/urdd-geometry tests the limit")],
         ),
         number(
             "thin-for-a-normal",
@@ -273,9 +251,7 @@ pub fn numbers() -> Vec<Number> {
             "13.2",
             "a COLLADA file with more than 256 levels, 4,000,000 nodes (elements, texts, comments and instructions), 256 attributes of one element, 64 prefixes",
             ("256", 256.0),
-            vec![Sides::Elsewhere(
-                "crates/urdd-xml tests the limits of both kinds of XML",
-            )],
+            vec![Sides::Elsewhere("crates/urdd-xml tests the limits of both kinds of XML")],
         ),
         number(
             "schema-bytes",
@@ -303,9 +279,7 @@ pub fn numbers() -> Vec<Number> {
             "11.1",
             "some 32 characters",
             ("32", 32.0),
-            vec![Sides::Elsewhere(
-                "\"some\": a tenth of the work is safe, and has its cases",
-            )],
+            vec![Sides::Elsewhere("\"some\": a tenth of the work is safe, and has its cases")],
         ),
     ]
 }

@@ -46,10 +46,7 @@ pub enum Sides {
         band: &'static str,
     },
     /// Written elsewhere, by `CODE/name`.
-    Cases {
-        beyond: &'static str,
-        within: &'static str,
-    },
+    Cases { beyond: &'static str, within: &'static str },
     /// No URDD can have it, or no small one. Says why, and what holds it instead.
     Elsewhere(&'static str),
 }
@@ -92,15 +89,7 @@ pub fn wide(
     [beyond, within]: [f64; 2],
     band: &'static str,
 ) -> Sides {
-    Sides::Made {
-        code,
-        base,
-        change,
-        at,
-        beyond,
-        within,
-        band,
-    }
+    Sides::Made { code, base, change, at, beyond, within, band }
 }
 
 /// Cases that are there.
@@ -116,14 +105,7 @@ pub fn number(
     (written, value): (&'static str, f64),
     sides: Vec<Sides>,
 ) -> Number {
-    Number {
-        id,
-        clause,
-        words,
-        written,
-        value,
-        sides,
-    }
+    Number { id, clause, words, written, value, sides }
 }
 
 /// The list.
@@ -145,24 +127,12 @@ pub fn cases() -> Vec<Case> {
     let mut times: BTreeMap<(&str, Code), usize> = BTreeMap::new();
     for number in list() {
         for sides in &number.sides {
-            let Sides::Made {
-                code,
-                base,
-                change,
-                beyond,
-                within,
-                ..
-            } = *sides
-            else {
+            let Sides::Made { code, base, change, beyond, within, .. } = *sides else {
                 continue;
             };
             let time = times.entry((number.id, code)).or_default();
             *time += 1;
-            let again = if *time == 1 {
-                String::new()
-            } else {
-                format!("-{time}")
-            };
+            let again = if *time == 1 { String::new() } else { format!("-{time}") };
             for (side, size, caught) in [("beyond", beyond, true), ("within", within, false)] {
                 // Some hundred, in a test.
                 let name: &'static str =
@@ -177,22 +147,14 @@ pub fn cases() -> Vec<Case> {
 #[test]
 fn cases_are_just_on_each_side() {
     let all = crate::cases();
-    let caught: BTreeMap<String, bool> = all
-        .iter()
-        .map(|case| (format!("{}/{}", case.code, case.name), case.caught))
-        .collect();
+    let caught: BTreeMap<String, bool> =
+        all.iter().map(|case| (format!("{}/{}", case.code, case.name), case.caught)).collect();
     for number in list() {
         let id = number.id;
         assert!(!number.sides.is_empty(), "{id}: no cases, and no reason");
         for sides in &number.sides {
             match sides {
-                Sides::Made {
-                    at,
-                    beyond,
-                    within,
-                    band,
-                    ..
-                } => {
+                Sides::Made { at, beyond, within, band, .. } => {
                     let unit: f64 = if *at >= 2.0 { 1.0 } else { 0.0 };
                     let near = |size: f64| (size - at).abs() <= unit.max(JUST * at.abs());
                     let just = (near(*beyond) && near(*within)) == band.is_empty();

@@ -15,10 +15,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("4.4", "That of 0.1.0 had"),
     ("4.4", "That of 0.2.0 had"),
     ("5.11", "0.0.1: a DOF; 0.0.2: none"),
-    (
-        "6.1.8",
-        "by XML 1.0 (fifth edition) and by Namespaces in XML 1.0 (third edition)",
-    ),
+    ("6.1.8", "by XML 1.0 (fifth edition) and by Namespaces in XML 1.0 (third edition)"),
     ("6.1.9", "it is 1.0."),
     ("7.6", "binary glTF 2.0"),
     ("8.5", "python-fcl 0.7"),
@@ -46,10 +43,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("5.11", "3 DOFs; see"),
     ("5.11", "SE(3)"),
     ("6.1.6", "at least some 8.6e-155, and at most some 1.3e154"),
-    (
-        "6.4.6",
-        "a line of 180 links has paths of 1,976,340 links, one of 181 links 2,009,281",
-    ),
+    ("6.4.6", "a line of 180 links has paths of 1,976,340 links, one of 181 links 2,009,281"),
     ("7.6", "a scale of 0.001 is known to millionths"),
     ("8.5", "within some 3e-6 of that length"),
     ("8.8.11", "z = 1.959963984540054"),
@@ -73,10 +67,7 @@ pub const NOT_LIMITS: &[(&str, &str)] = &[
     ("6.1.8", "`rgba` (4)"),
     ("6.1.8", "`xyz` (3)"),
     // Said of the same number as another entry of the clause.
-    (
-        "8.6",
-        "at most 0.001 m in one of the sampled configurations",
-    ),
+    ("8.6", "at most 0.001 m in one of the sampled configurations"),
     ("7.10", "5 % where `surface_tolerance` is null"),
     // Definitions of what is computed. Cases whose values are right hold them.
     ("8.8.3", "sin 2q, cos 2q"),

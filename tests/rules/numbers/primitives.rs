@@ -24,9 +24,7 @@ fn prism(angles: &[f64]) -> Mesh {
         [RADIUS * angle.cos(), RADIUS * angle.sin(), z].map(|x| f64::from(x as f32))
     };
     let ends = [-LENGTH / 2.0, LENGTH / 2.0];
-    let corners = angles
-        .iter()
-        .flat_map(|angle| ends.map(|z| corner(*angle, z)));
+    let corners = angles.iter().flat_map(|angle| ends.map(|z| corner(*angle, z)));
     let corners: Vec<[f64; 3]> = corners.collect();
     ConvexHull::new(&corners).expect("a prism").into_mesh()
 }
@@ -118,13 +116,7 @@ pub fn numbers() -> Vec<Number> {
             "7.8",
             "at least 95 % of its area",
             ("95 %", 0.95),
-            vec![sides(
-                MSH015,
-                thirty_two,
-                part_of_area,
-                0.95,
-                [0.9455, 0.9505],
-            )],
+            vec![sides(MSH015, thirty_two, part_of_area, 0.95, [0.9455, 0.9505])],
         ),
     ]
 }
@@ -132,21 +124,9 @@ pub fn numbers() -> Vec<Number> {
 /// Cases beside the numbers: a cylinder that faces inward.
 pub fn cases() -> Vec<Case> {
     vec![
-        changed(
-            MSH015,
-            "cylinder-that-faces-inward",
-            true,
-            thirty_two,
-            |f| {
-                change_plain(f, &even(32), Mesh::flip);
-            },
-        ),
-        changed(
-            MSH015,
-            "cylinder-of-thirty-two-sides",
-            false,
-            thirty_two,
-            |_| {},
-        ),
+        changed(MSH015, "cylinder-that-faces-inward", true, thirty_two, |f| {
+            change_plain(f, &even(32), Mesh::flip);
+        }),
+        changed(MSH015, "cylinder-of-thirty-two-sides", false, thirty_two, |_| {}),
     ]
 }

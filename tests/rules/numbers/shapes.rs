@@ -83,13 +83,7 @@ fn mean_above(f: &mut Fixture, by: f64) {
     let mean = value(f, STATISTICS, "/full_obbs/mean_distances/0/1");
     let max = value(f, STATISTICS, "/full_obbs/max_distances/0/1");
     assert!((mean - max).abs() < 1e-15);
-    set_pair(
-        f,
-        STATISTICS,
-        "/full_obbs/mean_distances",
-        (0, 1),
-        json!(max * (1.0 + by)),
-    );
+    set_pair(f, STATISTICS, "/full_obbs/mean_distances", (0, 1), json!(max * (1.0 + by)));
 }
 
 pub fn numbers() -> Vec<Number> {
@@ -125,13 +119,7 @@ fn fits() -> Vec<Number> {
             "8.2",
             "at most 1.05 times that of the least sphere",
             ("1.05", 1.05),
-            vec![sides(
-                SHP020,
-                lone_box,
-                large_sphere,
-                1.05,
-                [1.0505, 1.0495],
-            )],
+            vec![sides(SHP020, lone_box, large_sphere, 1.05, [1.0505, 1.0495])],
         ),
         number(
             "hull-in-its-box",
@@ -184,9 +172,7 @@ fn distances() -> Vec<Number> {
             "8.4",
             "up to 500 pieces",
             ("500", 500.0),
-            vec![Sides::Elsewhere(
-                "no case yet: 500 pieces are 1,500 mesh files",
-            )],
+            vec![Sides::Elsewhere("no case yet: 500 pieces are 1,500 mesh files")],
         ),
         number(
             "samples",
@@ -246,10 +232,7 @@ fn distances() -> Vec<Number> {
             "8.6",
             "more than 0.001 m plus the tolerance of 8.5 in another",
             ("0.001", 0.001),
-            vec![there(
-                "SHP025/legacy-stale",
-                "SHP025/legacy-always-in-contact",
-            )],
+            vec![there("SHP025/legacy-stale", "SHP025/legacy-always-in-contact")],
         ),
         number(
             "always",
@@ -263,20 +246,14 @@ fn distances() -> Vec<Number> {
             "8.6",
             "(9.4) is at most 0.001 m",
             ("0.001", 0.001),
-            vec![there(
-                "SHP026/just-apart-at-zero",
-                "SHP026/just-touching-at-zero",
-            )],
+            vec![there("SHP026/just-apart-at-zero", "SHP026/just-touching-at-zero")],
         ),
         number(
             "never",
             "8.6",
             "its smallest sampled distance is more than 0.001 m",
             ("0.001", 0.001),
-            vec![there(
-                "SHP012/just-never-said-to-be-none",
-                "SHP012/just-never",
-            )],
+            vec![there("SHP012/just-never-said-to-be-none", "SHP012/just-never")],
         ),
         number(
             "legacy-sphere",

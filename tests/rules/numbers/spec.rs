@@ -38,9 +38,7 @@ fn clauses() -> BTreeMap<String, String> {
 /// Whether it is a row of a table that holds examples: numbers alone.
 fn is_row_of_values(line: &str) -> bool {
     line.starts_with('|')
-        && !line
-            .replace("and", "")
-            .contains(|c: char| c.is_ascii_alphabetic())
+        && !line.replace("and", "").contains(|c: char| c.is_ascii_alphabetic())
         && line.contains(|c: char| c.is_ascii_digit())
 }
 
@@ -107,23 +105,12 @@ fn every_entry_is_in_its_clause() {
         let clause = clauses.get(number.clause);
         let clause = clause.unwrap_or_else(|| panic!("{id}: no clause {}", number.clause));
         let (words, written) = (number.words, number.written);
-        assert!(
-            clause.contains(words),
-            "{id}: {} no longer says {words:?}",
-            number.clause
-        );
-        assert!(
-            words.contains(written),
-            "{id}: {written:?} is not in {words:?}"
-        );
+        assert!(clause.contains(words), "{id}: {} no longer says {words:?}", number.clause);
+        assert!(words.contains(written), "{id}: {written:?} is not in {words:?}");
         let value = read(written);
         let near = |value: f64| (value - number.value).abs() <= 1e-12 * value.abs();
         let agrees = value.is_some_and(|value| value == number.value || near(value));
-        assert!(
-            agrees,
-            "{id}: {written:?} is {value:?}, and not {}",
-            number.value
-        );
+        assert!(agrees, "{id}: {written:?} is {value:?}, and not {}", number.value);
     }
 }
 
@@ -155,10 +142,7 @@ fn every_number_of_spec_is_in_the_list() {
         }
     }
     for (clause, _) in NOT_LIMITS {
-        assert!(
-            clauses.contains_key(*clause),
-            "not_limits.rs: no clause {clause}"
-        );
+        assert!(clauses.contains_key(*clause), "not_limits.rs: no clause {clause}");
     }
     assert!(
         missing.is_empty(),
@@ -172,10 +156,7 @@ fn numbers_are_found_and_read() {
     let clauses = BTreeSet::from(["5.6", "6.1.8"]);
     let text = "within 1e-9 (5.6), at 2 most 2,000,000 or 2 %, 5.6 times U+0085, DOF003, §12, 2^-52. 0x1F 84 + 50 n";
     let found = numerals(text, &clauses);
-    assert_eq!(
-        found,
-        ["1e-9", "2,000,000", "2", "5.6", "2^-52", "0x1F", "84", "50"]
-    );
+    assert_eq!(found, ["1e-9", "2,000,000", "2", "5.6", "2^-52", "0x1F", "84", "50"]);
     for (written, value) in [
         ("1e-9", 1e-9),
         ("2 %", 0.02),

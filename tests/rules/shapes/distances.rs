@@ -15,9 +15,7 @@ use testkit::robot::*;
 fn turning_boxes() -> Fixture {
     let mut robot = robot_of(vec![boxy("a"), boxy("b")]);
     robot.urdf.joints[0].joint_type = JointType::Revolute;
-    robot.urdf.joints[0].axis = Some(Axis {
-        xyz: Some([0.0, 1.0, 0.0]),
-    });
+    robot.urdf.joints[0].axis = Some(Axis { xyz: Some([0.0, 1.0, 0.0]) });
     robot.urdf.joints[0].limit = limit(-1.0, 1.0);
     Fixture::full_with_edits(&robot, Vec::new())
 }
@@ -37,9 +35,7 @@ fn to_seven_digits(f: &mut Fixture) {
                 let rows: Vec<Vec<f64>> =
                     serde_json::from_value(f.get(STATISTICS, &matrix).clone()).expect("a matrix");
                 let rounded = |x: &f64| format!("{x:.6e}").parse::<f64>().expect("a number");
-                let rounded = rows
-                    .iter()
-                    .map(|row| row.iter().map(rounded).collect::<Vec<f64>>());
+                let rounded = rows.iter().map(|row| row.iter().map(rounded).collect::<Vec<f64>>());
                 let rounded: Vec<Vec<f64>> = rounded.collect();
                 changed += usize::from(rounded != rows);
                 f.set(STATISTICS, &matrix, json!(rounded));
@@ -96,13 +92,7 @@ pub fn cases() -> Vec<Case> {
             let at = |key: &str| format!("/full_convex_hulls/{key}_distances/{i}/{j}");
             let [mean, max] = ["mean", "max"].map(|key| number(f, STATISTICS, &at(key)));
             let matrix = "/full_convex_hulls/mean_distances";
-            set_pair(
-                f,
-                STATISTICS,
-                matrix,
-                (i, j),
-                json!(mean + 0.5 * (max - mean)),
-            );
+            set_pair(f, STATISTICS, matrix, (i, j), json!(mean + 0.5 * (max - mean)));
         }),
         invalid(SHP024, "largest", move |f| {
             let pair = pair_that_is(f, "Never");
@@ -124,20 +114,9 @@ pub fn cases() -> Vec<Case> {
             let pair = pair_that_is(f, "Never");
             scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-7);
         }),
-        changed(
-            SHP024,
-            "seven-digits",
-            false,
-            turning_boxes,
-            to_seven_digits,
-        ),
+        changed(SHP024, "seven-digits", false, turning_boxes, to_seven_digits),
         legacy(SHP025, "legacy-stale", true, sliding(-1.0, 1.0)),
-        legacy(
-            SHP025,
-            "legacy-always-in-contact",
-            false,
-            sliding(-1.0, -0.95),
-        ),
+        legacy(SHP025, "legacy-always-in-contact", false, sliding(-1.0, -0.95)),
         legacy(SHP025, "legacy-always-apart", false, sliding(0.1, 0.5)),
     ]
 }

@@ -34,11 +34,7 @@ fn margin_below(f: &mut Fixture, by: f64) {
     let reach = ((a + by) * (a + by) + b * b + c * c).sqrt();
     let half = [a + by / 2.0, b, c];
     f.set(APPROXIMATIONS, "/full_obbs/0/half_extents", json!(half));
-    f.set(
-        APPROXIMATIONS,
-        "/full_obbs/0/offset_xyz/0",
-        json!(-by / 2.0),
-    );
+    f.set(APPROXIMATIONS, "/full_obbs/0/offset_xyz/0", json!(-by / 2.0));
     f.set(REACH, "/full_obbs_maximum_distances/0", json!(reach));
 }
 
@@ -48,11 +44,7 @@ pub fn move_sphere(f: &mut Fixture, shift: f64) {
     let radius = (a * a + b * b + (c + shift) * (c + shift)).sqrt();
     let sphere = json!({ "radius": radius, "offset_xyz": [0.0, 0.0, shift] });
     f.set(APPROXIMATIONS, "/full_bounding_spheres/0", sphere);
-    f.set(
-        REACH,
-        "/full_bounding_spheres_maximum_distances/0",
-        json!(radius + shift),
-    );
+    f.set(REACH, "/full_bounding_spheres_maximum_distances/0", json!(radius + shift));
 }
 
 /// Makes a sphere of the toy larger, and its distance from the origin with it.
@@ -60,16 +52,8 @@ fn grow_sphere(f: &mut Fixture, factor: f64) {
     let radius = number(f, APPROXIMATIONS, "/full_bounding_spheres/0/radius");
     let reach = number(f, REACH, "/full_bounding_spheres_maximum_distances/0");
     let more = radius * (factor - 1.0);
-    f.set(
-        APPROXIMATIONS,
-        "/full_bounding_spheres/0/radius",
-        json!(radius + more),
-    );
-    f.set(
-        REACH,
-        "/full_bounding_spheres_maximum_distances/0",
-        json!(reach + more),
-    );
+    f.set(APPROXIMATIONS, "/full_bounding_spheres/0/radius", json!(radius + more));
+    f.set(REACH, "/full_bounding_spheres_maximum_distances/0", json!(reach + more));
 }
 
 /// SHP017 to SHP021.
@@ -79,20 +63,10 @@ pub fn cases() -> Vec<Case> {
             scale(f, APPROXIMATIONS, "/full_obbs/0/offset_xyz/2", 1.01);
         }),
         invalid(SHP017, "box-too-small", |f| {
-            scale(
-                f,
-                APPROXIMATIONS,
-                "/decomposition_obbs/0/1/half_extents/2",
-                0.99,
-            );
+            scale(f, APPROXIMATIONS, "/decomposition_obbs/0/1/half_extents/2", 0.99);
         }),
         invalid(SHP017, "sphere-too-small", |f| {
-            scale(
-                f,
-                APPROXIMATIONS,
-                "/full_bounding_spheres/0/radius",
-                1.0 - 1e-4,
-            );
+            scale(f, APPROXIMATIONS, "/full_bounding_spheres/0/radius", 1.0 - 1e-4);
         }),
         legacy(SHP017, "legacy-box-too-small", true, || {
             let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
@@ -106,16 +80,11 @@ pub fn cases() -> Vec<Case> {
         changed(SHP018, "box-with-a-margin-below", true, lone_box, |f| {
             margin_below(f, 0.001);
         }),
-        invalid(SHP018, "sphere-with-a-margin", |f| {
-            grow_sphere(f, 1.0 + 1e-4)
-        }),
+        invalid(SHP018, "sphere-with-a-margin", |f| grow_sphere(f, 1.0 + 1e-4)),
         near_miss(SHP018, "rounded", |f| grow_sphere(f, 1.0 + 1e-7)),
         legacy(SHP018, "legacy-margin", false, || {
             let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
-            for list in [
-                "full_obbs_maximum_distances",
-                "full_bounding_spheres_maximum_distances",
-            ] {
+            for list in ["full_obbs_maximum_distances", "full_bounding_spheres_maximum_distances"] {
                 robot.doc(REACH)[list][1] = json!(0.51);
             }
             robot.doc(APPROXIMATIONS)["full_bounding_spheres"][1]["radius"] = json!(0.51);
@@ -125,9 +94,7 @@ pub fn cases() -> Vec<Case> {
         }),
         changed(SHP019, "turned", true, lone_box, |f| turn_box(f, 0.3)),
         // 1 + sin(x) cos(x) (a / b + b / a) = 1.097 times the volume.
-        changed(SHP019, "turned-a-little", false, lone_box, |f| {
-            turn_box(f, 0.039)
-        }),
+        changed(SHP019, "turned-a-little", false, lone_box, |f| turn_box(f, 0.039)),
         legacy(SHP019, "legacy-box-too-large", true, || {
             let mut robot = LegacyRobot::new("robot", 0.0).with_shapes(0.5);
             let wide: [f64; 3] = [0.34, 0.24, 0.32];
@@ -138,16 +105,9 @@ pub fn cases() -> Vec<Case> {
         }),
         changed(SHP020, "aside", true, lone_box, |f| move_sphere(f, 0.02)),
         // sqrt(0.0125 + 0.159^2) / sqrt(0.035) = 1.039 times the radius.
-        changed(SHP020, "a-little-aside", false, lone_box, |f| {
-            move_sphere(f, 0.009)
-        }),
+        changed(SHP020, "a-little-aside", false, lone_box, |f| move_sphere(f, 0.009)),
         invalid(SHP021, "nearer", |f| {
-            scale(
-                f,
-                REACH,
-                "/full_convex_hulls_maximum_distances/0",
-                1.0 - 1e-4,
-            );
+            scale(f, REACH, "/full_convex_hulls_maximum_distances/0", 1.0 - 1e-4);
         }),
         invalid(SHP021, "a-pieces", |f| {
             let pointer = "/decomposition_convex_hulls_maximum_distances/0/0";
@@ -159,12 +119,7 @@ pub fn cases() -> Vec<Case> {
             robot
         }),
         near_miss(SHP021, "rounded", |f| {
-            scale(
-                f,
-                REACH,
-                "/full_convex_hulls_maximum_distances/0",
-                1.0 - 1e-7,
-            );
+            scale(f, REACH, "/full_convex_hulls_maximum_distances/0", 1.0 - 1e-7);
         }),
     ]
 }

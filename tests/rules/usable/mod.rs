@@ -24,31 +24,15 @@ struct Row {
 }
 
 fn row(name: &'static str, file: &'static str, bytes: impl Into<Vec<u8>>, usable: bool) -> Row {
-    Row {
-        name,
-        file,
-        bytes: bytes.into(),
-        usable,
-    }
+    Row { name, file, bytes: bytes.into(), usable }
 }
 
 /// The cases of all rows.
 pub fn cases() -> Vec<Case> {
-    let rows = [
-        stl_rows(),
-        obj_rows(),
-        scenes::collada_rows(),
-        scenes::gltf_rows(),
-        others(),
-    ];
+    let rows = [stl_rows(), obj_rows(), scenes::collada_rows(), scenes::gltf_rows(), others()];
     let rows = rows.into_iter().flatten();
     rows.flat_map(|row| {
-        let Row {
-            name,
-            file,
-            bytes,
-            usable,
-        } = row;
+        let Row { name, file, bytes, usable } = row;
         [false, true].map(|caught| {
             let bytes = bytes.clone();
             let said = usable != caught;
@@ -66,10 +50,8 @@ pub fn cases() -> Vec<Case> {
 
 /// Two links that show boxes; the second collides with a mesh, which is not there.
 fn base() -> Fixture {
-    let with_mesh = Link {
-        collision: vec![collision(None, mesh("package://robot/part", None))],
-        ..boxy("b")
-    };
+    let with_mesh =
+        Link { collision: vec![collision(None, mesh("package://robot/part", None))], ..boxy("b") };
     let mut fixture = Fixture::full(&robot_of(vec![boxy("a"), with_mesh]));
     carry(&mut fixture, "first.stl", &stl(1, &[TRIANGLE]), true);
     fixture
@@ -77,11 +59,7 @@ fn base() -> Fixture {
 
 /// Puts the mesh there.
 fn carry(f: &mut Fixture, file: &str, bytes: &[u8], usable: bool) {
-    if let Some(before) = f
-        .get(ORIGINAL, "/references/0/path")
-        .as_str()
-        .map(str::to_owned)
-    {
+    if let Some(before) = f.get(ORIGINAL, "/references/0/path").as_str().map(str::to_owned) {
         f.remove_file(&before);
         f.unlist(&before);
     }
@@ -123,19 +101,9 @@ fn stl_rows() -> Vec<Row> {
     };
     let text = |facets: &str| format!("solid part\n{facets}endsolid part\n");
     vec![
-        row(
-            "binary-stl-that-begins-with-solid",
-            "part.stl",
-            whole.clone(),
-            true,
-        ),
+        row("binary-stl-that-begins-with-solid", "part.stl", whole.clone(), true),
         row("binary-stl-named-otherwise", "part.obj", whole, true),
-        row(
-            "binary-stl-cut-off",
-            "part.stl",
-            cut(&stl(2, &[TRIANGLE; 2]), 20),
-            true,
-        ),
+        row("binary-stl-cut-off", "part.stl", cut(&stl(2, &[TRIANGLE; 2]), 20), true),
         row(
             "binary-stl-without-a-whole-triangle",
             "part.stl",
@@ -143,19 +111,9 @@ fn stl_rows() -> Vec<Row> {
             false,
         ),
         row("binary-stl-with-more-behind", "part.stl", longer, true),
-        row(
-            "binary-stl-of-count-0",
-            "part.stl",
-            stl(0, &[TRIANGLE]),
-            true,
-        ),
+        row("binary-stl-of-count-0", "part.stl", stl(0, &[TRIANGLE]), true),
         row("binary-stl-of-a-point", "part.stl", stl(1, &[POINT]), false),
-        row(
-            "binary-stl-of-no-number",
-            "part.stl",
-            stl(1, &[NO_NUMBER]),
-            false,
-        ),
+        row("binary-stl-of-no-number", "part.stl", stl(1, &[NO_NUMBER]), false),
         row(
             "binary-stl-of-no-number-beside-numbers",
             "part.stl",
@@ -163,24 +121,14 @@ fn stl_rows() -> Vec<Row> {
             true,
         ),
         row("stl-as-text", "part.stl", text(&facet("0 1 0")), true),
-        row(
-            "stl-as-text-in-capitals",
-            "part.stl",
-            text(&facet("0 1 0")).to_uppercase(),
-            true,
-        ),
+        row("stl-as-text-in-capitals", "part.stl", text(&facet("0 1 0")).to_uppercase(), true),
         row(
             "stl-as-text-cut-off",
             "part.stl",
             format!("solid part\n{}facet normal 0 0 1\nouter", facet("0 1 0")),
             true,
         ),
-        row(
-            "stl-as-text-of-no-number",
-            "part.stl",
-            text(&facet("0 one 0")),
-            false,
-        ),
+        row("stl-as-text-of-no-number", "part.stl", text(&facet("0 one 0")), false),
         row("stl-as-text-without-facets", "part.stl", text(""), false),
     ]
 }
@@ -190,39 +138,14 @@ fn obj_rows() -> Vec<Row> {
     vec![
         row("obj", "part.obj", obj("f 1 2 3"), true),
         row("obj-named-stl", "part.stl", obj("f 1 2 3"), true),
-        row(
-            "obj-counted-from-the-end",
-            "part.obj",
-            obj("f -3 -2 -1"),
-            true,
-        ),
+        row("obj-counted-from-the-end", "part.obj", obj("f -3 -2 -1"), true),
         row("obj-of-index-0", "part.obj", obj("f 0 1 2"), false),
         row("obj-of-an-index-beyond", "part.obj", obj("f 1 2 4"), false),
-        row(
-            "obj-of-an-index-beyond-beside-a-face",
-            "part.obj",
-            obj("f 1 2 4\nf 1 2 3"),
-            true,
-        ),
-        row(
-            "obj-of-an-index-that-is-no-integer",
-            "part.obj",
-            obj("f 1 2 three"),
-            false,
-        ),
-        row(
-            "obj-of-no-number",
-            "part.obj",
-            "v 0 0 0\nv x 0 0\nv 0 1 0\nf 1 2 3\n",
-            false,
-        ),
+        row("obj-of-an-index-beyond-beside-a-face", "part.obj", obj("f 1 2 4\nf 1 2 3"), true),
+        row("obj-of-an-index-that-is-no-integer", "part.obj", obj("f 1 2 three"), false),
+        row("obj-of-no-number", "part.obj", "v 0 0 0\nv x 0 0\nv 0 1 0\nf 1 2 3\n", false),
         row("obj-without-faces", "part.obj", obj(""), false),
-        row(
-            "obj-named-so-of-other-words",
-            "part.obj",
-            "a shopping list\n",
-            false,
-        ),
+        row("obj-named-so-of-other-words", "part.obj", "a shopping list\n", false),
     ]
 }
 
@@ -231,24 +154,9 @@ fn others() -> Vec<Row> {
     let ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
     vec![
         row("empty-file", "part.stl", "", false),
-        row(
-            "ply",
-            "part.stl",
-            [ply.as_bytes(), &[b' '; 60]].concat(),
-            false,
-        ),
-        row(
-            "off",
-            "part.obj",
-            "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-            false,
-        ),
-        row(
-            "packed-by-gzip",
-            "part.stl",
-            [&[0x1f, 0x8b][..], &[8; 100]].concat(),
-            false,
-        ),
+        row("ply", "part.stl", [ply.as_bytes(), &[b' '; 60]].concat(), false),
+        row("off", "part.obj", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", false),
+        row("packed-by-gzip", "part.stl", [&[0x1f, 0x8b][..], &[8; 100]].concat(), false),
         row(
             "pointer-of-git-lfs",
             "part.stl",
@@ -262,11 +170,6 @@ fn others() -> Vec<Row> {
             false,
         ),
         row("other-xml", "part.dae", "<mesh/>", false),
-        row(
-            "archive",
-            "part.stl",
-            [b"PK\x03\x04".as_slice(), &[1; 100]].concat(),
-            false,
-        ),
+        row("archive", "part.stl", [b"PK\x03\x04".as_slice(), &[1; 100]].concat(), false),
     ]
 }

@@ -35,12 +35,7 @@ pub fn collada_rows() -> Vec<Row> {
     vec![
         row("collada", "part.dae", whole.clone(), true),
         row("collada-named-stl", "part.stl", whole.clone(), true),
-        row(
-            "collada-that-names-no-scene",
-            "part.dae",
-            collada(&shown),
-            true,
-        ),
+        row("collada-that-names-no-scene", "part.dae", collada(&shown), true),
         row("collada-without-scenes", "part.dae", collada(""), true),
         row(
             "collada-of-an-empty-scene",
@@ -48,24 +43,9 @@ pub fn collada_rows() -> Vec<Row> {
             collada(&format!("{}{scene}", nodes(""))),
             false,
         ),
-        row(
-            "collada-with-a-doctype",
-            "part.dae",
-            format!("<!DOCTYPE COLLADA>{whole}"),
-            false,
-        ),
-        row(
-            "collada-with-text-behind",
-            "part.dae",
-            format!("{whole}end"),
-            false,
-        ),
-        row(
-            "collada-not-well-formed",
-            "part.dae",
-            changed("</mesh>", ""),
-            false,
-        ),
+        row("collada-with-a-doctype", "part.dae", format!("<!DOCTYPE COLLADA>{whole}"), false),
+        row("collada-with-text-behind", "part.dae", format!("{whole}end"), false),
+        row("collada-not-well-formed", "part.dae", changed("</mesh>", ""), false),
         row(
             "collada-of-two-numbers-each",
             "part.dae",
@@ -97,12 +77,7 @@ pub fn collada_rows() -> Vec<Row> {
             collada(&format!("{looking}{scene}")),
             false,
         ),
-        row(
-            "collada-of-a-node-in-itself",
-            "part.dae",
-            collada(&within_itself),
-            false,
-        ),
+        row("collada-of-a-node-in-itself", "part.dae", collada(&within_itself), false),
     ]
 }
 
@@ -135,54 +110,24 @@ pub fn gltf_rows() -> Vec<Row> {
     };
     vec![
         row("gltf", "part.gltf", gltf().to_string(), true),
-        row(
-            "gltf-of-version-1",
-            "part.gltf",
-            with("/asset/version", json!("1.0")),
-            false,
-        ),
-        row(
-            "gltf-of-an-empty-scene",
-            "part.gltf",
-            with("/scenes/0", json!({})),
-            false,
-        ),
-        row(
-            "gltf-of-a-scene-that-is-not-there",
-            "part.gltf",
-            with("/scene", json!(1)),
-            false,
-        ),
+        row("gltf-of-version-1", "part.gltf", with("/asset/version", json!("1.0")), false),
+        row("gltf-of-an-empty-scene", "part.gltf", with("/scenes/0", json!({})), false),
+        row("gltf-of-a-scene-that-is-not-there", "part.gltf", with("/scene", json!(1)), false),
         row(
             "gltf-of-a-mesh-that-is-not-there",
             "part.gltf",
             with("/nodes/0/mesh", json!(1)),
             false,
         ),
-        row(
-            "gltf-of-a-buffer-too-short",
-            "part.gltf",
-            with("/accessors/0/count", json!(4)),
-            false,
-        ),
+        row("gltf-of-a-buffer-too-short", "part.gltf", with("/accessors/0/count", json!(4)), false),
         row(
             "gltf-of-a-file-that-is-not-carried",
             "part.gltf",
             with("/buffers/0/uri", json!("gone.bin")),
             false,
         ),
-        row(
-            "gltf-of-lines",
-            "part.gltf",
-            with("/meshes/0/primitives/0/mode", json!(1)),
-            false,
-        ),
-        row(
-            "gltf-of-a-strip",
-            "part.gltf",
-            with("/meshes/0/primitives/0/mode", json!(5)),
-            true,
-        ),
+        row("gltf-of-lines", "part.gltf", with("/meshes/0/primitives/0/mode", json!(1)), false),
+        row("gltf-of-a-strip", "part.gltf", with("/meshes/0/primitives/0/mode", json!(5)), true),
         row(
             "gltf-that-requires-draco",
             "part.gltf",
@@ -195,11 +140,6 @@ pub fn gltf_rows() -> Vec<Row> {
             with("/extensionsUsed", json!(["KHR_lights_punctual"])),
             true,
         ),
-        row(
-            "gltf-of-a-node-in-itself",
-            "part.gltf",
-            with("/nodes/0/children", json!([0])),
-            false,
-        ),
+        row("gltf-of-a-node-in-itself", "part.gltf", with("/nodes/0/children", json!([0])), false),
     ]
 }

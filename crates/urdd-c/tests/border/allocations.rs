@@ -43,26 +43,11 @@ fn a_control_loop_does_not_allocate() {
         ok(urdd_robot_open(path.as_ptr(), &mut robot));
         ok(urdd_robot_proximity(robot, c"pieces".as_ptr(), &mut made));
         let centre = [0.6, 0.0, 0.4];
-        ok(urdd_obstacle_sphere(
-            c"ball".as_ptr(),
-            centre.as_ptr(),
-            0.1,
-            &mut ball,
-        ));
+        ok(urdd_obstacle_sphere(c"ball".as_ptr(), centre.as_ptr(), 0.1, &mut ball));
         let obstacles = [ball.cast_const()];
-        ok(urdd_proximity_world_proximity(
-            made,
-            obstacles.as_ptr(),
-            1,
-            &mut world,
-        ));
+        ok(urdd_proximity_world_proximity(made, obstacles.as_ptr(), 1, &mut world));
         let mut pairs = 0;
-        ok(urdd_proximity_sizes(
-            made,
-            null_mut(),
-            &mut pairs,
-            null_mut(),
-        ));
+        ok(urdd_proximity_sizes(made, null_mut(), &mut pairs, null_mut()));
         let (mut poses, mut jacobian) = (vec![0.0; 9 * 16], [0.0; 36]);
         let (mut distances, mut q) = (vec![0.0; pairs], [0.0; 6]);
         let mut before = 0;
@@ -72,41 +57,12 @@ fn a_control_loop_does_not_allocate() {
             }
             q = q.map(|value| value + 0.001);
             let (at, mut touches, mut d) = (q.as_ptr(), false, 0.0);
-            ok(urdd_robot_link_poses(
-                robot,
-                at,
-                1,
-                6,
-                poses.as_mut_ptr(),
-                144,
-            ));
-            ok(urdd_robot_jacobians(
-                robot,
-                at,
-                1,
-                6,
-                8,
-                null(),
-                jacobian.as_mut_ptr(),
-                36,
-            ));
+            ok(urdd_robot_link_poses(robot, at, 1, 6, poses.as_mut_ptr(), 144));
+            ok(urdd_robot_jacobians(robot, at, 1, 6, 8, null(), jacobian.as_mut_ptr(), 36));
             ok(urdd_proximity_in_collision(made, at, 1, 6, &mut touches));
             ok(urdd_proximity_self_distance(made, at, 1, 6, &mut d));
-            ok(urdd_proximity_distances(
-                made,
-                at,
-                1,
-                6,
-                distances.as_mut_ptr(),
-                pairs,
-            ));
-            ok(urdd_world_proximity_in_collision(
-                world,
-                at,
-                1,
-                6,
-                &mut touches,
-            ));
+            ok(urdd_proximity_distances(made, at, 1, 6, distances.as_mut_ptr(), pairs));
+            ok(urdd_world_proximity_in_collision(world, at, 1, 6, &mut touches));
             ok(urdd_world_proximity_min_distance(world, at, 1, 6, &mut d));
         }
         assert!(before > 0);

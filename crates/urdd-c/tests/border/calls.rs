@@ -26,24 +26,10 @@ fn handles() -> &'static Handles {
         unsafe {
             let ok = |status| assert_eq!(status, Status::Ok);
             ok(urdd_robot_open(path.as_ptr(), &mut robot));
-            ok(urdd_robot_proximity(
-                robot,
-                c"pieces".as_ptr(),
-                &mut proximity,
-            ));
-            ok(urdd_obstacle_sphere(
-                c"ball".as_ptr(),
-                centre.as_ptr(),
-                0.2,
-                &mut ball,
-            ));
+            ok(urdd_robot_proximity(robot, c"pieces".as_ptr(), &mut proximity));
+            ok(urdd_obstacle_sphere(c"ball".as_ptr(), centre.as_ptr(), 0.2, &mut ball));
             let obstacles = [ball.cast_const()];
-            ok(urdd_proximity_world_proximity(
-                proximity,
-                obstacles.as_ptr(),
-                1,
-                &mut world,
-            ));
+            ok(urdd_proximity_world_proximity(proximity, obstacles.as_ptr(), 1, &mut world));
             ok(urdd_obstacle_free(ball));
             // Kinematics is read before the folder goes.
             let mut bounds = [0.0; 12];
@@ -88,9 +74,7 @@ impl Stream<'_> {
     /// As many as a call that says this many rows and columns has to have; none where no memory has them.
     fn array(&mut self, rows: usize, columns: usize) -> Vec<f64> {
         let length = rows.checked_mul(columns).filter(|length| *length <= 4096);
-        (0..length.unwrap_or_default())
-            .map(|_| self.number())
-            .collect()
+        (0..length.unwrap_or_default()).map(|_| self.number()).collect()
     }
 }
 

@@ -20,21 +20,9 @@ fn limits_and_masses_are_those_of_the_urdf() {
         ok(urdd_robot_velocity_limits(handle, velocity.as_mut_ptr(), 6));
         ok(urdd_robot_effort_limits(handle, effort.as_mut_ptr(), 6));
         ok(urdd_robot_link_masses(handle, masses.as_mut_ptr(), 36));
-        ok(urdd_robot_centre_of_mass(
-            handle,
-            q.as_ptr(),
-            4,
-            6,
-            centres.as_mut_ptr(),
-        ));
-        assert_eq!(
-            urdd_robot_effort_limits(handle, effort.as_mut_ptr(), 5),
-            Status::Length
-        );
-        assert_eq!(
-            urdd_robot_link_masses(handle, masses.as_mut_ptr(), 35),
-            Status::Length
-        );
+        ok(urdd_robot_centre_of_mass(handle, q.as_ptr(), 4, 6, centres.as_mut_ptr()));
+        assert_eq!(urdd_robot_effort_limits(handle, effort.as_mut_ptr(), 5), Status::Length);
+        assert_eq!(urdd_robot_link_masses(handle, masses.as_mut_ptr(), 35), Status::Length);
         ok(urdd_robot_free(handle));
     }
     // As in conformance/robots/welding_arm.urdf.
@@ -138,9 +126,7 @@ fn inverse_kinematics_reaches_a_pose_a_point_and_says_when_it_does_not() {
     let (handle, robot, q) = (open(), arm(), samples(4));
     let torch = robot.link("torch").unwrap();
     let target = |row: &[f64]| {
-        let pose = robot.link_poses(row).unwrap()[torch]
-            .to_homogeneous()
-            .transpose();
+        let pose = robot.link_poses(row).unwrap()[torch].to_homogeneous().transpose();
         Target {
             link: torch,
             pose: pose.as_slice().try_into().unwrap(),
@@ -167,10 +153,7 @@ fn inverse_kinematics_reaches_a_pose_a_point_and_says_when_it_does_not() {
             found.as_mut_ptr(),
             solutions.as_mut_ptr(),
         ));
-        assert_eq!(
-            solutions.map(|one| one.is_reached),
-            [true, true, false, true]
-        );
+        assert_eq!(solutions.map(|one| one.is_reached), [true, true, false, true]);
         for k in [0, 3] {
             let pose = robot.link_poses(&found[6 * k..6 * k + 6]).unwrap()[torch];
             let known = robot.link_poses(&q[6 * k..6 * k + 6]).unwrap()[torch];

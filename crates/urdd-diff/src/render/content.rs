@@ -94,39 +94,18 @@ pub(super) fn sections(report: &DiffReport) -> Vec<Section> {
             sections.push(Section { title, lines });
         }
     };
-    add(
-        "Robot",
-        report.robot.iter().map(|it| change(0, it)).collect(),
-    );
+    add("Robot", report.robot.iter().map(|it| change(0, it)).collect());
     add("Links", links(&report.links));
     add("Joints", parts(&report.joints));
     add("Materials", parts(&report.materials));
     add("Other elements", parts(&report.other_elements));
-    add(
-        "Poses with all joints at zero",
-        report.poses.iter().map(poses).collect(),
-    );
+    add("Poses with all joints at zero", report.poses.iter().map(poses).collect());
     add("DOFs", dofs(&report.dofs));
-    add(
-        "Pairs of links in collision checks",
-        pairs(report.pairs.as_deref().unwrap_or_default()),
-    );
-    add(
-        "Named configurations",
-        parts(report.configurations.as_deref().unwrap_or_default()),
-    );
-    add(
-        "Modules",
-        modules(report.modules.as_deref().unwrap_or_default()),
-    );
-    add(
-        "Findings",
-        findings(report.findings.as_deref().unwrap_or_default()),
-    );
-    let note = |note: &String| Line {
-        depth: 0,
-        spans: vec![value(note)],
-    };
+    add("Pairs of links in collision checks", pairs(report.pairs.as_deref().unwrap_or_default()));
+    add("Named configurations", parts(report.configurations.as_deref().unwrap_or_default()));
+    add("Modules", modules(report.modules.as_deref().unwrap_or_default()));
+    add("Findings", findings(report.findings.as_deref().unwrap_or_default()));
+    let note = |note: &String| Line { depth: 0, spans: vec![value(note)] };
     add("Notes", report.notes.iter().map(note).collect());
     sections
 }
@@ -158,19 +137,12 @@ fn in_one<'a>(parts: impl Iterator<Item = (Presence, &'a str)> + Clone) -> Vec<L
     let list = |word: &str, presence: Presence| {
         let mut spans = Vec::new();
         for (_, text) in parts.clone().filter(|part| part.0 == presence) {
-            spans.push(words(if spans.is_empty() {
-                format!("{word}: ")
-            } else {
-                ", ".to_owned()
-            }));
+            spans.push(words(if spans.is_empty() { format!("{word}: ") } else { ", ".to_owned() }));
             spans.push(name(text));
         }
         (!spans.is_empty()).then_some(Line { depth: 0, spans })
     };
-    let lines = [
-        list("removed", Presence::Removed),
-        list("added", Presence::Added),
-    ];
+    let lines = [list("removed", Presence::Removed), list("added", Presence::Added)];
     lines.into_iter().flatten().collect()
 }
 
@@ -183,10 +155,7 @@ fn in_both<'a>(part: &str, changes: &'a [ValueChange]) -> impl Iterator<Item = L
 
 fn links(links: &[LinkDifference]) -> Vec<Line> {
     let mut lines = in_one(links.iter().map(|it| (it.presence, it.name.as_str())));
-    for link in links
-        .iter()
-        .filter(|link| link.presence == Presence::Changed)
-    {
+    for link in links.iter().filter(|link| link.presence == Presence::Changed) {
         lines.extend(in_both(&link.name, &link.changes));
         for geometry in &link.geometry {
             lines.extend(geometry.changes.iter().map(|it| change(1, it)));
@@ -220,10 +189,7 @@ fn bounds(of: Option<&DiffBox>) -> String {
 
 fn parts(parts: &[PartDifference]) -> Vec<Line> {
     let mut lines = in_one(parts.iter().map(|it| (it.presence, it.name.as_str())));
-    for part in parts
-        .iter()
-        .filter(|part| part.presence == Presence::Changed)
-    {
+    for part in parts.iter().filter(|part| part.presence == Presence::Changed) {
         lines.extend(in_both(&part.name, &part.changes));
     }
     lines
@@ -262,10 +228,7 @@ fn dofs(dofs: &[DofDifference]) -> Vec<Line> {
         }
     }
     if !moved.is_empty() {
-        lines.push(Line {
-            depth: 0,
-            spans: moved,
-        });
+        lines.push(Line { depth: 0, spans: moved });
     }
     for dof in both().filter(|dof| !dof.changes.is_empty()) {
         lines.extend(in_both(&dof.name, &dof.changes));
@@ -287,13 +250,7 @@ fn pairs(pairs: &[PairDifference]) -> Vec<Line> {
         let [a, b] = &pair.links;
         Line {
             depth: 0,
-            spans: vec![
-                words(word),
-                name(a),
-                words(" - "),
-                name(b),
-                words(format!(" ({kinds})")),
-            ],
+            spans: vec![words(word), name(a), words(" - "), name(b), words(format!(" ({kinds})"))],
         }
     });
     lines.collect()
@@ -343,10 +300,8 @@ fn findings(findings: &[FindingDifference]) -> Vec<Line> {
             1 => String::new(),
             count => format!(" ({count} places)"),
         };
-        let mut spans = vec![words(format!(
-            "{word}: {} {}{count}",
-            finding.severity, finding.code
-        ))];
+        let mut spans =
+            vec![words(format!("{word}: {} {}{count}", finding.severity, finding.code))];
         if let Some(subject) = &finding.subject {
             spans.extend([words(", "), name(subject)]);
         }

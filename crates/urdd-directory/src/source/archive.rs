@@ -39,9 +39,7 @@ const MACOS_FOLDER: &str = "__MACOSX";
 
 /// Whether a file is a zip archive, by its extension or its first bytes.
 pub fn is_archive(path: &Path) -> bool {
-    let by_name = path
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("zip"));
+    let by_name = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zip"));
     let begins = || {
         let mut start = [0; 4];
         regular::open(path).ok()?.read_exact(&mut start).ok()?;
@@ -113,11 +111,7 @@ impl Archive {
         let tree = Tree::new(members)
             .map_err(|path| entry_fault(path.as_bytes(), EntryFault::Duplicate))?;
         let name = if folder.is_empty() { name } else { &folder };
-        Ok(Archive {
-            name: name.to_owned(),
-            bytes,
-            tree,
-        })
+        Ok(Archive { name: name.to_owned(), bytes, tree })
     }
 }
 
@@ -165,17 +159,9 @@ const KIND_LINK: u32 = 0o120_000;
 /// Checks an entry without inflating it.
 fn check(entry: &Listed<'_>) -> Result<(), EntryFault> {
     let length = entry.name.len();
-    let part = entry
-        .name
-        .split(|byte| *byte == b'/')
-        .map(<[u8]>::len)
-        .max();
+    let part = entry.name.split(|byte| *byte == b'/').map(<[u8]>::len).max();
     if length > MAX_NAME_BYTES || part > Some(MAX_PART_BYTES) {
-        return Err(EntryFault::LongName {
-            length,
-            limit: MAX_NAME_BYTES,
-            part: MAX_PART_BYTES,
-        });
+        return Err(EntryFault::LongName { length, limit: MAX_NAME_BYTES, part: MAX_PART_BYTES });
     }
     let name = String::from_utf8_lossy(entry.name);
     if !is_inside(name.strip_suffix('/').unwrap_or(&name)) {
@@ -215,19 +201,12 @@ fn member(bytes: &Bytes, entry: &Listed<'_>) -> io::Result<Member> {
             match kind {
                 _ if name.ends_with('/') => Node::Folder,
                 KIND_FOLDER => Node::Folder,
-                0 | KIND_FILE => Node::File {
-                    size: data.size,
-                    data,
-                },
+                0 | KIND_FILE => Node::File { size: data.size, data },
                 _ => Node::Other,
             }
         }
     };
-    Ok(Item {
-        path,
-        utf8: std::str::from_utf8(entry.name).is_ok(),
-        node,
-    })
+    Ok(Item { path, utf8: std::str::from_utf8(entry.name).is_ok(), node })
 }
 
 /// Whether a name is a relative path that stays inside the archive on every system. The rules report other violations
@@ -250,9 +229,7 @@ fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
     if members.iter().any(|member| is_of_root(&member.path)) {
         return Ok(String::new());
     }
-    let below = members
-        .iter()
-        .filter_map(|member| member.path.split_once('/'));
+    let below = members.iter().filter_map(|member| member.path.split_once('/'));
     let tops: BTreeSet<&str> = below
         .filter(|(top, rest)| *top != MACOS_FOLDER && is_of_root(rest))
         .map(|(top, _)| top)
@@ -261,10 +238,9 @@ fn urdd_folder(members: &[Member]) -> Result<String, ArchiveFault> {
     match (found.next(), found.next()) {
         (None, _) => Err(ArchiveFault::NoUrdd),
         (Some(only), None) => Ok(only.to_owned()),
-        (Some(first), Some(second)) => Err(ArchiveFault::ManyUrdds {
-            first: first.to_owned(),
-            second: second.to_owned(),
-        }),
+        (Some(first), Some(second)) => {
+            Err(ArchiveFault::ManyUrdds { first: first.to_owned(), second: second.to_owned() })
+        }
     }
 }
 
@@ -284,12 +260,7 @@ fn inflate(bytes: &Bytes, packed: &Packed) -> Checked {
         DEFLATED => Box::new(DeflateDecoder::new(slice)),
         _ => Box::new(slice),
     };
-    Checked {
-        inner,
-        left: packed.size,
-        crc: Crc::new(),
-        stated: packed.crc,
-    }
+    Checked { inner, left: packed.size, crc: Crc::new(), stated: packed.crc }
 }
 
 /// Reads exactly the stated number of bytes, and verifies the checksum.

@@ -16,9 +16,7 @@ use urdd_format::registry::ModuleKind;
 /// Whether a folder is the root of a URDD: it contains `urdd.json`, or a module's folder.
 pub fn is_urdd(folder: &Path) -> bool {
     folder.join(ROOT_METADATA).is_file()
-        || ModuleKind::ALL
-            .iter()
-            .any(|kind| folder.join(kind.folder()).is_dir())
+        || ModuleKind::ALL.iter().any(|kind| folder.join(kind.folder()).is_dir())
 }
 
 /// A folder on disk.
@@ -38,10 +36,7 @@ impl Disk {
         if !canonical.is_dir() {
             return Err(ReadError::NotAUrdd);
         }
-        Ok(Disk {
-            path: path.to_owned(),
-            canonical,
-        })
+        Ok(Disk { path: path.to_owned(), canonical })
     }
 
     fn kind_of(&self, path: &Path) -> (EntryKind, u64) {
@@ -88,9 +83,7 @@ impl Source for Disk {
             let entries = match fs::read_dir(&folder) {
                 Ok(entries) => entries,
                 Err(error) => {
-                    listing
-                        .unreadable
-                        .push((prefix, ReadError::from_io(&error)));
+                    listing.unreadable.push((prefix, ReadError::from_io(&error)));
                     continue;
                 }
             };
@@ -114,12 +107,7 @@ impl Source for Disk {
                         listing.cut = true;
                     }
                 }
-                listing.entries.push(Entry {
-                    path,
-                    kind,
-                    size,
-                    utf8: name.to_str().is_some(),
-                });
+                listing.entries.push(Entry { path, kind, size, utf8: name.to_str().is_some() });
             }
         }
         listing.entries.sort_by(|a, b| a.path.cmp(&b.path));

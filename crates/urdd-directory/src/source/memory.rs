@@ -29,18 +29,11 @@ impl Memory {
         let item = |(path, data): (String, Arc<[u8]>)| {
             path::check(&path).map_err(|fault| (path.clone(), fault))?;
             let size = data.len() as u64;
-            Ok(Item {
-                path,
-                utf8: true,
-                node: Node::File { size, data },
-            })
+            Ok(Item { path, utf8: true, node: Node::File { size, data } })
         };
         let items = files.into_iter().map(item).collect::<Result<_, _>>()?;
         let tree = Tree::new(items).map_err(|path| (path, PathFault::Taken))?;
-        Ok(Memory {
-            name: name.to_owned(),
-            tree,
-        })
+        Ok(Memory { name: name.to_owned(), tree })
     }
 }
 

@@ -117,9 +117,7 @@ impl<T> Tree<T> {
 
     /// The node at a path, without following links.
     fn get(&self, path: &str) -> Option<&Node<T>> {
-        let place = self
-            .items
-            .partition_point(|item| in_parts(&item.path, path).is_lt());
+        let place = self.items.partition_point(|item| in_parts(&item.path, path).is_lt());
         let rest = self.items.get(place)?.path.strip_prefix(path)?;
         match rest {
             "" => Some(&self.items[place].node),
@@ -159,9 +157,7 @@ impl<T> Tree<T> {
                     return Err(ReadError::LeavesRoot);
                 }
                 if links > MAX_LINKS {
-                    return Err(ReadError::Io(
-                        "too many links lead to each other".to_owned(),
-                    ));
+                    return Err(ReadError::Io("too many links lead to each other".to_owned()));
                 }
                 at.truncate(folder);
                 node = &Node::Folder;

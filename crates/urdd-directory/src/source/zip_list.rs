@@ -86,10 +86,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Listed<'_>>, ArchiveFault> {
         places.push(place);
     }
     if entries.len() != usize::from(stated) {
-        return Err(ArchiveFault::Count {
-            stated: stated.into(),
-            listed: entries.len(),
-        });
+        return Err(ArchiveFault::Count { stated: stated.into(), listed: entries.len() });
     }
     without_gaps(places, start)?;
     Ok(entries)
@@ -168,18 +165,8 @@ fn entry<'a>(
     let listed = Listed {
         name,
         is_encrypted: flags & ENCRYPTED != 0,
-        kind: if has_mode {
-            (fields.word(38) >> 16) & 0o170_000
-        } else {
-            0
-        },
-        packed: Packed {
-            method: fields.short(10),
-            crc,
-            size: size.into(),
-            start,
-            end,
-        },
+        kind: if has_mode { (fields.word(38) >> 16) & 0o170_000 } else { 0 },
+        packed: Packed { method: fields.short(10), crc, size: size.into(), start, end },
     };
     Ok((listed, (begin, end, has_descriptor)))
 }
@@ -194,11 +181,7 @@ fn without_gaps(mut places: Vec<(usize, usize, bool)>, list: usize) -> Result<()
             return Err(ArchiveFault::OtherBytes);
         }
         at = end;
-        room = if has_descriptor {
-            LONGEST_DESCRIPTOR
-        } else {
-            0
-        };
+        room = if has_descriptor { LONGEST_DESCRIPTOR } else { 0 };
     }
     Ok(())
 }
@@ -215,10 +198,7 @@ fn damaged(reason: &str) -> EntryFault {
 
 /// The fault of an entry.
 pub fn entry_fault(name: &[u8], fault: EntryFault) -> ArchiveFault {
-    ArchiveFault::Entry {
-        name: String::from_utf8_lossy(name).into_owned(),
-        fault,
-    }
+    ArchiveFault::Entry { name: String::from_utf8_lossy(name).into_owned(), fault }
 }
 
 /// A record of little-endian fields of two and four bytes. The caller has checked its length.

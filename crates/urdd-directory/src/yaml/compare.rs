@@ -220,16 +220,12 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             && self.open.last().is_some_and(|open| open.flow)
             && text.contains('?')
         {
-            self.add(at, TextFaultKind::YamlAmbiguousScalar, || {
-                message::question_mark(text)
-            });
+            self.add(at, TextFaultKind::YamlAmbiguousScalar, || message::question_mark(text));
         }
         if let Some(json) = target.json
             && !scalar::agrees(reading, text, json)
         {
-            self.differs(at, || {
-                message::differs(&message::found(text, reading), json)
-            });
+            self.differs(at, || message::differs(&message::found(text, reading), json));
         }
     }
 
@@ -265,29 +261,19 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             _ => json.is_object(),
         };
         if let Some(json) = json.filter(|json| !fits(json)) {
-            let found = if node == Node::List {
-                "a list"
-            } else {
-                "a mapping"
-            };
+            let found = if node == Node::List { "a list" } else { "a mapping" };
             self.differs(at, || message::differs(found, json));
         }
         let shape = match node {
-            Node::List => Shape::List {
-                json: json.and_then(Value::as_array).map(Vec::as_slice),
-                begun: 0,
-            },
+            Node::List => {
+                Shape::List { json: json.and_then(Value::as_array).map(Vec::as_slice), begun: 0 }
+            }
             _ => Shape::Mapping(Mapping::new(json.and_then(Value::as_object))),
         };
         // In block style, the start event of a list or mapping has an empty span.
         let flow = self.open.last().is_some_and(|open| open.flow)
             || (tag.is_none() && anchor == 0 && !span.is_empty());
-        self.open.push(Open {
-            start: at,
-            flow,
-            variant,
-            shape,
-        });
+        self.open.push(Open { start: at, flow, variant, shape });
         ControlFlow::Continue(())
     }
 
@@ -337,11 +323,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             let text = "an anchor names a value for use elsewhere: remove it";
             self.report(at, TextFaultKind::YamlAnchorOrAlias, text);
         }
-        let mut target = Target {
-            json,
-            variant: None,
-            forced: None,
-        };
+        let mut target = Target { json, variant: None, forced: None };
         let Some(tag) = tag else {
             return target;
         };
@@ -378,8 +360,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
     /// Adds a fault of the current node.
     fn add(&mut self, at: Position, kind: TextFaultKind, fault: impl FnOnce() -> TextFault) {
         let (open, end) = (&self.open, &self.end);
-        self.faults
-            .add(kind, || fault().at(end.at_most(at)).of(pointer(open)));
+        self.faults.add(kind, || fault().at(end.at_most(at)).of(pointer(open)));
     }
 }
 

@@ -19,10 +19,7 @@ impl<'y> End<'y> {
     /// Finds the end.
     pub fn new(text: &'y str) -> Self {
         let is_open = !text.ends_with(['\n', '\r']);
-        Self {
-            text,
-            open: is_open.then(|| text.chars().count()),
-        }
+        Self { text, open: is_open.then(|| text.chars().count()) }
     }
 
     /// Whether a block scalar ends at the end of the file without a line break. Some readers add one.

@@ -16,11 +16,7 @@ pub struct Keys<'y> {
 impl<'y> Keys<'y> {
     /// Starts at the beginning of a text.
     pub fn new(text: &'y str) -> Self {
-        Self {
-            text,
-            index: 0,
-            offset: 0,
-        }
+        Self { text, index: 0, offset: 0 }
     }
 
     /// Whether a line break is inside a key or before its colon. Explicit keys after `?` are exempt.

@@ -110,10 +110,7 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
 pub fn extra_key(key: &str) -> TextFault {
     let key = excerpt(key);
     let message = format!("the YAML has a key `{key}` that the JSON lacks");
-    TextFault {
-        found: Some(key),
-        ..TextFault::new(TextFaultKind::YamlDiffers, message)
-    }
+    TextFault { found: Some(key), ..TextFault::new(TextFaultKind::YamlDiffers, message) }
 }
 
 /// A key that is missing in the YAML.

@@ -19,10 +19,7 @@ pub struct Open<'j, 'y> {
 }
 
 pub enum Shape<'j, 'y> {
-    List {
-        json: Option<&'j [Value]>,
-        begun: usize,
-    },
+    List { json: Option<&'j [Value]>, begun: usize },
     Mapping(Mapping<'j, 'y>),
 }
 
@@ -93,20 +90,11 @@ impl<'j, 'y> Mapping<'j, 'y> {
 
     pub fn missing(&self) -> impl Iterator<Item = (&'j str, &'j Value)> {
         let json = self.json.filter(|_| !self.incomplete);
-        let skip = if self.names.is_none() {
-            self.in_order
-        } else {
-            0
-        };
+        let skip = if self.names.is_none() { self.in_order } else { 0 };
         json.into_iter()
             .flat_map(Map::iter)
             .skip(skip)
-            .filter(|(key, _)| {
-                !self
-                    .names
-                    .as_ref()
-                    .is_some_and(|names| names.contains(*key))
-            })
+            .filter(|(key, _)| !self.names.as_ref().is_some_and(|names| names.contains(*key)))
             .map(|(key, value)| (key.as_str(), value))
     }
 }

@@ -32,20 +32,13 @@ impl Tabs {
                 for (column, c) in content.chars().enumerate() {
                     match c {
                         '#' => hash = Some(column),
-                        '\t' => tabs.push(Tab {
-                            line: line + 1,
-                            column,
-                            hash,
-                        }),
+                        '\t' => tabs.push(Tab { line: line + 1, column, hash }),
                         _ => {}
                     }
                 }
             }
         }
-        Self {
-            ahead: tabs.into_iter().peekable(),
-            passed: (1, 0),
-        }
+        Self { ahead: tabs.into_iter().peekable(), passed: (1, 0) }
     }
 
     /// Reports the tabs up to the end of a token, except in comments, quotes and block scalars.
@@ -62,11 +55,7 @@ impl Tabs {
         while let Some(tab) = self.ahead.next_if(|tab| (tab.line, tab.column) < last) {
             let Tab { line, column, hash } = tab;
             let between = (line, column) < bounds;
-            let from = if self.passed.0 == line {
-                self.passed.1
-            } else {
-                0
-            };
+            let from = if self.passed.0 == line { self.passed.1 } else { 0 };
             let comment = between && hash.is_some_and(|hash| hash >= from);
             if comment || (quoted && !between) {
                 continue;

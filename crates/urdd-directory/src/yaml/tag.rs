@@ -46,11 +46,7 @@ pub fn apply(tag: &Tag, node: Node, target: &mut Target<'_>) -> Instead {
     };
     let unit = node == Node::Empty && target.json.and_then(Value::as_str) == Some(name);
     if tag.is_yaml_core_schema() {
-        target.forced = Some(if name == "str" {
-            Forced::Text
-        } else {
-            Forced::Plain
-        });
+        target.forced = Some(if name == "str" { Forced::Text } else { Forced::Plain });
     } else if inner.is_some() {
         target.json = inner;
         target.variant = Some(name.to_owned());

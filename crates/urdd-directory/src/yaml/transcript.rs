@@ -17,11 +17,7 @@ pub fn is_mirrored(json: &str, yaml: &[u8]) -> bool {
     let state = State::default();
     let mut expected = Expected { rest: yaml };
     let mut deserializer = serde_json::Deserializer::from_str(json);
-    let document = Follow {
-        value: Seed::new(&state),
-        indent: None,
-        out: &mut expected,
-    };
+    let document = Follow { value: Seed::new(&state), indent: None, out: &mut expected };
     document.deserialize(&mut deserializer).is_ok()
         && deserializer.end().is_ok()
         && !state.has_repeated_key()
@@ -190,17 +186,12 @@ mod tests {
             format!(r#"{{"a": {deep}}}"#),
             "\u{feff}{\"a\": 1}".to_owned(),
         ] {
-            let yaml = json::read(text.as_bytes()).map_or_else(
-                |_| String::new(),
-                |read| canonical::yaml_string(&read.value),
-            );
+            let yaml = json::read(text.as_bytes())
+                .map_or_else(|_| String::new(), |read| canonical::yaml_string(&read.value));
             assert!(!is_mirrored(&text, yaml.as_bytes()), "{text}");
         }
         let text = format!(r#"{{"a": {{"{long}": [1, [2]]}}}}"#);
         let value = json::read(text.as_bytes()).unwrap().value;
-        assert!(is_mirrored(
-            &text,
-            canonical::yaml_string(&value).as_bytes()
-        ));
+        assert!(is_mirrored(&text, canonical::yaml_string(&value).as_bytes()));
     }
 }

@@ -95,16 +95,8 @@ fn a_text_that_ends_with_the_file() {
 fn bad_files_have_a_kind_each() {
     let json = || json!({"a": [1]});
     let first = |bytes: &[u8]| check_mirror(bytes, &json()).iter().next().cloned().unwrap();
-    assert!(
-        first(b"a: [1").message.contains("ends early"),
-        "{:?}",
-        first(b"a: [1")
-    );
-    assert!(
-        first(b"a: \"b").message.contains("ends early"),
-        "{:?}",
-        first(b"a: \"b")
-    );
+    assert!(first(b"a: [1").message.contains("ends early"), "{:?}", first(b"a: [1"));
+    assert!(first(b"a: \"b").message.contains("ends early"), "{:?}", first(b"a: \"b"));
     assert!(first(b"").message.contains("nothing"));
     assert!(first(b"# only a comment\n").message.contains("nothing"));
     assert!(first(b"a: [1]\0\n").message.contains("U+0000"));

@@ -125,52 +125,20 @@ fn tags_are_one_fault_and_the_content_is_still_compared() {
     let json = json!({"shape": {"Mesh": {"file": "a.stl", "scale": [1, 2]}}});
     let yaml = "shape: !Mesh\n  file: a.stl\n  scale: [1.0, 2.0]\n";
     let fault = expect(yaml, json.clone(), Kind::YamlTag, "/shape", (1, 8));
-    assert!(
-        fault.message.contains("write `Mesh:` as a key"),
-        "{}",
-        fault.message
-    );
+    assert!(fault.message.contains("write `Mesh:` as a key"), "{}", fault.message);
 
-    let faults = faults_of(
-        "shape: !Mesh\n  file: a.stl\n  scale: [1.0, 3.0]\n",
-        json.clone(),
-    );
-    let differs = faults
-        .iter()
-        .find(|fault| fault.kind == Kind::YamlDiffers)
-        .unwrap();
+    let faults = faults_of("shape: !Mesh\n  file: a.stl\n  scale: [1.0, 3.0]\n", json.clone());
+    let differs = faults.iter().find(|fault| fault.kind == Kind::YamlDiffers).unwrap();
     assert_eq!(differs.pointer.as_deref(), Some("/shape/Mesh/scale/1"));
     assert_eq!(faults.iter().count(), 2);
 
     // The location of a missing inner key is inside, too.
     let faults = faults_of("shape: !Mesh\n  scale: [1.0, 2.0]\n", json.clone());
-    assert!(
-        faults
-            .iter()
-            .any(|fault| fault.pointer.as_deref() == Some("/shape/Mesh/file"))
-    );
+    assert!(faults.iter().any(|fault| fault.pointer.as_deref() == Some("/shape/Mesh/file")));
 
-    expect(
-        "shape: !Box\n",
-        json.clone(),
-        Kind::YamlTag,
-        "/shape",
-        (1, 8),
-    );
-    expect(
-        "a: !Fixed\n",
-        json!({"a": "Fixed"}),
-        Kind::YamlTag,
-        "/a",
-        (1, 4),
-    );
-    expect(
-        "a: !Pair [1, 2]",
-        json!({"a": {"Pair": [1, 2]}}),
-        Kind::YamlTag,
-        "/a",
-        (1, 4),
-    );
+    expect("shape: !Box\n", json.clone(), Kind::YamlTag, "/shape", (1, 8));
+    expect("a: !Fixed\n", json!({"a": "Fixed"}), Kind::YamlTag, "/a", (1, 4));
+    expect("a: !Pair [1, 2]", json!({"a": {"Pair": [1, 2]}}), Kind::YamlTag, "/a", (1, 4));
     expect("a: !!str 1", json!({"a": "1"}), Kind::YamlTag, "/a", (1, 4));
     expect("a: !!float 1", json!({"a": 1}), Kind::YamlTag, "/a", (1, 4));
     expect("!Root\na: 1", json!({"a": 1}), Kind::YamlTag, "", (1, 1));
@@ -190,30 +158,15 @@ fn many_tags_are_counted_and_a_few_kept() {
 
 #[test]
 fn anchors_aliases_and_merge_keys_are_reported_and_not_expanded() {
-    expect(
-        "a: &x 1\n",
-        json!({"a": 1}),
-        Kind::YamlAnchorOrAlias,
-        "/a",
-        (1, 4),
-    );
+    expect("a: &x 1\n", json!({"a": 1}), Kind::YamlAnchorOrAlias, "/a", (1, 4));
     let faults = faults_of("a: &x [1]\nb: *x\n", json!({"a": [1], "b": [1]}));
     assert_eq!(faults.total(Kind::YamlAnchorOrAlias), 2);
     assert_eq!(faults.totals().count(), 1);
-    let faults = faults_of(
-        "a: &x {p: 1}\nb:\n  <<: *x\n",
-        json!({"a": {"p": 1}, "b": {"p": 1}}),
-    );
+    let faults = faults_of("a: &x {p: 1}\nb:\n  <<: *x\n", json!({"a": {"p": 1}, "b": {"p": 1}}));
     assert_eq!(faults.total(Kind::YamlAnchorOrAlias), 1);
     assert_eq!(faults.total(Kind::YamlMergeKey), 1);
     assert_eq!(faults.totals().count(), 2);
-    expect(
-        "a: {<<: {p: 1}}",
-        json!({"a": {"p": 1}}),
-        Kind::YamlMergeKey,
-        "/a/<<",
-        (1, 5),
-    );
+    expect("a: {<<: {p: 1}}", json!({"a": {"p": 1}}), Kind::YamlMergeKey, "/a/<<", (1, 5));
     expect("a: *x", json!({"a": 1}), Kind::YamlSyntax, "/a", (1, 4));
 }
 
@@ -267,13 +220,7 @@ fn what_readers_disagree_about_is_one_fault_with_the_remedy() {
     ];
     for (text, json, part) in cases {
         let yaml = format!("a: {text}\n");
-        let fault = expect(
-            &yaml,
-            json!({"a": json}),
-            Kind::YamlAmbiguousScalar,
-            "/a",
-            (1, 4),
-        );
+        let fault = expect(&yaml, json!({"a": json}), Kind::YamlAmbiguousScalar, "/a", (1, 4));
         assert!(fault.message.contains(part), "{}", fault.message);
     }
     // Here YAML 1.2 disagrees with the JSON as well.
@@ -281,27 +228,9 @@ fn what_readers_disagree_about_is_one_fault_with_the_remedy() {
     assert_eq!(faults.total(Kind::YamlDiffers), 1);
     assert_eq!(faults.total(Kind::YamlAmbiguousScalar), 1);
 
-    expect(
-        "yes: 1",
-        json!({"yes": 1}),
-        Kind::YamlAmbiguousScalar,
-        "/yes",
-        (1, 1),
-    );
-    expect(
-        "a: [b?c]",
-        json!({"a": ["b?c"]}),
-        Kind::YamlAmbiguousScalar,
-        "/a/0",
-        (1, 5),
-    );
-    expect(
-        "a: {b?c: 1}",
-        json!({"a": {"b?c": 1}}),
-        Kind::YamlAmbiguousScalar,
-        "/a/b?c",
-        (1, 5),
-    );
+    expect("yes: 1", json!({"yes": 1}), Kind::YamlAmbiguousScalar, "/yes", (1, 1));
+    expect("a: [b?c]", json!({"a": ["b?c"]}), Kind::YamlAmbiguousScalar, "/a/0", (1, 5));
+    expect("a: {b?c: 1}", json!({"a": {"b?c": 1}}), Kind::YamlAmbiguousScalar, "/a/b?c", (1, 5));
     assert!(faults_of("a: b?c", json!({"a": "b?c"})).is_empty());
     assert!(faults_of("a:\n- b?c\n", json!({"a": ["b?c"]})).is_empty());
     let fault = only("a: \"x\u{2028}y\"", json!({"a": "x\u{2028}y"}));
@@ -311,37 +240,13 @@ fn what_readers_disagree_about_is_one_fault_with_the_remedy() {
 
 #[test]
 fn keys_are_strings_and_stand_once() {
-    expect(
-        "1: 2",
-        json!({"1": 2}),
-        Kind::YamlNonStringKey,
-        "/1",
-        (1, 1),
-    );
-    expect(
-        "~: 2",
-        json!({"~": 2}),
-        Kind::YamlNonStringKey,
-        "/~0",
-        (1, 1),
-    );
+    expect("1: 2", json!({"1": 2}), Kind::YamlNonStringKey, "/1", (1, 1));
+    expect("~: 2", json!({"~": 2}), Kind::YamlNonStringKey, "/~0", (1, 1));
     let faults = faults_of("? [1, 2]\n: 3\n", json!({}));
     assert_eq!(faults.total(Kind::YamlNonStringKey), 1);
     assert_eq!(faults.totals().count(), 1);
     let repeated = "a: {b: 1, c: 2, b: 3}";
-    expect(
-        repeated,
-        json!({"a": {"b": 1, "c": 2}}),
-        Kind::YamlDuplicateKey,
-        "/a/b",
-        (1, 17),
-    );
+    expect(repeated, json!({"a": {"b": 1, "c": 2}}), Kind::YamlDuplicateKey, "/a/b", (1, 17));
     let repeated = "a: {c: 2, b: 1, c: 2}";
-    expect(
-        repeated,
-        json!({"a": {"b": 1, "c": 2}}),
-        Kind::YamlDuplicateKey,
-        "/a/c",
-        (1, 17),
-    );
+    expect(repeated, json!({"a": {"b": 1, "c": 2}}), Kind::YamlDuplicateKey, "/a/c", (1, 17));
 }

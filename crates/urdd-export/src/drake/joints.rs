@@ -43,11 +43,8 @@ pub(super) fn joints<'a>(
     subject: &'a Subject,
     notes: &mut Vec<Note>,
 ) -> Result<DrakeJoints<'a>, ExportError> {
-    let mut made = DrakeJoints {
-        links: Vec::new(),
-        elements: Vec::new(),
-        driven: Driven::default(),
-    };
+    let mut made =
+        DrakeJoints { links: Vec::new(), elements: Vec::new(), driven: Driven::default() };
     let mut names = Vec::new();
     let sources = subject.urdf.joints.iter().zip(&subject.view.joints);
     for (mut joint, (source, view)) in resolved(subject, notes).into_iter().zip(sources) {
@@ -57,8 +54,7 @@ pub(super) fn joints<'a>(
                 notes.push(Note::joint(&joint.name, FLOATING));
                 let parts = parts(&joint);
                 let between = parts.iter().take(parts.len() - 1);
-                made.links
-                    .extend(between.map(|part| part.child.link.clone()));
+                made.links.extend(between.map(|part| part.child.link.clone()));
                 parts
             }
             _ => vec![joint.clone()],
@@ -69,8 +65,7 @@ pub(super) fn joints<'a>(
                 JointType::Planar => ("drake:joint", type_name(JointType::Planar)),
                 standard => ("joint", type_name(standard)),
             };
-            made.elements
-                .push((element_of_joint(&part, tag, &kind), source));
+            made.elements.push((element_of_joint(&part, tag, &kind), source));
             names.push(part.name);
         }
         match joint.joint_type {
@@ -153,11 +148,6 @@ fn parts(joint: &Joint) -> Vec<Joint> {
             ..joint.clone()
         });
     }
-    parts.push(Joint {
-        joint_type: JointType::Spherical,
-        origin: None,
-        parent,
-        ..joint.clone()
-    });
+    parts.push(Joint { joint_type: JointType::Spherical, origin: None, parent, ..joint.clone() });
     parts
 }

@@ -47,10 +47,8 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         robot.push(group);
     }
     notes.extend(subject.notes());
-    let what = format!(
-        "Collision geometry, and pairs that are filtered: {}.",
-        subject.options.shapes
-    );
+    let what =
+        format!("Collision geometry, and pairs that are filtered: {}.", subject.options.shapes);
     files.extend(package::files(subject)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
@@ -75,11 +73,7 @@ pub(super) fn groups(subject: &Subject) -> Vec<Element> {
         let mut group = Element::new("drake:collision_filter_group").with("name", name(link));
         group.push(member);
         for other in ignored {
-            group.push(saying(
-                "drake:ignored_collision_filter_group",
-                "name",
-                &name(other),
-            ));
+            group.push(saying("drake:ignored_collision_filter_group", "name", &name(other)));
         }
         group
     };

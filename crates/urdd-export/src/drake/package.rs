@@ -17,10 +17,7 @@ pub(super) fn files(subject: &Subject) -> Result<Files, ExportError> {
     let robot = &subject.urdf.name;
     let mut model = vec![
         ("name".to_owned(), Yaml::text(robot)),
-        (
-            "file".to_owned(),
-            Yaml::text(&format!("package://{package}/{file}")),
-        ),
+        ("file".to_owned(), Yaml::text(&format!("package://{package}/{file}"))),
     ];
     if let Some(named) = subject.robot.named_configurations()?.first() {
         let dofs = subject.dofs()?.into_iter().zip(&subject.view.joints);
@@ -35,23 +32,14 @@ pub(super) fn files(subject: &Subject) -> Result<Files, ExportError> {
     if !subject.options.floating() && !subject.is_world(root) {
         let weld = Yaml::map([
             ("parent", Yaml::plain("world")),
-            (
-                "child",
-                Yaml::text(&format!("{robot}::{}", subject.links[root])),
-            ),
+            ("child", Yaml::text(&format!("{robot}::{}", subject.links[root]))),
         ]);
         directives.push(Yaml::map([("add_weld", weld)]));
     }
     let directives = Yaml::map([("directives", Yaml::List(directives))]);
     let stem = file.strip_suffix(".urdf").unwrap_or(file);
     Ok(vec![
-        (
-            "package.xml".to_owned(),
-            description.document(&[]).into_bytes(),
-        ),
-        (
-            format!("{stem}.dmd.yaml"),
-            directives.document(&subject.origin()?).into_bytes(),
-        ),
+        ("package.xml".to_owned(), description.document(&[]).into_bytes()),
+        (format!("{stem}.dmd.yaml"), directives.document(&subject.origin()?).into_bytes()),
     ])
 }

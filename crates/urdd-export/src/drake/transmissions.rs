@@ -67,11 +67,7 @@ pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) ->
         reason.is_none()
     };
     let texts = texts.iter().filter(|text| is_taken(text)).cloned();
-    Taken {
-        texts: texts.collect(),
-        actuated,
-        actuators,
-    }
+    Taken { texts: texts.collect(), actuated, actuators }
 }
 
 /// Why Drake rejects a transmission.

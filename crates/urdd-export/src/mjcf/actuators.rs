@@ -54,9 +54,8 @@ pub(super) fn actuators(
             ActuatorKind::Velocity => "velocity",
             ActuatorKind::Motor => "motor",
         };
-        let actuator = Element::new(tag)
-            .with("name", joint.name.as_str())
-            .with("joint", joint.name.as_str());
+        let actuator =
+            Element::new(tag).with("name", joint.name.as_str()).with("joint", joint.name.as_str());
         element.push(match kind {
             ActuatorKind::Position => {
                 let range = joint.position_limits();
@@ -64,10 +63,7 @@ pub(super) fn actuators(
                 actuator
                     .with("kp", gain(chosen.kp, inertia * frequency * frequency))
                     .with("kv", gain(chosen.kv, 2.0 * inertia * frequency))
-                    .with_some(
-                        "ctrlrange",
-                        range.map(|(lower, upper)| numbers(&[lower, upper])),
-                    )
+                    .with_some("ctrlrange", range.map(|(lower, upper)| numbers(&[lower, upper])))
                     .with_some("forcerange", either_way(effort))
             }
             ActuatorKind::Velocity => actuator

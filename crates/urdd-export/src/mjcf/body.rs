@@ -150,9 +150,7 @@ impl<'a> Bodies<'a> {
 
     fn geom(&mut self, link: usize, shape: LinkShape) -> Result<Element, ExportError> {
         let name = geom_name(&self.subject.links[link], shape.piece);
-        let geom = Element::new("geom")
-            .with("name", name)
-            .with("class", "collision");
+        let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
             Solid::Mesh(mesh) if is_flat(&mesh) => {
                 let found = self
@@ -195,9 +193,7 @@ impl<'a> Bodies<'a> {
         if self.named.contains(&path) {
             return Ok(name.to_owned());
         }
-        let mut asset = Element::new("mesh")
-            .with("name", name)
-            .with("file", path.as_str());
+        let mut asset = Element::new("mesh").with("name", name).with("file", path.as_str());
         if format == MeshFormat::Obj {
             // Visual meshes need not enclose a volume.
             asset = asset.with("inertia", "shell");
@@ -222,14 +218,10 @@ fn cuboid(geom: Element, pose: &Isometry3<f64>, half_extents: [f64; 3]) -> Eleme
 fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
     let position = pose.translation.vector;
     let q = pose.rotation.quaternion();
-    element
-        .with("pos", numbers(position.as_slice()))
-        .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
+    element.with("pos", numbers(position.as_slice())).with("quat", numbers(&[q.w, q.i, q.j, q.k]))
 }
 
 fn is_flat(mesh: &Mesh) -> bool {
     let hull = ConvexHull::new(&mesh.vertices);
-    hull.map_or(true, |hull| {
-        hull.is_flat() || hull.mesh().signed_volume() < SMALLEST_VOLUME
-    })
+    hull.map_or(true, |hull| hull.is_flat() || hull.mesh().signed_volume() < SMALLEST_VOLUME)
 }

@@ -7,11 +7,8 @@ use super::super::subject::Subject;
 pub(super) fn site(subject: &Subject, link: usize) -> Option<Element> {
     let setup = subject.options.setup.as_ref()?;
     let is_imu = subject.options.mjcf.sensors && setup.imus.value.contains(&link);
-    (is_imu || setup.tools.value.contains(&link)).then(|| {
-        Element::new("site")
-            .with("name", subject.links[link].as_str())
-            .with("group", "4")
-    })
+    (is_imu || setup.tools.value.contains(&link))
+        .then(|| Element::new("site").with("name", subject.links[link].as_str()).with("group", "4"))
 }
 
 /// A gyroscope and an accelerometer at each IMU.

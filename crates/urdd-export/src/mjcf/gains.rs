@@ -17,9 +17,8 @@ const SAMPLES: u64 = 32;
 pub(super) fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
     let space = subject.robot.configurations()?;
     let joints = 0..subject.view.joints.len();
-    let mut most: Vec<Option<f64>> = joints
-        .map(|joint| subject.is_driven(joint).then_some(0.0))
-        .collect();
+    let mut most: Vec<Option<f64>> =
+        joints.map(|joint| subject.is_driven(joint).then_some(0.0)).collect();
     let configurations = (0..SAMPLES).map(|k| space.random(k));
     for configuration in [space.zero()].into_iter().chain(configurations) {
         let poses = subject.robot.link_poses(&configuration)?;

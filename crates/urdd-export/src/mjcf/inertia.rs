@@ -47,19 +47,12 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
     let mut balanced = false;
     let links = &subject.view.links;
     let mut note = |link: usize, what: &'static str| {
-        notes.push(Note::Inertia {
-            link: links[link].name.clone(),
-            what,
-        });
+        notes.push(Note::Inertia { link: links[link].name.clone(), what });
     };
     let mut masses: Vec<Option<Mass>> = Vec::new();
     for (link, view) in links.iter().enumerate() {
         let mut said = None;
-        masses.push(
-            view.inertial
-                .as_ref()
-                .and_then(|view| mass(view, &mut said)),
-        );
+        masses.push(view.inertial.as_ref().and_then(|view| mass(view, &mut said)));
         balanced |= said == Some(TRIANGLE);
         if let Some(said) = said {
             note(link, said);
@@ -79,14 +72,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
         let Some(&link) = group.links.iter().max_by(|a, b| heavier(a, b)) else {
             continue;
         };
-        note(
-            link,
-            if weight(&link) > MIN_VALUE {
-                NO_INERTIA
-            } else {
-                NO_MASS
-            },
-        );
+        note(link, if weight(&link) > MIN_VALUE { NO_INERTIA } else { NO_MASS });
         masses[link].get_or_insert(Mass::NONE).raise();
     }
     let elements = masses.into_iter().map(|mass| mass.map(Mass::element));
@@ -182,10 +168,7 @@ mod tests {
     fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<&'static str>) {
         let mut said = None;
         let inertial = Inertial {
-            origin: Origin {
-                rpy: [0.3, -0.2, 0.9],
-                ..Origin::default()
-            },
+            origin: Origin { rpy: [0.3, -0.2, 0.9], ..Origin::default() },
             mass: Some(mass),
             inertia: Some([xx, 0.0, 0.0, yy, 0.0, zz]),
         };

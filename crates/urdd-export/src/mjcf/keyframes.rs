@@ -45,10 +45,8 @@ fn keyframe(
     height: f64,
 ) -> Result<Element, ExportError> {
     let dofs = subject.robot.dof_names()?.iter();
-    let values: HashMap<&str, f64> = dofs
-        .map(String::as_str)
-        .zip(configuration.iter().copied())
-        .collect();
+    let values: HashMap<&str, f64> =
+        dofs.map(String::as_str).zip(configuration.iter().copied()).collect();
     let value = |dof: &str| values.get(dof).copied().unwrap_or(0.0);
     let mut positions = Vec::new();
     let mut controls = Vec::new();
@@ -102,8 +100,5 @@ fn keyframe(
     Ok(Element::new("key")
         .with("name", name)
         .with("qpos", numbers(&positions))
-        .with_some(
-            "ctrl",
-            (is_position && !controls.is_empty()).then(|| numbers(&controls)),
-        ))
+        .with_some("ctrl", (is_position && !controls.is_empty()).then(|| numbers(&controls))))
 }

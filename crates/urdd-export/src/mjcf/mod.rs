@@ -39,9 +39,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if subject.options.floating() && !subject.has_free_base() {
         notes.push(Note::Robot(WORLD));
     }
-    let mut compiler = Element::new("compiler")
-        .with("angle", "radian")
-        .with("autolimits", "true");
+    let mut compiler = Element::new("compiler").with("angle", "radian").with("autolimits", "true");
     if bodies.balanced {
         compiler = compiler.with("balanceinertia", "true");
     }
@@ -97,16 +95,10 @@ fn classes(subject: &Subject) -> Element {
         Element::new("default").with("class", class).holding(geom)
     };
     let friction = subject.options.friction().map(number);
-    let collision = Element::new("geom")
-        .with("group", "3")
-        .with_some("friction", friction);
-    let visual = Element::new("geom")
-        .with("group", "2")
-        .with("contype", "0")
-        .with("conaffinity", "0");
-    Element::new("default")
-        .holding(geom("collision", collision))
-        .holding(geom("visual", visual))
+    let collision = Element::new("geom").with("group", "3").with_some("friction", friction);
+    let visual =
+        Element::new("geom").with("group", "2").with("contype", "0").with("conaffinity", "0");
+    Element::new("default").holding(geom("collision", collision)).holding(geom("visual", visual))
 }
 
 /// The pairs that MuJoCo does not check and, for mixed pairs, those that it does: an `<exclude>` applies to two bodies,

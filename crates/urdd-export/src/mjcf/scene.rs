@@ -21,11 +21,7 @@ pub(super) struct Stand {
 
 impl Stand {
     pub fn new(subject: &Subject) -> Result<Self, ExportError> {
-        let mut stand = Stand {
-            base_height: 0.0,
-            floor: 0.0,
-            shapes: Vec::new(),
-        };
+        let mut stand = Stand { base_height: 0.0, floor: 0.0, shapes: Vec::new() };
         let is_free = subject.has_free_base();
         if is_free || subject.options.mjcf.scene {
             let zero = subject.robot.configurations()?.zero();
@@ -63,10 +59,7 @@ fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
             let heights = vertices.map(|vertex| (pose * Point3::from(*vertex)).z);
             heights.fold(f64::INFINITY, f64::min)
         }
-        Solid::Box {
-            pose: own,
-            half_extents,
-        } => {
+        Solid::Box { pose: own, half_extents } => {
             let placed = pose * own;
             let axes = placed.rotation.to_rotation_matrix();
             let reach = (0..3).map(|k| axes[(2, k)].abs() * half_extents[k]);
@@ -110,12 +103,7 @@ pub(super) fn scene(subject: &Subject, stand: &Stand) -> Result<Files, ExportErr
         .with("texture", "floor")
         .with("texuniform", "true")
         .with("texrepeat", "5 5");
-    root.push(
-        Element::new("asset")
-            .holding(sky)
-            .holding(checker)
-            .holding(material),
-    );
+    root.push(Element::new("asset").holding(sky).holding(checker).holding(material));
     let light = Element::new("light")
         .with("pos", "0 0 3")
         .with("dir", "0 0 -1")

@@ -29,9 +29,7 @@ impl<'a> Config<'a> {
             subject,
             setup,
             name: FileNames::default().of(&subject.urdf.name),
-            joints: groups
-                .map(|group| joints_of(setup, group, subject))
-                .collect(),
+            joints: groups.map(|group| joints_of(setup, group, subject)).collect(),
             configurations: subject.robot.named_configurations()?,
             dofs: subject.dofs()?,
             default: subject.robot.configurations()?.zero(),
@@ -61,9 +59,8 @@ impl<'a> Config<'a> {
         let mut controlled = Vec::new();
         for (place, group) in self.setup.groups.iter().enumerate() {
             let joints = self.joints[place].iter().copied();
-            let joints: Vec<usize> = joints
-                .filter(|joint| self.subject.is_driven(*joint))
-                .collect();
+            let joints: Vec<usize> =
+                joints.filter(|joint| self.subject.is_driven(*joint)).collect();
             let is_new = !joints.is_empty() && joints.iter().all(|joint| !taken[*joint]);
             if is_new && !group.value.passive {
                 joints.iter().for_each(|joint| taken[*joint] = true);

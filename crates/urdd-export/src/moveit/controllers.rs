@@ -29,39 +29,24 @@ struct Controller {
 }
 
 fn controllers(config: &Config) -> Vec<Controller> {
-    let ends: Vec<usize> = config
-        .setup
-        .end_effectors
-        .iter()
-        .map(|end| end.value.group)
-        .collect();
-    let each = config
-        .controlled()
-        .into_iter()
-        .map(|(group, joints)| Controller {
-            name: format!("{}_controller", config.setup.groups[group].value.name),
-            is_gripper: ends.contains(&group) && joints.len() == 1,
-            joints,
-        });
+    let ends: Vec<usize> = config.setup.end_effectors.iter().map(|end| end.value.group).collect();
+    let each = config.controlled().into_iter().map(|(group, joints)| Controller {
+        name: format!("{}_controller", config.setup.groups[group].value.name),
+        is_gripper: ends.contains(&group) && joints.len() == 1,
+        joints,
+    });
     each.collect()
 }
 
 /// The names of the controllers that are started.
 pub(super) fn names(config: &Config) -> Vec<String> {
-    controllers(config)
-        .into_iter()
-        .map(|controller| controller.name)
-        .collect()
+    controllers(config).into_iter().map(|controller| controller.name).collect()
 }
 
 fn moveit(config: &Config, controllers: &[Controller]) -> Yaml {
     let mut manager = vec![(
         "controller_names".to_owned(),
-        Yaml::texts(
-            controllers
-                .iter()
-                .map(|controller| controller.name.as_str()),
-        ),
+        Yaml::texts(controllers.iter().map(|controller| controller.name.as_str())),
     )];
     for controller in controllers {
         let [action, kind] = match controller.is_gripper {
@@ -100,11 +85,8 @@ fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {
     let mut entries = Vec::new();
     for controller in controllers {
         let name = quoted(&controller.name);
-        let joints: Vec<&str> = controller
-            .joints
-            .iter()
-            .map(|joint| config.joint(*joint))
-            .collect();
+        let joints: Vec<&str> =
+            controller.joints.iter().map(|joint| config.joint(*joint)).collect();
         let (plugin, parameters) = match (controller.is_gripper, &joints[..]) {
             (true, [joint]) => (
                 "position_controllers/GripperActionController",
@@ -113,19 +95,13 @@ fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {
             _ => (
                 "joint_trajectory_controller/JointTrajectoryController",
                 Yaml::map([
-                    (
-                        "command_interfaces",
-                        Yaml::List(vec![Yaml::plain("position")]),
-                    ),
+                    ("command_interfaces", Yaml::List(vec![Yaml::plain("position")])),
                     (
                         "state_interfaces",
                         Yaml::List(vec![Yaml::plain("position"), Yaml::plain("velocity")]),
                     ),
                     ("joints", Yaml::texts(joints)),
-                    (
-                        "allow_nonzero_velocity_at_trajectory_end",
-                        Yaml::plain("true"),
-                    ),
+                    ("allow_nonzero_velocity_at_trajectory_end", Yaml::plain("true")),
                 ]),
             ),
         };

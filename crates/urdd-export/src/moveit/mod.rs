@@ -26,17 +26,13 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let text = semantic::srdf(&config, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.options.shapes);
     let name = &config.name;
-    let mut files = vec![(
-        format!("config/{name}.urdf"),
-        robot.document(&subject.comments(what, &notes)?),
-    )];
+    let mut files =
+        vec![(format!("config/{name}.urdf"), robot.document(&subject.comments(what, &notes)?))];
     files.extend(planning::files(&config)?);
     files.extend(controllers::files(&config)?);
     files.extend(package::files(&config));
-    let mut files: Vec<(String, Vec<u8>)> = files
-        .into_iter()
-        .map(|(path, text)| (path, text.into_bytes()))
-        .collect();
+    let mut files: Vec<(String, Vec<u8>)> =
+        files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
     // Meshes are named by package: the folder of the package is where the export is.
     let prefix = format!("package://{}/", subject.options.package());
     files.extend(meshes.into_iter().map(|(path, bytes)| {
@@ -44,8 +40,5 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         (inside.unwrap_or(path), bytes)
     }));
     files.sort();
-    Ok(Export {
-        path: Some(format!("config/{name}.srdf")),
-        ..Export::of(text, files, notes)
-    })
+    Ok(Export { path: Some(format!("config/{name}.srdf")), ..Export::of(text, files, notes) })
 }

@@ -39,15 +39,9 @@ fn package(config: &Config) -> String {
     let mut package = Element::new("package").with("format", "3");
     package.push(text("name", config.subject.options.package()));
     package.push(text("version", "0.1.0"));
-    package.push(text(
-        "description",
-        &format!("MoveIt 2 configuration of {robot}, made by urdd"),
-    ));
+    package.push(text("description", &format!("MoveIt 2 configuration of {robot}, made by urdd")));
     package.push(text("maintainer", "you").with("email", "you@example.com"));
-    package.push(text(
-        "license",
-        "TODO: the license of the robot's description",
-    ));
+    package.push(text("license", "TODO: the license of the robot's description"));
     package.push(text("buildtool_depend", "ament_cmake"));
     for dependency in DEPENDENCIES {
         package.push(text("exec_depend", dependency));
@@ -84,9 +78,7 @@ fn launch(config: &Config) -> String {
     let mut text = String::new();
     for line in LAUNCH.lines() {
         // A value may hold the words of others: each line has one.
-        let word = replaced
-            .iter()
-            .find(|(word, _)| line.ends_with(&format!("= {word}")));
+        let word = replaced.iter().find(|(word, _)| line.ends_with(&format!("= {word}")));
         match word {
             Some((word, value)) => text += &line.replace(word, value),
             None => text += line,
@@ -105,14 +97,8 @@ fn rviz(config: &Config) -> String {
         ("Enabled", Yaml::plain("true")),
         ("Move Group Namespace", Yaml::text("")),
         ("Robot Description", Yaml::plain("robot_description")),
-        (
-            "Planning Scene Topic",
-            Yaml::plain("monitored_planning_scene"),
-        ),
-        (
-            "Planning Request",
-            Yaml::map([("Planning Group", Yaml::text(group))]),
-        ),
+        ("Planning Scene Topic", Yaml::plain("monitored_planning_scene")),
+        ("Planning Request", Yaml::map([("Planning Group", Yaml::text(group))])),
     ]);
     let grid = Yaml::map([
         ("Class", Yaml::plain("rviz_default_plugins/Grid")),
@@ -122,10 +108,7 @@ fn rviz(config: &Config) -> String {
     let root = &config.subject.links[config.subject.tree.root];
     let manager = Yaml::map([
         ("Displays", Yaml::List(vec![grid, display])),
-        (
-            "Global Options",
-            Yaml::map([("Fixed Frame", Yaml::text(root))]),
-        ),
+        ("Global Options", Yaml::map([("Fixed Frame", Yaml::text(root))])),
         (
             "Tools",
             Yaml::List(vec![Yaml::map([(

@@ -19,18 +19,9 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
         config.comments("Solvers of inverse kinematics, for each group that is a chain.")?;
     let planning = config.comments("Planners, with OMPL's default parameters.")?;
     Ok(vec![
-        (
-            "config/joint_limits.yaml".to_owned(),
-            self::limits(config).document(&limits),
-        ),
-        (
-            "config/kinematics.yaml".to_owned(),
-            self::kinematics(config).document(&kinematics),
-        ),
-        (
-            "config/ompl_planning.yaml".to_owned(),
-            ompl(config).document(&planning),
-        ),
+        ("config/joint_limits.yaml".to_owned(), self::limits(config).document(&limits)),
+        ("config/kinematics.yaml".to_owned(), self::kinematics(config).document(&kinematics)),
+        ("config/ompl_planning.yaml".to_owned(), ompl(config).document(&planning)),
     ])
 }
 
@@ -71,10 +62,7 @@ fn limits(config: &Config) -> Yaml {
 fn kinematics(config: &Config) -> Yaml {
     let solver = || {
         Yaml::map([
-            (
-                "kinematics_solver",
-                Yaml::plain("kdl_kinematics_plugin/KDLKinematicsPlugin"),
-            ),
+            ("kinematics_solver", Yaml::plain("kdl_kinematics_plugin/KDLKinematicsPlugin")),
             ("kinematics_solver_search_resolution", Yaml::number(0.005)),
             ("kinematics_solver_timeout", Yaml::number(0.05)),
         ])
@@ -90,11 +78,7 @@ fn ompl(config: &Config) -> Yaml {
         "CheckStartStateBounds",
         "CheckStartStateCollision",
     ];
-    let responses = [
-        "AddTimeOptimalParameterization",
-        "ValidateSolution",
-        "DisplayMotionPath",
-    ];
+    let responses = ["AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"];
     let adapters = |kind: &str, names: &[&str]| {
         let names = names
             .iter()
@@ -104,10 +88,7 @@ fn ompl(config: &Config) -> Yaml {
     let planners = PLANNERS.map(|(name, kind)| (name, Yaml::map([("type", Yaml::plain(kind))])));
     let names = || Yaml::List(PLANNERS.iter().map(|(name, _)| Yaml::plain(name)).collect());
     let mut settings = entries([
-        (
-            "planning_plugins",
-            Yaml::List(vec![Yaml::plain("ompl_interface/OMPLPlanner")]),
-        ),
+        ("planning_plugins", Yaml::List(vec![Yaml::plain("ompl_interface/OMPLPlanner")])),
         ("request_adapters", adapters("request", &requests)),
         ("response_adapters", adapters("response", &responses)),
         ("planner_configs", Yaml::map(planners)),

@@ -16,21 +16,9 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let groups = &config.setup.groups;
     let ends = &config.setup.end_effectors;
     let configurations = config.configurations.iter();
-    check_names(
-        subject.format,
-        "group",
-        groups.iter().map(|group| group.value.name.as_str()),
-    )?;
-    check_names(
-        subject.format,
-        "end effector",
-        ends.iter().map(|end| end.value.name.as_str()),
-    )?;
-    check_names(
-        subject.format,
-        "configuration",
-        configurations.map(|named| named.name.as_str()),
-    )?;
+    check_names(subject.format, "group", groups.iter().map(|group| group.value.name.as_str()))?;
+    check_names(subject.format, "end effector", ends.iter().map(|end| end.value.name.as_str()))?;
+    check_names(subject.format, "configuration", configurations.map(|named| named.name.as_str()))?;
     if groups.is_empty() {
         notes.push(Note::Robot(NO_GROUPS));
     }
@@ -41,9 +29,7 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     states(config, &mut robot);
     for end in ends {
         let end = &end.value;
-        let parent = end
-            .parent_group
-            .map(|group| groups[group].value.name.as_str());
+        let parent = end.parent_group.map(|group| groups[group].value.name.as_str());
         robot.push(
             Element::new("end_effector")
                 .with("name", end.name.as_str())
@@ -54,11 +40,7 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     }
     let root = subject.tree.root;
     if !subject.is_world(root) {
-        let kind = if config.setup.floating.value {
-            "floating"
-        } else {
-            "fixed"
-        };
+        let kind = if config.setup.floating.value { "floating" } else { "fixed" };
         robot.push(
             Element::new("virtual_joint")
                 .with("name", "virtual_joint")
@@ -80,11 +62,7 @@ fn group(config: &Config, name: &str, members: &Members) -> Element {
     match members {
         Members::Chain { base, tip } => {
             let [base, tip] = [base, tip].map(|link| config.subject.links[*link].as_str());
-            group.push(
-                Element::new("chain")
-                    .with("base_link", base)
-                    .with("tip_link", tip),
-            );
+            group.push(Element::new("chain").with("base_link", base).with("tip_link", tip));
         }
         Members::Joints(joints) => {
             for joint in joints {
@@ -115,10 +93,7 @@ fn states(config: &Config, robot: &mut Element) {
             let mut state = Element::new("group_state")
                 .with("name", named.name.as_str())
                 .with("group", group.value.name.as_str());
-            for joint in joints
-                .iter()
-                .filter(|joint| config.subject.is_driven(**joint))
-            {
+            for joint in joints.iter().filter(|joint| config.subject.is_driven(**joint)) {
                 let value = config.position(&named.configuration, *joint);
                 let joint = Element::new("joint").with("name", config.joint(*joint));
                 state.push(joint.with("value", number(value)));

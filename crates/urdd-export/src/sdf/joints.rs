@@ -45,20 +45,15 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
                 true => view.child.clone(),
                 false => part.name.clone() + "_link",
             };
-            let mut element = Element::new("joint")
-                .with("name", part.name.as_str())
-                .with("type", part.kind);
+            let mut element =
+                Element::new("joint").with("name", part.name.as_str()).with("type", part.kind);
             let pose = match place {
                 0 => numbers(&pose(joint, view)),
                 _ => "0 0 0 0 0 0".to_owned(),
             };
             // SDF's own `world` is outside of the model.
             let is_world = parent == "world";
-            let frame = if is_world {
-                "__model__"
-            } else {
-                parent.as_str()
-            };
+            let frame = if is_world { "__model__" } else { parent.as_str() };
             let frame = Element::new("pose").with("relative_to", frame);
             element.push(frame.containing(&pose));
             element.push(Element::new("parent").containing(&parent));
@@ -92,10 +87,9 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
 /// Position and roll, pitch, yaw of a joint in its parent link. A joint that follows a fixed one stands at its offset.
 fn pose(joint: &Joint, view: &View) -> [f64; 6] {
     let (xyz, rpy) = match &joint.origin {
-        Some(origin) if joint.joint_type != view.joint_type => (
-            origin.xyz.unwrap_or_default(),
-            origin.rpy.unwrap_or_default(),
-        ),
+        Some(origin) if joint.joint_type != view.joint_type => {
+            (origin.xyz.unwrap_or_default(), origin.rpy.unwrap_or_default())
+        }
         _ => (view.origin.xyz, rpy(&view.origin.rotation())),
     };
     let ([x, y, z], [roll, pitch, yaw]) = (xyz, rpy);
@@ -127,12 +121,7 @@ fn parts(joint: &Joint, view: &View) -> Vec<Part> {
             Moves::Turns(axis) => ("continuous", Some(axis)),
             Moves::Ball => ("ball", None),
         };
-        Part {
-            name,
-            kind,
-            axis,
-            is_own: false,
-        }
+        Part { name, kind, axis, is_own: false }
     };
     match joint.joint_type {
         JointType::Fixed => simple("fixed", None),

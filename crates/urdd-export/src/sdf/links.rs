@@ -40,11 +40,7 @@ pub(super) fn links(
         let joint = joint.map(|joint| joints.last_parts[joint].as_str());
         let mut element = empty(&view.name, joint);
         element.push(
-            match view
-                .inertial
-                .as_ref()
-                .filter(|of| of.mass.is_some_and(|mass| mass > 0.0))
-            {
+            match view.inertial.as_ref().filter(|of| of.mass.is_some_and(|mass| mass > 0.0)) {
                 Some(of) => {
                     let (element, is_changed) = inertial(of);
                     if is_changed {
@@ -123,10 +119,7 @@ fn light() -> Element {
 
 fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
     let mut tensor = Element::new("inertia");
-    for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]
-        .into_iter()
-        .zip(inertia)
-    {
+    for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].into_iter().zip(inertia) {
         tensor.push(Element::new(name).containing(&number(value)));
     }
     Element::new("inertial")
@@ -158,9 +151,7 @@ fn collision(
             Element::new("box").holding(Element::new("size").containing(&numbers(&size)))
         }
         Solid::Sphere { centre, radius } => {
-            collision.push(placed(&Isometry3::translation(
-                centre[0], centre[1], centre[2],
-            )));
+            collision.push(placed(&Isometry3::translation(centre[0], centre[1], centre[2])));
             let radius = number(radius.max(HALF_THICKNESS));
             Element::new("sphere").holding(Element::new("radius").containing(&radius))
         }

@@ -37,9 +37,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let has_mimics = joints.has_mimics;
     // Links and joints are frames of the model: all have names of their own.
     if !is_world && !subject.options.floating() {
-        let world = Element::new("joint")
-            .with("name", joints::WORLD)
-            .with("type", "fixed");
+        let world = Element::new("joint").with("name", joints::WORLD).with("type", "fixed");
         let parent = Element::new("parent").containing("world");
         let child = Element::new("child").containing(&subject.links[root]);
         model.push(world.holding(parent).holding(child));

@@ -53,11 +53,7 @@ impl Guesser<'_> {
             self.hand(&[], &roots);
             return;
         }
-        let legs: Vec<usize> = roots
-            .iter()
-            .copied()
-            .filter(|root| self.is_leg(*root))
-            .collect();
+        let legs: Vec<usize> = roots.iter().copied().filter(|root| self.is_leg(*root)).collect();
         let legs = if legs.len() > 1 { legs } else { Vec::new() };
         for root in roots {
             match legs.contains(&root) {
@@ -73,9 +69,7 @@ impl Guesser<'_> {
             None => (false, "it has neither legs nor wheels"),
         };
         let links = self.structure.view.links.iter().enumerate();
-        let imus = links
-            .filter(|(_, link)| words::is_imu(&link.name))
-            .map(|(link, _)| link);
+        let imus = links.filter(|(_, link)| words::is_imu(&link.name)).map(|(link, _)| link);
         Setup {
             of: self.structure.identity(),
             floating: Guess {
@@ -122,9 +116,7 @@ impl Guesser<'_> {
             return Vec::new();
         }
         let joints = |chains: &[usize]| {
-            let chains = chains
-                .iter()
-                .flat_map(|chain| &self.chains.all[*chain].joints);
+            let chains = chains.iter().flat_map(|chain| &self.chains.all[*chain].joints);
             let mut joints: Vec<usize> = chains.copied().collect();
             joints.retain(|joint| self.structure.moves(*joint));
             joints.sort_unstable();
@@ -179,10 +171,7 @@ impl Guesser<'_> {
                     let depth = |link: usize| -self.poses[link].translation.z;
                     depth(*a).total_cmp(&depth(*b))
                 });
-                Members::Chain {
-                    base: of.base,
-                    tip: tip.unwrap_or(of.last),
-                }
+                Members::Chain { base: of.base, tip: tip.unwrap_or(of.last) }
             }
             false => self.moving(&self.chains.joints_from(chain)),
         };
@@ -195,11 +184,7 @@ impl Guesser<'_> {
         while let Some(chain) = open.pop() {
             let of = &self.chains.all[chain];
             let (base, children) = (of.base, of.children.clone());
-            let driven = of
-                .joints
-                .iter()
-                .filter(|joint| self.structure.moves(**joint))
-                .count();
+            let driven = of.joints.iter().filter(|joint| self.structure.moves(**joint)).count();
             let own = of.joints.clone();
             if self.are_fingers(&children) {
                 if driven < ARM {
@@ -251,24 +236,17 @@ impl Guesser<'_> {
         };
         let name = self.named(chain, "arm");
         self.tools.push(tool);
-        (
-            self.push(&name, Members::Chain { base, tip }, false, &why),
-            tip,
-        )
+        (self.push(&name, Members::Chain { base, tip }, false, &why), tip)
     }
 
     /// A hand: its own joints, and fingers. Returns its group.
     fn hand(&mut self, own: &[usize], fingers: &[usize]) -> usize {
         let mut all = own.to_vec();
-        let after = fingers
-            .iter()
-            .flat_map(|finger| self.chains.joints_from(*finger));
+        let after = fingers.iter().flat_map(|finger| self.chains.joints_from(*finger));
         all.extend(after);
         all.sort_unstable();
         let names = |joints: &[usize]| -> Vec<String> {
-            let names = joints
-                .iter()
-                .map(|joint| self.structure.view.joints[*joint].name.clone());
+            let names = joints.iter().map(|joint| self.structure.view.joints[*joint].name.clone());
             names.collect()
         };
         let is_single = |finger: &usize| self.chains.joints_from(*finger).len() == 1;
@@ -289,22 +267,15 @@ impl Guesser<'_> {
                 (word, finger.base, finger.last)
             })
             .collect();
-        let why = format!(
-            "{} chains that reach at most {FINGER} m begin at one place",
-            fingers.len()
-        );
+        let why =
+            format!("{} chains that reach at most {FINGER} m begin at one place", fingers.len());
         let members = self.moving(&all);
         let group = self.push(&name, members, false, &why);
         for (word, base, last) in chains {
             let tip = self.structure.fixed_to(last).pop().unwrap_or(last);
             let name = with_side(side.as_deref(), word.as_deref().unwrap_or("finger"));
             if self.structure.is_chain(base, tip) {
-                self.push(
-                    &name,
-                    Members::Chain { base, tip },
-                    false,
-                    "one of these chains",
-                );
+                self.push(&name, Members::Chain { base, tip }, false, "one of these chains");
             }
         }
         group
@@ -313,12 +284,7 @@ impl Guesser<'_> {
     fn end_effector(&mut self, (arm, tip): (usize, usize), hand: usize) {
         let name = self.groups[hand].value.name.clone();
         self.ends.push(Guess {
-            value: EndEffector {
-                name,
-                group: hand,
-                parent_group: Some(arm),
-                parent_link: tip,
-            },
+            value: EndEffector { name, group: hand, parent_group: Some(arm), parent_link: tip },
             why: "the hand at the end of this arm".to_owned(),
         });
     }

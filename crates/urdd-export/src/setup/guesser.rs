@@ -45,9 +45,7 @@ impl Guesser<'_> {
     /// The link from which all fingers begin, if it is one.
     pub fn palm(&self, fingers: &[usize]) -> Option<usize> {
         let base = self.chains.all[*fingers.first()?].base;
-        let all = fingers
-            .iter()
-            .all(|finger| self.chains.all[*finger].base == base);
+        let all = fingers.iter().all(|finger| self.chains.all[*finger].base == base);
         all.then_some(base)
     }
 
@@ -60,20 +58,13 @@ impl Guesser<'_> {
             link.visual.is_empty() && link.collision.is_empty()
         };
         let frames: Vec<usize> = fixed[1..].iter().filter(is_frame).copied().collect();
-        let named = frames
-            .iter()
-            .rev()
-            .find(|frame| words::is_tool(&links[**frame].name));
+        let named = frames.iter().rev().find(|frame| words::is_tool(&links[**frame].name));
         named.copied().unwrap_or(link)
     }
 
     pub fn moving(&self, joints: &[usize]) -> Members {
         let joints = joints.iter().copied();
-        Members::Joints(
-            joints
-                .filter(|joint| self.structure.moves(*joint))
-                .collect(),
-        )
+        Members::Joints(joints.filter(|joint| self.structure.moves(*joint)).collect())
     }
 
     /// Adds a group with a name of its own, if it has members. Returns its place.
@@ -86,14 +77,7 @@ impl Guesser<'_> {
         let numbered = (2..).map(|number| format!("{name}_{number}"));
         let mut names = [name.to_owned()].into_iter().chain(numbered);
         let name = names.find(|name| is_free(name)).unwrap_or_default();
-        self.groups.push(Guess {
-            value: Group {
-                name,
-                members,
-                passive,
-            },
-            why: why.to_owned(),
-        });
+        self.groups.push(Guess { value: Group { name, members, passive }, why: why.to_owned() });
         place
     }
 

@@ -53,10 +53,7 @@ impl Setup {
     /// If it cannot be read, is longer than 1 MiB, or is wrong: see [`Setup::from_toml`].
     pub fn read(file: &Path, robot: &Robot) -> Result<Setup, SetupError> {
         let shown = file.display().to_string();
-        let unreadable = |reason: String| SetupError::Unreadable {
-            file: shown.clone(),
-            reason,
-        };
+        let unreadable = |reason: String| SetupError::Unreadable { file: shown.clone(), reason };
         let bytes =
             regular::read(file, MAX_BYTES).map_err(|error| unreadable(error.to_string()))?;
         let text =
@@ -85,10 +82,7 @@ impl Setup {
             .iter()
             .map(|named| named.name.as_str().to_owned())
             .collect();
-        let reader = Reader {
-            structure: &structure,
-            configurations: &configurations,
-        };
+        let reader = Reader { structure: &structure, configurations: &configurations };
         let setup = reader.setup(file);
         setup.map_err(|(at, fault)| refused(Some(at), fault))
     }
@@ -125,25 +119,15 @@ impl Reader<'_> {
             gains.joints.insert(joint, joint_gains(of)?);
         }
         let mut curobo = Curobo {
-            ee_link: file
-                .curobo
-                .ee_link
-                .as_ref()
-                .map(|link| self.link(link))
-                .transpose()?,
+            ee_link: file.curobo.ee_link.as_ref().map(|link| self.link(link)).transpose()?,
             locked: BTreeMap::new(),
             retract: None,
         };
         for (name, position) in &file.curobo.locked {
             if !position.get_ref().is_finite() {
-                return Err((
-                    position.span().start,
-                    not_a("locked", "a position, rad or m"),
-                ));
+                return Err((position.span().start, not_a("locked", "a position, rad or m")));
             }
-            curobo
-                .locked
-                .insert(self.driven(name)?, *position.get_ref());
+            curobo.locked.insert(self.driven(name)?, *position.get_ref());
         }
         if let Some(name) = &file.curobo.retract {
             let known = self.configurations.iter().map(String::as_str);
@@ -169,10 +153,8 @@ impl Reader<'_> {
     }
 
     fn groups(&self, tables: &[Spanned<GroupTable>]) -> Placed<Vec<Group>> {
-        let names: Vec<&str> = tables
-            .iter()
-            .map(|table| table.get_ref().name.get_ref().as_str())
-            .collect();
+        let names: Vec<&str> =
+            tables.iter().map(|table| table.get_ref().name.get_ref().as_str()).collect();
         let mut groups = Vec::new();
         for (place, table) in tables.iter().enumerate() {
             let name = &table.get_ref().name;
@@ -204,10 +186,7 @@ impl Reader<'_> {
                     let [base, tip] = [base, tip].map(|name| name.get_ref().clone());
                     return Err((start, SetupFault::Chain { base, tip }));
                 }
-                Members::Chain {
-                    base: from,
-                    tip: to,
-                }
+                Members::Chain { base: from, tip: to }
             }
             (None, None, Some(joints), None) if !joints.is_empty() => {
                 let joints: Placed<Vec<usize>> =
@@ -215,18 +194,12 @@ impl Reader<'_> {
                 Members::Joints(joints?)
             }
             (None, None, None, Some(groups)) if !groups.is_empty() => {
-                let groups = groups
-                    .iter()
-                    .map(|name| find(name, "group", names.iter().copied()));
+                let groups = groups.iter().map(|name| find(name, "group", names.iter().copied()));
                 Members::Groups(groups.collect::<Placed<Vec<usize>>>()?)
             }
             _ => return Err((start, SetupFault::Members(table.name.get_ref().clone()))),
         };
-        Ok(Group {
-            name: table.name.get_ref().clone(),
-            members,
-            passive: table.passive,
-        })
+        Ok(Group { name: table.name.get_ref().clone(), members, passive: table.passive })
     }
 
     fn end_effector(
@@ -256,11 +229,7 @@ impl Reader<'_> {
     /// A joint that something can drive.
     fn driven(&self, name: &Name) -> Placed<usize> {
         let joints = &self.structure.view.joints;
-        let joint = find(
-            name,
-            "joint",
-            joints.iter().map(|joint| joint.name.as_str()),
-        )?;
+        let joint = find(name, "joint", joints.iter().map(|joint| joint.name.as_str()))?;
         match self.structure.moves(joint) {
             true => Ok(joint),
             false => {
@@ -288,10 +257,7 @@ fn find<'n>(
 }
 
 fn twice(what: &'static str, name: &Name) -> (usize, SetupFault) {
-    let fault = SetupFault::Twice {
-        what,
-        name: name.get_ref().clone(),
-    };
+    let fault = SetupFault::Twice { what, name: name.get_ref().clone() };
     (name.span().start, fault)
 }
 
@@ -314,18 +280,11 @@ fn number(
 
 fn joint_gains(table: &Spanned<JointGains>) -> Placed<JointGains> {
     let gains = *table.get_ref();
-    let each = [
-        ("kp", gains.kp),
-        ("kv", gains.kv),
-        ("armature", gains.armature),
-    ];
+    let each = [("kp", gains.kp), ("kv", gains.kv), ("armature", gains.armature)];
     let is_wrong =
         |value: Option<f64>| value.is_some_and(|value| !(value.is_finite() && value >= 0.0));
     match each.into_iter().find(|(_, value)| is_wrong(*value)) {
-        Some((key, _)) => Err((
-            table.span().start,
-            not_a(key, "a number that is not below 0"),
-        )),
+        Some((key, _)) => Err((table.span().start, not_a(key, "a number that is not below 0"))),
         None => Ok(gains),
     }
 }

@@ -11,19 +11,11 @@ pub(super) enum Part {
 }
 
 const PARTS: &[(Part, &[&str])] = &[
-    (
-        Part::Leg,
-        &[
-            "leg", "hip", "knee", "ankle", "thigh", "calf", "shank", "foot",
-        ],
-    ),
+    (Part::Leg, &["leg", "hip", "knee", "ankle", "thigh", "calf", "shank", "foot"]),
     (Part::Arm, &["arm", "shoulder", "elbow"]),
     (Part::Head, &["head", "neck"]),
     (Part::Torso, &["torso", "waist", "trunk", "spine", "lift"]),
-    (
-        Part::Hand,
-        &["hand", "finger", "thumb", "knuckle", "gripper"],
-    ),
+    (Part::Hand, &["hand", "finger", "thumb", "knuckle", "gripper"]),
 ];
 
 const SIDES: &[&str] = &[
@@ -33,9 +25,7 @@ const SIDES: &[&str] = &[
 
 const FINGERS: &[&str] = &["thumb", "index", "middle", "ring", "pinky", "little"];
 
-const TOOLS: &[&str] = &[
-    "tool", "tool0", "tcp", "grasp", "grasping", "ee", "eef", "tip", "flange",
-];
+const TOOLS: &[&str] = &["tool", "tool0", "tcp", "grasp", "grasping", "ee", "eef", "tip", "flange"];
 
 /// The words of a name in lower case: `FL_hipJoint` has fl, hip and joint.
 fn words(name: &str) -> Vec<String> {
@@ -86,31 +76,23 @@ fn shared<'n>(names: impl Iterator<Item = &'n str>, known: &[&str]) -> Option<St
         let own = words(name);
         match &mut common {
             None => {
-                let own = own
-                    .into_iter()
-                    .filter(|word| known.contains(&word.as_str()));
+                let own = own.into_iter().filter(|word| known.contains(&word.as_str()));
                 common = Some(own.collect());
             }
             Some(common) => common.retain(|word| own.contains(word)),
         }
     }
-    common
-        .filter(|common| !common.is_empty())
-        .map(|common| common.join("_"))
+    common.filter(|common| !common.is_empty()).map(|common| common.join("_"))
 }
 
 /// Whether a name is that of a palm.
 pub(super) fn is_hand(name: &str) -> bool {
-    words(name)
-        .iter()
-        .any(|word| word == "hand" || word == "palm")
+    words(name).iter().any(|word| word == "hand" || word == "palm")
 }
 
 /// Whether a name is that of a tool frame.
 pub(super) fn is_tool(name: &str) -> bool {
-    words(name)
-        .iter()
-        .any(|word| TOOLS.contains(&word.as_str()))
+    words(name).iter().any(|word| TOOLS.contains(&word.as_str()))
 }
 
 /// Whether a name is that of an inertial measurement unit.

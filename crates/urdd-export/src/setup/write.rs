@@ -74,10 +74,7 @@ impl Setup {
         let link = |link: usize| quoted(&links[link].name);
         let joint = |joint: &usize| quoted(&structure.view.joints[*joint].name);
         let group = |group: usize| quoted(&self.groups[group].value.name);
-        let mut text = format!(
-            "{HEAD}robot = {}\n\n[base]\n{BASE}",
-            quoted(&structure.view.name)
-        );
+        let mut text = format!("{HEAD}robot = {}\n\n[base]\n{BASE}", quoted(&structure.view.name));
         guess(&mut text, &self.floating.why);
         let _ = writeln!(text, "floating = {}", self.floating.value);
         text += GROUPS;
@@ -106,12 +103,7 @@ impl Setup {
             text += "\n[[end_effector]]\n";
             guess(&mut text, &end.why);
             let end = &end.value;
-            let _ = writeln!(
-                text,
-                "name = {}\ngroup = {}",
-                quoted(&end.name),
-                group(end.group)
-            );
+            let _ = writeln!(text, "name = {}\ngroup = {}", quoted(&end.name), group(end.group));
             if let Some(parent) = end.parent_group {
                 let _ = writeln!(text, "parent_group = {}", group(parent));
             }
@@ -138,28 +130,17 @@ impl Setup {
             text += JOINT;
         }
         text += LIMITS;
-        entry(
-            &mut text,
-            "acceleration",
-            self.acceleration.map(real),
-            "5.0",
-        );
+        entry(&mut text, "acceleration", self.acceleration.map(real), "5.0");
         entry(&mut text, "jerk", self.jerk.map(real), "100.0");
         text += CONTACT;
         entry(&mut text, "friction", self.friction.map(real), "0.8");
         text += CUROBO;
         let curobo = &self.curobo;
         entry(&mut text, "ee_link", curobo.ee_link.map(link), "\"NAME\"");
-        entry(
-            &mut text,
-            "retract",
-            curobo.retract.as_deref().map(quoted),
-            "\"home\"",
-        );
+        entry(&mut text, "retract", curobo.retract.as_deref().map(quoted), "\"home\"");
         let locked = curobo.locked.iter();
-        let locked: Vec<String> = locked
-            .map(|(of, at)| format!("{} = {}", joint(of), real(*at)))
-            .collect();
+        let locked: Vec<String> =
+            locked.map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
         let locked = (!locked.is_empty()).then(|| format!("{{ {} }}", locked.join(", ")));
         entry(&mut text, "locked", locked, "{ finger = 0.04 }");
         Ok(text)

@@ -64,15 +64,11 @@ fn by_link(subject: &Subject, model: &Model) -> Vec<(String, Yaml)> {
             ("radius", Yaml::number(sphere.radius)),
         ])
     };
-    let spheres = model.links.iter().map(|(link, spheres)| {
-        (
-            name(*link),
-            Yaml::List(spheres.iter().map(sphere).collect()),
-        )
-    });
-    let ignored = ignored
-        .into_iter()
-        .map(|(link, others)| (name(link), Yaml::texts(others)));
+    let spheres = model
+        .links
+        .iter()
+        .map(|(link, spheres)| (name(*link), Yaml::List(spheres.iter().map(sphere).collect())));
+    let ignored = ignored.into_iter().map(|(link, others)| (name(link), Yaml::texts(others)));
     let buffers = links().map(|link| (link, Yaml::number(0.0)));
     entries([
         ("collision_link_names", Yaml::texts(links())),
@@ -104,9 +100,8 @@ impl Arm {
         let named = subject.robot.named_configurations()?;
         let chosen = setup.curobo.retract.as_deref();
         let of = |name: &str| {
-            let found = named
-                .iter()
-                .find(|named: &&NamedConfiguration| named.name.as_str() == name);
+            let found =
+                named.iter().find(|named: &&NamedConfiguration| named.name.as_str() == name);
             found.map(|named| named.configuration.clone())
         };
         let (mut configuration, retract_of) = match chosen.and_then(|name| Some((of(name)?, name)))
@@ -124,22 +119,14 @@ impl Arm {
         }
         let position = |joint: usize| dofs[joint].map_or(0.0, |dof| configuration[dof]);
         let root = subject.tree.root;
-        let ee = setup
-            .curobo
-            .ee_link
-            .or_else(|| setup.tools.value.first().copied());
+        let ee = setup.curobo.ee_link.or_else(|| setup.tools.value.first().copied());
         let ee = ee.unwrap_or_else(|| subject.tree.order.last().copied().unwrap_or(root));
         let on_way: BTreeSet<usize> = subject.between(root, ee).into_iter().collect();
         // What joints on the way follow moves with them.
-        let follows = |joint: &usize| {
-            subject.mimics.by_joint[*joint]
-                .as_ref()
-                .map(|mimic| mimic.driver)
-        };
-        let moved: BTreeSet<usize> = on_way
-            .iter()
-            .map(|joint| follows(joint).unwrap_or(*joint))
-            .collect();
+        let follows =
+            |joint: &usize| subject.mimics.by_joint[*joint].as_ref().map(|mimic| mimic.driver);
+        let moved: BTreeSet<usize> =
+            on_way.iter().map(|joint| follows(joint).unwrap_or(*joint)).collect();
         let mut arm = Arm {
             base: root,
             ee,
@@ -195,11 +182,7 @@ impl Arm {
 
     fn said(&self, subject: &Subject) -> Vec<String> {
         let joint = |(joint, position): (&usize, &f64)| {
-            format!(
-                "`{}` at {}",
-                subject.view.joints[*joint].name,
-                number(*position)
-            )
+            format!("`{}` at {}", subject.view.joints[*joint].name, number(*position))
         };
         let mut said = vec![format!(
             "Retract configuration: {}. Limits of velocity and position are the URDF's.",
@@ -219,17 +202,11 @@ impl Arm {
     fn kinematics(&self, subject: &Subject, urdf: &str) -> Vec<(String, Yaml)> {
         let null = || Yaml::plain("null");
         let joint = |joint: &usize| subject.view.joints[*joint].name.as_str();
-        let locked = self
-            .locked
-            .iter()
-            .map(|(of, at)| (joint(of), Yaml::number(*at)));
+        let locked = self.locked.iter().map(|(of, at)| (joint(of), Yaml::number(*at)));
         let attached = Yaml::map([
             ("parent_link_name", Yaml::text(&subject.links[self.ee])),
             ("link_name", Yaml::text("attached_object")),
-            (
-                "fixed_transform",
-                Yaml::numbers(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
-            ),
+            ("fixed_transform", Yaml::numbers(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])),
             ("joint_type", Yaml::text("FIXED")),
             ("joint_name", Yaml::text("attach_joint")),
         ]);
@@ -244,19 +221,9 @@ impl Arm {
             ("base_link", Yaml::text(&subject.links[self.base])),
             ("ee_link", Yaml::text(&subject.links[self.ee])),
             ("link_names", null()),
-            (
-                "lock_joints",
-                if self.locked.is_empty() {
-                    null()
-                } else {
-                    Yaml::named(locked)
-                },
-            ),
+            ("lock_joints", if self.locked.is_empty() { null() } else { Yaml::named(locked) }),
             ("extra_links", Yaml::map([("attached_object", attached)])),
-            (
-                "extra_collision_spheres",
-                Yaml::map([("attached_object", Yaml::plain("4"))]),
-            ),
+            ("extra_collision_spheres", Yaml::map([("attached_object", Yaml::plain("4"))])),
             ("use_global_cumul", Yaml::plain("true")),
             ("mesh_link_names", null()),
         ])
@@ -267,10 +234,7 @@ impl Arm {
         let ones = || Yaml::numbers(&vec![1.0; self.active.len()]);
         // cuRobo has one limit for all joints, or one for each.
         let each = |of: &dyn Fn(usize) -> Option<f64>, default: f64| {
-            let values = self
-                .active
-                .iter()
-                .map(|joint| of(*joint).unwrap_or(default));
+            let values = self.active.iter().map(|joint| of(*joint).unwrap_or(default));
             match self.active.iter().any(|joint| of(*joint).is_some()) {
                 true => Yaml::numbers(&values.collect::<Vec<_>>()),
                 false => Yaml::number(default),
@@ -278,17 +242,11 @@ impl Arm {
         };
         let limit = |joint: usize| subject.urdf.joints[joint].limit.as_ref();
         Yaml::map([
-            (
-                "joint_names",
-                Yaml::texts(joints.map(|joint| joint.name.as_str())),
-            ),
+            ("joint_names", Yaml::texts(joints.map(|joint| joint.name.as_str()))),
             ("retract_config", Yaml::numbers(&self.retract)),
             ("null_space_weight", ones()),
             ("cspace_distance_weight", ones()),
-            (
-                "max_jerk",
-                each(&|joint| limit(joint)?.jerk, setup.jerk.unwrap_or(JERK)),
-            ),
+            ("max_jerk", each(&|joint| limit(joint)?.jerk, setup.jerk.unwrap_or(JERK))),
             (
                 "max_acceleration",
                 each(

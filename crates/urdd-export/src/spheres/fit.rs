@@ -75,36 +75,20 @@ pub(super) fn fit(
     }
     let total = limits.total.max(links);
     let first = ((total as f64 * BY_SURFACE) as usize).max(links);
-    let of_surface = Goal {
-        surface,
-        samples,
-        pairs,
-        size,
-    };
+    let of_surface = Goal { surface, samples, pairs, size };
     for round in 1..=SURFACE_ROUNDS {
         let blame = descend(&of_surface, &mut spheres, SURFACE_STEPS, SURFACE_STEP, None);
         let part = round as f64 / SURFACE_ROUNDS as f64;
         let goal = links as f64 * (first as f64 / links as f64).powf(part);
-        split(
-            &mut spheres,
-            surface,
-            blame,
-            goal.round() as usize,
-            limits.per_link,
-        );
+        split(&mut spheres, surface, blame, goal.round() as usize, limits.per_link);
     }
     descend(&of_surface, &mut spheres, SURFACE_STEPS, SURFACE_STEP, None);
     let goal = of_surface;
     let looked = goal.look(&spheres, ignored, NEAR * size);
     let some: Vec<Looked> = looked.into_iter().step_by(STRIDE).collect();
     for round in 1..=CONTACT_ROUNDS {
-        let mut blame = descend(
-            &goal,
-            &mut spheres,
-            CONTACT_STEPS,
-            contact_step,
-            Some(some.clone()),
-        );
+        let mut blame =
+            descend(&goal, &mut spheres, CONTACT_STEPS, contact_step, Some(some.clone()));
         drop_idle(&goal, &mut spheres, &mut blame);
         let now = first + (total - first) * round / CONTACT_ROUNDS;
         split(&mut spheres, surface, blame, now, limits.per_link);
@@ -138,10 +122,8 @@ fn descend(
     let mut active = Vec::new();
     let by_contact = looked_at.is_some();
     let mut looked_at = looked_at.unwrap_or_default();
-    let colliding = looked_at
-        .iter()
-        .filter(|looked| goal.samples[looked.sample].collides())
-        .count();
+    let colliding =
+        looked_at.iter().filter(|looked| goal.samples[looked.sample].collides()).count();
     let classes = [colliding, looked_at.len() - colliding];
     let length_of = |step: usize| goal.size * from * (to / from).powf(step as f64 / steps as f64);
     let mut by_surface = vec![0.0; number];
@@ -179,8 +161,7 @@ fn descend(
     let [of_surface, of_contacts] =
         [&by_surface, &by_contacts].map(|blame| blame.iter().sum::<f64>().max(f64::MIN_POSITIVE));
     let both = by_surface.iter().zip(&by_contacts);
-    both.map(|(s, c)| (1.0 - share) * s / of_surface + share * c / of_contacts)
-        .collect()
+    both.map(|(s, c)| (1.0 - share) * s / of_surface + share * c / of_contacts).collect()
 }
 
 fn sum_up(to: &mut [f64], from: &[f64]) {
@@ -202,11 +183,7 @@ const TINY: f64 = 1e-8;
 
 impl Adam {
     fn new(number: usize) -> Self {
-        Adam {
-            mean: vec![[0.0; 4]; number],
-            square: vec![[0.0; 4]; number],
-            steps: 0,
-        }
+        Adam { mean: vec![[0.0; 4]; number], square: vec![[0.0; 4]; number], steps: 0 }
     }
 
     fn step(&mut self, spheres: &mut Spheres, slope: &[[f64; 4]], length: f64, smallest: f64) {
@@ -256,8 +233,7 @@ fn numbered(spheres: &Spheres, values: &[f64]) -> Vec<(f64, usize, usize)> {
     let places = spheres.iter().enumerate();
     let places = places.flat_map(|(link, own)| (0..own.len()).map(move |number| (link, number)));
     let both = values.iter().zip(places);
-    both.map(|(value, (link, number))| (*value, link, number))
-        .collect()
+    both.map(|(value, (link, number))| (*value, link, number)).collect()
 }
 
 /// Replaces a sphere by two, separated along the direction of greatest spread of the points nearest to it.
@@ -307,18 +283,13 @@ fn drop_idle(goal: &Goal, spheres: &mut Spheres, blame: &mut Vec<f64>) {
         costs.extend(cost);
     }
     // Blame outweighs any surface cost.
-    let costs: Vec<f64> = costs
-        .iter()
-        .zip(&*blame)
-        .map(|(cost, blame)| cost + 1e3 * blame)
-        .collect();
+    let costs: Vec<f64> =
+        costs.iter().zip(&*blame).map(|(cost, blame)| cost + 1e3 * blame).collect();
     let mut order = numbered(spheres, &costs);
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.truncate((count(spheres) as f64 * MOVED) as usize);
-    let mut gone: Vec<(usize, usize)> = order
-        .into_iter()
-        .map(|(_, link, number)| (link, number))
-        .collect();
+    let mut gone: Vec<(usize, usize)> =
+        order.into_iter().map(|(_, link, number)| (link, number)).collect();
     gone.sort_unstable();
     let mut blames = numbered(spheres, blame);
     for (link, number) in gone.into_iter().rev() {

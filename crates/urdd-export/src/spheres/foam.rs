@@ -13,21 +13,17 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
     let model = Model::new(subject)?;
     let name = |link: usize| subject.links.get(link).cloned().unwrap_or_default();
     let sphere = |sphere: &Sphere| json!({ "origin": sphere.centre, "radius": sphere.radius });
-    let links = model
-        .links
-        .iter()
-        .zip(&model.surface)
-        .map(|((link, spheres), surface)| {
-            let stand = Stand::new(spheres, surface);
-            let spheres: Vec<Value> = spheres.iter().map(sphere).collect();
-            let value = json!({
-                "mean": stand.mean,
-                "best": stand.best,
-                "worst": stand.worst,
-                "spheres": spheres,
-            });
-            (name(*link), value)
+    let links = model.links.iter().zip(&model.surface).map(|((link, spheres), surface)| {
+        let stand = Stand::new(spheres, surface);
+        let spheres: Vec<Value> = spheres.iter().map(sphere).collect();
+        let value = json!({
+            "mean": stand.mean,
+            "best": stand.best,
+            "worst": stand.worst,
+            "spheres": spheres,
         });
+        (name(*link), value)
+    });
     let links: Map<String, Value> = links.collect();
     let document = json!({
         "made_from": subject.origin()?,
@@ -38,9 +34,5 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
     });
     let text = serde_json::to_string_pretty(&document).unwrap_or_default() + "\n";
     let text = escape::json(&text).into_owned();
-    Ok(Export::of(
-        text,
-        Vec::new(),
-        said::note(&model, subject).into_iter().collect(),
-    ))
+    Ok(Export::of(text, Vec::new(), said::note(&model, subject).into_iter().collect()))
 }

@@ -151,12 +151,7 @@ pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         if threshold <= -limit || threshold >= limit || next <= gap {
             continue;
         }
-        let rates = SphereRates {
-            colliding,
-            missed,
-            free,
-            false_contacts,
-        };
+        let rates = SphereRates { colliding, missed, free, false_contacts };
         let worse = rates.worse();
         if worse < best.0 {
             best = (worse, threshold);

@@ -60,10 +60,7 @@ pub(super) struct Slope {
 
 impl Slope {
     fn new(count: usize) -> Self {
-        Slope {
-            by: vec![[0.0; 4]; count],
-            blame: vec![0.0; count],
-        }
+        Slope { by: vec![[0.0; 4]; count], blame: vec![0.0; count] }
     }
 
     fn add(&mut self, sphere: usize, direction: Point, by_gap: f64) {
@@ -137,11 +134,7 @@ impl Goal<'_> {
             model.place(sample, placed);
             let mut found = Vec::new();
             for (pair, (number, links)) in (0u32..).zip(self.pairs.iter().enumerate()) {
-                let limit = if sample.collides() {
-                    f64::MIN_POSITIVE
-                } else {
-                    reach
-                };
+                let limit = if sample.collides() { f64::MIN_POSITIVE } else { reach };
                 if !(is_ignored[number] || sample.collides() && touches[number])
                     && model.may_be_near(placed, *links, limit)
                 {
@@ -164,10 +157,7 @@ impl Goal<'_> {
                 false => near.into_iter().map(|(pair, _)| pair).collect(),
             };
             let pairs = pairs.into_iter().filter(|pair| !ignored[*pair as usize]);
-            Looked {
-                sample,
-                pairs: pairs.collect(),
-            }
+            Looked { sample, pairs: pairs.collect() }
         };
         found.into_iter().enumerate().map(looked).collect()
     }
@@ -275,11 +265,7 @@ impl Goal<'_> {
             let toward = scaled(between, 1.0 / norm(between).max(f64::MIN_POSITIVE));
             let (first, second) = (firsts[a] + i, firsts[b] + j);
             slope.add(first, sample.poses[a].turn_back(toward), by_gap);
-            slope.add(
-                second,
-                sample.poses[b].turn_back(scaled(toward, -1.0)),
-                by_gap,
-            );
+            slope.add(second, sample.poses[b].turn_back(scaled(toward, -1.0)), by_gap);
             slope.blame[first] += by_gap.abs();
             slope.blame[second] += by_gap.abs();
         };

@@ -71,12 +71,7 @@ impl Measured {
             |rates: &SphereRates| self.near_default.is_some() && Some(rates) == self.rates.as_ref();
         let is_good = |rates: &SphereRates| match is_few(rates) {
             // Too few free configurations to count false contacts.
-            true => SphereRates {
-                free: 0,
-                false_contacts: 0,
-                ..*rates
-            }
-            .are_within_goals(),
+            true => SphereRates { free: 0, false_contacts: 0, ..*rates }.are_within_goals(),
             false => rates.are_within_goals(),
         };
         (collides || !touches) && all.into_iter().all(is_good)
@@ -91,12 +86,8 @@ pub(super) fn measure(
     numbers: &Numbers,
     near: bool,
 ) -> Result<Measured, RobotError> {
-    let mut measured = Measured {
-        rates: None,
-        near_default: None,
-        default: [false; 2],
-        faults: Vec::new(),
-    };
+    let mut measured =
+        Measured { rates: None, near_default: None, default: [false; 2], faults: Vec::new() };
     if pairs.checked.is_empty() {
         return Ok(measured);
     }
@@ -132,10 +123,7 @@ pub(super) fn measure(
         .collect();
     // A missed collision weighs as much as five false contacts, in line with the goals of 1 % and 5 %.
     faults.sort_by_key(|(links, faults)| {
-        (
-            std::cmp::Reverse(5 * faults.missed + faults.false_contacts),
-            *links,
-        )
+        (std::cmp::Reverse(5 * faults.missed + faults.false_contacts), *links)
     });
     measured.faults = faults;
     Ok(measured)

@@ -75,9 +75,8 @@ impl Model {
         let limits = limits(subject.options.spheres, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);
-        let surface: Vec<Vec<Point>> = (pairs.pieces.par_iter())
-            .map(|pieces| surface::points(pieces, count))
-            .collect();
+        let surface: Vec<Vec<Point>> =
+            (pairs.pieces.par_iter()).map(|pieces| surface::points(pieces, count)).collect();
         let numbers = Numbers::new(subject.options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
         let (spheres, near) = match subject.options.cover {
@@ -106,18 +105,13 @@ impl Model {
 
 fn limits(budget: SphereBudget, links: usize) -> Limits {
     match budget {
-        SphereBudget::Auto => Limits {
-            total: (AUTO_PER_LINK * links).min(AUTO_TOTAL),
-            per_link: usize::MAX,
-        },
-        SphereBudget::PerLink(count) => Limits {
-            total: count.saturating_mul(links),
-            per_link: count,
-        },
-        SphereBudget::Total(count) => Limits {
-            total: count,
-            per_link: usize::MAX,
-        },
+        SphereBudget::Auto => {
+            Limits { total: (AUTO_PER_LINK * links).min(AUTO_TOTAL), per_link: usize::MAX }
+        }
+        SphereBudget::PerLink(count) => {
+            Limits { total: count.saturating_mul(links), per_link: count }
+        }
+        SphereBudget::Total(count) => Limits { total: count, per_link: usize::MAX },
     }
 }
 
@@ -132,9 +126,7 @@ fn covering(subject: &Subject, pairs: &Pairs) -> Spheres {
         centre: sphere.centre,
         radius: sphere.radius,
     };
-    covers
-        .map(|own| own.into_iter().map(sphere).collect())
-        .collect()
+    covers.map(|own| own.into_iter().map(sphere).collect()).collect()
 }
 
 /// Fits spheres that give the same collision results as the exact shapes. Also returns whether the fit used
@@ -224,12 +216,7 @@ fn balance(
         for sphere in spheres.iter_mut().flatten() {
             sphere.radius = (sphere.radius + by).max(0.5 * sphere.radius);
         }
-        let goal = fit::Goal {
-            surface,
-            samples: known,
-            pairs: checked,
-            size: limit,
-        };
+        let goal = fit::Goal { surface, samples: known, pairs: checked, size: limit };
         goal.look(spheres, ignored, f64::MIN_POSITIVE);
         if !known[0].collides() {
             let left = checked.iter().zip(&*ignored);

@@ -37,10 +37,7 @@ fn about(own: &[Sphere]) -> Option<Sphere> {
     }
     let centre = scaled(add(low, high), 0.5);
     let reach = |sphere: &Sphere| norm(sub(sphere.centre, centre)) + sphere.radius;
-    Some(Sphere {
-        centre,
-        radius: own.iter().map(reach).fold(0.0, f64::max),
-    })
+    Some(Sphere { centre, radius: own.iter().map(reach).fold(0.0, f64::max) })
 }
 
 /// Spheres, with bounding spheres for fast rejection of distant pairs.
@@ -58,19 +55,14 @@ pub(super) struct Placed {
 
 impl<'a> Placeable<'a> {
     pub fn new(spheres: &'a Spheres) -> Self {
-        Placeable {
-            spheres,
-            about: spheres.iter().map(|own| about(own)).collect(),
-        }
+        Placeable { spheres, about: spheres.iter().map(|own| about(own)).collect() }
     }
 
     /// Places the links' bounding spheres. The spheres themselves are placed on demand.
     pub fn place(&self, sample: &Sample, placed: &mut Placed) {
         let centre = |(about, pose): (&Option<Sphere>, &Pose)| Some(pose.place((*about)?.centre));
         placed.about.clear();
-        placed
-            .about
-            .extend(self.about.iter().zip(&sample.poses).map(centre));
+        placed.about.extend(self.about.iter().zip(&sample.poses).map(centre));
         placed.centres.resize(self.spheres.len(), Vec::new());
         placed.centres.iter_mut().for_each(Vec::clear);
     }

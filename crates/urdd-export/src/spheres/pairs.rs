@@ -27,22 +27,14 @@ pub(super) struct Pairs {
 impl Pairs {
     pub fn new(subject: &Subject, shapes: Vec<LinkShape>) -> Result<Self, ExportError> {
         let count = subject.links.len();
-        if let Some(index) = shapes
-            .iter()
-            .map(|shape| shape.link)
-            .find(|link| *link >= count)
-        {
+        if let Some(index) = shapes.iter().map(|shape| shape.link).find(|link| *link >= count) {
             let what = "link";
             return Err(RobotError::OutOfRange { what, index, count }.into());
         }
         let skips = subject.robot.skips(subject.options.shapes)?;
         let decision = Decision::new(&skips, &subject.links, subject.options);
-        let rows: HashMap<(usize, usize), usize> = skips
-            .places()
-            .iter()
-            .enumerate()
-            .map(|(row, place)| (*place, row))
-            .collect();
+        let rows: HashMap<(usize, usize), usize> =
+            skips.places().iter().enumerate().map(|(row, place)| (*place, row)).collect();
         let row = |shape: &LinkShape| rows.get(&(shape.link, shape.piece)).copied();
         let rows: Vec<Option<usize>> = shapes.iter().map(row).collect();
         let is_checked = |a: usize, b: usize| match rows[a].zip(rows[b]) {
@@ -56,9 +48,7 @@ impl Pairs {
                 Solid::Box { .. } | Solid::Sphere { .. } => None,
             })
             .collect();
-        let each = meshes
-            .iter()
-            .map(|(link, mesh)| (*link, mesh.vertices.as_slice()));
+        let each = meshes.iter().map(|(link, mesh)| (*link, mesh.vertices.as_slice()));
         let mut exact = BodyPairs::new(each).map_err(|(shape, error)| RobotError::Unusable {
             module: ModuleKind::ConvexDecompositionMeshes,
             reason: format!("a piece of link {}: {error}", meshes[shape].0),
@@ -78,21 +68,13 @@ impl Pairs {
             let own = meshes.iter().filter(|(of, _)| of == link);
             own.map(|(_, mesh)| mesh.clone()).collect()
         };
-        Ok(Pairs {
-            pieces: links.iter().map(pieces).collect(),
-            links,
-            checked,
-            exact,
-        })
+        Ok(Pairs { pieces: links.iter().map(pieces).collect(), links, checked, exact })
     }
 
     /// The indices of the pairs in contact, ascending. `poses` are those of all links of the robot.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
         let found = self.exact.touching(poses);
-        found
-            .into_iter()
-            .filter_map(|pair| u32::try_from(pair).ok())
-            .collect()
+        found.into_iter().filter_map(|pair| u32::try_from(pair).ok()).collect()
     }
 
     /// Whether any pair is in contact.

@@ -30,17 +30,8 @@ pub(super) struct Stand {
 
 impl Stand {
     pub fn new(spheres: &[Sphere], surface: &[Point]) -> Self {
-        let off = |p: &Point| {
-            spheres
-                .iter()
-                .map(|s| s.to(*p))
-                .fold(f64::INFINITY, f64::min)
-        };
-        let offs: Vec<f64> = surface
-            .iter()
-            .map(off)
-            .filter(|off| off.is_finite())
-            .collect();
+        let off = |p: &Point| spheres.iter().map(|s| s.to(*p)).fold(f64::INFINITY, f64::min);
+        let offs: Vec<f64> = surface.iter().map(off).filter(|off| off.is_finite()).collect();
         let far = || offs.iter().map(|off| off.abs());
         Stand {
             mean: far().sum::<f64>() / offs.len().max(1) as f64,
@@ -123,10 +114,7 @@ impl Measured {
     pub fn named(&self, names: &[String]) -> String {
         let named = self.faults.iter().take(NAMED).map(|(links, faults)| {
             let [a, b] = links.map(|link| names.get(link).map_or("", String::as_str));
-            format!(
-                "`{a}` and `{b}` ({} missed, {} false)",
-                faults.missed, faults.false_contacts
-            )
+            format!("`{a}` and `{b}` ({} missed, {} false)", faults.missed, faults.false_contacts)
         });
         format!(
             "Goals are at most {} % missed and {} % false. Pairs of links behind wrong answers, worst first: {}.",
@@ -150,18 +138,8 @@ impl Measured {
 impl SphereRates {
     fn said(&self) -> [String; 2] {
         [
-            rate(
-                "missed collisions",
-                self.missed,
-                self.colliding,
-                "collisions",
-            ),
-            rate(
-                "false contacts",
-                self.false_contacts,
-                self.free,
-                "free configurations",
-            ),
+            rate("missed collisions", self.missed, self.colliding, "collisions"),
+            rate("false contacts", self.false_contacts, self.free, "free configurations"),
         ]
     }
 }
@@ -193,9 +171,7 @@ pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
     }
     let mut lines: Vec<String> = model.measured.said().into_iter().skip(1).collect();
     lines.push(model.measured.named(&subject.links));
-    let lines: Vec<String> = lines
-        .iter()
-        .map(|line| escape::line(line.trim()).into_owned())
-        .collect();
+    let lines: Vec<String> =
+        lines.iter().map(|line| escape::line(line.trim()).into_owned()).collect();
     Some(Note::Spheres(lines.join("; ")))
 }

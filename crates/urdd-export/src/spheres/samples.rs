@@ -87,11 +87,7 @@ pub(super) fn sample(
         Ask::Any => Vec::from_iter(pairs.any_touches(&poses).then_some(0)),
     };
     Ok(Sample {
-        poses: pairs
-            .links
-            .iter()
-            .map(|link| Pose::from(&poses[*link]))
-            .collect(),
+        poses: pairs.links.iter().map(|link| Pose::from(&poses[*link])).collect(),
         touching,
     })
 }

@@ -47,19 +47,14 @@ pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
         if u + v > 1.0 {
             (u, v) = (1.0 - u, 1.0 - v);
         }
-        let along = add(
-            scaled(sub(corners[1], corners[0]), u),
-            scaled(sub(corners[2], corners[0]), v),
-        );
+        let along =
+            add(scaled(sub(corners[1], corners[0]), u), scaled(sub(corners[2], corners[0]), v));
         let p = add(corners[0], along);
         (!is_inside(piece, p)).then_some(p)
     };
     let found: Vec<Point> = (0..count).filter_map(point).collect();
     match found.is_empty() {
-        true => pieces
-            .iter()
-            .flat_map(|mesh| mesh.vertices.clone())
-            .collect(),
+        true => pieces.iter().flat_map(|mesh| mesh.vertices.clone()).collect(),
         false => found,
     }
 }
@@ -83,8 +78,7 @@ mod tests {
         assert!((found.len() as f64 / 2000.0 - 0.875).abs() < 0.01);
         for p in &found {
             let on = |low: f64, high: f64| {
-                p.iter()
-                    .any(|x| (x - low).abs() < 1e-12 || (x - high).abs() < 1e-12)
+                p.iter().any(|x| (x - low).abs() < 1e-12 || (x - high).abs() < 1e-12)
             };
             let inside =
                 |low: f64, high: f64| p.iter().all(|x| low + 1e-6 < *x && *x < high - 1e-6);
@@ -95,10 +89,7 @@ mod tests {
 
     #[test]
     fn a_piece_without_area_has_its_vertices() {
-        let line = Mesh {
-            vertices: vec![[0.0; 3], [1.0, 0.0, 0.0]],
-            ..Mesh::default()
-        };
+        let line = Mesh { vertices: vec![[0.0; 3], [1.0, 0.0, 0.0]], ..Mesh::default() };
         assert_eq!(points(&[line], 10), vec![[0.0; 3], [1.0, 0.0, 0.0]]);
     }
 }

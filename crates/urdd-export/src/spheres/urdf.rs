@@ -14,10 +14,7 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
         let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
             link: *link,
             piece,
-            solid: Solid::Sphere {
-                centre: sphere.centre,
-                radius: sphere.radius,
-            },
+            solid: Solid::Sphere { centre: sphere.centre, radius: sphere.radius },
         });
         shapes[*link].extend(spheres);
     }

@@ -5,17 +5,9 @@ use urdd_format::annotations::*;
 
 #[test]
 fn units_are_products_of_symbols_or_a_choice() {
-    for right in [
-        "1",
-        "m",
-        "rad",
-        "kg*m^2",
-        "N*m",
-        "1/s",
-        "N*m*s/rad",
-        "rad or m",
-        "1 or rad/m or m/rad",
-    ] {
+    for right in
+        ["1", "m", "rad", "kg*m^2", "N*m", "1/s", "N*m*s/rad", "rad or m", "1 or rad/m or m/rad"]
+    {
         assert!(is_unit(right), "{right}");
     }
     for wrong in [
@@ -46,10 +38,7 @@ fn units_are_products_of_symbols_or_a_choice() {
 #[test]
 fn a_choice_names_all_its_things() {
     assert_eq!(of_index("link"), Some(vec![Thing::Link]));
-    assert_eq!(
-        of_index("visual or collision"),
-        Some(vec![Thing::Visual, Thing::Collision])
-    );
+    assert_eq!(of_index("visual or collision"), Some(vec![Thing::Visual, Thing::Collision]));
     assert_eq!(of_index("links"), None);
     assert_eq!(of_length("links"), Some(vec![Thing::Link]));
     assert_eq!(of_length("link"), None);
@@ -68,10 +57,7 @@ fn faults_say_what_to_write() {
     };
     assert_eq!(first(json!({"x-index": "link", "type": "integer"})), None);
     assert_eq!(first(json!({"x-index": "link"})), None);
-    assert_eq!(
-        first(json!({"x-index": "link", "type": ["number", "null"]})),
-        None
-    );
+    assert_eq!(first(json!({"x-index": "link", "type": ["number", "null"]})), None);
     assert_eq!(first(json!({"x-mine": 7})), None);
     let message = first(json!({"x-index": 7})).expect("a fault");
     assert!(message.starts_with("`x-index` is 7, and must be a string: write link, joint"));
@@ -91,13 +77,7 @@ fn a_sentence_names_what_is_inside_too() {
         "x-length": "links",
         "items": {"x-length": "pieces", "items": pieces},
     });
-    assert_eq!(
-        sentence(&schema),
-        "Index of: `piece`. Length: `links`, each `pieces`."
-    );
-    assert_eq!(
-        sentence(&json!({"x-unit": "m", "x-frame": "link"})),
-        "Unit: `m`. Frame: `link`."
-    );
+    assert_eq!(sentence(&schema), "Index of: `piece`. Length: `links`, each `pieces`.");
+    assert_eq!(sentence(&json!({"x-unit": "m", "x-frame": "link"})), "Unit: `m`. Frame: `link`.");
     assert_eq!(sentence(&json!({"type": "string"})), "");
 }

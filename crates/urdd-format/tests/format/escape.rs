@@ -4,14 +4,7 @@ use urdd_format::escape::{json, line, lines, quoted};
 
 #[test]
 fn what_can_be_seen_stays() {
-    for text in [
-        "",
-        "left arm/ü 1",
-        "关节_1",
-        "кисть",
-        "🤖",
-        "a\\b \"c\" `d`",
-    ] {
+    for text in ["", "left arm/ü 1", "关节_1", "кисть", "🤖", "a\\b \"c\" `d`"] {
         assert_eq!(line(text), text);
         assert_eq!(json(text), text);
     }

@@ -138,11 +138,7 @@ fn number(choices: &mut Choices) -> Value {
 /// Changes an object, or returns its replacement.
 fn mutate_object(object: &mut Map<String, Value>, choices: &mut Choices) -> Option<Value> {
     let keys: Vec<String> = object.keys().cloned().collect();
-    let key = if keys.is_empty() {
-        String::new()
-    } else {
-        choices.one(&keys)
-    };
+    let key = if keys.is_empty() { String::new() } else { choices.one(&keys) };
     match choices.pick(10) {
         0 => {
             object.shift_remove(&key);

@@ -20,11 +20,9 @@ fn ends_at_nothing_and_all_are_closed_forms() {
 #[test]
 fn intervals_are_those_of_scipy() {
     // From scipy.stats.binomtest(k, n).proportion_ci(method="wilson"), SciPy 1.17.
-    for (count, of, low, high) in [
-        (9, 903, 0.005252, 0.018833),
-        (0, 10_000, 0.0, 0.000384),
-        (50, 50, 0.928652, 1.0),
-    ] {
+    for (count, of, low, high) in
+        [(9, 903, 0.005252, 0.018833), (0, 10_000, 0.0, 0.000384), (50, 50, 0.928652, 1.0)]
+    {
         let [a, b] = interval(count, of);
         assert!((a - low).abs() < 1e-6 && (b - high).abs() < 1e-6, "{a} {b}");
     }
@@ -39,15 +37,8 @@ fn out_of_nothing_nothing_is_known() {
 
 #[test]
 fn words() {
-    assert_eq!(
-        Rate::new(9, 903).to_string(),
-        "1.00 % (0.53 to 1.88 %) of 903"
-    );
-    assert!(
-        Rate::new(50, 1_234_567)
-            .to_string()
-            .ends_with("of 1,234,567")
-    );
+    assert_eq!(Rate::new(9, 903).to_string(), "1.00 % (0.53 to 1.88 %) of 903");
+    assert!(Rate::new(50, 1_234_567).to_string().ends_with("of 1,234,567"));
     assert!(Rate::new(50, 100).is_above(&Rate::new(9, 903)));
     assert!(!Rate::new(2, 100).is_above(&Rate::new(9, 903)));
 }

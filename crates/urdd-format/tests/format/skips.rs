@@ -21,10 +21,8 @@ fn simple() -> LinkShapesSimpleSkipsModule {
         vec![Adjacent, Always, SameLink, NoReason],
         vec![Never, Never, NoReason, SameLink],
     ];
-    let piece = |link: u32, piece: u32| PieceShape {
-        link_idx: LinkIdx(link),
-        piece_idx: PieceIdx(piece),
-    };
+    let piece =
+        |link: u32, piece: u32| PieceShape { link_idx: LinkIdx(link), piece_idx: PieceIdx(piece) };
     LinkShapesSimpleSkipsModule {
         full_shapes: (0..3).map(LinkIdx).collect(),
         decomposition_shapes: vec![piece(0, 0), piece(0, 1), piece(1, 0), piece(2, 0)],
@@ -46,12 +44,7 @@ fn simple() -> LinkShapesSimpleSkipsModule {
 }
 
 fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
-    SkipEdit {
-        link_a: link_a.to_owned(),
-        link_b: link_b.to_owned(),
-        skip,
-        reason: String::new(),
-    }
+    SkipEdit { link_a: link_a.to_owned(), link_b: link_b.to_owned(), skip, reason: String::new() }
 }
 
 fn made(skipped: &[SkippedReason], edits: Vec<SkipEdit>) -> LinkShapesSkipsModule {
@@ -65,15 +58,9 @@ const F: bool = false;
 fn a_pair_is_skipped_for_its_reason() {
     let of = |skipped: &[SkippedReason]| made(skipped, Vec::new()).full_convex_hulls_skips;
     assert_eq!(of(&[]), [[T, F, F], [F, T, F], [F, F, T]]);
-    assert_eq!(
-        of(&[Skipped::SameLink, Skipped::Adjacent]),
-        [[T, T, F], [T, T, F], [F, F, T]]
-    );
+    assert_eq!(of(&[Skipped::SameLink, Skipped::Adjacent]), [[T, T, F], [T, T, F], [F, F, T]]);
     assert_eq!(of(&[Skipped::Never]), [[T, F, T], [F, T, F], [T, F, T]]);
-    assert_eq!(
-        made(&[Skipped::Never], Vec::new()).decomposition_obbs_skips,
-        None
-    );
+    assert_eq!(made(&[Skipped::Never], Vec::new()).decomposition_obbs_skips, None);
 }
 
 #[test]
@@ -85,13 +72,7 @@ fn of_several_edits_of_a_pair_the_last_counts_and_all_pieces_follow() {
         edit("a", "a", false),
         edit("a", "nobody", true),
     ];
-    let skips = made(
-        &[Skipped::SameLink, Skipped::Always, Skipped::Adjacent],
-        edits,
-    );
+    let skips = made(&[Skipped::SameLink, Skipped::Always, Skipped::Adjacent], edits);
     let pieces = skips.decomposition_convex_hulls_skips.expect("matrix");
-    assert_eq!(
-        pieces,
-        [[T, F, F, T], [F, T, F, T], [F, F, T, F], [T, T, F, T]]
-    );
+    assert_eq!(pieces, [[T, F, F, T], [F, T, F, T], [F, F, T, F], [T, T, F, T]]);
 }

@@ -40,9 +40,7 @@ pub(super) fn version(parts: &[Taken]) -> Option<String> {
         let (major, minor) = version.trim().split_once('.')?;
         Some((major.parse().ok()?, minor.parse().ok()?))
     };
-    let versions = parts
-        .iter()
-        .filter_map(|part| part.loaded.robot.version.clone());
+    let versions = parts.iter().filter_map(|part| part.loaded.robot.version.clone());
     versions.max_by_key(|version| (has_quaternions(Some(version)), number(version)))
 }
 
@@ -129,12 +127,7 @@ fn clash(
         return Ok(());
     };
     let name = name.to_owned();
-    let fault = RecipeFault::Clash {
-        what,
-        name,
-        first,
-        second,
-    };
+    let fault = RecipeFault::Clash { what, name, first, second };
     Err(recipe.refused(at, fault))
 }
 
@@ -147,9 +140,7 @@ fn materials(recipe: &Recipe, parts: &[Taken]) -> Result<Vec<BTreeSet<usize>>, C
         let visuals = robot.links.iter().flat_map(|link| &link.visual);
         let inline = visuals.filter_map(|visual| visual.material.as_ref());
         let top = robot.materials.iter().enumerate();
-        let all = top
-            .map(|(place, of)| (Some(place), of))
-            .chain(inline.map(|of| (None, of)));
+        let all = top.map(|(place, of)| (Some(place), of)).chain(inline.map(|of| (None, of)));
         let mut again = BTreeSet::new();
         for (place, material) in all {
             let Some(name) = &material.name else {

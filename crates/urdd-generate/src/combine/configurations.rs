@@ -22,10 +22,7 @@ pub(super) fn of_parts(
     for taken in parts {
         let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
         for edit in &taken.loaded.configurations {
-            let words = edit
-                .positions
-                .iter()
-                .map(|position| position.dof_name.len());
+            let words = edit.positions.iter().map(|position| position.dof_name.len());
             length += edit.name.as_str().len() + words.sum::<usize>();
             recipe.check_length(taken.part, "the named configurations", length)?;
             let renamed = ConfigurationName::new(taken.renamed(edit.name.as_str()));

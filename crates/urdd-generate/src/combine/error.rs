@@ -63,10 +63,7 @@ pub enum CombineError {
 
 impl From<Cancelled> for CombineError {
     fn from(cancelled: Cancelled) -> Self {
-        CombineError::Generate {
-            id: None,
-            error: cancelled.into(),
-        }
+        CombineError::Generate { id: None, error: cancelled.into() }
     }
 }
 
@@ -83,10 +80,7 @@ impl fmt::Display for About<'_> {
 
 impl CombineError {
     pub(super) fn unwritable(path: &Path, error: std::io::Error) -> Self {
-        CombineError::Unwritable {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        }
+        CombineError::Unwritable { path: path.to_owned(), reason: error.to_string() }
     }
 
     /// A machine-readable code for the kind of error.
@@ -95,10 +89,7 @@ impl CombineError {
             CombineError::Unreadable { .. } => "unreadable",
             CombineError::Unwritable { .. } => "unwritable",
             CombineError::Recipe { .. } => "recipe",
-            CombineError::Part {
-                fault: PartFault::Fails { .. },
-                ..
-            } => "part-fails",
+            CombineError::Part { fault: PartFault::Fails { .. }, .. } => "part-fails",
             CombineError::Part { .. } => "part",
             CombineError::Generate { error, .. } => error.code(),
         }
@@ -172,9 +163,6 @@ pub enum PartFault {
 
 impl PartFault {
     pub(super) fn unreadable(file: &str, reason: impl ToString) -> Self {
-        PartFault::Unreadable {
-            file: file.to_owned(),
-            reason: reason.to_string(),
-        }
+        PartFault::Unreadable { file: file.to_owned(), reason: reason.to_string() }
     }
 }

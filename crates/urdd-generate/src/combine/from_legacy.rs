@@ -77,10 +77,7 @@ impl Recipe {
 fn is_folder_name(source: &Path, beside: &Path) -> bool {
     let name = source.strip_prefix(beside);
     let mut parts = name.iter().flat_map(|name| name.components());
-    let is_name = matches!(
-        (parts.next(), parts.next()),
-        (Some(Component::Normal(_)), None)
-    );
+    let is_name = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));
     is_name && !source.is_file()
 }
 
@@ -114,10 +111,8 @@ impl Reader<'_> {
     }
 
     fn part(&mut self, robot: &str, prefix: String, attach: Option<Attachment>) -> &mut Part {
-        let mut id = robot.replace(
-            |c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '-',
-            "_",
-        );
+        let mut id =
+            robot.replace(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c != '-', "_");
         while !self.ids.insert(id.to_ascii_lowercase()) {
             id += &format!("_{}", self.recipe.parts.len());
         }
@@ -138,10 +133,9 @@ impl Reader<'_> {
                     self.recipe.base = Some(Base { link, joint });
                     None
                 }
-                AttachmentPoint::World => Some(Attachment {
-                    to: Word::new(format!("{BASE}/{WORLD}")),
-                    joint,
-                }),
+                AttachmentPoint::World => {
+                    Some(Attachment { to: Word::new(format!("{BASE}/{WORLD}")), joint })
+                }
                 AttachmentPoint::Link(link) => {
                     let holder = self.recipe.parts.get(link.robot_idx.get());
                     let Some(holder) = holder.map(|part| part.id.text.clone()) else {
@@ -164,9 +158,7 @@ impl Reader<'_> {
         let moves = joint_type != JointType::Fixed;
         let axis = robot.axis.xyz;
         if moves && axis == [0.0; 3] {
-            self.unsaid(format!(
-                "the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is used"
-            ));
+            self.unsaid(format!("the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is used"));
         }
         if moves && (robot.dynamics.is_some() || robot.safety_controller.is_some()) {
             self.unsaid(format!(
@@ -198,9 +190,7 @@ impl Reader<'_> {
         let part = self.part(&module.base_robot_name, String::new(), None);
         part.drop = module.dead_end_link_names.iter().map(Word::new).collect();
         let fixed = module.fixed_base_joints.iter();
-        part.freeze = fixed
-            .map(|(joint, values)| (Word::new(joint), values.clone()))
-            .collect();
+        part.freeze = fixed.map(|(joint, values)| (Word::new(joint), values.clone())).collect();
         // Sorted, as in a file.
         part.freeze.sort_by(|a, b| a.0.text.cmp(&b.0.text));
     }
@@ -234,18 +224,13 @@ impl Reader<'_> {
         let [x, y, z, w] = chain.base_offset.rotation;
         let rotation = nalgebra::Quaternion::new(w, x, y, z);
         let rotation = nalgebra::UnitQuaternion::try_new(rotation, 0.0);
-        let rotation = rotation
-            .map(|rotation| canonical(&rotation))
-            .unwrap_or_default();
+        let rotation = rotation.map(|rotation| canonical(&rotation)).unwrap_or_default();
         let rpy = super::frozen::roll_pitch_yaw(&rotation);
         let xyz = chain.base_offset.translation;
         let joint = JointDescription::fixed(format!("connection_joint_{idx}"), xyz, rpy);
         let link = Word::new("world");
         let attach = match self.recipe.base {
-            Some(_) => Some(Attachment {
-                to: Word::new(format!("{BASE}/world")),
-                joint,
-            }),
+            Some(_) => Some(Attachment { to: Word::new(format!("{BASE}/world")), joint }),
             None => {
                 self.recipe.base = Some(Base { link, joint });
                 None

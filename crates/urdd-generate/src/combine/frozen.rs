@@ -20,11 +20,7 @@ pub(super) fn origin(joint: &Joint, position: &[f64], quaternions: bool) -> Stri
 
 /// The text of an `<origin>` element.
 pub(super) fn origin_text(xyz: [f64; 3], rpy: [f64; 3]) -> String {
-    format!(
-        "<origin xyz=\"{}\" rpy=\"{}\"/>",
-        numbers(&xyz),
-        numbers(&rpy)
-    )
+    format!("<origin xyz=\"{}\" rpy=\"{}\"/>", numbers(&xyz), numbers(&rpy))
 }
 
 /// Numbers separated by spaces, each in its shortest exact form.

@@ -6,9 +6,7 @@ use super::recipe_fault::RecipeFault;
 use urdd_format::nearest::nearest;
 
 const RECIPE: &[&str] = &["name", "base", "part"];
-const PART: &[&str] = &[
-    "id", "source", "prefix", "drop", "freeze", "attach", "skip", "names",
-];
+const PART: &[&str] = &["id", "source", "prefix", "drop", "freeze", "attach", "skip", "names"];
 const BASE: &[&str] = &["link", "name", "joint", "xyz", "rpy", "axis", "limit"];
 const ATTACH: &[&str] = &["to", "name", "joint", "xyz", "rpy", "axis", "limit"];
 const LIMIT: &[&str] = &["lower", "upper", "effort", "velocity"];

@@ -109,8 +109,7 @@ fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
         links_of.entry(name).or_default().push(idx);
     }
     let own = links_of.into_iter().filter(|(_, links)| links.len() == 1);
-    own.map(|(name, links)| (links[0], format!("{folder}/meshes/stl/{name}")))
-        .collect()
+    own.map(|(name, links)| (links[0], format!("{folder}/meshes/stl/{name}"))).collect()
 }
 
 /// The edits that make links use their plain meshes, in which the origins are already applied.

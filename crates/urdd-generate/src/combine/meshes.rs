@@ -31,12 +31,7 @@ pub(super) type Placed = BTreeMap<String, String>;
 impl<'a> Meshes<'a> {
     /// Starts without meshes. `store` is an existing folder for the files.
     pub fn new(store: PathBuf, cancellation: &'a Cancellation) -> Self {
-        Meshes {
-            places: BTreeMap::new(),
-            files: BTreeMap::new(),
-            store,
-            cancellation,
-        }
+        Meshes { places: BTreeMap::new(), files: BTreeMap::new(), store, cancellation }
     }
 
     /// Adds the meshes of a part.
@@ -50,11 +45,7 @@ impl<'a> Meshes<'a> {
         used: &BTreeSet<String>,
     ) -> Result<Placed, CombineError> {
         let mut placed = Placed::new();
-        for (name, mesh) in loaded
-            .meshes
-            .iter()
-            .filter(|(name, _)| used.contains(*name))
-        {
+        for (name, mesh) in loaded.meshes.iter().filter(|(name, _)| used.contains(*name)) {
             self.cancellation.check()?;
             let read = |path: &String| {
                 let bytes = loaded.root.read(path, MAX_DOCUMENT_BYTES);

@@ -162,11 +162,7 @@ pub fn combine(
     // The notes about the parts already say that.
     let is_said = |note: &generated::Note| note.kind == NoteKind::MeshNotFound;
     generated.notes.retain(|note| !is_said(note));
-    Ok(Combined {
-        generated,
-        composition,
-        notes,
-    })
+    Ok(Combined { generated, composition, notes })
 }
 
 /// Reads the parts, each source once, and checks the size limits of a robot.
@@ -190,14 +186,9 @@ fn take_up<'a>(
         };
         known.insert(source.path, loaded.clone());
         let trim = trim::trim(recipe, part, &loaded)?;
-        links += (0..trim.dropped_links.len())
-            .filter(|link| trim.keeps_link(*link))
-            .count();
+        links += (0..trim.dropped_links.len()).filter(|link| trim.keeps_link(*link)).count();
         if links > MOST_LINKS {
-            let fault = RecipeFault::TooManyLinks {
-                found: links,
-                limit: MOST_LINKS,
-            };
+            let fault = RecipeFault::TooManyLinks { found: links, limit: MOST_LINKS };
             return Err(recipe.refused(&part.id, fault));
         }
         length += loaded.text.len();

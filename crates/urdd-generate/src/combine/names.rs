@@ -9,16 +9,8 @@ use urdd_format::urdf::UrdfModule;
 use urdd_xml::element::{Edit, attribute, children, name};
 
 /// Attributes of elements unknown to URDF whose value, if it equals a link or joint name, refers to it.
-const ATTRIBUTES: &[&str] = &[
-    "link",
-    "link1",
-    "link2",
-    "joint",
-    "joint1",
-    "joint2",
-    "reference",
-    "mimic_joint",
-];
+const ATTRIBUTES: &[&str] =
+    &["link", "link1", "link2", "joint", "joint1", "joint2", "reference", "mimic_joint"];
 
 /// Elements unknown to URDF whose text, if it equals a link or joint name, refers to it.
 const TEXTS: &[&str] = &[
@@ -110,11 +102,7 @@ pub(super) struct Names {
 pub(super) fn find(document: &Document, robot: &UrdfModule, more: &BTreeSet<&str>) -> Names {
     let mut finder = Finder {
         links: robot.links.iter().map(|link| link.name.as_str()).collect(),
-        joints: robot
-            .joints
-            .iter()
-            .map(|joint| joint.name.as_str())
-            .collect(),
+        joints: robot.joints.iter().map(|joint| joint.name.as_str()).collect(),
         more,
         found: Names::default(),
         top: 0..0,
@@ -274,10 +262,7 @@ pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) 
                 continue;
             };
             if let Some(new) = names.get(filename.value()) {
-                edits.push(Edit {
-                    range: filename.range_value(),
-                    text: escaped(new),
-                });
+                edits.push(Edit { range: filename.range_value(), text: escaped(new) });
             }
         }
     }

@@ -84,11 +84,8 @@ pub(super) fn load(
     settings: &Settings,
 ) -> Result<Loaded, CombineError> {
     let shown = source.path.display().to_string();
-    let refused = |fault| CombineError::Part {
-        id: id.to_owned(),
-        source_path: shown.clone(),
-        fault,
-    };
+    let refused =
+        |fault| CombineError::Part { id: id.to_owned(), source_path: shown.clone(), fault };
     let unreadable = |error: ReadError| refused(PartFault::unreadable("", error));
     if source.kind == SourceKind::Urdd {
         let root = Root::open(&source.path).map_err(unreadable)?;
@@ -103,14 +100,7 @@ pub(super) fn load(
             let carried = legacy::read(&source.path).map_err(refused)?;
             let digest = sha256(&Sha256::digest(&carried.found));
             let shown = source.path.join(&carried.file).display().to_string();
-            let made = generate_text(
-                carried.text,
-                &shown,
-                &source.path,
-                workplace,
-                &settings,
-                &(),
-            );
+            let made = generate_text(carried.text, &shown, &source.path, workplace, &settings, &());
             (made, digest, carried.plain_meshes)
         }
         _ => {
@@ -121,17 +111,10 @@ pub(super) fn load(
             (made, digest, Vec::new())
         }
     };
-    let made = made.map_err(|error| CombineError::Generate {
-        id: Some(id.to_owned()),
-        error,
-    })?;
+    let made = made.map_err(|error| CombineError::Generate { id: Some(id.to_owned()), error })?;
     let root = Root::open_folder(workplace).map_err(unreadable)?;
     let loaded = read(root, Some(PartSource::Urdf(digest)), id).map_err(refused)?;
-    Ok(Loaded {
-        notes: made.notes,
-        plain_meshes,
-        ..loaded
-    })
+    Ok(Loaded { notes: made.notes, plain_meshes, ..loaded })
 }
 
 /// Loads a URDD of version 1.
@@ -171,11 +154,7 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
         composition,
         composition_length: composition_length.unwrap_or_default(),
         source: source.unwrap_or_else(|| PartSource::Urdd(sha256(&Sha256::digest(&text)))),
-        modules: metadata
-            .modules
-            .iter()
-            .map(|module| module.name.clone())
-            .collect(),
+        modules: metadata.modules.iter().map(|module| module.name.clone()).collect(),
         text: text_of_urdf,
         links: indices(robot.robot.links.iter().map(|link| &link.name)),
         joints: indices(robot.robot.joints.iter().map(|joint| &joint.name)),
@@ -192,19 +171,15 @@ fn indices<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<String, usize
 
 /// The mesh files by the names in the URDF.
 fn meshes(original: OriginalMeshesModule) -> BTreeMap<String, MeshFile> {
-    let files: BTreeMap<&str, &Vec<String>> = (original.files.iter())
-        .map(|file| (file.path.as_str(), &file.side_files))
-        .collect();
+    let files: BTreeMap<&str, &Vec<String>> =
+        (original.files.iter()).map(|file| (file.path.as_str(), &file.side_files)).collect();
     let mut meshes = BTreeMap::new();
     for reference in &original.references {
         let Some(path) = &reference.path else {
             continue;
         };
         let side_files = files.get(path.as_str()).map(|files| (*files).clone());
-        let file = MeshFile {
-            path: path.clone(),
-            side_files: side_files.unwrap_or_default(),
-        };
+        let file = MeshFile { path: path.clone(), side_files: side_files.unwrap_or_default() };
         meshes.insert(reference.filename.clone(), file);
     }
     meshes

@@ -28,10 +28,7 @@ pub struct Word {
 impl Word {
     /// A word without a position.
     pub fn new(text: impl Into<String>) -> Self {
-        Word {
-            text: text.into(),
-            at: None,
-        }
+        Word { text: text.into(), at: None }
     }
 }
 
@@ -180,10 +177,7 @@ impl Recipe {
         let joint = JointDescription::fixed(format!("{second}_attachment"), xyz, rpy);
         let prefix = format!("{second}_");
         let mut held = Part::new(second.clone(), held.to_owned(), prefix);
-        held.attach = Some(Attachment {
-            to: Word::new(format!("{first}/{to}")),
-            joint,
-        });
+        held.attach = Some(Attachment { to: Word::new(format!("{first}/{to}")), joint });
         let name = name.map_or_else(|| format!("{first}_{second}"), str::to_owned);
         let recipe = Recipe {
             shown: "command line".to_owned(),
@@ -198,11 +192,7 @@ impl Recipe {
 
     /// An error about a word of the recipe.
     pub(super) fn refused(&self, at: &Word, fault: RecipeFault) -> CombineError {
-        CombineError::Recipe {
-            file: self.shown.clone(),
-            at: at.at,
-            fault: Box::new(fault),
-        }
+        CombineError::Recipe { file: self.shown.clone(), at: at.at, fault: Box::new(fault) }
     }
 
     /// Refuses parts whose total text is longer than a URDF may be.
@@ -249,10 +239,7 @@ impl Recipe {
         }
         let Some(part) = part else {
             let ids = self.parts.iter().map(|part| part.id.text.as_str());
-            let fault = RecipeFault::UnknownPart {
-                name: id.to_owned(),
-                nearest: nearest(ids, id),
-            };
+            let fault = RecipeFault::UnknownPart { name: id.to_owned(), nearest: nearest(ids, id) };
             return Err(self.refused(to, fault));
         };
         Ok((Some(part), link))

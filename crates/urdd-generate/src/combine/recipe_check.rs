@@ -22,10 +22,7 @@ impl Recipe {
             return Err(self.refused(&Word::default(), RecipeFault::NoParts));
         }
         if let Some(part) = self.parts.get(MOST_LINKS) {
-            let fault = RecipeFault::TooManyLinks {
-                found: self.parts.len(),
-                limit: MOST_LINKS,
-            };
+            let fault = RecipeFault::TooManyLinks { found: self.parts.len(), limit: MOST_LINKS };
             return Err(self.refused(&part.id, fault));
         }
         self.check_words()?;
@@ -95,10 +92,7 @@ impl Recipe {
                 return Err(self.refused(id, RecipeFault::BadId(id.text.clone())));
             }
             if let Some(first) = first_of.insert(id.text.to_ascii_lowercase(), id) {
-                let fault = RecipeFault::IdTwice {
-                    id: id.text.clone(),
-                    first: first.at,
-                };
+                let fault = RecipeFault::IdTwice { id: id.text.clone(), first: first.at };
                 return Err(self.refused(id, fault));
             }
         }

@@ -54,11 +54,7 @@ pub enum RecipeFault {
     #[error("{}", escape::line(.0))]
     Toml(String),
     /// An unknown key.
-    #[error(
-        "unknown key `{}`{}; expected one of: {known}",
-        escape::line(key),
-        Meant(nearest)
-    )]
+    #[error("unknown key `{}`{}; expected one of: {known}", escape::line(key), Meant(nearest))]
     UnknownKey {
         /// The key.
         key: String,
@@ -241,11 +237,7 @@ pub enum RecipeFault {
         with: String,
     },
     /// A fixed joint cannot be frozen.
-    #[error(
-        "joint `{}` of part `{}` is already fixed",
-        escape::line(joint),
-        escape::line(part)
-    )]
+    #[error("joint `{}` of part `{}` is already fixed", escape::line(joint), escape::line(part))]
     FreezesFixed {
         /// The part.
         part: String,

@@ -22,10 +22,7 @@ impl Recipe {
     /// Those of [`Recipe::from_toml`], or if the file cannot be read.
     pub fn read(file: &Path) -> Result<Recipe, CombineError> {
         let shown = file.display().to_string();
-        let unreadable = |reason: String| CombineError::Unreadable {
-            file: shown.clone(),
-            reason,
-        };
+        let unreadable = |reason: String| CombineError::Unreadable { file: shown.clone(), reason };
         if file.is_dir() || file.extension().is_none_or(|ending| ending != "toml") {
             let words =
                 "a recipe is a .toml file; to combine two robots, give both and `--at LINK`";
@@ -83,9 +80,7 @@ impl Recipe {
         }
         for part in file.part {
             let part = reader.part(part, folder);
-            recipe
-                .parts
-                .push(part.map_err(|(at, fault)| refused(at, fault))?);
+            recipe.parts.push(part.map_err(|(at, fault)| refused(at, fault))?);
         }
         recipe.check()?;
         Ok(recipe)
@@ -152,11 +147,7 @@ impl Reader<'_> {
     }
 
     fn joint(&self, file: &JointFile, name: &str, usual: JointType) -> Placed<JointDescription> {
-        let at = file
-            .joint
-            .as_ref()
-            .or(file.to.as_ref())
-            .map(|word| word.span().start);
+        let at = file.joint.as_ref().or(file.to.as_ref()).map(|word| word.span().start);
         let joint_type = match &file.joint {
             None => usual,
             Some(word) => {
@@ -171,10 +162,7 @@ impl Reader<'_> {
             }
         };
         let limit = file.limit.as_ref();
-        let numbers = [file.xyz, file.rpy, file.axis]
-            .into_iter()
-            .flatten()
-            .flatten();
+        let numbers = [file.xyz, file.rpy, file.axis].into_iter().flatten().flatten();
         let of_limit = limit.map(|of| [of.lower, of.upper, of.effort, of.velocity]);
         let numbers = numbers.chain(of_limit.into_iter().flatten().flatten());
         finite(&numbers.collect::<Vec<_>>(), at, "attach")?;

@@ -71,8 +71,6 @@ pub(super) fn composition(
             composition: taken.loaded.composition.clone().map(Into::into),
         });
     }
-    let base = recipe.base.as_ref().map(|base| CompositionBase {
-        link_idx: link(&base.link.text),
-    });
+    let base = recipe.base.as_ref().map(|base| CompositionBase { link_idx: link(&base.link.text) });
     Ok(CompositionModule { base, parts: made })
 }

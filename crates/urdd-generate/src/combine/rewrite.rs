@@ -66,10 +66,7 @@ impl Rewrite<'_> {
                 continue;
             }
             let name = format!("{}{}", self.prefix, place.name);
-            edits.push(Edit {
-                range: place.range.clone(),
-                text: escaped(&name),
-            });
+            edits.push(Edit { range: place.range.clone(), text: escaped(&name) });
             let is_top = place.unit == place.top;
             if place.named == Named::Own && is_top {
                 own.push(name);
@@ -176,10 +173,7 @@ impl Rewrite<'_> {
     ) {
         let joint = &self.loaded.robot.joints[idx];
         if let Some(found) = attribute(element, "type") {
-            edits.push(Edit {
-                range: found.range_value(),
-                text: "fixed".to_owned(),
-            });
+            edits.push(Edit { range: found.range_value(), text: "fixed".to_owned() });
         }
         let quaternions = has_quaternions(self.loaded.robot.version.as_deref());
         let origin = frozen::origin(joint, position, quaternions);
@@ -198,10 +192,7 @@ impl Rewrite<'_> {
         }
         if let (false, Some((_, first))) = (is_placed, children(element).next()) {
             let start = first.range().start;
-            edits.push(Edit {
-                range: start..start,
-                text: origin,
-            });
+            edits.push(Edit { range: start..start, text: origin });
         }
     }
 }
@@ -209,10 +200,7 @@ impl Rewrite<'_> {
 /// Removes a range and the white space before it.
 fn removal(text: &str, range: &Range<usize>) -> Edit {
     let before = text[..range.start].trim_end().len();
-    Edit {
-        range: before..range.end,
-        text: String::new(),
-    }
+    Edit { range: before..range.end, text: String::new() }
 }
 
 /// The content of `<robot>`.

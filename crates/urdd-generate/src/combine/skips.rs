@@ -51,10 +51,8 @@ pub(super) fn decisions(
             }
         }
     }
-    let by_id: HashMap<&str, &Taken> = parts
-        .iter()
-        .map(|taken| (taken.part.id.text.as_str(), taken))
-        .collect();
+    let by_id: HashMap<&str, &Taken> =
+        parts.iter().map(|taken| (taken.part.id.text.as_str(), taken)).collect();
     for taken in parts {
         for [a, b] in &taken.part.skip {
             edits.push(SkipEdit {
@@ -68,11 +66,7 @@ pub(super) fn decisions(
     let first = reasons.first().copied().cloned();
     if reasons.windows(2).any(|two| two[0] != two[1]) {
         let text = "the parts skip pairs for different reasons; the default ones are used: same-link, always, adjacent, default (`--skip` chooses others)";
-        notes.push(Note {
-            kind: "reasons-differ",
-            part: None,
-            text: text.to_owned(),
-        });
+        notes.push(Note { kind: "reasons-differ", part: None, text: text.to_owned() });
         return Ok((edits, None));
     }
     Ok((edits, first))

@@ -55,16 +55,12 @@ impl Recipe {
     /// If it does not exist, is outside the folders from which the recipe may use parts, or is a xacro file that may
     /// not run.
     pub(super) fn source(&self, part: &Part, settings: &Settings) -> Result<Source, CombineError> {
-        self.allowed(&part.source, settings)
-            .map_err(|fault| part.refused(fault))
+        self.allowed(&part.source, settings).map_err(|fault| part.refused(fault))
     }
 
     fn allowed(&self, source: &Path, settings: &Settings) -> Result<Source, PartFault> {
         let Sources::In(folder) = &self.sources else {
-            return Ok(Source {
-                path: source.to_owned(),
-                kind: source_kind(source)?,
-            });
+            return Ok(Source { path: source.to_owned(), kind: source_kind(source)? });
         };
         let nothing = |_| PartFault::Missing("nothing is there".to_owned());
         let path = source.canonicalize().map_err(nothing)?;

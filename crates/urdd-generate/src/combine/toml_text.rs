@@ -64,10 +64,8 @@ fn string(text: &str) -> String {
 }
 
 fn numbers(values: &[f64]) -> String {
-    let values: Vec<String> = values
-        .iter()
-        .map(|value| toml::Value::Float(*value).to_string())
-        .collect();
+    let values: Vec<String> =
+        values.iter().map(|value| toml::Value::Float(*value).to_string()).collect();
     match values.as_slice() {
         [one] => one.clone(),
         _ => format!("[{}]", values.join(", ")),

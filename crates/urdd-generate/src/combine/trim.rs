@@ -39,12 +39,7 @@ impl Trim {
 /// # Errors
 /// If the recipe names a missing link or joint, or asks for something impossible.
 pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
-    let trimmer = Trimmer {
-        recipe,
-        part,
-        loaded,
-        id: part.id.text.clone(),
-    };
+    let trimmer = Trimmer { recipe, part, loaded, id: part.id.text.clone() };
     let robot = &loaded.robot;
     let mut is_child = vec![false; robot.links.len()];
     for joint in &robot.joints {
@@ -79,10 +74,8 @@ impl Trimmer<'_> {
         for (with, word) in self.part.drop.iter().enumerate() {
             let link = self.find("link", &self.loaded.links, word)?;
             if link == trim.root {
-                let fault = RecipeFault::DropsRoot {
-                    part: self.id.clone(),
-                    link: word.text.clone(),
-                };
+                let fault =
+                    RecipeFault::DropsRoot { part: self.id.clone(), link: word.text.clone() };
                 return Err(self.recipe.refused(word, fault));
             }
             trim.dropped_links[link].get_or_insert(with);
@@ -116,24 +109,14 @@ impl Trimmer<'_> {
             let refused = |fault| Err(self.recipe.refused(word, fault));
             if let Some(with) = trim.dropped_joints[idx] {
                 let (what, with) = ("joint", self.part.drop[with].text.clone());
-                return refused(RecipeFault::Dropped {
-                    what,
-                    part,
-                    name,
-                    with,
-                });
+                return refused(RecipeFault::Dropped { what, part, name, with });
             }
             let (expected, found) = (num_dofs(joint.joint_type), values.len());
             if expected == 0 {
                 return refused(RecipeFault::FreezesFixed { part, joint: name });
             }
             if expected != found {
-                return refused(RecipeFault::FreezeCount {
-                    part,
-                    joint: name,
-                    expected,
-                    found,
-                });
+                return refused(RecipeFault::FreezeCount { part, joint: name, expected, found });
             }
             if let (Some([lower, upper]), &[value]) = (limits(joint), values.as_slice())
                 && !(lower..=upper).contains(&value)

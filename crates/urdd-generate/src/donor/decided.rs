@@ -90,10 +90,7 @@ impl Decided<'_> {
             let fault = EditsFault::Unreadable(twice.message.clone());
             return Err(self.refused(&json_path, twice.position, fault));
         }
-        Ok(Some(Document {
-            value: document.value,
-            text: document.text.to_string(),
-        }))
+        Ok(Some(Document { value: document.value, text: document.text.to_string() }))
     }
 
     /// Checks that the YAML file says the same. The user may have edited only that one. A YAML file that is still as
@@ -136,12 +133,7 @@ impl Decided<'_> {
     }
 
     pub fn refused(&self, path: &str, at: Option<Position>, fault: EditsFault) -> GenerateError {
-        GenerateError::Edits {
-            file: self.folder.join(path),
-            at,
-            lost: self.what,
-            fault,
-        }
+        GenerateError::Edits { file: self.folder.join(path), at, lost: self.what, fault }
     }
 
     fn is_of_decisions(&self, pointer: &str) -> bool {
@@ -155,14 +147,8 @@ fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
     let Some(replaced) = replaced else {
         return false;
     };
-    let mut files = replaced
-        .metadata
-        .modules
-        .iter()
-        .flat_map(|module| &module.files);
-    files
-        .find(|file| file.path == path)
-        .is_some_and(|file| replaced.is_intact(file))
+    let mut files = replaced.metadata.modules.iter().flat_map(|module| &module.files);
+    files.find(|file| file.path == path).is_some_and(|file| replaced.is_intact(file))
 }
 
 /// The names in a list of a module of the URDD, if they can be read.
@@ -170,8 +156,6 @@ pub(super) fn names(root: &Root, kind: ModuleKind, list: &str) -> Option<HashSet
     let path = format!("{}/module.json", kind.folder());
     let module = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
     let listed = module.value.get(list)?.as_array()?;
-    let names = listed
-        .iter()
-        .map(|of| Some(of.get("name")?.as_str()?.to_owned()));
+    let names = listed.iter().map(|of| Some(of.get("name")?.as_str()?.to_owned()));
     names.collect()
 }

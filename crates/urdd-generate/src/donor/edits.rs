@@ -65,11 +65,7 @@ impl Edits {
             .edits
             .into_iter()
             .partition(|edit| is_link(&edit.link_a) && is_link(&edit.link_b));
-        Edits {
-            skipped_reasons: decisions.skipped_reasons,
-            kept,
-            lost,
-        }
+        Edits { skipped_reasons: decisions.skipped_reasons, kept, lost }
     }
 }
 

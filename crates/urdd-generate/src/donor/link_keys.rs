@@ -60,10 +60,7 @@ fn look(material: Option<&Material>, robot: &UrdfModule) -> Value {
     let Some(material) = material else {
         return Value::Null;
     };
-    let named = robot
-        .materials
-        .iter()
-        .filter(|of| of.name.is_some() && of.name == material.name);
+    let named = robot.materials.iter().filter(|of| of.name.is_some() && of.name == material.name);
     let colors: Vec<_> = named.map(|of| &of.color).collect();
     json!([material.color, colors])
 }

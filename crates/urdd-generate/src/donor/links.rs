@@ -60,10 +60,8 @@ impl DonorFiles {
         let stl = names.stl.as_ref().zip(self.stl.as_ref());
         let obj = names.obj.as_ref().zip(self.obj.as_ref());
         let all = stl.into_iter().chain(obj).chain([(&names.glb, &self.glb)]);
-        let made = all.map(|(path, bytes)| MadeFile {
-            path: path.clone(),
-            bytes: Arc::clone(bytes),
-        });
+        let made =
+            all.map(|(path, bytes)| MadeFile { path: path.clone(), bytes: Arc::clone(bytes) });
         made.collect()
     }
 }
@@ -199,10 +197,7 @@ impl DonorLinks {
             let wanted = context.mesh_files(ModuleKind::PlainMeshes, link, None);
             let (donor, files) = known.get(digests.get(&wanted.glb)?)?;
             let donor = &self.donors[*donor];
-            files
-                .iter()
-                .map(|files| donor.take(files, &wanted))
-                .collect()
+            files.iter().map(|files| donor.take(files, &wanted)).collect()
         });
         taken.collect()
     }
@@ -223,8 +218,7 @@ impl DonorLinks {
             context.mesh_files(ModuleKind::ConvexDecompositionMeshes, link, Some(piece))
         });
         let all = hulls.chain(pieces);
-        all.map(|files| self.shapes.get(digests.get(&files.glb)?).cloned())
-            .collect()
+        all.map(|files| self.shapes.get(digests.get(&files.glb)?).cloned()).collect()
     }
 }
 

@@ -48,11 +48,7 @@ impl Donor {
         let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok()?;
         let value = json::read(&bytes).ok()?.value;
         let metadata = serde_json::from_value(value.clone()).ok()?;
-        Some(Donor {
-            root,
-            metadata,
-            value,
-        })
+        Some(Donor { root, metadata, value })
     }
 
     /// Whether this program wrote it.

@@ -36,9 +36,7 @@ pub(crate) fn carry_over(
 /// The modules that were not made, but whose folders have files that were carried over.
 pub(crate) fn left_behind(root: &Path, made: &[ModuleKind]) -> Vec<ModuleKind> {
     let kinds = ModuleKind::ALL.iter().copied();
-    kinds
-        .filter(|kind| !made.contains(kind) && root.join(kind.folder()).exists())
-        .collect()
+    kinds.filter(|kind| !made.contains(kind) && root.join(kind.folder()).exists()).collect()
 }
 
 /// Every path that the replaced URDD lists, except those of extension modules.
@@ -48,13 +46,8 @@ fn listed(replaced: &Donor) -> BTreeSet<String> {
     let sources = sources.iter().filter_map(|path| path.as_str());
     let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
     let modules = replaced.metadata.modules.iter();
-    let files = modules
-        .filter(|module| known(&module.name))
-        .flat_map(|module| &module.files);
-    files
-        .map(|file| file.path.clone())
-        .chain(sources.map(str::to_owned))
-        .collect()
+    let files = modules.filter(|module| known(&module.name)).flat_map(|module| &module.files);
+    files.map(|file| file.path.clone()).chain(sources.map(str::to_owned)).collect()
 }
 
 /// Carries over the folder at `path`, relative to both roots. Folders of modules are merged entry by entry.
@@ -65,10 +58,7 @@ fn merge(
     listed: &BTreeSet<String>,
 ) -> Result<(), StagingError> {
     let from = folder.join(path);
-    let unread = |error| StagingError::Read {
-        path: from.clone(),
-        error,
-    };
+    let unread = |error| StagingError::Read { path: from.clone(), error };
     for entry in fs::read_dir(&from).map_err(unread)? {
         let entry = entry.map_err(unread)?;
         let name = entry.file_name();
@@ -104,17 +94,13 @@ fn make_above(path: &Path) -> Result<(), StagingError> {
     let Some(above) = path.parent() else {
         return Ok(());
     };
-    fs::create_dir_all(above).map_err(|error| StagingError::Write {
-        path: above.to_owned(),
-        error,
-    })
+    fs::create_dir_all(above).map_err(|error| StagingError::Write { path: above.to_owned(), error })
 }
 
 /// Whether a folder is a module's, or contains one, or is inside one.
 fn is_of_modules(path: &str) -> bool {
     let begins = |long: &str, short: &str| {
-        long.strip_prefix(short)
-            .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        long.strip_prefix(short).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
     };
     let mut folders = ModuleKind::ALL.iter().map(|kind| kind.folder());
     folders.any(|folder| begins(path, folder) || begins(folder, path))

@@ -53,12 +53,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         Err(why) => return unusable(None, why.to_string()),
     };
     let name = mesh.file_name().unwrap_or_default().to_string_lossy();
-    let beside = Beside {
-        mesh,
-        place,
-        roots,
-        read: RefCell::default(),
-    };
+    let beside = Beside { mesh, place, roots, read: RefCell::default() };
     let mut fetch = |side: &str| {
         let (_, file) = beside.read(side).ok()?;
         Some(file.bytes.as_ref().clone())
@@ -113,13 +108,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         true => Ok(Arc::new(scene)),
         false => Err("it holds no triangle with an area".to_owned()),
     };
-    Inspected {
-        bytes: Some(Arc::new(bytes)),
-        side_files,
-        scene,
-        left_out,
-        remarks,
-    }
+    Inspected { bytes: Some(Arc::new(bytes)), side_files, scene, left_out, remarks }
 }
 
 type Found = Result<(PathBuf, SideFile), String>;
@@ -149,9 +138,7 @@ impl Beside<'_> {
             return found.clone();
         }
         let found = self.look(side);
-        self.read
-            .borrow_mut()
-            .insert(side.to_owned(), found.clone());
+        self.read.borrow_mut().insert(side.to_owned(), found.clone());
         found
     }
 
@@ -160,10 +147,7 @@ impl Beside<'_> {
         let name = side.replace('\\', "/");
         let name = Path::new(&name);
         let is_relative = name.components().all(|part| {
-            matches!(
-                part,
-                Component::Normal(_) | Component::CurDir | Component::ParentDir
-            )
+            matches!(part, Component::Normal(_) | Component::CurDir | Component::ParentDir)
         });
         if !is_relative {
             return Err("whose path is not relative to the mesh's own folder".to_owned());

@@ -65,13 +65,7 @@ mod tests {
 
     #[test]
     fn pieces_lie_in_a_folder_of_their_link() {
-        let files = mesh_files(
-            ModuleKind::PlainMeshes,
-            3,
-            "a b",
-            None,
-            MeshFormats::default(),
-        );
+        let files = mesh_files(ModuleKind::PlainMeshes, 3, "a b", None, MeshFormats::default());
         assert_eq!(
             files.obj.as_deref(),
             Some("mesh_modules/plain_meshes_module/meshes/obj/3_a_b.obj")

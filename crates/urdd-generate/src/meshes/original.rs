@@ -76,11 +76,8 @@ pub(crate) fn original_meshes(
         });
     }
     refuse_outside(&source.shown, &names, &found_files)?;
-    let places: BTreeMap<&PathBuf, &Place> = found_files
-        .values()
-        .flatten()
-        .map(|found| (&found.file, &found.place))
-        .collect();
+    let places: BTreeMap<&PathBuf, &Place> =
+        found_files.values().flatten().map(|found| (&found.file, &found.place)).collect();
     let places: Vec<_> = places.into_iter().collect();
     let inspected: BTreeMap<PathBuf, Inspected> = places
         .into_par_iter()
@@ -93,23 +90,14 @@ pub(crate) fn original_meshes(
             (file.clone(), inside)
         })
         .collect();
-    let missing = found_files
-        .values()
-        .filter_map(|found| found.as_ref().err());
+    let missing = found_files.values().filter_map(|found| found.as_ref().err());
     for tried in missing.flat_map(|why| &why.tried) {
         progress.reads(Path::new(tried));
     }
 
-    let mut notes = Notes {
-        file: &source.shown,
-        roots: &roots,
-        said: BTreeSet::new(),
-        notes: Vec::new(),
-    };
-    let mut count = MeshCount {
-        named: names.len(),
-        ..MeshCount::default()
-    };
+    let mut notes =
+        Notes { file: &source.shown, roots: &roots, said: BTreeSet::new(), notes: Vec::new() };
+    let mut count = MeshCount { named: names.len(), ..MeshCount::default() };
     let mut carried = Vec::new();
     for (name, place) in &names {
         let found = match &found_files[name] {
@@ -167,16 +155,10 @@ pub(crate) fn original_meshes(
         geometry: mesh.geometry,
         element_idx: ElementIdx(mesh.element as u32),
         filename: mesh.filename.to_owned(),
-        path: found_files[mesh.filename]
-            .as_ref()
-            .ok()
-            .and_then(|found| path(&found.file)),
+        path: found_files[mesh.filename].as_ref().ok().and_then(|found| path(&found.file)),
     });
     Ok(OriginalMeshes {
-        module: OriginalMeshesModule {
-            references: references.collect(),
-            files: meshes,
-        },
+        module: OriginalMeshesModule { references: references.collect(), files: meshes },
         files,
         scenes,
         count,
@@ -192,12 +174,7 @@ fn refuse_outside(
 ) -> Result<(), GenerateError> {
     let outside = names.iter().filter_map(|(name, (line, column))| {
         let path = found[name].as_ref().err()?.outside.clone()?;
-        Some(OutsideMesh {
-            line: *line,
-            column: *column,
-            name: (*name).to_owned(),
-            path,
-        })
+        Some(OutsideMesh { line: *line, column: *column, name: (*name).to_owned(), path })
     });
     let meshes: Vec<OutsideMesh> = outside.collect();
     if meshes.is_empty() {
@@ -270,12 +247,7 @@ impl<'a> Notes<'a> {
         }
         for (side, why) in &inside.left_out {
             let problem = format!("mesh `{name}` refers to `{side}`, {why}");
-            self.note(
-                NoteKind::Mesh,
-                place,
-                problem,
-                "the mesh is carried without it",
-            );
+            self.note(NoteKind::Mesh, place, problem, "the mesh is carried without it");
         }
         self.outside(format!("mesh `{name}`"), place, &found.file, &found.place);
         for (file, side) in &inside.side_files {
@@ -305,24 +277,12 @@ pub(crate) fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, of) in robot.links.iter().enumerate() {
         let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());
-        let collision = of
-            .collision
-            .iter()
-            .map(|collision| collision.geometry.as_ref());
-        let visual = visual
-            .enumerate()
-            .map(|found| (GeometryKind::Visual, found));
-        let collision = collision
-            .enumerate()
-            .map(|found| (GeometryKind::Collision, found));
+        let collision = of.collision.iter().map(|collision| collision.geometry.as_ref());
+        let visual = visual.enumerate().map(|found| (GeometryKind::Visual, found));
+        let collision = collision.enumerate().map(|found| (GeometryKind::Collision, found));
         for (geometry, (element, found)) in visual.chain(collision) {
             if let Some(Geometry::Mesh(mesh)) = found {
-                named.push(Named {
-                    link,
-                    geometry,
-                    element,
-                    filename: &mesh.filename,
-                });
+                named.push(Named { link, geometry, element, filename: &mesh.filename });
             }
         }
     }

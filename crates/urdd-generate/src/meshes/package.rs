@@ -59,14 +59,10 @@ impl Packages {
             given: BTreeMap::new(),
             ros_package_path: paths("ROS_PACKAGE_PATH"),
             ament_prefix_path: paths("AMENT_PREFIX_PATH"),
-            model_path: [
-                "GAZEBO_MODEL_PATH",
-                "GZ_SIM_RESOURCE_PATH",
-                "IGN_GAZEBO_RESOURCE_PATH",
-            ]
-            .into_iter()
-            .flat_map(paths)
-            .collect(),
+            model_path: ["GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH"]
+                .into_iter()
+                .flat_map(paths)
+                .collect(),
         }
     }
 
@@ -75,9 +71,8 @@ impl Packages {
     /// # Errors
     /// If the argument does not have this form, or the path is not a folder.
     pub fn add(&mut self, argument: &str) -> Result<(), PackagePathError> {
-        let split = argument
-            .split_once('=')
-            .filter(|(name, path)| !name.is_empty() && !path.is_empty());
+        let split =
+            argument.split_once('=').filter(|(name, path)| !name.is_empty() && !path.is_empty());
         let Some((name, path)) = split else {
             return Err(PackagePathError::NoEquals(argument.to_owned()));
         };
@@ -166,7 +161,5 @@ fn crawl(folder: &Path, name: &str, depth: usize, looked: &mut usize) -> Option<
         .filter(|path| path.is_dir())
         .collect();
     below.sort();
-    below
-        .iter()
-        .find_map(|folder| crawl(folder, name, depth - 1, looked))
+    below.iter().find_map(|folder| crawl(folder, name, depth - 1, looked))
 }

@@ -49,11 +49,7 @@ pub(crate) fn link_geometries(
         .iter()
         .filter_map(|reference| {
             let scene = scenes.get(reference.path.as_ref()?)?;
-            let place = (
-                reference.link_idx.get(),
-                reference.geometry,
-                reference.element_idx.get(),
-            );
+            let place = (reference.link_idx.get(), reference.geometry, reference.element_idx.get());
             Some((place, scene.as_ref()))
         })
         .collect();
@@ -85,10 +81,7 @@ pub(crate) fn link_geometries(
                     .collect();
                 if !elements.is_empty() {
                     check_resolved(&link.name, &parts)?;
-                    return Ok(Some(LinkGeometry {
-                        geometry: kind,
-                        parts: by_look(parts),
-                    }));
+                    return Ok(Some(LinkGeometry { geometry: kind, parts: by_look(parts) }));
                 }
             }
             Ok(None)
@@ -181,9 +174,7 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
         color: part.color.or(color),
         material: part.material,
     });
-    moved
-        .filter(|part| !part.mesh.triangles.is_empty())
-        .collect()
+    moved.filter(|part| !part.mesh.triangles.is_empty()).collect()
 }
 
 /// Merges parts of the same look, in the order of first appearance. A link may have many thousands of elements, and a
@@ -192,10 +183,7 @@ fn by_look(parts: Vec<Part>) -> Vec<Part> {
     let mut place: HashMap<(Option<[u64; 4]>, Option<String>), usize> = HashMap::new();
     let mut joined: Vec<Part> = Vec::new();
     for part in parts {
-        let look = (
-            part.color.map(|color| color.map(f64::to_bits)),
-            part.material.clone(),
-        );
+        let look = (part.color.map(|color| color.map(f64::to_bits)), part.material.clone());
         match place.get(&look) {
             Some(at) => joined[*at].mesh.append(&part.mesh),
             None => {

@@ -54,19 +54,13 @@ pub struct OtherCase {
 
 impl NotFound {
     fn because(hint: &str) -> Self {
-        NotFound {
-            hint: Some(hint.to_owned()),
-            ..NotFound::default()
-        }
+        NotFound { hint: Some(hint.to_owned()), ..NotFound::default() }
     }
 
     pub(crate) fn in_words(&self) -> String {
         let mut words = String::new();
         if !self.tried.is_empty() {
-            words = format!(
-                "tried {}",
-                self.tried[..self.tried.len().min(MOST_TOLD)].join(", ")
-            );
+            words = format!("tried {}", self.tried[..self.tried.len().min(MOST_TOLD)].join(", "));
             if self.tried.len() > MOST_TOLD {
                 words += &format!(" and {} more places", self.tried.len() - MOST_TOLD);
             }
@@ -92,10 +86,7 @@ pub(crate) fn resolve(
     roots: &Roots,
 ) -> Result<FoundMesh, NotFound> {
     let trimmed = filename.trim();
-    let mut search = Search {
-        roots,
-        not_found: NotFound::default(),
-    };
+    let mut search = Search { roots, not_found: NotFound::default() };
     let found = search.as_written(trimmed, urdf_folder, packages);
     if let Some(found) = found {
         return Ok(found);
@@ -103,10 +94,7 @@ pub(crate) fn resolve(
     // Nonstandard spellings with only one meaning.
     let others = [
         (trimmed.replace('\\', "/"), "backslashes read as `/`"),
-        (
-            percent_decoded(trimmed),
-            "`%` and two digits read as a character",
-        ),
+        (percent_decoded(trimmed), "`%` and two digits read as a character"),
     ];
     for (name, assumed) in others {
         if name == trimmed {
@@ -133,9 +121,7 @@ impl Search<'_> {
         packages: &Packages,
     ) -> Option<FoundMesh> {
         // A macro that was not expanded; it means the same as `package://`.
-        let find = name
-            .strip_prefix("$(find ")
-            .and_then(|rest| rest.split_once(')'));
+        let find = name.strip_prefix("$(find ").and_then(|rest| rest.split_once(')'));
         if let Some((package, rest)) = find {
             let rest = rest.trim_start_matches('/');
             return self.in_package(package.trim(), rest, urdf_folder, packages, false);
@@ -148,9 +134,7 @@ impl Search<'_> {
                     self.in_package(package, rest, urdf_folder, packages, scheme == "model")
                 }
                 "file" => {
-                    let path = rest
-                        .strip_prefix("localhost/")
-                        .map(|rest| format!("/{rest}"));
+                    let path = rest.strip_prefix("localhost/").map(|rest| format!("/{rest}"));
                     self.plain(path.as_deref().unwrap_or(rest), urdf_folder)
                 }
                 "http" | "https" | "ftp" => {
@@ -237,11 +221,7 @@ impl Search<'_> {
                 let file = path.canonicalize().ok()?;
                 if let Some(place) = self.roots.place(&file, package) {
                     let assumed = None;
-                    return Some(FoundMesh {
-                        file,
-                        place,
-                        assumed,
-                    });
+                    return Some(FoundMesh { file, place, assumed });
                 }
                 self.not_found.outside.get_or_insert(file);
             }
@@ -304,11 +284,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
     near.retain(|(path, _)| path.exists() && !path.is_dir());
     let is_only = near.len() == 1 && !is_cut;
     let (file, written) = near.into_iter().next()?;
-    Some(OtherCase {
-        file,
-        written,
-        is_only,
-    })
+    Some(OtherCase { file, written, is_only })
 }
 
 /// The names in a folder that differ from a part of a path in case at most, that part itself first. `None` if a path does not
@@ -323,9 +299,7 @@ fn alike(folder: &Path, part: Component) -> Option<Vec<String>> {
     let lower = name.to_lowercase();
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-    let mut names: Vec<String> = names
-        .filter(|other| other.to_lowercase() == lower)
-        .collect();
+    let mut names: Vec<String> = names.filter(|other| other.to_lowercase() == lower).collect();
     names.sort_by_key(|other| (other != name, other.clone()));
     Some(names)
 }

@@ -17,14 +17,7 @@ pub(super) fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
 
 /// Whether a file starts like a mesh, even if it cannot be read.
 fn is_marked(bytes: &[u8]) -> bool {
-    const MAGIC: &[&[u8]] = &[
-        b"glTF",
-        b"ply\n",
-        b"ply\r",
-        b"Kaydara FBX",
-        b"BLENDER",
-        b"OFF\n",
-    ];
+    const MAGIC: &[&[u8]] = &[b"glTF", b"ply\n", b"ply\r", b"Kaydara FBX", b"BLENDER", b"OFF\n"];
     if MAGIC.iter().any(|magic| bytes.starts_with(magic)) {
         return true;
     }
@@ -43,10 +36,7 @@ fn is_marked(bytes: &[u8]) -> bool {
 fn is_obj_vertex(line: &str) -> bool {
     let mut words = line.split_ascii_whitespace();
     let numbers = |words: std::str::SplitAsciiWhitespace| {
-        words
-            .take(3)
-            .filter(|word| word.parse::<f64>().is_ok())
-            .count()
+        words.take(3).filter(|word| word.parse::<f64>().is_ok()).count()
     };
     words.next() == Some("v") && numbers(words) == 3
 }
@@ -87,9 +77,7 @@ fn declares_material(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim_start);
     lines.any(|line| {
         let mut words = line.split_ascii_whitespace();
-        words
-            .next()
-            .is_some_and(|word| word.eq_ignore_ascii_case("newmtl"))
+        words.next().is_some_and(|word| word.eq_ignore_ascii_case("newmtl"))
     })
 }
 
@@ -114,10 +102,7 @@ mod tests {
             assert_eq!(is_mtl(bytes), secret.is_empty(), "{secret}");
         }
         // A DER key, and random bytes.
-        for bytes in [
-            &[0x30, 0x82, 4, 0xa4, 2, 1, 0][..],
-            &[7, 200, 3, 0, 0, 1, 9],
-        ] {
+        for bytes in [&[0x30, 0x82, 4, 0xa4, 2, 1, 0][..], &[7, 200, 3, 0, 0, 1, 9]] {
             assert!(!is_mesh(bytes, None) && !is_image(bytes), "{bytes:?}");
         }
     }
@@ -129,9 +114,6 @@ mod tests {
         assert!(is_mtl(b"# a\nnewmtl red\nKd 1 0 0\n") && is_mtl(b"# none\n"));
         assert!(is_mesh(b"ply\nformat ascii 1.0\n", None));
         assert!(is_mesh(b"# made by\nv 0 0 1e-3\n", None));
-        assert!(is_mesh(
-            b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA/>",
-            None
-        ));
+        assert!(is_mesh(b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA/>", None));
     }
 }

@@ -32,22 +32,13 @@ impl WrittenMesh {
                 None => areas.push((part.color, area)),
             }
         }
-        let largest = areas
-            .into_iter()
-            .reduce(|a, b| if b.1 > a.1 { b } else { a });
-        WrittenMesh {
-            mesh,
-            color: largest.and_then(|(color, _)| color),
-        }
+        let largest = areas.into_iter().reduce(|a, b| if b.1 > a.1 { b } else { a });
+        WrittenMesh { mesh, color: largest.and_then(|(color, _)| color) }
     }
 
     /// The mesh as one part.
     pub fn part(&self) -> Part {
-        Part {
-            mesh: self.mesh.clone(),
-            color: self.color,
-            material: None,
-        }
+        Part { mesh: self.mesh.clone(), color: self.color, material: None }
     }
 }
 
@@ -71,10 +62,8 @@ pub(crate) fn files_of(
         Shading::Smooth => write::smooth_glb(parts),
     };
     let internal = |error: write::WriteError| GenerateError::internal(&files.glb, error);
-    let file = |path: &String, bytes: Vec<u8>| MadeFile {
-        path: path.clone(),
-        bytes: Arc::new(bytes),
-    };
+    let file =
+        |path: &String, bytes: Vec<u8>| MadeFile { path: path.clone(), bytes: Arc::new(bytes) };
     let mut made = Vec::with_capacity(3);
     if let Some(stl) = &files.stl {
         made.push(file(stl, write::stl(parts).map_err(internal)?));
@@ -95,10 +84,7 @@ pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, G
 
 /// Reads a mesh from the bytes of its .glb.
 pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
-    let options = Options {
-        gltf_up: GltfUp::Keep,
-        ..Options::default()
-    };
+    let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     let scene = read_with(bytes, path, &mut |_| None, &options);
     let mut scene = scene.map_err(|error| GenerateError::internal(path, error))?;
     for part in &mut scene.parts {

@@ -56,11 +56,7 @@ impl Tree {
             running.insert(child.id().cast_signed());
             io::Result::Ok(child)
         })?;
-        Ok(Tree {
-            child,
-            mark: format!("{mark}="),
-            is_reaped: false,
-        })
+        Ok(Tree { child, mark: format!("{mark}="), is_reaped: false })
     }
 
     pub fn streams(&mut self) -> (Option<ChildStdout>, Option<ChildStderr>) {
@@ -149,12 +145,9 @@ impl Tree {
             }
         }
         found.remove(&root);
-        let alive = all
-            .iter()
-            .filter(|process| !process.is_dead && process.pid != own);
+        let alive = all.iter().filter(|process| !process.is_dead && process.pid != own);
         let left = alive.filter(|process| found.contains(&process.pid));
-        left.filter_map(|process| Pid::from_raw(process.pid))
-            .collect()
+        left.filter_map(|process| Pid::from_raw(process.pid)).collect()
     }
 }
 

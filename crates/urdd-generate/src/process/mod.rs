@@ -49,10 +49,7 @@ impl Running {
     /// # Errors
     /// If it cannot be started.
     pub fn start(mut command: Command) -> io::Result<Running> {
-        command
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         Tree::start(command).map(Running)
     }
 

@@ -49,19 +49,15 @@ fn module(solids: &ConvexMeshes, found: &[Shape]) -> LinkShapesApproximationsMod
     let (of_hulls, of_pieces) = found.split_at(solids.hulls.iter().flatten().count());
     let (mut of_hulls, mut of_pieces) = (of_hulls.iter().cloned(), of_pieces.iter().cloned());
     let hulls = solids.hulls.iter();
-    let full: Vec<_> = hulls
-        .map(|hull| hull.as_ref().and_then(|_| of_hulls.next()))
-        .collect();
+    let full: Vec<_> = hulls.map(|hull| hull.as_ref().and_then(|_| of_hulls.next())).collect();
     let pieces: Vec<Vec<_>> = solids
         .pieces
         .iter()
         .map(|pieces| of_pieces.by_ref().take(pieces.len()).collect())
         .collect();
     let (full_obbs, full_bounding_spheres) = full.into_iter().map(Option::unzip).unzip();
-    let (decomposition_obbs, decomposition_bounding_spheres) = pieces
-        .into_iter()
-        .map(|pieces| pieces.into_iter().unzip())
-        .unzip();
+    let (decomposition_obbs, decomposition_bounding_spheres) =
+        pieces.into_iter().map(|pieces| pieces.into_iter().unzip()).unzip();
     LinkShapesApproximationsModule {
         full_obbs,
         full_bounding_spheres,
@@ -87,8 +83,5 @@ fn of_box(found: &OrientedBox) -> Obb {
 }
 
 fn of_ball(found: &Ball) -> BoundingSphere {
-    BoundingSphere {
-        radius: found.radius,
-        offset_xyz: found.centre,
-    }
+    BoundingSphere { radius: found.radius, offset_xyz: found.centre }
 }

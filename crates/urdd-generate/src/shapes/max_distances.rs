@@ -36,9 +36,7 @@ fn maybe<T>(shapes: &[Option<T>], distance: fn(&T) -> f64) -> Vec<Option<f64>> {
 
 fn each<T>(shapes: &[Vec<T>], distance: fn(&T) -> f64) -> Vec<Vec<f64>> {
     let links = shapes.iter();
-    links
-        .map(|pieces| pieces.iter().map(distance).collect())
-        .collect()
+    links.map(|pieces| pieces.iter().map(distance).collect()).collect()
 }
 
 fn of_mesh(mesh: &WrittenMesh) -> f64 {
@@ -54,8 +52,5 @@ fn of_box(of: &Obb) -> f64 {
 }
 
 fn of_sphere(of: &BoundingSphere) -> f64 {
-    farthest::of_sphere(&Ball {
-        centre: of.offset_xyz,
-        radius: of.radius,
-    })
+    farthest::of_sphere(&Ball { centre: of.offset_xyz, radius: of.radius })
 }

@@ -29,9 +29,7 @@ pub(crate) type Shape = (Obb, BoundingSphere);
 impl ConvexMeshes<'_> {
     /// The links at the indices of a matrix over links.
     pub fn full_shapes(&self) -> Vec<LinkIdx> {
-        let links = (0..)
-            .zip(self.hulls.iter())
-            .filter(|(_, hull)| hull.is_some());
+        let links = (0..).zip(self.hulls.iter()).filter(|(_, hull)| hull.is_some());
         links.map(|(link, _)| LinkIdx(link)).collect()
     }
 

@@ -34,8 +34,7 @@ pub(crate) fn simple_skips(
         |kind: usize, of: &DistanceStatistics| classed(&full, of, &default.full[kind], &joined);
     let of_pieces = |kind: usize, of: &Option<DistanceStatistics>| {
         let both = of.as_ref().zip(default.pieces.as_ref());
-        both.map(|(of, default)| classed(&pieces, of, &default[kind], &joined))
-            .unzip()
+        both.map(|(of, default)| classed(&pieces, of, &default[kind], &joined)).unzip()
     };
     let s = statistics;
     let (hulls, hull_reasons) = of_full(0, &s.full_convex_hulls);
@@ -88,10 +87,8 @@ fn classed(
         }
     };
     let all = 0..links.len();
-    let reasons: Reasons = all
-        .clone()
-        .map(|i| all.clone().map(|j| reason(i, j)).collect())
-        .collect();
+    let reasons: Reasons =
+        all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect();
     let skipped = |reason: &SkipReason| matches!(reason, SkipReason::SameLink | SkipReason::Always);
     let rows = reasons.iter();
     let skips = rows.map(|row| row.iter().map(skipped).collect()).collect();

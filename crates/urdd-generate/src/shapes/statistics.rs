@@ -76,14 +76,9 @@ fn module(
         max_distances: to_seven_digits(pairs.max),
     };
     let [full_convex_hulls, full_obbs, full_bounding_spheres] = found.full.map(matrices);
-    let pieces = found
-        .pieces
-        .map(|pieces| pieces.map(|one| Some(matrices(one))));
-    let [
-        decomposition_convex_hulls,
-        decomposition_obbs,
-        decomposition_bounding_spheres,
-    ] = pieces.unwrap_or_default();
+    let pieces = found.pieces.map(|pieces| pieces.map(|one| Some(matrices(one))));
+    let [decomposition_convex_hulls, decomposition_obbs, decomposition_bounding_spheres] =
+        pieces.unwrap_or_default();
     LinkShapesDistanceStatisticsModule {
         num_samples: Count(num_samples),
         full_shapes: solids.full_shapes(),
@@ -171,10 +166,7 @@ fn over(motion: &Motion, shapes: &Shapes, cancellation: &Cancellation) -> Kinds<
         .unwrap_or_default()
         .into_iter();
     let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());
-    Kinds {
-        full: three(),
-        pieces: of_pieces.map(|_| three()),
-    }
+    Kinds { full: three(), pieces: of_pieces.map(|_| three()) }
 }
 
 /// The link poses in named configurations.

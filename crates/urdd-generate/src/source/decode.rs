@@ -34,9 +34,7 @@ pub(super) fn decode(
         [0, b'<', ..] => Some(UTF_16BE),
         _ => None,
     };
-    let encoding = mark
-        .or(guessed)
-        .or(declared.filter(|encoding| *encoding != UTF_8));
+    let encoding = mark.or(guessed).or(declared.filter(|encoding| *encoding != UTF_8));
     let mut note = |problem: String, assumed: String| {
         notes.push(Note {
             kind: NoteKind::Encoding,
@@ -82,13 +80,8 @@ fn declaration(text: &[u8]) -> Option<std::ops::Range<usize>> {
     let declaration = text.get(..end).filter(|text| text.starts_with(b"<?xml"))?;
     let word = b"encoding";
     let after = declaration.windows(word.len()).position(|w| w == word)? + word.len();
-    let quote = after
-        + declaration[after..]
-            .iter()
-            .position(|b| matches!(b, b'"' | b'\''))?;
-    let length = declaration[quote + 1..]
-        .iter()
-        .position(|b| *b == declaration[quote])?;
+    let quote = after + declaration[after..].iter().position(|b| matches!(b, b'"' | b'\''))?;
+    let length = declaration[quote + 1..].iter().position(|b| *b == declaration[quote])?;
     Some(quote + 1..quote + 1 + length)
 }
 

@@ -51,11 +51,7 @@ impl Source {
     pub fn refused(&self, fault: Fault) -> GenerateError {
         GenerateError::Refused {
             file: self.shown.clone(),
-            faults: vec![PlacedFault {
-                line: 1,
-                column: 1,
-                fault,
-            }],
+            faults: vec![PlacedFault { line: 1, column: 1, fault }],
         }
     }
 }
@@ -71,21 +67,9 @@ pub(crate) fn load(
     cancellation: &Cancellation,
 ) -> Result<Source, GenerateError> {
     let shown = path.display().to_string();
-    let File {
-        bytes,
-        canonical,
-        folder,
-    } = find(path, &shown)?;
+    let File { bytes, canonical, folder } = find(path, &shown)?;
     let mut notes = Vec::new();
-    let read = read(
-        path,
-        &shown,
-        &bytes,
-        xacro,
-        packages,
-        cancellation,
-        &mut notes,
-    )?;
+    let read = read(path, &shown, &bytes, xacro, packages, cancellation, &mut notes)?;
     let names = names(&canonical);
     let text = (read.text, read.is_verbatim);
     source(shown, folder, names, bytes, text, notes)
@@ -105,23 +89,12 @@ pub(crate) struct File {
 /// # Errors
 /// If it cannot be read, or is too large.
 pub(crate) fn find(path: &Path, shown: &str) -> Result<File, GenerateError> {
-    let unreadable = |reason: String| GenerateError::Read {
-        file: shown.to_owned(),
-        reason,
-    };
+    let unreadable = |reason: String| GenerateError::Read { file: shown.to_owned(), reason };
     let bytes = regular::read(path, MAX_SOURCE_BYTES);
     let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
-    let canonical = path
-        .canonicalize()
-        .map_err(|error| unreadable(error.to_string()))?;
-    let folder = canonical
-        .parent()
-        .map_or_else(|| PathBuf::from("."), Path::to_owned);
-    Ok(File {
-        bytes,
-        canonical,
-        folder,
-    })
+    let canonical = path.canonicalize().map_err(|error| unreadable(error.to_string()))?;
+    let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+    Ok(File { bytes, canonical, folder })
 }
 
 /// A text before it is repaired.
@@ -148,9 +121,7 @@ pub(crate) fn read(
 ) -> Result<Read, GenerateError> {
     let (text, is_verbatim) = decode::decode(bytes, shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
-    let is_xacro_file = path
-        .extension()
-        .is_some_and(|extension| extension == "xacro");
+    let is_xacro_file = path.extension().is_some_and(|extension| extension == "xacro");
     let is_expanded = is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:"));
     Ok(Read {
         text: match is_expanded {
@@ -286,10 +257,7 @@ fn mend(
             for placed in &mut faults {
                 placed.line += first_line;
             }
-            GenerateError::Refused {
-                file: shown.to_owned(),
-                faults,
-            }
+            GenerateError::Refused { file: shown.to_owned(), faults }
         };
         let reading = urdf::read(&text, name).map_err(refused)?;
         if mesh_places.is_none() {

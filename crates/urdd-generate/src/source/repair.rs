@@ -61,10 +61,7 @@ pub(crate) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
             problem: format!("the prefix `{prefix}` is used and not declared"),
             assumed: "declared at `<robot>`".to_owned(),
         });
-        text.insert_str(
-            at,
-            &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""),
-        );
+        text.insert_str(at, &format!(" xmlns:{prefix}=\"urn:urdd:undeclared:{prefix}\""));
     }
     (text, remarks, first_line)
 }

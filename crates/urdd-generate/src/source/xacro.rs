@@ -60,22 +60,15 @@ pub(super) fn expand(
     packages: &Packages,
     cancellation: &Cancellation,
 ) -> Result<String, GenerateError> {
-    let failed = |reason: String| GenerateError::Xacro {
-        file: shown.to_owned(),
-        reason,
-    };
+    let failed = |reason: String| GenerateError::Xacro { file: shown.to_owned(), reason };
     // An absolute path cannot be mistaken for an option.
-    let path = path
-        .canonicalize()
-        .map_err(|error| failed(error.to_string()))?;
+    let path = path.canonicalize().map_err(|error| failed(error.to_string()))?;
     let given = PackageIndex::new(packages).map_err(|error| failed(error.to_string()))?;
     let mut command = Command::new("xacro");
     command.arg(&path).args(&settings.arguments);
     given.tell(&mut command);
     let mut running = Running::start(command).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => GenerateError::NoXacro {
-            file: shown.to_owned(),
-        },
+        ErrorKind::NotFound => GenerateError::NoXacro { file: shown.to_owned() },
         _ => failed(error.to_string()),
     })?;
     let (Some(output), Some(words)) = running.streams() else {
@@ -96,9 +89,7 @@ pub(super) fn expand(
         Ended::Cancelled => return Err(Cancelled.into()),
         Ended::TimeLimit => {
             let limit = settings.time_limit.as_secs();
-            return Err(failed(format!(
-                "it took more than {limit} s and was stopped"
-            )));
+            return Err(failed(format!("it took more than {limit} s and was stopped")));
         }
     };
     let unread = || Err("it did not end".to_owned());
@@ -130,10 +121,7 @@ fn last_lines(words: &[u8]) -> Option<String> {
     let lines = words.lines().filter(|line| !line.trim().is_empty());
     let lines: Vec<&str> = lines.collect();
     if let Some(own) = lines.iter().rposition(|line| line.starts_with("error: ")) {
-        let own = lines[own..]
-            .iter()
-            .take(MOST_LINES + 1)
-            .map(|line| line.trim());
+        let own = lines[own..].iter().take(MOST_LINES + 1).map(|line| line.trim());
         let own = own.collect::<Vec<_>>().join("; ");
         return Some(own.chars().take(MOST_CHARACTERS).collect());
     }
@@ -155,9 +143,7 @@ impl PackageIndex {
             return Ok(PackageIndex { prefix: None });
         }
         let prefix = TempDir::new()?;
-        let index = prefix
-            .path()
-            .join("share/ament_index/resource_index/packages");
+        let index = prefix.path().join("share/ament_index/resource_index/packages");
         std::fs::create_dir_all(&index)?;
         for (name, folder) in given {
             std::fs::write(index.join(name), "")?;

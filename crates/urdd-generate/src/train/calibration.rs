@@ -55,12 +55,7 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
         let first = levels[0].margin;
         let mut order: Vec<u32> = all().filter(|k| output(*k, pair) <= first).collect();
         order.sort_by(|a, b| output(*b, pair).total_cmp(&output(*a, pair)));
-        Pair {
-            order,
-            passed: 0,
-            levels,
-            level: 0,
-        }
+        Pair { order, passed: 0, levels, level: 0 }
     };
     let mut pairs: Vec<Pair> = (0..num_pairs).map(pair).collect();
     // The number of pairs that report a configuration as a possible collision.
@@ -91,20 +86,13 @@ pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
                 }
                 let worth = cleared / misses;
                 if cleared > 0.0 && best.as_ref().is_none_or(|best| worth > best.worth) {
-                    best = Some(Offer {
-                        pair: at,
-                        level,
-                        worth,
-                    });
+                    best = Some(Offer { pair: at, level, worth });
                 }
             }
             best
         });
         let best = offers.max_by(|a, b| a.worth.total_cmp(&b.worth).then(b.pair.cmp(&a.pair)));
-        let Some(Offer {
-            pair: at, level, ..
-        }) = best
-        else {
+        let Some(Offer { pair: at, level, .. }) = best else {
             return pairs.iter().map(|of| of.levels[of.level].margin).collect();
         };
         let pair = &mut pairs[at];
@@ -130,10 +118,7 @@ const FEW: usize = 4;
 fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
     if contacts.len() < FEW {
         let highest = contacts.first().copied().unwrap_or(-0.1 * clip);
-        return vec![Level {
-            margin: highest + 0.1 * clip,
-            misses: 0.0,
-        }];
+        return vec![Level { margin: highest + 0.1 * clip, misses: 0.0 }];
     }
     let tail = (contacts.len() / 2).min(TAIL);
     let base = contacts[tail];
@@ -150,10 +135,7 @@ fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
         };
         let falls = levels.last().is_none_or(|last| margin < last.margin);
         if falls {
-            levels.push(Level {
-                margin,
-                misses: misses * alone,
-            });
+            levels.push(Level { margin, misses: misses * alone });
         }
         misses *= 2.0;
     }

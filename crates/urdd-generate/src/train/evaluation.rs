@@ -43,9 +43,7 @@ impl Counted {
             cancellation.check()?;
             let mut poses: Vec<Isometry3<f64>> = Vec::new();
             let mut collides = |configuration: &[f64]| -> Result<bool, NoModel> {
-                subject
-                    .kinematics
-                    .link_poses_into(configuration, &mut poses)?;
+                subject.kinematics.link_poses_into(configuration, &mut poses)?;
                 Ok(subject.pairs.any_touches(&poses))
             };
             let rows = configurations.chunks_mut(num_dofs.max(1)).enumerate();
@@ -67,10 +65,7 @@ impl Counted {
             rows.map(truth).collect()
         });
         let truths: Vec<Vec<Truth>> = truths.collect::<Result<_, NoModel>>()?;
-        Ok(Self {
-            configurations,
-            truths: truths.concat(),
-        })
+        Ok(Self { configurations, truths: truths.concat() })
     }
 
     /// Checks that there are enough collisions and free configurations to state rates.

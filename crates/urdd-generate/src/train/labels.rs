@@ -71,13 +71,7 @@ impl Labels {
         }
         let rows = distances.chunks(num_pairs);
         let collides = rows.map(|row| row.contains(&0.0)).collect();
-        Ok(Self {
-            configurations,
-            num_dofs,
-            distances,
-            num_pairs,
-            collides,
-        })
+        Ok(Self { configurations, num_dofs, distances, num_pairs, collides })
     }
 
     /// Checks that there are enough collisions and free configurations to learn from.
@@ -104,9 +98,7 @@ impl Labels {
             }
         }
         let limit = limit as f32;
-        (0..self.num_pairs)
-            .filter(|pair| least[*pair] < limit)
-            .collect()
+        (0..self.num_pairs).filter(|pair| least[*pair] < limit).collect()
     }
 
     /// Keeps the distances of these pairs only. `collides` still covers all pairs.

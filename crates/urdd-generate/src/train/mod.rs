@@ -86,10 +86,7 @@ pub fn train(
         module.evaluation = evaluated.count(&model)?;
         let own = counted([evaluation::second_confirmation(&module), CONFIRMATION_COUNT])?;
         let found = [confirming.count(&model)?, own.count(&model)?];
-        if found
-            .iter()
-            .all(|found| confirms(&module.evaluation, found))
-        {
+        if found.iter().all(|found| confirms(&module.evaluation, found)) {
             step(total);
             return Ok(module);
         }
@@ -119,10 +116,7 @@ fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
             drawn += 1;
             (2.0 * urdd_kinematics::unit(sequence, drawn) - 1.0) * most
         };
-        Layer {
-            weights: (0..before * after).map(|_| weight()).collect(),
-            biases: vec![0.0; after],
-        }
+        Layer { weights: (0..before * after).map(|_| weight()).collect(), biases: vec![0.0; after] }
     };
     let mut layers: Vec<Layer> = widths.windows(2).map(&mut layer).collect();
     if let Some(last) = layers.last_mut() {
@@ -143,10 +137,7 @@ fn layers(network: &Network, clip_distance: f64) -> Vec<ModelLayer> {
         let unit = if place == last { clip_distance } else { 1.0 };
         let of = |numbers: &[f64]| numbers.iter().map(|x| rounded(unit * x)).collect();
         let rows = layer.weights.chunks_exact(layer.num_inputs().max(1));
-        ModelLayer {
-            weights: rows.map(of).collect(),
-            biases: of(&layer.biases),
-        }
+        ModelLayer { weights: rows.map(of).collect(), biases: of(&layer.biases) }
     };
     network.layers.iter().enumerate().map(layer).collect()
 }
@@ -182,10 +173,7 @@ fn module(
         inputs: subject.inputs.clone(),
         pairs: pairs.collect(),
         other_pairs: others
-            .map(|pair| LinkPair {
-                link_a_idx: links[pair][0],
-                link_b_idx: links[pair][1],
-            })
+            .map(|pair| LinkPair { link_a_idx: links[pair][0], link_b_idx: links[pair][1] })
             .collect(),
         training: range(trained),
         calibration: range(calibrated),
@@ -205,10 +193,7 @@ fn module(
     let samples = (0..settings::TEST_VECTORS).map(|k| subject.space.sampled(u64::from(k)));
     let configurations = std::iter::once(subject.space.default_configuration()).chain(samples);
     let vector = |configuration: Vec<f64>| {
-        Ok(ModelTestVector {
-            clearances: model.clearances(&configuration)?,
-            configuration,
-        })
+        Ok(ModelTestVector { clearances: model.clearances(&configuration)?, configuration })
     };
     module.test_vectors = configurations.map(vector).collect::<Result<_, NoModel>>()?;
     Ok((module, model))

@@ -82,9 +82,7 @@ fn flat(network: &Network) -> Vec<f64> {
 
 /// All weights and biases in a fixed order.
 fn numbers(layers: &[Layer]) -> impl Iterator<Item = &f64> {
-    layers
-        .iter()
-        .flat_map(|layer| layer.weights.iter().chain(&layer.biases))
+    layers.iter().flat_map(|layer| layer.weights.iter().chain(&layer.biases))
 }
 
 /// One Adam step with the summed gradients of a batch.

@@ -13,11 +13,7 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self {
-            training: 80_000,
-            calibration: 20_000,
-            epochs: 20,
-        }
+        Self { training: 80_000, calibration: 20_000, epochs: 20 }
     }
 }
 

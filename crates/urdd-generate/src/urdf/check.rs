@@ -34,10 +34,7 @@ fn same_names(reader: &mut Reader) {
     let joints = robot.joints.iter().map(|joint| &joint.name);
     let joints = joints.zip(reader.joint_places.iter().map(|place| place.joint));
     let mut faults = twice(links, |name, first| Fault::TwoLinks { name, first });
-    faults.extend(twice(joints, |name, first| Fault::TwoJoints {
-        name,
-        first,
-    }));
+    faults.extend(twice(joints, |name, first| Fault::TwoJoints { name, first }));
     reader.faults.extend(faults);
 }
 
@@ -134,13 +131,9 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
     for [above, below] in ends {
         parent[*below] = Some(*above);
     }
-    let roots: Vec<usize> = (0..parent.len())
-        .filter(|link| parent[*link].is_none())
-        .collect();
+    let roots: Vec<usize> = (0..parent.len()).filter(|link| parent[*link].is_none()).collect();
     let named = |links: &[usize]| {
-        let names = links
-            .iter()
-            .map(|link| format!("`{}`", shortened(&robot.links[*link].name)));
+        let names = links.iter().map(|link| format!("`{}`", shortened(&robot.links[*link].name)));
         names.collect::<Vec<_>>()
     };
     if let Some(ring) = ring(&parent) {
@@ -158,10 +151,7 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
         if roots.len() > 5 {
             names.push("…".to_owned());
         }
-        let fault = Fault::ManyRoots {
-            count: roots.len(),
-            names: names.join(", "),
-        };
+        let fault = Fault::ManyRoots { count: roots.len(), names: names.join(", ") };
         reader.fault(reader.link_places[roots[1]], fault);
     } else {
         reader.reading.tree.root = roots[0];
@@ -200,9 +190,8 @@ fn axes(reader: &mut Reader) {
 fn mimics(reader: &mut Reader) {
     let robot = &reader.reading.robot;
     let names = robot.joints.iter().enumerate();
-    let joints: HashMap<&str, usize> = names
-        .map(|(idx, joint)| (joint.name.as_str(), idx))
-        .collect();
+    let joints: HashMap<&str, usize> =
+        names.map(|(idx, joint)| (joint.name.as_str(), idx)).collect();
     let mut drivers = vec![None; robot.joints.len()];
     let mut dropped = Vec::new();
     for (idx, joint) in robot.joints.iter().enumerate() {
@@ -259,10 +248,7 @@ fn missing_limits(reader: &mut Reader) {
         };
         if joint.mimic.is_none() && !is_limited(joint) {
             let kind = joint.joint_type.as_str().to_ascii_lowercase();
-            let problem = format!(
-                "joint `{}` is {kind} and has no limits",
-                shortened(&joint.name)
-            );
+            let problem = format!("joint `{}` is {kind} and has no limits", shortened(&joint.name));
             found.push((
                 place.joint,
                 problem,

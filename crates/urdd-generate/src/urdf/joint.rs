@@ -22,10 +22,7 @@ impl Reader {
     /// Reads a joint and adds it to the robot.
     pub(super) fn joint(&mut self, joint: Element<'_>) {
         let at = joint.range().start;
-        let mut place = JointPlace {
-            joint: at,
-            ..JointPlace::default()
-        };
+        let mut place = JointPlace { joint: at, ..JointPlace::default() };
         let name = self.needed(joint, "joint", "name");
         let shown = name.as_deref().unwrap_or("?");
         let joint_type = self.joint_type(joint, shown);
@@ -34,9 +31,7 @@ impl Reader {
         let origin = self.origin(joint);
         let axis = self.only(joint, "axis").map(|axis| {
             place.axis = axis.range().start;
-            v1::Axis {
-                xyz: self.vector(axis, "xyz"),
-            }
+            v1::Axis { xyz: self.vector(axis, "xyz") }
         });
         let limit = self.only(joint, "limit").map(|limit| v1::Limit {
             lower: self.number(limit, "lower"),
@@ -56,19 +51,16 @@ impl Reader {
             self.mimic(mimic, shown)
         });
         let safety_controller =
-            self.only(joint, "safety_controller")
-                .map(|soft| v1::SafetyController {
-                    soft_lower_limit: self.number(soft, "soft_lower_limit"),
-                    soft_upper_limit: self.number(soft, "soft_upper_limit"),
-                    k_position: self.number(soft, "k_position"),
-                    k_velocity: self.number(soft, "k_velocity"),
-                });
-        let calibration = self
-            .only(joint, "calibration")
-            .map(|calibration| v1::Calibration {
-                rising: self.number(calibration, "rising"),
-                falling: self.number(calibration, "falling"),
+            self.only(joint, "safety_controller").map(|soft| v1::SafetyController {
+                soft_lower_limit: self.number(soft, "soft_lower_limit"),
+                soft_upper_limit: self.number(soft, "soft_upper_limit"),
+                k_position: self.number(soft, "k_position"),
+                k_velocity: self.number(soft, "k_velocity"),
             });
+        let calibration = self.only(joint, "calibration").map(|calibration| v1::Calibration {
+            rising: self.number(calibration, "rising"),
+            falling: self.number(calibration, "falling"),
+        });
         let unknown_elements = self.unknown(joint, JOINT_ELEMENTS);
         let (Some(name), Some(joint_type), Some(parent), Some(child)) =
             (name, joint_type, parent, child)
@@ -96,30 +88,19 @@ impl Reader {
         let word = self.needed(joint, "joint", "type")?;
         let plain = word.trim().to_ascii_lowercase();
         let kinds = v1::JointType::ALL.iter().copied();
-        let found = kinds
-            .into_iter()
-            .find(|kind| kind.as_str().to_ascii_lowercase() == plain);
+        let found = kinds.into_iter().find(|kind| kind.as_str().to_ascii_lowercase() == plain);
         let attribute = self.attribute(joint, "type")?;
         match found {
             None => {
-                let fault = Fault::UnknownJointType {
-                    joint: name.to_owned(),
-                    found: shortened(&word),
-                };
+                let fault =
+                    Fault::UnknownJointType { joint: name.to_owned(), found: shortened(&word) };
                 self.fault(attribute.range().start, fault);
             }
             Some(_) if plain != word => {
-                let problem = format!(
-                    "the joint type `{}` is not spelled as in URDF",
-                    shortened(&word)
-                );
+                let problem =
+                    format!("the joint type `{}` is not spelled as in URDF", shortened(&word));
                 let assumed = format!("read as `{plain}`");
-                self.remark(
-                    NoteKind::JointType,
-                    attribute.range().start,
-                    problem,
-                    assumed,
-                );
+                self.remark(NoteKind::JointType, attribute.range().start, problem, assumed);
                 self.edit(attribute.range_value(), plain);
             }
             Some(_) => {}
@@ -136,10 +117,7 @@ impl Reader {
         place: &mut usize,
     ) -> Option<v1::LinkName> {
         let Some(element) = self.only(joint, end) else {
-            let fault = Fault::MissingElement {
-                joint: shown.to_owned(),
-                element: end,
-            };
+            let fault = Fault::MissingElement { joint: shown.to_owned(), element: end };
             self.fault(joint.range().start, fault);
             return None;
         };
@@ -151,12 +129,7 @@ impl Reader {
     fn mimic(&mut self, mimic: Element<'_>, shown: &str) -> Option<v1::Mimic> {
         let Some(joint) = self.text(mimic, "joint") else {
             let problem = format!("the mimic of joint `{shown}` names no joint");
-            self.remark(
-                NoteKind::Mimic,
-                mimic.range().start,
-                problem,
-                "the mimic is left out",
-            );
+            self.remark(NoteKind::Mimic, mimic.range().start, problem, "the mimic is left out");
             self.edit(mimic.range(), "");
             return None;
         };

@@ -10,9 +10,7 @@ const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
 impl Reader {
     pub(super) fn link(&mut self, link: Element<'_>) -> Option<v1::Link> {
         let name = self.needed(link, "link", "name");
-        let inertial = self
-            .only(link, "inertial")
-            .map(|inertial| self.inertial(inertial));
+        let inertial = self.only(link, "inertial").map(|inertial| self.inertial(inertial));
         let unknown_elements = self.unknown(link, &["inertial", "visual", "collision"]);
         // Visual before collision: the order in which meshes are counted.
         let of = |kind| xml::children(link).filter(move |(name, _)| *name == kind);
@@ -21,9 +19,7 @@ impl Reader {
                 name: self.text(element, "name"),
                 origin: self.origin(element),
                 geometry: self.geometry(element),
-                material: self
-                    .only(element, "material")
-                    .map(|material| self.material(material)),
+                material: self.only(element, "material").map(|material| self.material(material)),
             })
             .collect();
         let collision = of("collision")
@@ -33,13 +29,7 @@ impl Reader {
                 geometry: self.geometry(element),
             })
             .collect();
-        Some(v1::Link {
-            name: name?,
-            inertial,
-            visual,
-            collision,
-            unknown_elements,
-        })
+        Some(v1::Link { name: name?, inertial, visual, collision, unknown_elements })
     }
 
     fn inertial(&mut self, inertial: Element<'_>) -> v1::Inertial {
@@ -67,12 +57,7 @@ impl Reader {
         for (name, shape) in xml::children(geometry).filter(|(name, _)| SHAPES.contains(name)) {
             if found.is_some() {
                 let problem = format!("another shape, `<{name}>`, in one `<geometry>`");
-                self.remark(
-                    NoteKind::Repeated,
-                    shape.range().start,
-                    problem,
-                    "the first is used",
-                );
+                self.remark(NoteKind::Repeated, shape.range().start, problem, "the first is used");
                 continue;
             }
             found = self.shape(name, shape);
@@ -135,12 +120,7 @@ impl Reader {
 
     fn no_shape(&mut self, shape: Element<'_>, attribute: &str) {
         let problem = format!("`<{}>` has no `{attribute}`", xml::name(shape));
-        self.remark(
-            NoteKind::Shape,
-            shape.range().start,
-            problem,
-            "the shape is left out",
-        );
+        self.remark(NoteKind::Shape, shape.range().start, problem, "the shape is left out");
     }
 
     pub(super) fn material(&mut self, material: Element<'_>) -> v1::Material {

@@ -26,16 +26,10 @@ pub(super) fn check(reader: &mut Reader) {
             continue;
         }
         let (problem, assumed) = match &material.name {
-            None => (
-                "a material has no name".to_owned(),
-                "it applies only to its element",
-            ),
+            None => ("a material has no name".to_owned(), "it applies only to its element"),
             Some(name) => match looks.get(name.as_str()) {
                 Some(first) if has_look && *first != look && told.insert(name) => (
-                    format!(
-                        "material `{}` is defined again, and looks different",
-                        shortened(name)
-                    ),
+                    format!("material `{}` is defined again, and looks different", shortened(name)),
                     "each element keeps its own; a name alone means the first",
                 ),
                 None if told.insert(name) => (

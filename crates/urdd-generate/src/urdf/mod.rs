@@ -45,11 +45,7 @@ pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFau
         if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } = &mut fault {
             line_of(first);
         }
-        PlacedFault {
-            line: at.line,
-            column: at.column,
-            fault,
-        }
+        PlacedFault { line: at.line, column: at.column, fault }
     });
     Err(faults.collect())
 }

@@ -13,9 +13,7 @@ pub(super) enum Numbers<const N: usize> {
 
 /// The words of an attribute as numbers; `None` if one is not a number.
 pub(super) fn words(text: &str) -> Option<Vec<f64>> {
-    text.split_ascii_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
+    text.split_ascii_whitespace().map(|word| word.parse().ok()).collect()
 }
 
 pub(super) fn read<const N: usize>(text: &str) -> Numbers<N> {

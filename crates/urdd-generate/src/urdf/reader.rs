@@ -58,12 +58,7 @@ impl Reader {
         problem: String,
         assumed: impl Into<String>,
     ) {
-        self.reading.remarks.push(Remark {
-            kind,
-            offset,
-            problem,
-            assumed: assumed.into(),
-        });
+        self.reading.remarks.push(Remark { kind, offset, problem, assumed: assumed.into() });
     }
 
     pub(super) fn edit(&mut self, range: Range<usize>, text: impl Into<String>) {
@@ -84,12 +79,7 @@ impl Reader {
         let (_, first) = found.next()?;
         for (_, again) in found {
             let problem = format!("another `<{name}>` in one `<{}>`", xml::name(parent));
-            self.remark(
-                NoteKind::Repeated,
-                again.range().start,
-                problem,
-                "the first is used",
-            );
+            self.remark(NoteKind::Repeated, again.range().start, problem, "the first is used");
         }
         Some(first)
     }
@@ -110,10 +100,7 @@ impl Reader {
         // Some attributes are read twice.
         if self.mended.insert(offset) {
             let element = xml::name(element);
-            let problem = format!(
-                "`{}` of `<{element}>` is not spelled as in URDF",
-                found.name()
-            );
+            let problem = format!("`{}` of `<{element}>` is not spelled as in URDF", found.name());
             self.remark(NoteKind::Case, offset, problem, format!("read as `{name}`"));
             self.edit(found.range_qname(), name);
         }
@@ -121,8 +108,7 @@ impl Reader {
     }
 
     pub(super) fn text(&mut self, element: Element<'_>, attribute: &str) -> Option<String> {
-        self.attribute(element, attribute)
-            .map(|found| found.value().to_owned())
+        self.attribute(element, attribute).map(|found| found.value().to_owned())
     }
 
     pub(super) fn needed(
@@ -133,10 +119,7 @@ impl Reader {
     ) -> Option<String> {
         let text = self.text(element, attribute);
         if text.is_none() {
-            let fault = Fault::MissingAttribute {
-                element: name,
-                attribute,
-            };
+            let fault = Fault::MissingAttribute { element: name, attribute };
             self.fault(element.range().start, fault);
         }
         text
@@ -152,10 +135,7 @@ impl Reader {
         let found = self.attribute(element, attribute)?;
         let what = || {
             let element = xml::name(element);
-            format!(
-                "`{attribute}` of `<{element}>` is `{}`",
-                shortened(found.value())
-            )
+            format!("`{attribute}` of `<{element}>` is `{}`", shortened(found.value()))
         };
         match numbers::read(found.value()) {
             Numbers::Finite(numbers) => Some(numbers),
@@ -198,12 +178,7 @@ impl Reader {
                 self.reading.has_xacro = true;
                 let problem = format!("`<{name}>` is a macro that was not expanded");
                 let assumed = "kept as text, without effect";
-                self.remark(
-                    NoteKind::XacroLeftOver,
-                    element.range().start,
-                    problem,
-                    assumed,
-                );
+                self.remark(NoteKind::XacroLeftOver, element.range().start, problem, assumed);
             }
             let lower = name.to_ascii_lowercase();
             if known.contains(&lower.as_str()) {
@@ -258,11 +233,7 @@ impl Reader {
 
     /// What was read, and the faults.
     pub(super) fn finish(self) -> (Reading, Vec<(usize, Fault)>) {
-        let Reader {
-            mut reading,
-            faults,
-            ..
-        } = self;
+        let Reader { mut reading, faults, .. } = self;
         reading.remarks.sort_by_key(|remark| remark.offset);
         (reading, faults)
     }

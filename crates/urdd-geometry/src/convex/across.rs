@@ -70,14 +70,7 @@ pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
 #[inline(always)]
 fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::distances(
-        simd,
-        &a,
-        &b,
-        &pose,
-        gjk::first_lanes(pairs.len()),
-        gjk::EXACT,
-    )
+    gjk::distances(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()), gjk::EXACT)
 }
 
 #[inline(always)]
@@ -91,9 +84,7 @@ fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     let (a, b, pose) = eight(simd, pairs);
     let mut found = witness::witnesses(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()));
     for (found, pair) in found.iter_mut().zip(pairs) {
-        found.points = found
-            .points
-            .map(|p| [0, 1, 2].map(|k| p[k] + pair.a.centre[k]));
+        found.points = found.points.map(|p| [0, 1, 2].map(|k| p[k] + pair.a.centre[k]));
     }
     found
 }

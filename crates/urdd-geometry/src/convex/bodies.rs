@@ -159,11 +159,7 @@ impl BodyPairs {
             let pairs = if may_be_near { pairs } else { &[] };
             pairs.iter().filter_map(move |[a, b]| {
                 let (a, b) = (&self.parts[*a], &self.parts[*b]);
-                let pair = PlacedPair {
-                    a: &a.shape,
-                    b: &b.shape,
-                    b_in_a: columns,
-                };
+                let pair = PlacedPair { a: &a.shape, b: &b.shape, b_in_a: columns };
                 near(&a.sphere, &b.sphere).then_some((number, pair))
             })
         })

@@ -76,10 +76,7 @@ impl Search<'_> {
             let p = self.points[self.stack[i] as usize];
             let value = corners.map(|d| p[0] * d[0] + p[1] * d[1] + p[2] * d[2]);
             let mean = value[0] + value[1] + value[2] + value[3];
-            for (k, x) in [value[0], value[1], value[2], value[3], mean]
-                .into_iter()
-                .enumerate()
-            {
+            for (k, x) in [value[0], value[1], value[2], value[3], mean].into_iter().enumerate() {
                 if x > most[k] {
                     (best[k], most[k]) = (i - start, x);
                 }
@@ -99,11 +96,7 @@ impl Search<'_> {
 /// The direction (not normalized) for the point `u`, `v` of the map, each from -1 to 1.
 fn direction(u: f64, v: f64) -> [f64; 3] {
     let z = 1.0 - u.abs() - v.abs();
-    if z >= 0.0 {
-        [u, v, z]
-    } else {
-        [(1.0 - v.abs()).copysign(u), (1.0 - u.abs()).copysign(v), z]
-    }
+    if z >= 0.0 { [u, v, z] } else { [(1.0 - v.abs()).copysign(u), (1.0 - u.abs()).copysign(v), z] }
 }
 
 #[cfg(test)]

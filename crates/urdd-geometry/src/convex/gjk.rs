@@ -203,11 +203,7 @@ pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bo
         if done.all_true() {
             break;
         }
-        let Nearest {
-            point,
-            vertices,
-            inside,
-        } = match round {
+        let Nearest { point, vertices, inside } = match round {
             1 => segment(simd, w, s[0]),
             2 => triangle(simd, w, [s[0], s[1]]),
             _ => tetrahedron(simd, w, s),
@@ -224,11 +220,7 @@ pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bo
         squared = select(done, squared, least);
         s = vertices;
     }
-    Bounds {
-        upper: select(contact, zero, squared.sqrt()),
-        contact,
-        unsure: unsure | !done,
-    }
+    Bounds { upper: select(contact, zero, squared.sqrt()), contact, unsure: unsure | !done }
 }
 
 /// The lanes of `lanes` in which `a` and `b` touch or overlap, which is where [`distances`] returns 0. Stops early when

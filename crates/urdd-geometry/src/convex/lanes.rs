@@ -35,11 +35,7 @@ pub(crate) fn select<S: Simd>(mask: Mask<S>, yes: Num<S>, no: Num<S>) -> Num<S> 
 impl<S: Simd> Vec3<S> {
     #[inline(always)]
     pub fn splat(simd: S, v: [f64; 3]) -> Self {
-        Self {
-            x: splat(simd, v[0]),
-            y: splat(simd, v[1]),
-            z: splat(simd, v[2]),
-        }
+        Self { x: splat(simd, v[0]), y: splat(simd, v[1]), z: splat(simd, v[2]) }
     }
 
     #[inline(always)]
@@ -72,11 +68,7 @@ impl<S: Simd> Vec3<S> {
 
     #[inline(always)]
     pub fn scale(self, k: Num<S>) -> Self {
-        Self {
-            x: self.x * k,
-            y: self.y * k,
-            z: self.z * k,
-        }
+        Self { x: self.x * k, y: self.y * k, z: self.z * k }
     }
 
     #[inline(always)]
@@ -93,11 +85,7 @@ impl<S: Simd> core::ops::Add for Vec3<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
-        Self {
-            x: self.x + o.x,
-            y: self.y + o.y,
-            z: self.z + o.z,
-        }
+        Self { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
     }
 }
 
@@ -105,11 +93,7 @@ impl<S: Simd> core::ops::Sub for Vec3<S> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        Self {
-            x: self.x - o.x,
-            y: self.y - o.y,
-            z: self.z - o.z,
-        }
+        Self { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 }
 
@@ -117,11 +101,7 @@ impl<S: Simd> core::ops::Neg for Vec3<S> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self {
-            x: -self.x,
-            y: -self.y,
-            z: -self.z,
-        }
+        Self { x: -self.x, y: -self.y, z: -self.z }
     }
 }
 
@@ -174,10 +154,6 @@ impl<S: Simd> Pose<S> {
     /// R^T v.
     #[inline(always)]
     pub fn rotate_back(&self, v: Vec3<S>) -> Vec3<S> {
-        Vec3 {
-            x: self.columns[0].dot(v),
-            y: self.columns[1].dot(v),
-            z: self.columns[2].dot(v),
-        }
+        Vec3 { x: self.columns[0].dot(v), y: self.columns[1].dot(v), z: self.columns[2].dot(v) }
     }
 }

@@ -90,11 +90,7 @@ impl Motion {
         if a == b {
             PoseLanes::new(std::iter::once(&Isometry3::identity()))
         } else {
-            let num_samples = if self.is_rigid(a, b) {
-                1
-            } else {
-                self.num_samples
-            };
+            let num_samples = if self.is_rigid(a, b) { 1 } else { self.num_samples };
             PoseLanes::relative(&self.bodies[a], &self.bodies[b], num_samples)
         }
     }
@@ -125,19 +121,13 @@ impl PoseLanes {
             let last = list.last().copied().unwrap_or_default();
             list.resize(num_samples.next_multiple_of(LANES), last);
         }
-        Self {
-            num_samples,
-            numbers,
-        }
+        Self { num_samples, numbers }
     }
 
     /// The inverse of `a` times `b`, for the first `num_samples` samples.
     fn relative(a: &Self, b: &Self, num_samples: usize) -> Self {
         let len = num_samples.next_multiple_of(LANES);
-        let mut relative = Self {
-            num_samples,
-            numbers: std::array::from_fn(|_| vec![0.0; len]),
-        };
+        let mut relative = Self { num_samples, numbers: std::array::from_fn(|_| vec![0.0; len]) };
         dispatch!(Level::new(), simd => relative.fill(simd, a, b));
         relative
     }

@@ -43,10 +43,8 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
     let signs = [-1.0, 0.0, 1.0];
     let directions = signs.map(|x| signs.map(|y| signs.map(|z| Vector3::new(x, y, z))));
     let directions = directions.into_iter().flatten().flatten();
-    let mut vertices: Vec<Vertex> = directions
-        .filter(|d| *d != Vector3::zeros())
-        .map(support)
-        .collect();
+    let mut vertices: Vec<Vertex> =
+        directions.filter(|d| *d != Vector3::zeros()).map(support).collect();
     let mut best: Option<Penetration> = None;
     for _ in 0..STEPS {
         let all: Vec<[f64; 3]> = vertices.iter().map(|[v, _]| (*v).into()).collect();
@@ -123,11 +121,7 @@ fn nearest_face(hull: &ConvexHull) -> Option<Face> {
         let corners = triangle.map(|k| Vector3::from(mesh.vertices[k as usize]));
         let [a, b, c] = corners;
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-        Some(Face {
-            normal,
-            distance: normal.dot(&a),
-            corners,
-        })
+        Some(Face { normal, distance: normal.dot(&a), corners })
     });
     let faces: Vec<Face> = faces.collect();
     let least = faces.iter().map(|face| face.distance);

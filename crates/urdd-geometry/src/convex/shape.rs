@@ -100,10 +100,7 @@ impl OrientedBox {
         if !in_range(&pose.translation.vector.into()) || !rotation.iter().all(|x| x.is_finite()) {
             return Err(ShapeError::Pose);
         }
-        match half_extents
-            .into_iter()
-            .find(|h| !(0.0..=FARTHEST).contains(h))
-        {
+        match half_extents.into_iter().find(|h| !(0.0..=FARTHEST).contains(h)) {
             Some(size) => Err(ShapeError::Size { size }),
             None => Ok(Self { pose, half_extents }),
         }

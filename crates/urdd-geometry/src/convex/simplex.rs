@@ -149,9 +149,5 @@ pub(crate) fn tetrahedron<S: Simd>(simd: S, w: Vec3<S>, s: [Vec3<S>; 3]) -> Near
     let mut q = Vec3::select(is01, s[1], w);
     q = Vec3::select(is12, s[2], q);
     q = Vec3::select(is20, s[0], q);
-    Nearest {
-        point: Vec3::select(on_face, n.scale(k), on_edge),
-        vertices: [w, p, q],
-        inside,
-    }
+    Nearest { point: Vec3::select(on_face, n.scale(k), on_edge), vertices: [w, p, q], inside }
 }

@@ -141,13 +141,9 @@ fn statistics_within(
             on_body.get_mut(shapes.body(shape))?.push((kind, shape));
         }
     }
-    let bodies: Vec<usize> = (0..on_body.len())
-        .filter(|&b| !on_body[b].is_empty())
-        .collect();
-    let mut pairs = bodies
-        .iter()
-        .enumerate()
-        .flat_map(|(i, &a)| bodies[i..].iter().map(move |&b| [a, b]));
+    let bodies: Vec<usize> = (0..on_body.len()).filter(|&b| !on_body[b].is_empty()).collect();
+    let mut pairs =
+        bodies.iter().enumerate().flat_map(|(i, &a)| bodies[i..].iter().map(move |&b| [a, b]));
 
     let level = Level::new();
     let is_stopped = AtomicBool::new(false);
@@ -158,10 +154,8 @@ fn statistics_within(
         }
         !stops
     };
-    let mut statistics: Vec<PairStatistics> = kinds
-        .iter()
-        .map(|shapes| PairStatistics::zeros(shapes.count()))
-        .collect();
+    let mut statistics: Vec<PairStatistics> =
+        kinds.iter().map(|shapes| PairStatistics::zeros(shapes.count())).collect();
     loop {
         let some: Vec<[usize; 2]> = pairs.by_ref().take(PAIRS_AT_ONCE).collect();
         if some.is_empty() {
@@ -196,11 +190,7 @@ fn statistics_within(
 impl PairStatistics {
     fn zeros(shapes: usize) -> Self {
         let zeros = || vec![vec![0.0; shapes]; shapes];
-        PairStatistics {
-            mean: zeros(),
-            min: zeros(),
-            max: zeros(),
-        }
+        PairStatistics { mean: zeros(), min: zeros(), max: zeros() }
     }
 
     fn put(&mut self, i: usize, j: usize, summary: Summary) {

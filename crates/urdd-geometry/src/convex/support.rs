@@ -75,11 +75,7 @@ pub(crate) fn farthest<'a, S: Simd>(
             [x[lane], y[lane], z[lane]] = table(lane).farthest(simd, cells[lane], d.lane(lane));
         }
     }
-    Vec3 {
-        x: Num::load_array(simd, x),
-        y: Num::load_array(simd, y),
-        z: Num::load_array(simd, z),
-    }
+    Vec3 { x: Num::load_array(simd, x), y: Num::load_array(simd, y), z: Num::load_array(simd, z) }
 }
 
 /// The cell of each lane's direction, in a table with `side` cells along one side.

@@ -71,11 +71,7 @@ impl SupportTable {
                 });
             }
         }
-        Self {
-            side,
-            cells,
-            blocks,
-        }
+        Self { side, cells, blocks }
     }
 
     /// The vertices that are farthest in some direction, some of them several times.
@@ -163,9 +159,7 @@ mod tests {
 
     #[inline(always)]
     fn found<S: Simd>(simd: S, shape: &ConvexShape, d: [f64; 3]) -> [f64; 3] {
-        shape
-            .support(simd, Vec3::splat(simd, d), (1 << LANES) - 1)
-            .lane(LANES - 1)
+        shape.support(simd, Vec3::splat(simd, d), (1 << LANES) - 1).lane(LANES - 1)
     }
 
     #[test]

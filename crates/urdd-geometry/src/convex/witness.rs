@@ -74,12 +74,7 @@ impl<S: Simd> Way<S> {
     fn witness(&self, lane: usize, distance: f64) -> (Witness, f64) {
         let feature = self.feature.map(|vertex| vertex.lane(lane));
         if self.inside.to_bitmask() >> lane & 1 == 0 {
-            return self.combined(
-                lane,
-                distance,
-                feature,
-                of_triangle(feature.map(Into::into)),
-            );
+            return self.combined(lane, distance, feature, of_triangle(feature.map(Into::into)));
         }
         let [a, b, c] = feature;
         let simplex = [a, b, c, self.last.lane(lane)];
@@ -113,10 +108,7 @@ impl<S: Simd> Way<S> {
             true => [0, 1, 2].map(|k| on_a[k] - apart[k]),
             false => on_a,
         };
-        let found = Witness {
-            distance,
-            points: [on_a, on_b],
-        };
+        let found = Witness { distance, points: [on_a, on_b] };
         let length = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
         (found, (length - distance).abs())
     }

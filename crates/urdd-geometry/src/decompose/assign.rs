@@ -52,19 +52,14 @@ pub(super) fn assign(
             at: surface.vertices[i as usize],
             vertex: i,
         });
-        out.descend(0, &corners, &|direction| {
-            dot(surface.normal(t), direction) > 0.0
-        });
+        out.descend(0, &corners, &|direction| dot(surface.normal(t), direction) > 0.0);
     }
     let has_surface: Vec<bool> = out.points.iter().map(|points| !points.is_empty()).collect();
     for &p in inside.points {
         out.drop_in(0, p, inside, surface);
     }
     let hands = out.points.into_iter().zip(has_surface);
-    let hand = |(points, has_surface)| Hand {
-        points,
-        has_surface,
-    };
+    let hand = |(points, has_surface)| Hand { points, has_surface };
     hands.map(hand).collect()
 }
 
@@ -86,15 +81,9 @@ impl<'a> Inside<'a> {
         };
         let planes = hull.map_or(Vec::new(), |hull| {
             let triangles = hull.mesh().triangles.iter();
-            triangles
-                .map(|t| Plane::of(hull.mesh().corners(*t)))
-                .collect()
+            triangles.map(|t| Plane::of(hull.mesh().corners(*t))).collect()
         });
-        Inside {
-            points,
-            reach,
-            planes,
-        }
+        Inside { points, reach, planes }
     }
 
     fn hull_holds(&self, p: [f64; 3]) -> bool {
@@ -197,10 +186,7 @@ impl Hands<'_> {
 
 /// The parts of a convex polygon below and above a plane.
 fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
-    let mut out = [
-        Vec::with_capacity(polygon.len() + 1),
-        Vec::with_capacity(polygon.len() + 1),
-    ];
+    let mut out = [Vec::with_capacity(polygon.len() + 1), Vec::with_capacity(polygon.len() + 1)];
     for (k, c) in polygon.iter().enumerate() {
         let d = &polygon[(k + 1) % polygon.len()];
         let (hc, hd) = (plane.height(c.unit), plane.height(d.unit));
@@ -212,11 +198,7 @@ fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
         }
         if (hc < -eps && hd > eps) || (hc > eps && hd < -eps) {
             // Always from the lower end, so that two triangles with this edge get the same point.
-            let (from, to, hf, ht) = if hc < hd {
-                (c, d, hc, hd)
-            } else {
-                (d, c, hd, hc)
-            };
+            let (from, to, hf, ht) = if hc < hd { (c, d, hc, hd) } else { (d, c, hd, hc) };
             let t = hf / (hf - ht);
             let cut = Corner {
                 unit: lerp(from.unit, to.unit, t),
@@ -242,10 +224,7 @@ mod tests {
         // Two planes through the edge x = y = 1.02, just outside; a point near it is projected into both.
         let plane = |degrees: f64| {
             let (sin, cos) = degrees.to_radians().sin_cos();
-            Plane {
-                normal: [sin, -cos, 0.0],
-                offset: 1.02 * (sin - cos),
-            }
+            Plane { normal: [sin, -cos, 0.0], offset: 1.02 * (sin - cos) }
         };
         let nodes = [
             Node::Cut(plane(44.0), [1, 2]),
@@ -260,10 +239,7 @@ mod tests {
         let given = |reach: f64| {
             let inside = Inside::new(&point, reach, &surface.unit);
             let parts = assign(&surface, &inside, &nodes, &[0, 1, 2, 3], 4, 1e-9);
-            parts
-                .into_iter()
-                .flat_map(|hand| hand.points)
-                .collect::<Vec<_>>()
+            parts.into_iter().flat_map(|hand| hand.points).collect::<Vec<_>>()
         };
         let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
         assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));

@@ -23,10 +23,8 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
     if looks > MOST_LOOKS {
         return points.to_vec();
     }
-    let mut outside: Vec<Outside> = points
-        .iter()
-        .filter_map(|&p| look(&hull, &taken, p, eps, tolerance))
-        .collect();
+    let mut outside: Vec<Outside> =
+        points.iter().filter_map(|&p| look(&hull, &taken, p, eps, tolerance)).collect();
     while let Some(k) = farthest(&outside) {
         let p = outside.swap_remove(k).point;
         if !hull.insert(p, eps) {
@@ -77,11 +75,7 @@ fn look(
     }
     // An upper bound of the distance from the hull.
     let distance = distance_to_triangle(p, hull.face(face).map(|i| taken[i as usize]));
-    (distance > tolerance).then_some(Outside {
-        point: p,
-        face,
-        distance,
-    })
+    (distance > tolerance).then_some(Outside { point: p, face, distance })
 }
 
 /// The index of the farthest point, the first of equals.
@@ -99,23 +93,15 @@ fn farthest(outside: &[Outside]) -> Option<usize> {
 /// the points are flat.
 fn start(points: &[[f64; 3]]) -> Option<(GrowingHull, Vec<[f64; 3]>, f64)> {
     let origin = *points.first()?;
-    let size = points
-        .iter()
-        .map(|p| norm(sub(*p, origin)))
-        .fold(0.0, f64::max);
+    let size = points.iter().map(|p| norm(sub(*p, origin))).fold(0.0, f64::max);
     let scaled = points.iter().map(|&p| sub(p, origin).map(|x| x / size));
     let candidates: Vec<Candidate> = scaled.zip(0..).map(|(p, i)| Candidate::new(p, i)).collect();
-    let support: Vec<[f64; 3]> = support(&candidates)
-        .iter()
-        .filter_map(|&i| points.get(i as usize).copied())
-        .collect();
+    let support: Vec<[f64; 3]> =
+        support(&candidates).iter().filter_map(|&i| points.get(i as usize).copied()).collect();
     // A large tetrahedron: the first support point, then the farthest from it, from the line, and from the plane.
     let a = *support.first()?;
     let by = |f: &dyn Fn([f64; 3]) -> f64| {
-        support
-            .iter()
-            .copied()
-            .reduce(|m, p| if f(p) > f(m) { p } else { m })
+        support.iter().copied().reduce(|m, p| if f(p) > f(m) { p } else { m })
     };
     let b = by(&|p| norm(sub(p, a)))?;
     let c = by(&|p| norm(cross(sub(b, a), sub(p, a))))?;

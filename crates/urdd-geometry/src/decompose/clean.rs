@@ -33,33 +33,16 @@ impl Surface {
         let ignored = mesh.triangles.len() - triangles.len();
         let triangles = each_once(triangles);
         let corners = triangles.as_flattened().iter();
-        let Bounds {
-            min: low,
-            max: high,
-        } = Bounds::of(corners.map(|i| vertices[*i as usize]));
+        let Bounds { min: low, max: high } = Bounds::of(corners.map(|i| vertices[*i as usize]));
         if triangles.is_empty() {
             return None;
         }
         let half = [0, 1, 2].map(|a| high[a] / 2.0 - low[a] / 2.0);
         let scale = half.iter().copied().fold(0.0, f64::max);
-        let scale = if scale > f64::MIN_POSITIVE {
-            scale
-        } else {
-            1.0
-        };
+        let scale = if scale > f64::MIN_POSITIVE { scale } else { 1.0 };
         let centre = [0, 1, 2].map(|a| low[a] + half[a]);
-        let unit = vertices
-            .iter()
-            .map(|p| sub(*p, centre).map(|x| x / scale))
-            .collect();
-        let mut out = Surface {
-            vertices,
-            unit,
-            triangles,
-            scale,
-            centre,
-            ignored,
-        };
+        let unit = vertices.iter().map(|p| sub(*p, centre).map(|x| x / scale)).collect();
+        let mut out = Surface { vertices, unit, triangles, scale, centre, ignored };
         // Flip a surface that is inside out as a whole, so that fronts face outward.
         if out.volume() < 0.0 {
             out.triangles.iter_mut().for_each(|t| t.swap(1, 2));
@@ -86,10 +69,7 @@ impl Surface {
 
     /// The sum of the triangles' areas, in unit coordinates.
     pub fn area(&self) -> f64 {
-        self.triangles
-            .iter()
-            .map(|&t| dot(self.normal(t), self.normal(t)).sqrt() / 2.0)
-            .sum()
+        self.triangles.iter().map(|&t| dot(self.normal(t), self.normal(t)).sqrt() / 2.0).sum()
     }
 }
 
@@ -137,14 +117,7 @@ mod tests {
                 [0.0, 3.0, 0.0],
                 [nan, 0.0, 0.0],
             ],
-            triangles: vec![
-                [0, 2, 3],
-                [1, 2, 3],
-                [2, 3, 0],
-                [0, 3, 2],
-                [0, 2, 9],
-                [0, 2, 4],
-            ],
+            triangles: vec![[0, 2, 3], [1, 2, 3], [2, 3, 0], [0, 3, 2], [0, 2, 9], [0, 2, 4]],
         };
         let s = Surface::new(&mesh).unwrap();
         assert_eq!(s.vertices.len(), 3);
@@ -152,12 +125,6 @@ mod tests {
         assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 1]]);
         assert_eq!(s.ignored, 2);
         assert_eq!(s.scale, 1.5);
-        assert!(
-            Surface::new(&Mesh {
-                triangles: vec![[0, 1, 9]],
-                ..mesh
-            })
-            .is_none()
-        );
+        assert!(Surface::new(&Mesh { triangles: vec![[0, 1, 9]], ..mesh }).is_none());
     }
 }

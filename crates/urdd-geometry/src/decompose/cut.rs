@@ -33,11 +33,7 @@ pub(super) struct Cut {
 
 /// The part's hull, and its cuts along the first direction; `None` if it is convex.
 pub(super) fn first_cuts(part: &Part, places: &Places) -> (Grower, Option<Vec<Cut>>) {
-    match places
-        .frames
-        .first()
-        .and_then(|along| cuts_along(part, along, places))
-    {
+    match places.frames.first().and_then(|along| cuts_along(part, along, places)) {
         Some((whole, _)) if is_convex(part, &whole) => (whole, None),
         Some((whole, cuts)) => (whole, Some(cuts)),
         None => (Grower::of(&part.points), Some(Vec::new())),
@@ -96,11 +92,8 @@ pub(super) fn frames(flats: [Vec<f64>; 3]) -> Vec<Frame> {
 fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64> {
     let step = (high - low) / (even + 1) as f64;
     let near = (0.02 * (high - low)).max(2.0 * eps);
-    let mut out: Vec<f64> = flats
-        .iter()
-        .copied()
-        .filter(|x| *x > low + near && *x < high - near)
-        .collect();
+    let mut out: Vec<f64> =
+        flats.iter().copied().filter(|x| *x > low + near && *x < high - near).collect();
     out.dedup_by(|b, a| *b - *a < 2.0 * eps);
     out.truncate(MOST_OFFSETS - EVEN);
     let flat = out.len();
@@ -140,10 +133,7 @@ fn cuts_across(
     let slices = Slices::new(part, turned, frame, &planes, places);
     let cost = |hull: &mut Grower, k: usize| {
         let mut cuts = part.cuts.clone();
-        cuts.push(Plane {
-            normal,
-            offset: planes[k],
-        });
+        cuts.push(Plane { normal, offset: planes[k] });
         places.cost(hull, frame, &cuts)
     };
     let (below, mut whole) = slices.sweep(true, bounds.extent(), cost);
@@ -157,11 +147,7 @@ fn cuts_across(
                 let gain = all - b - a;
                 let middle = 1.0 - (2.0 * (offset - low) / (high - low) - 1.0).abs();
                 let score = gain + MIDDLE * all * middle * (high - low) / bounds.extent();
-                Cut {
-                    plane: Plane { normal, offset },
-                    gain,
-                    score,
-                }
+                Cut { plane: Plane { normal, offset }, gain, score }
             })
         })
         .collect();

@@ -75,12 +75,7 @@ impl Deep {
         }
         faces.retain(|face| face.1 > 0.0);
         faces.sort_by(|a, b| b.1.total_cmp(&a.1));
-        Deep {
-            part,
-            integral: triangles.iter().map(|t| t.0).sum(),
-            faces,
-            node: 0,
-        }
+        Deep { part, integral: triangles.iter().map(|t| t.0).sum(), faces, node: 0 }
     }
 }
 
@@ -153,10 +148,7 @@ pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
     let trees: Vec<Tree> = roots
         .into_par_iter()
         .filter_map(|plane| {
-            let mut tree = Tree {
-                nodes: vec![Node::Leaf(0)],
-                parts: vec![whole.clone()],
-            };
+            let mut tree = Tree { nodes: vec![Node::Leaf(0)], parts: vec![whole.clone()] };
             let good = tree.cut(0, plane, places);
             tree.grow(most, WORTH * all, places);
             good.then_some(tree)
@@ -164,12 +156,7 @@ pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
         .collect();
     // The remaining integral, and a small penalty per part.
     let rank = |tree: &Tree| tree.integral() + WORTH * all * tree.parts.len() as f64;
-    let best = trees
-        .into_iter()
-        .reduce(|a, b| if rank(&b) < rank(&a) { b } else { a })?;
+    let best = trees.into_iter().reduce(|a, b| if rank(&b) < rank(&a) { b } else { a })?;
     let parts = best.parts.into_iter().map(|deep| (deep.part, deep.node));
-    Some(Cuts {
-        nodes: best.nodes,
-        parts: parts.collect(),
-    })
+    Some(Cuts { nodes: best.nodes, parts: parts.collect() })
 }

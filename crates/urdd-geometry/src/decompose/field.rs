@@ -45,12 +45,8 @@ impl Field {
             .max((thick.iter().product::<f64>() / MOST_NODES).cbrt())
             .max(f64::MIN_POSITIVE);
         let count = size.map(|s| (s / cell).ceil() as usize + 3);
-        let mut out = Field {
-            low: [0, 1, 2].map(|a| bounds.min[a] - cell),
-            cell,
-            count,
-            value: Vec::new(),
-        };
+        let mut out =
+            Field { low: [0, 1, 2].map(|a| bounds.min[a] - cell), cell, count, value: Vec::new() };
         let nearest = out.nearest(part);
         let away: Vec<([f64; 3], f64)> = (0..nearest.len())
             .map(|k| {
@@ -58,10 +54,7 @@ impl Field {
                     return ([0.0; 3], 0.0);
                 };
                 let p = out.node(k);
-                let away = sub(
-                    p,
-                    nearest_on_triangle(p, t.map(|i| part.points[i as usize])),
-                );
+                let away = sub(p, nearest_on_triangle(p, t.map(|i| part.points[i as usize])));
                 (away, norm(away))
             })
             .collect();
@@ -245,9 +238,7 @@ fn spread([a, b, c]: [[f64; 3]; 3], apart: f64, mut take: impl FnMut([f64; 3])) 
     let bc = sub(c, b);
     let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
     // Rounds up without `ceil`, which would be a function call.
-    let n = ((longest / apart) as usize)
-        .saturating_add(1)
-        .min(MOST_SIDE);
+    let n = ((longest / apart) as usize).saturating_add(1).min(MOST_SIDE);
     // The centroids of the n^2 triangles between parallels to the sides.
     let side = 1.0 / (3 * n) as f64;
     for i in 0..n {

@@ -41,8 +41,7 @@ pub(super) const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 
 impl Places {
     /// The standoff of a hull in the coordinates of `frame`; faces in one of the planes do not count.
     pub fn standoff(&self, hull: &mut Grower, frame: &[[f64; 3]; 3], planes: &[Plane]) -> f64 {
-        self.field
-            .standoff(&hull.hull, frame, planes, &mut hull.known)
+        self.field.standoff(&hull.hull, frame, planes, &mut hull.known)
     }
 
     /// What `new` makes of the parts below and above a plane; `None` if one of them has no surface.

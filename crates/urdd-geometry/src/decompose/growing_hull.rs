@@ -35,11 +35,7 @@ impl GrowingHull {
         if side.abs() <= thinnest * dot(n, n).sqrt() {
             return None;
         }
-        let mut hull = GrowingHull {
-            points: p.to_vec(),
-            jitter,
-            ..GrowingHull::default()
-        };
+        let mut hull = GrowingHull { points: p.to_vec(), jitter, ..GrowingHull::default() };
         let faces = if side > 0.0 {
             [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
         } else {
@@ -55,10 +51,7 @@ impl GrowingHull {
     /// A small octahedron around `centre`. Starting from it makes every later hull solid, so that flat and thin parts
     /// need no special cases. Its size is far below what the search resolves.
     pub fn seed(centre: [f64; 3], radius: f64) -> Self {
-        let mut hull = GrowingHull {
-            jitter: radius * 1e-4,
-            ..GrowingHull::default()
-        };
+        let mut hull = GrowingHull { jitter: radius * 1e-4, ..GrowingHull::default() };
         for axis in 0..3 {
             for sign in [radius, -radius] {
                 let mut p = centre;
@@ -79,11 +72,7 @@ impl GrowingHull {
         let [a, b, c] = f.map(|i| self.points[i as usize]);
         let n = cross(sub(b, a), sub(c, a));
         let length = dot(n, n).sqrt();
-        let n = if length > 0.0 {
-            n.map(|x| x / length)
-        } else {
-            [0.0; 3]
-        };
+        let n = if length > 0.0 { n.map(|x| x / length) } else { [0.0; 3] };
         let offset = if length > 0.0 { dot(n, a) } else { 0.0 };
         self.area_sum += length;
         if let Some(slot) = self.free.pop() {

@@ -71,11 +71,7 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
         [0, 1, 2].map(|k| base[k] + width * (a * along[k] + b * across[k]))
     };
     let middle = [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
-    let corners = [
-        corner(p, -1.0, 0.0),
-        corner(q, 1.0, 0.0),
-        corner(middle, 0.0, 1.0),
-    ];
+    let corners = [corner(p, -1.0, 0.0), corner(q, 1.0, 0.0), corner(middle, 0.0, 1.0)];
     ConvexHull::new(&corners).unwrap_or(splinter)
 }
 
@@ -154,14 +150,8 @@ mod tests {
         let [_, widened] = &splintered(1e-3)[..] else {
             panic!("too far away");
         };
-        let rounded = widened
-            .vertices
-            .iter()
-            .map(|v| v.map(|x| f64::from(x as f32)));
-        let rounded = Mesh {
-            vertices: rounded.collect(),
-            triangles: widened.triangles.clone(),
-        };
+        let rounded = widened.vertices.iter().map(|v| v.map(|x| f64::from(x as f32)));
+        let rounded = Mesh { vertices: rounded.collect(), triangles: widened.triangles.clone() };
         assert!(!is_thin(&rounded), "{rounded:?}");
         let x = rounded.vertices.iter().map(|v| v[0]);
         assert!((x.clone().fold(f64::MAX, f64::min) - 5.04).abs() < 1e-4);

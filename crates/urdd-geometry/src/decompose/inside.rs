@@ -50,9 +50,7 @@ impl Flood {
     pub fn new(part: &Part) -> Option<Flood> {
         let bounds = Bounds::of(part.points.iter().copied());
         let size = bounds.size();
-        let cell = (size.iter().product::<f64>() / CELLS)
-            .cbrt()
-            .max(bounds.extent() / MOST_ALONG);
+        let cell = (size.iter().product::<f64>() / CELLS).cbrt().max(bounds.extent() / MOST_ALONG);
         if cell <= 0.0 {
             return None;
         }
@@ -159,11 +157,7 @@ mod tests {
         if top {
             triangles.extend([[4, 5, 6], [5, 7, 6]]);
         }
-        Part {
-            points,
-            triangles,
-            ..Part::default()
-        }
+        Part { points, triangles, ..Part::default() }
     }
 
     #[test]

@@ -45,11 +45,7 @@ impl Group {
             });
             standing[from..].iter_mut().for_each(|s| s.1 /= n as f64);
         }
-        Group {
-            block,
-            points,
-            standing,
-        }
+        Group { block, points, standing }
     }
 
     fn holds(&self, p: [f64; 3]) -> bool {
@@ -78,19 +74,13 @@ impl Group {
         cuts.extend(more.filter(|c| !large.block.cuts.contains(c)));
         let standoff = places.standoff(&mut hull, &AXES, &cuts);
         let more = standoff - large.outside(small) - small.outside(large);
-        let [whole, parts] = [
-            bulk(&hull.hull),
-            bulk(&large.block.hull.hull) + bulk(&small.block.hull.hull),
-        ];
+        let [whole, parts] =
+            [bulk(&hull.hull), bulk(&large.block.hull.hull) + bulk(&small.block.hull.hull)];
         Join {
             standoff: more,
             price: more + whole - parts,
             filled: hull.hull.volume() - volume(large) - volume(small),
-            block: Block {
-                hull,
-                standoff,
-                cuts,
-            },
+            block: Block { hull, standoff, cuts },
         }
     }
 }
@@ -148,22 +138,15 @@ pub(super) struct Groups {
 pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Groups {
     let n = blocks.len();
     let mut group: Vec<usize> = (0..n).collect();
-    let mut alive: Vec<Option<Group>> = blocks
-        .into_par_iter()
-        .map(|b| Some(Group::new(b, places)))
-        .collect();
+    let mut alive: Vec<Option<Group>> =
+        blocks.into_par_iter().map(|b| Some(Group::new(b, places))).collect();
     let price = |a: &Option<Group>, b: &Option<Group>| match (a, b) {
         (Some(a), Some(b)) => a.join(b, places).price,
         _ => f64::INFINITY,
     };
     let mut prices = vec![f64::INFINITY; n * n];
-    let pairs: Vec<(usize, usize)> = (0..n)
-        .flat_map(|i| (i + 1..n).map(move |j| (i, j)))
-        .collect();
-    let first: Vec<f64> = pairs
-        .par_iter()
-        .map(|&(i, j)| price(&alive[i], &alive[j]))
-        .collect();
+    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).collect();
+    let first: Vec<f64> = pairs.par_iter().map(|&(i, j)| price(&alive[i], &alive[j])).collect();
     for (&(i, j), p) in pairs.iter().zip(first) {
         prices[i * n + j] = p;
     }
@@ -199,10 +182,7 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
         for k in 0..n {
             prices[k.min(j) * n + k.max(j)] = f64::INFINITY;
         }
-        let fresh: Vec<f64> = (0..n)
-            .into_par_iter()
-            .map(|k| price(&joined, &alive[k]))
-            .collect();
+        let fresh: Vec<f64> = (0..n).into_par_iter().map(|k| price(&joined, &alive[k])).collect();
         for (k, p) in fresh.into_iter().enumerate().filter(|&(k, _)| k != i) {
             prices[k.min(i) * n + k.max(i)] = p;
         }
@@ -223,9 +203,5 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
         .collect();
     let standoff = standoff(&alive);
     let hulls = alive.iter().flatten().map(|g| bulk(&g.block.hull.hull));
-    Groups {
-        of,
-        standoff,
-        cost: standoff + hulls.sum::<f64>(),
-    }
+    Groups { of, standoff, cost: standoff + hulls.sum::<f64>() }
 }

@@ -86,9 +86,7 @@ impl Default for Settings {
 
 impl Settings {
     fn tolerance(&self, surface: &clean::Surface) -> f64 {
-        self.surface_tolerance
-            .min(self.relative_surface_tolerance * surface.scale)
-            .max(0.0)
+        self.surface_tolerance.min(self.relative_surface_tolerance * surface.scale).max(0.0)
     }
 
     /// The `surface_tolerance` that [`decompose`] would return for the mesh, without decomposing it.
@@ -138,9 +136,8 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let most = settings.max_pieces.max(1);
     let (mut part, cell) = proxy::proxy(&surface);
     let flood = inside::Flood::new(&part);
-    let (inner, reach) = flood.as_ref().map_or((Vec::new(), 0.0), |flood| {
-        (flood.centres(), flood.cell / 2.0)
-    });
+    let (inner, reach) =
+        flood.as_ref().map_or((Vec::new(), 0.0), |flood| (flood.centres(), flood.cell / 2.0));
     let body = part.points.clone();
     part.inner = inner.clone();
     let places = grower::Places {
@@ -150,11 +147,8 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
         field: field::Field::new(&part),
     };
     let enough = settings.standoff_tolerance / surface.scale;
-    let limits = search::Limits {
-        most: most.saturating_add(most / 2),
-        fat: settings.fat_tolerance,
-        enough,
-    };
+    let limits =
+        search::Limits { most: most.saturating_add(most / 2), fat: settings.fat_tolerance, enough };
     let joined = |found: search::Search| {
         let limits = merge::Limits {
             most,

@@ -21,10 +21,7 @@ impl Plane {
         let n = cross(sub(b, a), sub(c, a));
         let length = norm(n);
         let normal = n.map(|x| x / length);
-        Plane {
-            normal,
-            offset: dot(normal, a),
-        }
+        Plane { normal, offset: dot(normal, a) }
     }
 
     /// The nearest point of the plane.
@@ -112,9 +109,7 @@ impl Part {
         for &p in &self.inner {
             let height = plane.height(p);
             if height.abs() <= reach {
-                halves
-                    .iter_mut()
-                    .for_each(|h| h.add_loose(plane.project(p)));
+                halves.iter_mut().for_each(|h| h.add_loose(plane.project(p)));
             }
             halves[usize::from(height > 0.0)].part.inner.push(p);
         }
@@ -140,10 +135,7 @@ struct Half {
 
 impl Half {
     fn new(points: usize) -> Self {
-        Half {
-            part: Part::default(),
-            place: vec![u32::MAX; points],
-        }
+        Half { part: Part::default(), place: vec![u32::MAX; points] }
     }
 
     fn point(&mut self, from: &Part, corner: Corner) -> u32 {
@@ -196,14 +188,7 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             ..Part::default()
         };
-        let [low, high] = part.split(
-            &Plane {
-                normal: [1.0, 0.0, 0.0],
-                offset: 1.0,
-            },
-            1e-9,
-            0.0,
-        );
+        let [low, high] = part.split(&Plane { normal: [1.0, 0.0, 0.0], offset: 1.0 }, 1e-9, 0.0);
         let area = |p: &Part| -> f64 {
             p.triangles
                 .iter()
@@ -223,21 +208,9 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             ..Part::default()
         };
-        let plane = Plane {
-            normal: [0.0, 0.0, 1.0],
-            offset: 0.0,
-        };
-        assert_eq!(
-            part.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()),
-            [1, 0]
-        );
-        let turned = Part {
-            triangles: vec![[0, 2, 1]],
-            ..part
-        };
-        assert_eq!(
-            turned.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()),
-            [0, 1]
-        );
+        let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 0.0 };
+        assert_eq!(part.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()), [1, 0]);
+        let turned = Part { triangles: vec![[0, 2, 1]], ..part };
+        assert_eq!(turned.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()), [0, 1]);
     }
 }

@@ -21,12 +21,8 @@ struct Block {
     offset: [f64; WIDTH],
 }
 
-const NOTHING: Block = Block {
-    x: [0.0; WIDTH],
-    y: [0.0; WIDTH],
-    z: [0.0; WIDTH],
-    offset: [EMPTY; WIDTH],
-};
+const NOTHING: Block =
+    Block { x: [0.0; WIDTH], y: [0.0; WIDTH], z: [0.0; WIDTH], offset: [EMPTY; WIDTH] };
 
 /// Slots for planes, some of them empty.
 #[derive(Clone, Debug, Default)]
@@ -108,11 +104,7 @@ fn heights<S: Simd>(simd: S, block: &Block, [x, y, z]: [f64x8<S>; 3]) -> f64x8<S
 
 #[inline(always)]
 fn splat<S: Simd>(simd: S, p: [f64; 3]) -> [f64x8<S>; 3] {
-    [
-        f64x8::splat(simd, p[0]),
-        f64x8::splat(simd, p[1]),
-        f64x8::splat(simd, p[2]),
-    ]
+    [f64x8::splat(simd, p[0]), f64x8::splat(simd, p[1]), f64x8::splat(simd, p[2])]
 }
 
 #[inline(always)]
@@ -186,10 +178,8 @@ mod tests {
         for i in 0..slots {
             let x = i.saturating_sub([0, 1, 8][i % 3]) as f64;
             let (z, r) = ((1.9 * x).sin(), (1.9 * x).cos());
-            let plane = (
-                [r * (2.3 * x).cos(), r * (2.3 * x).sin(), z],
-                1.0 + 0.1 * (0.7 * x).sin(),
-            );
+            let plane =
+                ([r * (2.3 * x).cos(), r * (2.3 * x).sin(), z], 1.0 + 0.1 * (0.7 * x).sin());
             planes.push(plane.0, plane.1);
             plain.push(Some(plane));
         }
@@ -216,9 +206,8 @@ mod tests {
                 let heights: Vec<f64> = (0..slots).map(|i| height(p, i)).collect();
                 let most = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 let first = heights.iter().position(|h| *h == most).unwrap_or(0);
-                let seen: Vec<u32> = (0..slots as u32)
-                    .filter(|i| heights[*i as usize] > 0.0)
-                    .collect();
+                let seen: Vec<u32> =
+                    (0..slots as u32).filter(|i| heights[*i as usize] > 0.0).collect();
                 for level in levels() {
                     assert_eq!(
                         planes.highest_at(level, p),

@@ -86,26 +86,14 @@ fn stand_in(
     }
     // Keep points that have lost all their triangles, as loose points.
     let mut used = vec![false; points.len()];
-    triangles
-        .as_flattened()
-        .iter()
-        .for_each(|&i| used[i as usize] = true);
-    for &c in surface
-        .triangles
-        .as_flattened()
-        .iter()
-        .map(|&i| &cluster[i as usize])
-    {
+    triangles.as_flattened().iter().for_each(|&i| used[i as usize] = true);
+    for &c in surface.triangles.as_flattened().iter().map(|&i| &cluster[i as usize]) {
         if !used[c as usize] {
             used[c as usize] = true;
             triangles.push([c, c, c]);
         }
     }
-    Part {
-        points,
-        triangles,
-        ..Part::default()
-    }
+    Part { points, triangles, ..Part::default() }
 }
 
 /// Coordinates along each axis at which much of the surface is flat and perpendicular to it. CAD parts change their
@@ -130,11 +118,8 @@ pub(super) fn flat_coordinates(surface: &Surface, most: usize) -> [Vec<f64>; 3] 
     }
     [0, 1, 2].map(|a| {
         let total: f64 = bins[a].iter().map(|b| b.0).sum();
-        let mut found: Vec<(f64, f64)> = bins[a]
-            .iter()
-            .filter(|b| b.0 > 0.01 * total)
-            .map(|b| (b.0, b.2))
-            .collect();
+        let mut found: Vec<(f64, f64)> =
+            bins[a].iter().filter(|b| b.0 > 0.01 * total).map(|b| (b.0, b.2)).collect();
         found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.total_cmp(&q.1)));
         found.truncate(most);
         let mut out: Vec<f64> = found.into_iter().map(|f| f.1).collect();

@@ -49,12 +49,7 @@ impl Leaf {
             hull,
             cuts: part.cuts.clone(),
         };
-        Leaf {
-            part,
-            block,
-            cuts: cuts.map_or(Cuts::All(Vec::new()), Cuts::First),
-            node: 0,
-        }
+        Leaf { part, block, cuts: cuts.map_or(Cuts::All(Vec::new()), Cuts::First), node: 0 }
     }
 
     /// Finds all cuts, best first.
@@ -72,9 +67,9 @@ impl Leaf {
         match &self.cuts {
             // No cut saves more than the whole cost.
             Cuts::First(_) => self.block.cost() + potential,
-            Cuts::All(cuts) => cuts
-                .first()
-                .map_or(f64::NEG_INFINITY, |cut| cut.gain.max(0.0) + potential),
+            Cuts::All(cuts) => {
+                cuts.first().map_or(f64::NEG_INFINITY, |cut| cut.gain.max(0.0) + potential)
+            }
         }
     }
 
@@ -124,10 +119,7 @@ pub(super) fn along_faces(
     limits: &Limits,
 ) -> Option<Search> {
     let faces::Cuts { nodes, parts } = faces::cut(part, places, limits.most)?;
-    let leaves = parts.into_par_iter().map(|(part, node)| Leaf {
-        node,
-        ..Leaf::new(part, places)
-    });
+    let leaves = parts.into_par_iter().map(|(part, node)| Leaf { node, ..Leaf::new(part, places) });
     Some(grow(nodes, leaves.collect(), area, places, limits))
 }
 
@@ -153,11 +145,7 @@ fn grow(
         let cuts = std::mem::take(leaves[k].cuts(places));
         let leaf = &leaves[k];
         let poor = cuts[0].gain < POOR * leaf.block.cost();
-        let tried = if poor && leaves.len() <= EARLY {
-            WIDE
-        } else {
-            1
-        };
+        let tried = if poor && leaves.len() <= EARLY { WIDE } else { 1 };
         let mut made: Vec<(Plane, [Leaf; 2])> = cuts
             .par_iter()
             .take(tried)
@@ -182,11 +170,7 @@ fn grow(
         leaves[k] = below;
         leaves.push(above);
     }
-    Search {
-        area,
-        nodes,
-        leaves: leaves.into_iter().map(|l| l.block).collect(),
-    }
+    Search { area, nodes, leaves: leaves.into_iter().map(|l| l.block).collect() }
 }
 
 /// Promise of a block without a good cut, as a fraction of its cost. Cuts that help only together (in a ring) are found

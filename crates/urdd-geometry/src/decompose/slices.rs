@@ -77,11 +77,8 @@ impl Slices {
                 }
             }
         }
-        let loose = part
-            .triangles
-            .iter()
-            .filter(|t| Part::is_loose(**t))
-            .map(|t| turned[t[0] as usize]);
+        let loose =
+            part.triangles.iter().filter(|t| Part::is_loose(**t)).map(|t| turned[t[0] as usize]);
         for p in loose.chain(part.inner.iter().map(|&p| frame.map(|axis| dot(axis, p)))) {
             let first = planes.partition_point(|&o| o < p[2] - places.reach);
             for (b, &offset) in planes.iter().enumerate().skip(first) {
@@ -123,22 +120,14 @@ impl Slices {
         };
         let mut costs = Vec::with_capacity(planes);
         for n in 0..planes {
-            let (slice, section) = if upwards {
-                (n, n)
-            } else {
-                (planes - n, planes - 1 - n)
-            };
+            let (slice, section) = if upwards { (n, n) } else { (planes - n, planes - 1 - n) };
             take(&self.slices[slice], &mut hull);
             // A section counts only if the hull is not empty.
             if !hull.hull.points.is_empty() {
                 take(&self.sections[section], &mut hull);
             }
             let nothing = hull.hull.points.is_empty();
-            costs.push(if nothing {
-                0.0
-            } else {
-                cost(&mut hull, section)
-            });
+            costs.push(if nothing { 0.0 } else { cost(&mut hull, section) });
         }
         // Downwards, nobody asks for the whole hull.
         if upwards {
@@ -164,20 +153,10 @@ impl Scaling {
     fn new(bounds: &Bounds, from: f64, to: f64) -> Self {
         let (mut low, mut high) = (bounds.min, bounds.max);
         (low[2], high[2]) = (from, to);
-        let factor = [0, 1, 2].map(|a| {
-            if high[a] > low[a] {
-                2.0 / (high[a] - low[a])
-            } else {
-                0.0
-            }
-        });
-        let centre = [0, 1, 2].map(|a| {
-            if factor[a] > 0.0 {
-                (low[a] + high[a]) / 2.0
-            } else {
-                0.0
-            }
-        });
+        let factor =
+            [0, 1, 2].map(|a| if high[a] > low[a] { 2.0 / (high[a] - low[a]) } else { 0.0 });
+        let centre =
+            [0, 1, 2].map(|a| if factor[a] > 0.0 { (low[a] + high[a]) / 2.0 } else { 0.0 });
         Scaling { centre, factor }
     }
 

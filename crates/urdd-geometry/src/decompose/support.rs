@@ -55,10 +55,7 @@ pub(super) struct Candidate {
 
 impl Candidate {
     pub fn new(at: [f64; 3], index: u32) -> Self {
-        Candidate {
-            at: at.map(|x| x as f32),
-            index,
-        }
+        Candidate { at: at.map(|x| x as f32), index }
     }
 }
 
@@ -103,11 +100,7 @@ fn farthest<S: Simd>(simd: S, [x, y, z]: &Directions, candidates: &[Candidate]) 
             point[k] = better.select(index, point[k]);
         }
     }
-    [
-        point[0].to_array(),
-        point[1].to_array(),
-        point[2].to_array(),
-    ]
+    [point[0].to_array(), point[1].to_array(), point[2].to_array()]
 }
 
 #[cfg(test)]
@@ -131,10 +124,7 @@ mod tests {
             for (k, found) in plain.as_flattened_mut().iter_mut().enumerate() {
                 let d = d.each_ref().map(|row| row.as_flattened()[k]);
                 let along = |c: &Candidate| c.at[0] * d[0] + c.at[1] * d[1] + c.at[2] * d[2];
-                let most = candidates
-                    .iter()
-                    .map(along)
-                    .fold(f32::NEG_INFINITY, f32::max);
+                let most = candidates.iter().map(along).fold(f32::NEG_INFINITY, f32::max);
                 let first = candidates.iter().find(|c| along(c) == most);
                 *found = first.expect("one").index;
             }

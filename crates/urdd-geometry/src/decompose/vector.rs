@@ -5,11 +5,7 @@ pub(super) use crate::vector::{cross, dot, norm, sub};
 
 /// The point at parameter `t` from `a` to `b`.
 pub(super) fn lerp(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
-    [
-        a[0] + t * (b[0] - a[0]),
-        a[1] + t * (b[1] - a[1]),
-        a[2] + t * (b[2] - a[2]),
-    ]
+    [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])]
 }
 
 /// Distance of a point from a triangle.
@@ -53,11 +49,7 @@ pub(super) fn nearest_on_triangle(p: [f64; 3], [a, b, c]: [[f64; 3]; 3]) -> [f64
     } else {
         // A degenerate triangle that no edge case handled: its nearest corner bounds the distance.
         let near = |q: [f64; 3], r: [f64; 3]| {
-            if norm(sub(p, r)) < norm(sub(p, q)) {
-                r
-            } else {
-                q
-            }
+            if norm(sub(p, r)) < norm(sub(p, q)) { r } else { q }
         };
         near(near(a, b), c)
     }

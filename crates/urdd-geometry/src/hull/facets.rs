@@ -58,10 +58,7 @@ fn facet_of_each(points: &[Point], triangles: &[Triangle]) -> (Vec<u32>, Vec<u32
         open.push(seed);
         while let Some(t) = open.pop() {
             size += 1;
-            let Triangle {
-                corners,
-                neighbours,
-            } = &triangles[t];
+            let Triangle { corners, neighbours } = &triangles[t];
             let [a, b, c] = corners.map(|i| points[i as usize]);
             for n in neighbours.map(|n| n as usize) {
                 if facet[n] != u32::MAX {
@@ -91,10 +88,7 @@ fn walk(edges: &[[u32; 3]]) -> Vec<u32> {
         if polygon.len() == edges.len() {
             break;
         }
-        edge = edges
-            .binary_search_by_key(to, |e| e[1])
-            .ok()
-            .map(|e| &edges[e]);
+        edge = edges.binary_search_by_key(to, |e| e[1]).ok().map(|e| &edges[e]);
     }
     polygon
 }
@@ -120,9 +114,7 @@ pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
     for p in triangles.as_flattened() {
         rank[*p as usize] = 0;
     }
-    let mut order: Vec<u32> = (0..points.len() as u32)
-        .filter(|p| rank[*p as usize] == 0)
-        .collect();
+    let mut order: Vec<u32> = (0..points.len() as u32).filter(|p| rank[*p as usize] == 0).collect();
     order.sort_unstable_by(|p, q| lexicographic(&points[*p as usize], &points[*q as usize]));
     for (new, p) in order.iter().enumerate() {
         rank[*p as usize] = new as u32;
@@ -133,8 +125,5 @@ pub fn canonical(points: &[Point], triangles: Vec<[u32; 3]>) -> Mesh {
         .collect();
     triangles.sort_unstable();
     let vertices = order.iter().map(|p| points[*p as usize]).collect();
-    Mesh {
-        vertices,
-        triangles,
-    }
+    Mesh { vertices, triangles }
 }

@@ -10,18 +10,12 @@ pub fn triangulate(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
     };
     // The two fans start from different corners and share no diagonal, so no edge is in four triangles.
     let fan = |tip: u32, rest: &[u32]| -> Vec<[u32; 3]> {
-        rest.windows(2)
-            .map(|pair| [tip, pair[0], pair[1]])
-            .collect()
+        rest.windows(2).map(|pair| [tip, pair[0], pair[1]]).collect()
     };
     let mut triangles = fan(first, &corners[1..]);
     let mut from_second = corners[2..].to_vec();
     from_second.push(first);
-    triangles.extend(
-        fan(second, &from_second)
-            .iter()
-            .map(|[a, b, c]| [*a, *c, *b]),
-    );
+    triangles.extend(fan(second, &from_second).iter().map(|[a, b, c]| [*a, *c, *b]));
     triangles
 }
 

@@ -42,9 +42,7 @@ pub fn collinear(a: Point, b: Point, c: Point) -> bool {
 
 /// Order by x, then y, then z.
 pub fn lexicographic(a: &Point, b: &Point) -> Ordering {
-    a[0].total_cmp(&b[0])
-        .then(a[1].total_cmp(&b[1]))
-        .then(a[2].total_cmp(&b[2]))
+    a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
 }
 
 fn compare_to_zero(x: f64) -> Ordering {

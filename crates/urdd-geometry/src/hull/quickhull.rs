@@ -148,10 +148,7 @@ impl<'a> Growing<'a> {
             (u.x * v.y).abs() + (u.y * v.x).abs(),
         );
         let face = Face {
-            triangle: Triangle {
-                corners,
-                neighbours,
-            },
+            triangle: Triangle { corners, neighbours },
             normal: u.cross(&v),
             // Shewchuk's bound for this expression is (7 + 56e)e times the sum of the absolute values of its six
             // products, with e = 2^-53. That sum is at most size . extent. The factor is more than twice the bound.
@@ -258,10 +255,7 @@ impl<'a> Growing<'a> {
         let mut next = 0;
         while let Some(&f) = self.visible.get(next) {
             next += 1;
-            let Triangle {
-                corners,
-                neighbours,
-            } = self.faces[f as usize].triangle;
+            let Triangle { corners, neighbours } = self.faces[f as usize].triangle;
             for k in 0..3 {
                 let g = neighbours[k];
                 let neighbour = &self.faces[g as usize];

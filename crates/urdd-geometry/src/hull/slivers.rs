@@ -17,12 +17,8 @@ pub fn without_slivers(mesh: &Mesh, thinnest: f64) -> Option<Vec<Point>> {
         let corners = triangle.map(|i| Vector3::from(mesh.vertices[i as usize]));
         // Squared length of the edge opposite corner k.
         let opposite = |k: usize| (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm_squared();
-        let apex = (0..3)
-            .max_by(|j, k| opposite(*j).total_cmp(&opposite(*k)))
-            .unwrap_or(0);
-        let area = (corners[1] - corners[0])
-            .cross(&(corners[2] - corners[0]))
-            .norm();
+        let apex = (0..3).max_by(|j, k| opposite(*j).total_cmp(&opposite(*k))).unwrap_or(0);
+        let area = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm();
         if area >= thinnest * opposite(apex) {
             continue;
         }
@@ -35,11 +31,7 @@ pub fn without_slivers(mesh: &Mesh, thinnest: f64) -> Option<Vec<Point>> {
         }
     }
     dropped.contains(&true).then(|| {
-        let kept = mesh
-            .vertices
-            .iter()
-            .zip(&dropped)
-            .filter(|(_, dropped)| !**dropped);
+        let kept = mesh.vertices.iter().zip(&dropped).filter(|(_, dropped)| !**dropped);
         kept.map(|(vertex, _)| *vertex).collect()
     })
 }

@@ -16,16 +16,10 @@ pub struct Known {
 }
 
 impl Known {
-    pub const NOTHING: Self = Self {
-        volume: f64::INFINITY,
-        steepness: 0.0,
-    };
+    pub const NOTHING: Self = Self { volume: f64::INFINITY, steepness: 0.0 };
 
     pub fn of(candidate: &Candidate) -> Self {
-        Self {
-            volume: candidate.volume,
-            steepness: candidate.steepness,
-        }
+        Self { volume: candidate.volume, steepness: candidate.steepness }
     }
 }
 
@@ -93,11 +87,7 @@ impl Arc {
         if sine < 0.0 {
             towards = -towards;
         }
-        Self {
-            from,
-            towards,
-            angle: sine.abs().atan2(from.dot(&to)),
-        }
+        Self { from, towards, angle: sine.abs().atan2(from.dot(&to)) }
     }
 
     /// The normal at a position from 0 at one end to 1 at the other.

@@ -40,15 +40,8 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     }
     // Close the polygon: append its first corner.
     polygon.push(polygon[0]);
-    let Best {
-        area,
-        half_perimeter,
-        along,
-    } = if n <= MOST_AT_ONCE {
-        at_once(Level::new(), polygon)
-    } else {
-        one_by_one(polygon)
-    };
+    let Best { area, half_perimeter, along } =
+        if n <= MOST_AT_ONCE { at_once(Level::new(), polygon) } else { one_by_one(polygon) };
     let length = dot(along, along).sqrt();
     (length > 0.0).then(|| Rectangle {
         area,
@@ -66,11 +59,7 @@ struct Best {
 }
 
 impl Best {
-    const NOTHING: Self = Self {
-        area: f64::INFINITY,
-        half_perimeter: 0.0,
-        along: [0.0; 2],
-    };
+    const NOTHING: Self = Self { area: f64::INFINITY, half_perimeter: 0.0, along: [0.0; 2] };
 
     /// Considers the rectangle along an edge, given the corners farthest ahead, across and behind.
     #[inline(always)]
@@ -82,11 +71,7 @@ impl Best {
         // Both are scaled by the length of the edge.
         let area = length * height / dot(along, along);
         if area < self.area {
-            *self = Self {
-                area,
-                half_perimeter: length + height,
-                along,
-            };
+            *self = Self { area, half_perimeter: length + height, along };
         }
     }
 }
@@ -189,10 +174,7 @@ fn next_of(set: u64, from: usize) -> usize {
 /// Removes corners that do not turn left from a closed polygon that is nearly convex.
 fn straighten(polygon: &mut Vec<Point2>) {
     let by_value = |p: &Point2, q: &Point2| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
-    let Some((first, _)) = polygon
-        .iter()
-        .enumerate()
-        .min_by(|(_, p), (_, q)| by_value(p, q))
+    let Some((first, _)) = polygon.iter().enumerate().min_by(|(_, p), (_, q)| by_value(p, q))
     else {
         return;
     };

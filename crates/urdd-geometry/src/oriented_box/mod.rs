@@ -46,10 +46,7 @@ impl OrientedBox {
         } else {
             smallest_boxes(hull, f64::INFINITY)
         };
-        let least = candidates
-            .iter()
-            .map(|c| c.volume)
-            .fold(f64::INFINITY, f64::min);
+        let least = candidates.iter().map(|c| c.volume).fold(f64::INFINITY, f64::min);
         if !hull.is_flat() && aligned.volume() <= least * (1.0 + TIE) {
             return aligned;
         }
@@ -57,13 +54,7 @@ impl OrientedBox {
             .iter()
             .map(|candidate| nearest_to_identity(&candidate.axes))
             // The first of equals wins: the search order is fixed.
-            .reduce(|best, other| {
-                if other.trace() > best.trace() {
-                    other
-                } else {
-                    best
-                }
-            });
+            .reduce(|best, other| if other.trace() > best.trace() { other } else { best });
         let Some(matrix) = turns_least else {
             return aligned;
         };
@@ -95,11 +86,7 @@ impl OrientedBox {
         let centre = first + to_box.transpose() * ((low + high) * 0.5);
         let reach = |half: Vector3<f64>, p: Vector3<f64>| half.sup(&(to_box * (p - centre)).abs());
         let half_extents = vertices().fold(Vector3::zeros(), reach);
-        Self {
-            centre: centre.map(|x| x + 0.0).into(),
-            half_extents: half_extents.into(),
-            rotation,
-        }
+        Self { centre: centre.map(|x| x + 0.0).into(), half_extents: half_extents.into(), rotation }
     }
 
     /// Volume, cubic metres.
@@ -131,14 +118,7 @@ pub fn corners(half_extents: [f64; 3]) -> [[f64; 3]; 8] {
 
 /// The rotation by the smallest angle among the 24 right-handed labellings of three axes. It has the largest trace.
 fn nearest_to_identity(axes: &[Vector3<f64>; 3]) -> Matrix3<f64> {
-    let orders = [
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [0, 2, 1],
-        [2, 1, 0],
-        [1, 0, 2],
-    ];
+    let orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     let mut best = Matrix3::from_columns(axes);
     for order in orders {
         let [x, y, z] = order.map(|k| axes[k]);

@@ -28,10 +28,7 @@ pub struct Queue {
 
 impl Queue {
     pub fn new(stretches: impl Iterator<Item = Stretch>) -> Self {
-        Self {
-            waiting: stretches.collect(),
-            sketched: Vec::new(),
-        }
+        Self { waiting: stretches.collect(), sketched: Vec::new() }
     }
 
     pub fn extend(&mut self, stretches: [Stretch; 2]) {
@@ -58,15 +55,13 @@ impl Queue {
             }
             let axes: Vec<Vector3<f64>> = next.iter().map(axis).collect();
             let looked = next.into_iter().zip(&axes).zip(sketches(&axes));
-            self.sketched
-                .extend(looked.map(|((stretch, axis), sketch)| Looked {
-                    stretch,
-                    axis: *axis,
-                    sketch,
-                    fine: None,
-                }));
-            self.sketched
-                .sort_unstable_by(|a, b| a.stretch.cmp(&b.stretch));
+            self.sketched.extend(looked.map(|((stretch, axis), sketch)| Looked {
+                stretch,
+                axis: *axis,
+                sketch,
+                fine: None,
+            }));
+            self.sketched.sort_unstable_by(|a, b| a.stretch.cmp(&b.stretch));
         }
         self.sketched.pop_if(|looked| promises(&looked.stretch))
     }

@@ -33,16 +33,8 @@ struct Pass {
 /// and nearly always finds the smallest box. The second pass makes hardly any assumption, within its budget. It serves
 /// hulls with few corners, whose volumes fall more steeply.
 const PASSES: [Pass; 2] = [
-    Pass {
-        slope: 0.2,
-        triangles: 600_000,
-        shadows: 3000,
-    },
-    Pass {
-        slope: 1.0,
-        triangles: 100_000,
-        shadows: 500,
-    },
+    Pass { slope: 0.2, triangles: 600_000, shadows: 3000 },
+    Pass { slope: 1.0, triangles: 100_000, shadows: 500 },
 ];
 
 /// Minimum gain, as a fraction of the volume, that justifies more search.
@@ -104,9 +96,7 @@ fn coarse(hull: &ConvexHull) -> Option<Caster> {
         vertices.iter().max_by(better).copied()
     };
     let corners: Vec<[f64; 3]> = spread(COARSE_DIRECTIONS).filter_map(farthest).collect();
-    ConvexHull::new(&corners)
-        .ok()
-        .map(|hull| Caster::new(&hull))
+    ConvexHull::new(&corners).ok().map(|hull| Caster::new(&hull))
 }
 
 impl Search {
@@ -197,16 +187,12 @@ impl Search {
 
     /// Tries each triangle's normal.
     fn try_faces(&mut self) -> Vec<Known> {
-        let normals: Vec<_> = (0..self.fine.triangles())
-            .map(|t| self.fine.normal(t))
-            .collect();
+        let normals: Vec<_> = (0..self.fine.triangles()).map(|t| self.fine.normal(t)).collect();
         let sketches = self.sketches(&normals);
         if self.coarse.is_none() {
             return sketches.into_iter().map(|s| self.take(s)).collect();
         }
-        let known = sketches
-            .iter()
-            .map(|s| s.as_ref().map_or(Known::NOTHING, Known::of));
+        let known = sketches.iter().map(|s| s.as_ref().map_or(Known::NOTHING, Known::of));
         let mut known: Vec<Known> = known.collect();
         let mut order: Vec<usize> = (0..normals.len()).collect();
         order.sort_by(|s, t| known[*s].volume.total_cmp(&known[*t].volume));
@@ -231,26 +217,13 @@ impl Search {
     /// when the budget of the pass is spent.
     fn walk_arcs(&mut self, at_faces: &[Known]) {
         let edges = &self.fine.edges;
-        let arcs: Vec<Arc> = edges
-            .iter()
-            .map(|edge| Arc::new(&self.fine, edge))
-            .collect();
+        let arcs: Vec<Arc> = edges.iter().map(|edge| Arc::new(&self.fine, edge)).collect();
         let whole = |(arc, edge): (usize, &Edge)| {
             let ends = [edge.left, edge.right].map(|t| at_faces[t as usize]);
-            Stretch {
-                promise: 0.0,
-                arc,
-                parts: [0.0, 1.0],
-                ends,
-            }
+            Stretch { promise: 0.0, arc, parts: [0.0, 1.0], ends }
         };
         let mut stretches: Vec<Stretch> = edges.iter().enumerate().map(whole).collect();
-        let triangles = self
-            .coarse
-            .as_ref()
-            .unwrap_or(&self.fine)
-            .triangles()
-            .max(1);
+        let triangles = self.coarse.as_ref().unwrap_or(&self.fine).triangles().max(1);
         // Sketches of the coarse hull are cheap compared with the boxes of the hull.
         let ahead = AXES * if self.coarse.is_some() { AHEAD } else { 1 };
         for pass in PASSES {
@@ -274,26 +247,13 @@ impl Search {
                 let Some(looked) = queue.pop(limit, ahead, axis, sketches) else {
                     break;
                 };
-                let Stretch {
-                    arc,
-                    parts: [low, high],
-                    ends: [from, to],
-                    ..
-                } = looked.stretch;
+                let Stretch { arc, parts: [low, high], ends: [from, to], .. } = looked.stretch;
                 let middle = looked.stretch.middle();
                 let there = self.judge(looked, &mut queue);
-                let halves = [
-                    ([low, middle], [from, there]),
-                    ([middle, high], [there, to]),
-                ];
-                queue.extend(halves.map(|(parts, ends)| {
-                    judged(Stretch {
-                        promise: 0.0,
-                        arc,
-                        parts,
-                        ends,
-                    })
-                }));
+                let halves = [([low, middle], [from, there]), ([middle, high], [there, to])];
+                queue.extend(
+                    halves.map(|(parts, ends)| judged(Stretch { promise: 0.0, arc, parts, ends })),
+                );
             }
             stretches = queue.into_rest();
         }

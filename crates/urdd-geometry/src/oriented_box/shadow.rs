@@ -78,9 +78,8 @@ impl Caster {
             .filter(|edge| normals[edge.left as usize] != normals[edge.right as usize])
             .collect();
         // Relative to a vertex, so that small shapes far from the origin keep their precision.
-        let vertices: Vec<Vector3<f64>> = (0..mesh.vertices.len() as u32)
-            .map(|i| vertex(i) - vertex(0))
-            .collect();
+        let vertices: Vec<Vector3<f64>> =
+            (0..mesh.vertices.len() as u32).map(|i| vertex(i) - vertex(0)).collect();
         let sides = [0, 1, 2].map(|k| {
             let along = || vertices.iter().map(|p| p[k]);
             along().fold(0.0, f64::max) - along().fold(0.0, f64::min)
@@ -130,11 +129,7 @@ impl Caster {
         std::array::from_fn(|a| {
             let axis = axes.get(a)?;
             let (u, v) = across(axis);
-            let Rectangle {
-                area,
-                half_perimeter,
-                side,
-            } = self.shadow(a, [&u, &v])?;
+            let Rectangle { area, half_perimeter, side } = self.shadow(a, [&u, &v])?;
             let (length, second) = (high[a] - low[a], u * side[0] + v * side[1]);
             Some(Candidate {
                 volume: length * area,

@@ -100,10 +100,7 @@ impl Assembly {
         };
         let text = match unused.count() {
             0 => format!("no triangle uses the vertex ({x}, {y}, {z})"),
-            more => format!(
-                "no triangle uses {} vertices, the first at ({x}, {y}, {z})",
-                more + 1
-            ),
+            more => format!("no triangle uses {} vertices, the first at ({x}, {y}, {z})", more + 1),
         };
         self.notes.add(NoteCode::UnusedVertices, text);
     }
@@ -127,17 +124,11 @@ impl Assembly {
 
     pub(super) fn into_scene(mut self, format: Format) -> Scene {
         if self.parts.is_empty() {
-            self.notes
-                .add(NoteCode::NoTriangles, "the file has no triangles");
+            self.notes.add(NoteCode::NoTriangles, "the file has no triangles");
         }
         self.side_files.sort();
         self.side_files.dedup();
-        Scene {
-            format,
-            parts: self.parts,
-            side_files: self.side_files,
-            notes: self.notes.0,
-        }
+        Scene { format, parts: self.parts, side_files: self.side_files, notes: self.notes.0 }
     }
 }
 
@@ -146,10 +137,7 @@ pub(super) const TOO_MANY_PARTS: &str =
     "more than 4096 materials; faces with any other material are read without one";
 
 fn look_of(material: &Material) -> Look {
-    (
-        material.name.clone(),
-        material.color.map(|color| color.map(f64::to_bits)),
-    )
+    (material.name.clone(), material.color.map(|color| color.map(f64::to_bits)))
 }
 
 /// Checks a number of items against a limit.
@@ -174,10 +162,7 @@ impl<Id: PartialEq> Nesting<Id> {
     const MOST_NODES: usize = 100_000;
 
     pub(super) fn new() -> Self {
-        Self {
-            path: Vec::new(),
-            visited: 0,
-        }
+        Self { path: Vec::new(), visited: 0 }
     }
 
     /// Enters a node, unless it contains itself or a limit is exceeded.
@@ -220,16 +205,11 @@ impl Picker {
         if self.index_of.len() < vertices.len() {
             self.index_of.resize(vertices.len(), UNSEEN);
         }
-        let mut mesh = Mesh {
-            vertices: Vec::new(),
-            triangles: Vec::with_capacity(triangles.len()),
-        };
+        let mut mesh =
+            Mesh { vertices: Vec::new(), triangles: Vec::with_capacity(triangles.len()) };
         let mut used: Vec<u32> = Vec::new();
         for triangle in triangles {
-            if triangle
-                .iter()
-                .any(|index| *index as usize >= vertices.len())
-            {
+            if triangle.iter().any(|index| *index as usize >= vertices.len()) {
                 continue;
             }
             mesh.triangles.push(triangle.map(|old| {
@@ -242,8 +222,7 @@ impl Picker {
                 *new
             }));
         }
-        mesh.vertices
-            .extend(used.iter().map(|old| vertices[*old as usize]));
+        mesh.vertices.extend(used.iter().map(|old| vertices[*old as usize]));
         for old in used {
             self.index_of[old as usize] = UNSEEN;
         }

@@ -71,10 +71,7 @@ pub enum Fault {
 
 impl Fault {
     pub(super) fn malformed(what: impl Into<String>) -> Failure {
-        Failure {
-            place: None,
-            fault: Self::Malformed(what.into()),
-        }
+        Failure { place: None, fault: Self::Malformed(what.into()) }
     }
 }
 
@@ -98,11 +95,7 @@ impl Failure {
     }
 
     pub(super) fn in_file(self, file: &str) -> MeshError {
-        MeshError {
-            file: file.to_owned(),
-            place: self.place,
-            fault: self.fault,
-        }
+        MeshError { file: file.to_owned(), place: self.place, fault: self.fault }
     }
 }
 
@@ -192,11 +185,7 @@ impl Notes {
             return;
         }
         let text = text.into();
-        if let Some(note) = self
-            .0
-            .iter_mut()
-            .find(|note| note.code == code && note.text == text)
-        {
+        if let Some(note) = self.0.iter_mut().find(|note| note.code == code && note.text == text) {
             note.count += count;
         } else if self.0.len() < MOST_NOTES {
             self.0.push(Note { code, text, count });

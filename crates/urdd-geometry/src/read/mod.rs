@@ -96,11 +96,8 @@ pub fn read_with(
     let mut assembly = Assembly::new(options);
     let named = sniff::extension_format(name);
     if let Some(named) = named.filter(|named| named.extension() != format.extension()) {
-        let text = format!(
-            "the extension says {}, but the content is {}",
-            named.label(),
-            format.label()
-        );
+        let text =
+            format!("the extension says {}, but the content is {}", named.label(), format.label());
         assembly.notes.add(NoteCode::WrongExtension, text);
     }
     match format {

@@ -26,9 +26,8 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
     let text = String::from_utf8_lossy(bytes);
     for line in text.lines() {
         let line = line.trim();
-        let (keyword, rest) = line
-            .split_once(|c: char| c.is_ascii_whitespace())
-            .unwrap_or((line, ""));
+        let (keyword, rest) =
+            line.split_once(|c: char| c.is_ascii_whitespace()).unwrap_or((line, ""));
         let rest = rest.trim();
         let keyword = keyword.to_ascii_lowercase();
         if keyword == "newmtl" {
@@ -48,10 +47,7 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
             "d" => entry.opacity = opacity(rest).unwrap_or(1.0),
             "tr" => entry.opacity = opacity(rest).map_or(1.0, |transparency| 1.0 - transparency),
             _ if keyword.starts_with("map_")
-                || matches!(
-                    keyword.as_str(),
-                    "bump" | "disp" | "decal" | "norm" | "refl"
-                ) =>
+                || matches!(keyword.as_str(), "bump" | "disp" | "decal" | "norm" | "refl") =>
             {
                 entry.textured |= keyword == "map_kd";
                 // Options such as `-bm 0.2` precede the name, which is last.
@@ -70,27 +66,19 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
 
 /// `r g b`, or `r` for all three; `None` for `spectral` and `xyz`.
 fn color(text: &str) -> Option<[f64; 3]> {
-    let values: Vec<f64> = text
-        .split_ascii_whitespace()
-        .take(3)
-        .map(|word| float(word.as_bytes()))
-        .collect();
+    let values: Vec<f64> =
+        text.split_ascii_whitespace().take(3).map(|word| float(word.as_bytes())).collect();
     let color = match *values {
         [gray] => [gray; 3],
         [red, green, blue] => [red, green, blue],
         _ => return None,
     };
-    color
-        .iter()
-        .all(|value| value.is_finite())
-        .then(|| color.map(|value| value.clamp(0.0, 1.0)))
+    color.iter().all(|value| value.is_finite()).then(|| color.map(|value| value.clamp(0.0, 1.0)))
 }
 
 /// The first number of a `d` or `Tr` line; `-halo` may precede it.
 fn opacity(text: &str) -> Option<f64> {
-    let word = text
-        .split_ascii_whitespace()
-        .find(|word| *word != "-halo")?;
+    let word = text.split_ascii_whitespace().find(|word| *word != "-halo")?;
     Some(float(word.as_bytes()))
         .filter(|value| value.is_finite())
         .map(|value| value.clamp(0.0, 1.0))

@@ -29,11 +29,7 @@ impl<'a> Words<'a> {
     /// The next index; `Some(None)` for a word that is not an index.
     pub(super) fn index(&mut self) -> Option<Option<u32>> {
         let word = self.next()?;
-        Some(
-            std::str::from_utf8(word)
-                .ok()
-                .and_then(|word| word.parse().ok()),
-        )
+        Some(std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()))
     }
 }
 
@@ -44,10 +40,7 @@ impl<'a> Iterator for Words<'a> {
     fn next(&mut self) -> Option<&'a [u8]> {
         let start = self.rest.iter().position(|byte| *byte > b' ')?;
         let rest = &self.rest[start..];
-        let end = rest
-            .iter()
-            .position(|byte| *byte <= b' ')
-            .unwrap_or(rest.len());
+        let end = rest.iter().position(|byte| *byte <= b' ').unwrap_or(rest.len());
         let (word, rest) = rest.split_at(end);
         self.rest = rest;
         Some(word)
@@ -67,18 +60,7 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_nan() {
-        for word in [
-            "",
-            ".",
-            "-",
-            "e5",
-            "1e",
-            "1.2.3",
-            "1.#QNAN",
-            "-nan(ind)",
-            "1,5",
-            "0x10",
-        ] {
+        for word in ["", ".", "-", "e5", "1e", "1.2.3", "1.#QNAN", "-nan(ind)", "1,5", "0x10"] {
             assert!(float(word.as_bytes()).is_nan(), "{word}");
         }
     }

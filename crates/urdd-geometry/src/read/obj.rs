@@ -48,9 +48,7 @@ pub(super) fn read(
         .map_err(|failure| failure.at(|| Place::Line(at + 1)))?;
     }
     let text = "a face was dropped: a vertex index is out of range, or is not an index";
-    assembly
-        .notes
-        .add_many(NoteCode::IndexOutOfRange, text, file.bad);
+    assembly.notes.add_many(NoteCode::IndexOutOfRange, text, file.bad);
     if file.too_many {
         assembly.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
     }
@@ -77,10 +75,7 @@ pub(super) fn read(
         assembly.add(
             &mesh,
             &Matrix4::identity(),
-            &Material {
-                name: group.material.clone(),
-                color,
-            },
+            &Material { name: group.material.clone(), color },
         )?;
     }
     Ok(())
@@ -151,10 +146,7 @@ impl File {
             }
             None => {
                 self.group_of.insert(name.clone(), next);
-                self.groups.push(Group {
-                    material: Some(name),
-                    triangles: Vec::new(),
-                });
+                self.groups.push(Group { material: Some(name), triangles: Vec::new() });
                 next
             }
         };
@@ -175,8 +167,7 @@ impl File {
             }
         }
         let triangles = &mut self.groups[self.current].triangles;
-        self.splitter
-            .split(&self.vertices, &self.corners, triangles);
+        self.splitter.split(&self.vertices, &self.corners, triangles);
     }
 }
 
@@ -185,27 +176,15 @@ impl File {
 ///
 /// A positive index may reference a vertex that comes later in the file. A range check follows at the end.
 fn corner(word: &[u8], count: usize) -> Option<u32> {
-    let end = word
-        .iter()
-        .position(|byte| *byte == b'/')
-        .unwrap_or(word.len());
-    let index = std::str::from_utf8(&word[..end])
-        .ok()?
-        .parse::<i64>()
-        .ok()?;
-    let index = if index < 0 {
-        index.checked_add(i64::try_from(count).ok()?)?
-    } else {
-        index - 1
-    };
+    let end = word.iter().position(|byte| *byte == b'/').unwrap_or(word.len());
+    let index = std::str::from_utf8(&word[..end]).ok()?.parse::<i64>().ok()?;
+    let index = if index < 0 { index.checked_add(i64::try_from(count).ok()?)? } else { index - 1 };
     u32::try_from(index).ok()
 }
 
 fn rest_of(line: &[u8], keyword: &[u8]) -> String {
     let line = line.trim_ascii();
-    String::from_utf8_lossy(line.get(keyword.len()..).unwrap_or_default())
-        .trim()
-        .to_owned()
+    String::from_utf8_lossy(line.get(keyword.len()..).unwrap_or_default()).trim().to_owned()
 }
 
 /// The materials of all libraries by name; the first wins if a name occurs twice.
@@ -220,15 +199,9 @@ fn read_libraries(
         // A name may contain spaces. A line may also list several names, each with the extension.
         let mut whole = fetch(library);
         let words: Vec<&str> = library.split_ascii_whitespace().collect();
-        let is_list = words.len() > 1
-            && words
-                .iter()
-                .all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
-        let names = if whole.is_none() && is_list {
-            words
-        } else {
-            vec![library.as_str()]
-        };
+        let is_list =
+            words.len() > 1 && words.iter().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
+        let names = if whole.is_none() && is_list { words } else { vec![library.as_str()] };
         for name in names {
             if seen.len() >= MOST_LIBRARIES || seen.contains(&name) {
                 continue;

@@ -24,10 +24,6 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            gltf_up: GltfUp::Turn,
-            max_triangles: 20_000_000,
-            uncut: false,
-        }
+        Self { gltf_up: GltfUp::Turn, max_triangles: 20_000_000, uncut: false }
     }
 }

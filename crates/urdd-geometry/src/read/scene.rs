@@ -42,9 +42,6 @@ impl Scene {
     /// Number of triangles in all parts.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
-        self.parts
-            .iter()
-            .map(|part| part.mesh.triangles.len())
-            .sum()
+        self.parts.iter().map(|part| part.mesh.triangles.len()).sum()
     }
 }

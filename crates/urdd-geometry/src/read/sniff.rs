@@ -20,9 +20,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
         return Ok(Format::StlBinary);
     }
     if let Some(unsupported) = known_but_unread(bytes) {
-        return Err(Fault::NotSupported(format!(
-            "this is {unsupported}, which is not supported"
-        )));
+        return Err(Fault::NotSupported(format!("this is {unsupported}, which is not supported")));
     }
     let head = &bytes[..bytes.len().min(HEAD)];
     let is_text = looks_like_text(head);
@@ -33,9 +31,7 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
         return if is_collada {
             Ok(Format::Collada)
         } else {
-            Err(Fault::NotSupported(
-                "this is XML, but not COLLADA".to_owned(),
-            ))
+            Err(Fault::NotSupported("this is XML, but not COLLADA".to_owned()))
         };
     }
     if is_text && text.starts_with(b"{") {
@@ -76,10 +72,8 @@ pub(super) fn extension_format(name: &str) -> Option<Format> {
 
 /// Whether the size matches the triangle count in the header of a binary STL exactly.
 fn is_whole_binary_stl(bytes: &[u8]) -> bool {
-    let Some(count) = bytes
-        .get(80..STL_HEADER)
-        .and_then(|count| count.try_into().ok())
-        .map(u32::from_le_bytes)
+    let Some(count) =
+        bytes.get(80..STL_HEADER).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes)
     else {
         return false;
     };
@@ -94,16 +88,10 @@ fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
         (b"Kaydara FBX", "FBX"),
         (b"BLENDER", "a Blender file"),
         (b"\x1f\x8b", "a gzip archive"),
-        (
-            b"version https://git-lfs",
-            "a Git LFS pointer instead of the mesh (run `git lfs pull`)",
-        ),
+        (b"version https://git-lfs", "a Git LFS pointer instead of the mesh (run `git lfs pull`)"),
         (b"OFF\n", "OFF"),
     ];
-    marks
-        .iter()
-        .find(|(mark, _)| bytes.starts_with(mark))
-        .map(|(_, name)| *name)
+    marks.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, name)| *name)
 }
 
 fn is_stl_name(extension: Option<Format>) -> bool {
@@ -129,15 +117,13 @@ fn starts_with_word(text: &[u8], word: &[u8]) -> bool {
 }
 
 fn find(head: &[u8], mark: &[u8]) -> bool {
-    head.windows(mark.len())
-        .any(|window| window.eq_ignore_ascii_case(mark))
+    head.windows(mark.len()).any(|window| window.eq_ignore_ascii_case(mark))
 }
 
 /// Whether the first line that is neither empty nor a comment starts with an OBJ keyword.
 fn is_obj(text: &[u8]) -> bool {
-    const KEYWORDS: [&[u8]; 10] = [
-        b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp",
-    ];
+    const KEYWORDS: [&[u8]; 10] =
+        [b"v", b"vt", b"vn", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl", b"vp"];
     text.split(|byte| *byte == b'\n')
         .map(<[u8]>::trim_ascii)
         .find(|line| !line.is_empty() && !line.starts_with(b"#"))

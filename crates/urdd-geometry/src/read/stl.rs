@@ -23,10 +23,7 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
         ))
         .into());
     };
-    let count = count
-        .iter()
-        .rev()
-        .fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
+    let count = count.iter().rev().fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
     let whole = data.len() / RECORD;
     let used = match usize::try_from(count) {
         Ok(0) => whole,
@@ -48,16 +45,12 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
             format!("the header states 0 triangles, but the file contains {used}"),
         );
     } else if data.len() != used * RECORD {
-        let text = format!(
-            "{} bytes after the last triangle were ignored",
-            data.len() - used * RECORD
-        );
+        let text =
+            format!("{} bytes after the last triangle were ignored", data.len() - used * RECORD);
         assembly.notes.add(NoteCode::WrongCount, text);
     }
-    let mut mesh = Mesh {
-        vertices: Vec::with_capacity(used * 3),
-        triangles: Vec::with_capacity(used),
-    };
+    let mut mesh =
+        Mesh { vertices: Vec::with_capacity(used * 3), triangles: Vec::with_capacity(used) };
     for record in data.chunks_exact(RECORD).take(used) {
         // Skip the stored normal: it is often 0, and the corners determine it.
         let corner =

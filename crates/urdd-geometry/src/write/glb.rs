@@ -55,10 +55,8 @@ fn write(parts: &[Part], smooth: bool) -> Result<Vec<u8>, WriteError> {
         primitive.insert("indices".to_owned(), json!(indices));
         if let Some(color) = part.color {
             let material = material(part.material.as_deref(), color);
-            let index = materials
-                .iter()
-                .position(|known| *known == material)
-                .unwrap_or(materials.len());
+            let index =
+                materials.iter().position(|known| *known == material).unwrap_or(materials.len());
             if index == materials.len() {
                 materials.push(material);
             }
@@ -164,14 +162,11 @@ impl Data {
         // The index 65535 would restart the primitive.
         let component = if mesh.vertices.len() <= 65535 {
             self.bytes.extend(
-                corners
-                    .filter_map(|corner| u16::try_from(*corner).ok())
-                    .flat_map(u16::to_le_bytes),
+                corners.filter_map(|corner| u16::try_from(*corner).ok()).flat_map(u16::to_le_bytes),
             );
             UNSIGNED_SHORT
         } else {
-            self.bytes
-                .extend(corners.flat_map(|corner| corner.to_le_bytes()));
+            self.bytes.extend(corners.flat_map(|corner| corner.to_le_bytes()));
             UNSIGNED_INT
         };
         let view = self.push_view(start, ELEMENT_ARRAY_BUFFER);

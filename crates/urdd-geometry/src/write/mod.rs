@@ -48,20 +48,13 @@ pub enum WriteError {
 impl From<Mesh> for Part {
     /// A part without colour.
     fn from(mesh: Mesh) -> Self {
-        Self {
-            mesh,
-            color: None,
-            material: None,
-        }
+        Self { mesh, color: None, material: None }
     }
 }
 
 /// The parts with triangles, after checking that all parts can be written.
 fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>, WriteError> {
-    let used: Vec<&Part> = parts
-        .iter()
-        .filter(|part| !part.mesh.triangles.is_empty())
-        .collect();
+    let used: Vec<&Part> = parts.iter().filter(|part| !part.mesh.triangles.is_empty()).collect();
     if used.is_empty() {
         return Err(WriteError::Empty);
     }
@@ -72,25 +65,16 @@ fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>,
             .iter()
             .position(|vertex| !single(*vertex).iter().all(|value| value.is_finite()))
         {
-            return Err(WriteError::NotFinite {
-                part: index,
-                vertex,
-            });
+            return Err(WriteError::NotFinite { part: index, vertex });
         }
         let count = part.mesh.vertices.len();
         let bad = |triangle: &[u32; 3]| triangle.iter().any(|corner| *corner as usize >= count);
         if let Some(triangle) = part.mesh.triangles.iter().position(bad) {
-            return Err(WriteError::IndexOutOfRange {
-                part: index,
-                triangle,
-            });
+            return Err(WriteError::IndexOutOfRange { part: index, triangle });
         }
     }
     let (vertices, triangles) = used.iter().fold((0, 0), |(vertices, triangles), part| {
-        (
-            vertices + part.mesh.vertices.len(),
-            triangles + part.mesh.triangles.len(),
-        )
+        (vertices + part.mesh.vertices.len(), triangles + part.mesh.triangles.len())
     });
     if u32::try_from(vertices).is_err() || u32::try_from(triangles).is_err() {
         return Err(WriteError::TooLarge(format));

@@ -60,18 +60,13 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
     for (at, triangle) in mesh.triangles.iter().enumerate() {
         let corners = mesh.corners(*triangle).map(Vector3::from);
         for k in 0..3 {
-            let (u, v) = (
-                corners[(k + 1) % 3] - corners[k],
-                corners[(k + 2) % 3] - corners[k],
-            );
+            let (u, v) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
             let angle = u.cross(&v).norm().atan2(u.dot(&v));
             sums[groups.first(3 * at + k)].add_assign(units[at] * angle);
         }
     }
-    let mut out = Shaded {
-        mesh: mesh.clone(),
-        normals: vec![[0.0, 0.0, 1.0]; mesh.vertices.len()],
-    };
+    let mut out =
+        Shaded { mesh: mesh.clone(), normals: vec![[0.0, 0.0, 1.0]; mesh.vertices.len()] };
     const FREE: u32 = u32::MAX;
     let mut vertex_of = vec![FREE; mesh.triangles.len() * 3];
     let mut is_taken = vec![false; mesh.vertices.len()];
@@ -81,11 +76,7 @@ pub(super) fn shaded(mesh: &Mesh) -> Shaded {
         if vertex_of[group] == FREE {
             // If opposite faces cancel, use the normal of the first face.
             let sum = sums[group];
-            let normal = if sum.norm() > 1e-6 {
-                unit(sum)
-            } else {
-                units[group / 3]
-            };
+            let normal = if sum.norm() > 1e-6 { unit(sum) } else { units[group / 3] };
             #[allow(clippy::cast_possible_truncation)]
             let normal: [f32; 3] = normal.map(|x| x as f32 + 0.0).into();
             if is_taken[vertex as usize] {
@@ -118,11 +109,8 @@ mod tests {
         let found = shaded(&cuboid([1.0, 2.0, 3.0]));
         assert_eq!(found.mesh.vertices.len(), 24);
         assert_eq!(found.mesh.vertices[..8], cuboid([1.0, 2.0, 3.0]).vertices);
-        for (triangle, normal) in found
-            .mesh
-            .triangles
-            .iter()
-            .flat_map(|t| t.map(|v| (*t, found.normals[v as usize])))
+        for (triangle, normal) in
+            found.mesh.triangles.iter().flat_map(|t| t.map(|v| (*t, found.normals[v as usize])))
         {
             let face = unit(double_area_normal(found.mesh.corners(triangle)));
             assert_eq!(face.map(|x| x as f32), Vector3::from(normal));
@@ -150,10 +138,7 @@ mod tests {
             let along = f64::from(normal[2]);
             let radial =
                 (f64::from(normal[0]) * vertex[0] + f64::from(normal[1]) * vertex[1]) / 0.1;
-            assert!(
-                along.abs() > 0.9999 || radial > 0.9999,
-                "{vertex:?} {normal:?}"
-            );
+            assert!(along.abs() > 0.9999 || radial > 0.9999, "{vertex:?} {normal:?}");
         }
     }
 }

@@ -17,19 +17,14 @@ pub fn stl(parts: &[Part]) -> Result<Vec<u8>, WriteError> {
     let mut bytes = Vec::with_capacity(84 + 50 * count);
     bytes.extend_from_slice(HEADER);
     bytes.resize(80, 0);
-    bytes.extend(
-        u32::try_from(count)
-            .map_err(|_| WriteError::TooLarge("STL"))?
-            .to_le_bytes(),
-    );
+    bytes.extend(u32::try_from(count).map_err(|_| WriteError::TooLarge("STL"))?.to_le_bytes());
     for part in parts {
         for triangle in &part.mesh.triangles {
             let corners = triangle.map(|index| single(part.mesh.vertices[index as usize]));
             let normal = double_area_normal(corners.map(|corner| corner.map(f64::from)));
             let normal = normal.try_normalize(0.0).unwrap_or_default();
-            for number in [single(normal.into()), corners[0], corners[1], corners[2]]
-                .into_iter()
-                .flatten()
+            for number in
+                [single(normal.into()), corners[0], corners[1], corners[2]].into_iter().flatten()
             {
                 bytes.extend(number.to_le_bytes());
             }

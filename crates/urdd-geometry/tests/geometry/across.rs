@@ -97,10 +97,8 @@ fn cases(count: usize) -> Vec<Case> {
 fn parallel_faces_apart() {
     let cases = cases(1600);
     let shape = |points: &Vec<[f64; 3]>| ConvexShape::of_points(points).expect("a shape");
-    let shapes: Vec<[ConvexShape; 2]> = cases
-        .iter()
-        .map(|case| case.points.each_ref().map(shape))
-        .collect();
+    let shapes: Vec<[ConvexShape; 2]> =
+        cases.iter().map(|case| case.points.each_ref().map(shape)).collect();
     let pairs: Vec<PlacedPair> = shapes
         .iter()
         .zip(&cases)
@@ -111,25 +109,13 @@ fn parallel_faces_apart() {
     let seen = witnesses(Level::new(), &pairs);
     for (k, case) in cases.iter().enumerate() {
         let gap = case.gap;
-        assert!(
-            (found[k] - gap).abs() <= ROUNDED,
-            "{k}: {} of {gap}",
-            found[k]
-        );
+        assert!((found[k] - gap).abs() <= ROUNDED, "{k}: {} of {gap}", found[k]);
         let [a, b] = &shapes[k];
         let alone = distance(a, b, &case.b_in_a);
-        assert!(
-            (found[k] - alone).abs() <= 2.0 * TOLERANCE,
-            "{k}: {} and {alone}",
-            found[k]
-        );
+        assert!((found[k] - alone).abs() <= 2.0 * TOLERANCE, "{k}: {} and {alone}", found[k]);
         assert_eq!(seen[k].distance.to_bits(), found[k].to_bits());
         let [p, q] = seen[k].points.map(Point3::from);
-        assert!(
-            ((q - p).norm() - alone).abs() <= 2.0 * TOLERANCE,
-            "{k}: {:?}, {gap}",
-            seen[k]
-        );
+        assert!(((q - p).norm() - alone).abs() <= 2.0 * TOLERANCE, "{k}: {:?}, {gap}", seen[k]);
         // Eight at a time, as in the lanes.
         if k % 8 == 0 {
             let eight = k..(k + 8).min(pairs.len());
@@ -153,10 +139,6 @@ fn parallel_faces_apart_as_parry_has_them() {
         );
         let found = query::distance(&Pose::identity(), &theirs[0], &pose, &theirs[1]);
         let found = found.expect("a distance").distance;
-        assert!(
-            (found - case.gap).abs() < 1e-6,
-            "{k}: parry {found}, {}",
-            case.gap
-        );
+        assert!((found - case.gap).abs() < 1e-6, "{k}: parry {found}, {}", case.gap);
     }
 }

@@ -9,10 +9,7 @@ use urdd_geometry::{farthest, hull::ConvexHull};
 
 /// The radius that a sphere around `centre` needs.
 fn reach(points: &[Point], centre: Vector3<f64>) -> f64 {
-    points
-        .iter()
-        .map(|p| (Vector3::from(*p) - centre).norm())
-        .fold(0.0, f64::max)
+    points.iter().map(|p| (Vector3::from(*p) - centre).norm()).fold(0.0, f64::max)
 }
 
 /// The sphere around points, after checking that it contains them and is the smallest: the radius is a convex function
@@ -50,12 +47,7 @@ fn two_three_or_four_points_carry_it() {
     let obtuse = sphere_of(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.1, 0.0]]);
     assert_eq!(obtuse.radius, 1.0);
     // Every other corner of a cube of edge 2.
-    let corners = [
-        [1.0, 1.0, 1.0],
-        [1.0, -1.0, -1.0],
-        [-1.0, 1.0, -1.0],
-        [-1.0, -1.0, 1.0],
-    ];
+    let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let four = sphere_of(&corners);
     assert_near(four.radius, height, 1e-15);
     assert!(Vector3::from(four.centre).norm() < 1e-15);
@@ -65,11 +57,7 @@ fn two_three_or_four_points_carry_it() {
 fn many_points_on_one_sphere() {
     let cube = sphere_of(&box_corners([2.0, 4.0, 4.0]));
     assert_eq!((cube.centre, cube.radius), ([0.0; 3], 3.0));
-    let cylinder = sphere_of(&placed(
-        &prism(500, 0.3, 0.8),
-        [0.5, 0.6, 0.7],
-        [1.0, 2.0, 3.0],
-    ));
+    let cylinder = sphere_of(&placed(&prism(500, 0.3, 0.8), [0.5, 0.6, 0.7], [1.0, 2.0, 3.0]));
     assert_near(cylinder.radius, 0.5, 1e-6);
     // Points all over the unit sphere, and others inside.
     let mut random = Random(3);
@@ -77,9 +65,7 @@ fn many_points_on_one_sphere() {
     for i in 0..2000 {
         let direction = Vector3::from(random.point()).normalize();
         let radius = if i % 4 == 0 { 1.0 } else { random.unit() };
-        points.push(single(
-            (direction * radius + Vector3::new(5.0, 6.0, 7.0)).into(),
-        ));
+        points.push(single((direction * radius + Vector3::new(5.0, 6.0, 7.0)).into()));
     }
     let ball = sphere_of(&points);
     assert_near(ball.radius, 1.0, 1e-6);
@@ -103,18 +89,9 @@ fn size_does_not_matter() {
 #[test]
 fn farthest_points() {
     let vertices = vec![[1.0, 2.0, 2.0], [0.0, -4.0, 3.0], [0.0; 3]];
-    assert_eq!(
-        farthest::of_mesh(&Mesh {
-            vertices,
-            triangles: vec![]
-        }),
-        5.0
-    );
+    assert_eq!(farthest::of_mesh(&Mesh { vertices, triangles: vec![] }), 5.0);
     assert_eq!(farthest::of_mesh(&Mesh::default()), 0.0);
-    let sphere = BoundingSphere {
-        centre: [2.0, 3.0, -6.0],
-        radius: 0.5,
-    };
+    let sphere = BoundingSphere { centre: [2.0, 3.0, -6.0], radius: 0.5 };
     assert_eq!(farthest::of_sphere(&sphere), 7.5);
 }
 

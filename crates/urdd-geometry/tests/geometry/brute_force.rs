@@ -45,11 +45,7 @@ fn in_hull(p: Point, points: &[Point]) -> bool {
         for j in i + 1..n {
             for k in j + 1..n {
                 for l in k + 1..n {
-                    let e = [
-                        points[j] - points[i],
-                        points[k] - points[i],
-                        points[l] - points[i],
-                    ];
+                    let e = [points[j] - points[i], points[k] - points[i], points[l] - points[i]];
                     let longest = e.iter().map(|e| e.norm()).fold(0.0, f64::max);
                     let m = Matrix3::from_columns(&e);
                     if m.determinant().abs() <= 1e-12 * longest.powi(3) {
@@ -69,14 +65,9 @@ fn in_hull(p: Point, points: &[Point]) -> bool {
 fn triangle_triangle(s: &[Point; 3], t: &[Point; 3]) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..3 {
-        least = least
-            .min(point_triangle(s[i], t))
-            .min(point_triangle(t[i], s));
+        least = least.min(point_triangle(s[i], t)).min(point_triangle(t[i], s));
         for j in 0..3 {
-            least = least.min(segment_segment(
-                [s[i], s[(i + 1) % 3]],
-                [t[j], t[(j + 1) % 3]],
-            ));
+            least = least.min(segment_segment([s[i], s[(i + 1) % 3]], [t[j], t[(j + 1) % 3]]));
         }
         if pierces([s[i], s[(i + 1) % 3]], t) || pierces([t[i], t[(i + 1) % 3]], s) {
             return 0.0;
@@ -97,9 +88,7 @@ fn point_triangle(p: Point, t: &[Point; 3]) -> f64 {
         .min(point_segment(p, [t[1], t[2]]))
         .min(point_segment(p, [t[2], t[0]]));
     let n = (t[1] - t[0]).cross(&(t[2] - t[0]));
-    let longest = (t[1] - t[0])
-        .norm_squared()
-        .max((t[2] - t[0]).norm_squared());
+    let longest = (t[1] - t[0]).norm_squared().max((t[2] - t[0]).norm_squared());
     if n.norm() > 1e-12 * longest {
         let inside = (0..3).all(|i| (t[(i + 1) % 3] - t[i]).cross(&(p - t[i])).dot(&n) >= 0.0);
         if inside {

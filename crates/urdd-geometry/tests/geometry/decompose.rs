@@ -45,8 +45,7 @@ fn above(m: &Mesh, p: [f64; 3]) -> f64 {
 pub(crate) fn push_box(m: &mut Mesh, low: [f64; 3], high: [f64; 3]) {
     let base = m.vertices.len() as u32;
     for i in 0..8 {
-        m.vertices
-            .push([0, 1, 2].map(|a| if i >> a & 1 == 1 { high[a] } else { low[a] }));
+        m.vertices.push([0, 1, 2].map(|a| if i >> a & 1 == 1 { high[a] } else { low[a] }));
     }
     let faces = [
         [0, 2, 1],
@@ -62,8 +61,7 @@ pub(crate) fn push_box(m: &mut Mesh, low: [f64; 3], high: [f64; 3]) {
         [4, 5, 6],
         [5, 7, 6],
     ];
-    m.triangles
-        .extend(faces.map(|f: [u32; 3]| f.map(|i| i + base)));
+    m.triangles.extend(faces.map(|f: [u32; 3]| f.map(|i| i + base)));
 }
 
 /// A prism over a simple polygon, given with a triangulation of its own.
@@ -91,11 +89,7 @@ pub(crate) fn turned(profile: &[[f64; 2]], steps: u32) -> Mesh {
     let mut m = Mesh::default();
     for k in 0..steps {
         let a = std::f64::consts::TAU * f64::from(k) / f64::from(steps);
-        m.vertices.extend(
-            profile
-                .iter()
-                .map(|p| [p[0] * a.cos(), p[0] * a.sin(), p[1]]),
-        );
+        m.vertices.extend(profile.iter().map(|p| [p[0] * a.cos(), p[0] * a.sin(), p[1]]));
         for i in 0..n {
             let (j, next) = ((i + 1) % n, (k + 1) % steps * n);
             m.triangles.push([k * n + i, next + i, next + j]);
@@ -136,56 +130,31 @@ fn surface_points(m: &Mesh) -> Vec<[f64; 3]> {
 /// Every surface point is in a piece to within the tolerance; each piece is convex, closed and in the link's hull.
 pub(crate) fn check(m: &Mesh, settings: &Settings) -> Vec<Mesh> {
     let d = decompose(m, settings);
-    assert!(
-        d.pieces.len() <= settings.max_pieces.max(1),
-        "{} pieces",
-        d.pieces.len()
-    );
-    let size = m
-        .vertices
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |s, x| s.max(x.abs()));
+    assert!(d.pieces.len() <= settings.max_pieces.max(1), "{} pieces", d.pieces.len());
+    let size = m.vertices.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
     let rounding = 1e-6 * size; // some units of f32 at this size
     for p in surface_points(m) {
-        let out = d
-            .pieces
-            .iter()
-            .map(|q| above(q, p))
-            .fold(f64::INFINITY, f64::min);
-        assert!(
-            out <= d.surface_tolerance + rounding,
-            "{p:?} is {out} outside"
-        );
+        let out = d.pieces.iter().map(|q| above(q, p)).fold(f64::INFINITY, f64::min);
+        assert!(out <= d.surface_tolerance + rounding, "{p:?} is {out} outside");
     }
     let all = ConvexHull::new(&m.vertices).expect("a hull").into_mesh();
     for q in &d.pieces {
-        let mut edges: Vec<[u32; 2]> = q
-            .triangles
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
-            .collect();
+        let mut edges: Vec<[u32; 2]> =
+            q.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
         let mut twins: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [b, a]).collect();
         edges.sort_unstable();
         twins.sort_unstable();
         assert_eq!(edges, twins, "not closed");
         for &v in &q.vertices {
             assert!(above(q, v) <= rounding, "not convex: {}", above(q, v));
-            assert!(
-                above(&all, v) <= rounding,
-                "out of the hull by {}",
-                above(&all, v)
-            );
+            assert!(above(&all, v) <= rounding, "out of the hull by {}", above(&all, v));
         }
     }
     d.pieces
 }
 
 pub(crate) fn exact() -> Settings {
-    Settings {
-        surface_tolerance: 0.0,
-        ..Settings::default()
-    }
+    Settings { surface_tolerance: 0.0, ..Settings::default() }
 }
 
 #[test]
@@ -205,19 +174,8 @@ fn a_convex_link_is_one_piece() {
 
 #[test]
 fn an_l_is_two_boxes() {
-    let outline = [
-        [0.0, 0.0],
-        [0.2, 0.0],
-        [0.2, 0.1],
-        [0.1, 0.1],
-        [0.1, 0.3],
-        [0.0, 0.3],
-    ];
-    let l = prism(
-        &outline,
-        &[[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]],
-        0.05,
-    );
+    let outline = [[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.1, 0.1], [0.1, 0.3], [0.0, 0.3]];
+    let l = prism(&outline, &[[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]], 0.05);
     assert!((volume(&l) - 0.002).abs() < 1e-12, "the test's own mesh");
     let pieces = check(&l, &exact());
     assert_eq!(pieces.len(), 2);
@@ -238,57 +196,32 @@ fn two_bodies_are_two_pieces() {
 #[test]
 fn a_ring_keeps_its_hole() {
     let torus = turned(&ring(0.1, 0.02, 16), 48);
-    let settings = Settings {
-        max_pieces: 12,
-        ..Settings::default()
-    };
+    let settings = Settings { max_pieces: 12, ..Settings::default() };
     let pieces = check(&torus, &settings);
-    assert!(
-        pieces.iter().all(|p| above(p, [0.0; 3]) > 0.0),
-        "the hole is filled"
-    );
+    assert!(pieces.iter().all(|p| above(p, [0.0; 3]) > 0.0), "the hole is filled");
     // 2 pi^2 R r^2, and the hull's: a disc with a rounded rim, pi (R+r)^2 2r less the rim's corners.
-    let (solid, sum) = (
-        2.0 * std::f64::consts::PI.powi(2) * 0.1 * 0.0004,
-        pieces.iter().map(volume).sum::<f64>(),
-    );
+    let (solid, sum) =
+        (2.0 * std::f64::consts::PI.powi(2) * 0.1 * 0.0004, pieces.iter().map(volume).sum::<f64>());
     assert!(sum < 1.35 * solid, "{} times the solid", sum / solid);
 }
 
 #[test]
 fn a_tube_is_not_a_rod() {
     let tube = turned(&[[0.08, 0.1], [0.1, 0.1], [0.1, -0.1], [0.08, -0.1]], 48);
-    let pieces = check(
-        &tube,
-        &Settings {
-            max_pieces: 12,
-            ..Settings::default()
-        },
-    );
-    assert!(
-        pieces.iter().all(|p| above(p, [0.0; 3]) > 0.0),
-        "the bore is filled"
-    );
+    let pieces = check(&tube, &Settings { max_pieces: 12, ..Settings::default() });
+    assert!(pieces.iter().all(|p| above(p, [0.0; 3]) > 0.0), "the bore is filled");
 }
 
 #[test]
 fn odd_meshes_are_taken() {
     let flat = Mesh {
-        vertices: vec![
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0],
-        ],
+        vertices: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     };
     assert_eq!(check(&flat, &exact()).len(), 1);
     let none = decompose(&Mesh::default(), &Settings::default());
     assert!(none.pieces.is_empty());
-    let bad = Mesh {
-        vertices: vec![[f64::NAN; 3]; 3],
-        triangles: vec![[0, 1, 2], [7, 8, 9]],
-    };
+    let bad = Mesh { vertices: vec![[f64::NAN; 3]; 3], triangles: vec![[0, 1, 2], [7, 8, 9]] };
     assert_eq!(
         (
             decompose(&bad, &Settings::default()).pieces.len(),
@@ -299,11 +232,7 @@ fn odd_meshes_are_taken() {
     for scale in [1e-9, 1e-3, 1e6, 1e30] {
         let mut m = Mesh::default();
         push_box(&mut m, [0.0; 3], [scale; 3]);
-        assert_eq!(
-            decompose(&m, &Settings::default()).pieces.len(),
-            1,
-            "at {scale}"
-        );
+        assert_eq!(decompose(&m, &Settings::default()).pieces.len(), 1, "at {scale}");
     }
     // A point, a line, and a needle's tip.
     for v in [
@@ -311,13 +240,7 @@ fn odd_meshes_are_taken() {
         [[0.0; 3], [1.0; 3], [2.0; 3]],
         [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1e-12, 0.0]],
     ] {
-        decompose(
-            &Mesh {
-                vertices: v.to_vec(),
-                triangles: vec![[0, 1, 2]],
-            },
-            &Settings::default(),
-        );
+        decompose(&Mesh { vertices: v.to_vec(), triangles: vec![[0, 1, 2]] }, &Settings::default());
     }
 }
 
@@ -326,10 +249,7 @@ fn threads_do_not_change_a_bit() {
     let mut m = turned(&ring(0.1, 0.02, 24), 96);
     push_box(&mut m, [-0.05; 3], [0.05; 3]);
     let run = |n| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(n)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
         pool.install(|| decompose(&m, &Settings::default()))
     };
     let one = run(1);

@@ -6,10 +6,7 @@ use urdd_geometry::decompose::{Settings, decompose};
 use crate::decompose::{check, exact, prism, push_box, ring, turned, volume};
 
 fn within(most: usize) -> Settings {
-    Settings {
-        max_pieces: most,
-        ..exact()
-    }
+    Settings { max_pieces: most, ..exact() }
 }
 
 /// The summed volume of the pieces over that of the solid.
@@ -32,14 +29,10 @@ fn comb(teeth: u32) -> (Mesh, f64) {
     // The back: a fan about its lower left corner.
     let last = outline.len() as u32 - 1;
     ears.push([0, 1, 2]);
-    ears.extend(
-        (2..last)
-            .filter(|k| (k - 2) % 4 != 1 && (k - 2) % 4 != 2)
-            .map(|k| {
-                let next = if (k - 2) % 4 == 0 { k + 3 } else { k + 1 };
-                [0, k, next]
-            }),
-    );
+    ears.extend((2..last).filter(|k| (k - 2) % 4 != 1 && (k - 2) % 4 != 2).map(|k| {
+        let next = if (k - 2) % 4 == 0 { k + 3 } else { k + 1 };
+        [0, k, next]
+    }));
     let solid = 0.03 * (wide * 0.02 + f64::from(teeth) * 0.01 * 0.05);
     (prism(&outline, &ears, 0.03), solid)
 }
@@ -48,10 +41,7 @@ fn comb(teeth: u32) -> (Mesh, f64) {
 fn a_comb_is_a_back_and_its_teeth() {
     for (teeth, most) in [(5, 7), (12, 20)] {
         let (mesh, solid) = comb(teeth);
-        assert!(
-            (volume(&mesh) / solid - 1.0).abs() < 1e-9,
-            "the test's own mesh"
-        );
+        assert!((volume(&mesh) / solid - 1.0).abs() < 1e-9, "the test's own mesh");
         let pieces = check(&mesh, &within(most));
         assert!(pieces.len() > teeth as usize);
         let fullness = fullness(&pieces, solid);
@@ -63,14 +53,7 @@ fn a_comb_is_a_back_and_its_teeth() {
 fn box_cup([outer, inner, height, floor]: [f64; 4], angle: f64) -> (Mesh, f64) {
     // A square of circumradius R has the half side R / sqrt 2, and its sides across the diagonals.
     let [r, s] = [outer, inner].map(|half| half * 2.0_f64.sqrt());
-    let profile = [
-        [0.0, 0.0],
-        [r, 0.0],
-        [r, height],
-        [s, height],
-        [s, floor],
-        [0.0, floor],
-    ];
+    let profile = [[0.0, 0.0], [r, 0.0], [r, height], [s, height], [s, floor], [0.0, floor]];
     let mut cup = turned(&profile, 4);
     let (sin, cos) = (angle + std::f64::consts::FRAC_PI_4).sin_cos();
     for v in &mut cup.vertices {
@@ -82,17 +65,10 @@ fn box_cup([outer, inner, height, floor]: [f64; 4], angle: f64) -> (Mesh, f64) {
 
 #[test]
 fn a_cup_is_a_floor_and_four_walls() {
-    for shape in [
-        [0.07, 0.056, 0.15, 0.02],
-        [0.1, 0.098, 0.15, 0.002],
-        [0.03, 0.029, 0.2, 0.001],
-    ] {
+    for shape in [[0.07, 0.056, 0.15, 0.02], [0.1, 0.098, 0.15, 0.002], [0.03, 0.029, 0.2, 0.001]] {
         for angle in [0.0, std::f64::consts::FRAC_PI_4, 0.3] {
             let (mut cup, solid) = box_cup(shape, angle);
-            assert!(
-                (volume(&cup).abs() / solid - 1.0).abs() < 1e-9,
-                "the test's own mesh"
-            );
+            assert!((volume(&cup).abs() / solid - 1.0).abs() < 1e-9, "the test's own mesh");
             // Triangles in either winding.
             for _ in 0..2 {
                 let pieces = check(&cup, &within(7));
@@ -142,10 +118,7 @@ fn a_face_that_rounding_bends_is_cut_along() {
 fn no_more_pieces_than_a_standoff_needs() {
     let (mesh, _) = comb(12);
     let count = |standoff_tolerance: f64| {
-        let settings = Settings {
-            standoff_tolerance,
-            ..within(20)
-        };
+        let settings = Settings { standoff_tolerance, ..within(20) };
         decompose(&mesh, &settings).pieces.len()
     };
     // One piece has lids of 1 cm over the gaps. They are on average 2.5 mm from the surface where they are open, as are

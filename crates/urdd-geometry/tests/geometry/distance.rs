@@ -15,9 +15,7 @@ fn hull(points: &[[f64; 3]]) -> ConvexShape {
 /// The corners of a box about the origin.
 fn corners([x, y, z]: [f64; 3]) -> Vec<[f64; 3]> {
     let sign = |k: usize, bit: usize, v: f64| if k >> bit & 1 == 0 { -v } else { v };
-    (0..8)
-        .map(|k| [sign(k, 0, x), sign(k, 1, y), sign(k, 2, z)])
-        .collect()
+    (0..8).map(|k| [sign(k, 0, x), sign(k, 1, y), sign(k, 2, z)]).collect()
 }
 
 fn turn(roll: f64, pitch: f64, yaw: f64) -> UnitQuaternion<f64> {
@@ -36,36 +34,22 @@ fn near(found: f64, expected: f64) {
 /// The distance of two shapes given in one frame, measured in a few frames and in both orders.
 #[track_caller]
 fn check(a: &[[f64; 3]], b: &[[f64; 3]], expected: f64) {
-    for q in [
-        turn(0.0, 0.0, 0.0),
-        turn(0.3, -1.1, 2.0),
-        turn(-2.0, 0.4, 0.1),
-    ] {
+    for q in [turn(0.0, 0.0, 0.0), turn(0.3, -1.1, 2.0), turn(-2.0, 0.4, 0.1)] {
         let moved: Vec<[f64; 3]> = b.iter().map(|p| (q * Vector3::from(*p)).into()).collect();
         let b_in_a = Isometry3::from_parts(Translation3::identity(), q.inverse());
         near(distance(&hull(a), &hull(&moved), &b_in_a), expected);
-        near(
-            distance(&hull(&moved), &hull(a), &b_in_a.inverse()),
-            expected,
-        );
+        near(distance(&hull(&moved), &hull(a), &b_in_a.inverse()), expected);
     }
 }
 
 fn shifted(points: &[[f64; 3]], by: [f64; 3]) -> Vec<[f64; 3]> {
-    points
-        .iter()
-        .map(|p| std::array::from_fn(|k| p[k] + by[k]))
-        .collect()
+    points.iter().map(|p| std::array::from_fn(|k| p[k] + by[k])).collect()
 }
 
 #[test]
 fn parallel_faces() {
     // Boxes of half extents (1, 2, 3) and (0.5, 0.5, 0.5): partially overlapping faces 0.25 apart.
-    check(
-        &corners([1.0, 2.0, 3.0]),
-        &shifted(&corners([0.5; 3]), [1.75, 1.9, -2.8]),
-        0.25,
-    );
+    check(&corners([1.0, 2.0, 3.0]), &shifted(&corners([0.5; 3]), [1.75, 1.9, -2.8]), 0.25);
 }
 
 #[test]
@@ -80,18 +64,8 @@ fn parallel_edges_and_corners() {
 #[test]
 fn crossed_edges() {
     // The long edges of two roofs cross at right angles, 0.125 apart.
-    let below = [
-        [-5.0, 0.0, 0.0],
-        [5.0, 0.0, 0.0],
-        [0.0, -1.0, -2.0],
-        [0.0, 1.0, -2.0],
-    ];
-    let above = [
-        [0.7, -5.0, 0.125],
-        [0.7, 5.0, 0.125],
-        [-1.0, 0.0, 3.0],
-        [1.0, 0.0, 3.0],
-    ];
+    let below = [[-5.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, -1.0, -2.0], [0.0, 1.0, -2.0]];
+    let above = [[0.7, -5.0, 0.125], [0.7, 5.0, 0.125], [-1.0, 0.0, 3.0], [1.0, 0.0, 3.0]];
     check(&below, &above, 0.125);
 }
 
@@ -153,24 +127,12 @@ fn flat_thin_and_single() {
     check(&triangle, &shifted(&triangle, [2.0, 0.0, 0.0]), 1.0);
     check(&triangle, &shifted(&triangle, [0.25, 0.25, 0.0]), 0.0);
     // Two segments that cross, and two that are parallel; two points.
-    check(
-        &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
-        &[[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]],
-        0.0,
-    );
-    check(
-        &[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
-        &[[-1.0, 2.0, 0.0], [3.0, 2.0, 0.0]],
-        2.0,
-    );
+    check(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.0);
+    check(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]], &[[-1.0, 2.0, 0.0], [3.0, 2.0, 0.0]], 2.0);
     check(&[[1.0, 2.0, 3.0]], &[[1.0, 5.0, 7.0]], 5.0);
     check(&[[1.0, 2.0, 3.0]], &[[1.0, 2.0, 3.0]], 0.0);
     // A sliver 1 m long and 1e-9 m wide.
-    check(
-        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1e-9, 0.0]],
-        &[[0.5, 0.3, 0.4]],
-        0.5,
-    );
+    check(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 1e-9, 0.0]], &[[0.5, 0.3, 0.4]], 0.5);
 }
 
 #[test]
@@ -178,23 +140,13 @@ fn small_and_large() {
     // From 1e6 m rounding keeps the bounds farther apart than the tolerance.
     for size in [1e-4, 1e-2, 1.0, 100.0, 1e4, 1e6, 1e8] {
         let a: Vec<[f64; 3]> = corners([size, 2.0 * size, 3.0 * size]);
-        let b = shifted(
-            &corners([0.5 * size; 3]),
-            [1.7 * size, 2.8 * size, 4.1 * size],
-        );
-        for q in [
-            turn(0.0, 0.0, 0.0),
-            turn(0.3, -1.1, 2.0),
-            turn(-2.0, 0.4, 0.1),
-        ] {
+        let b = shifted(&corners([0.5 * size; 3]), [1.7 * size, 2.8 * size, 4.1 * size]);
+        for q in [turn(0.0, 0.0, 0.0), turn(0.3, -1.1, 2.0), turn(-2.0, 0.4, 0.1)] {
             let moved: Vec<[f64; 3]> = b.iter().map(|p| (q * Vector3::from(*p)).into()).collect();
             let b_in_a = Isometry3::from_parts(Translation3::identity(), q.inverse());
             let found = distance(&hull(&a), &hull(&moved), &b_in_a);
             let error = (found - 0.7 * size).abs();
-            assert!(
-                error <= TOLERANCE + 1e-13 * size,
-                "size {size}, error {error}"
-            );
+            assert!(error <= TOLERANCE + 1e-13 * size, "size {size}, error {error}");
         }
     }
 }
@@ -218,10 +170,7 @@ fn many_vertices() {
         .map(|p| (Vector3::from(*p) - Vector3::new(0.0, 0.0, 2.5)).norm())
         .fold(9.0, f64::min);
     let found = distance(&ball, &hull(&[[0.0, 0.0, 2.5]]), &Isometry3::identity());
-    assert!(
-        found <= least + TOLERANCE && found >= 1.5,
-        "{found} {least}"
-    );
+    assert!(found <= least + TOLERANCE && found >= 1.5, "{found} {least}");
 }
 
 /// A blunt dome with a keel, across a cone's tip on the dome's axis. The vertices that the descent meets, the axis and
@@ -260,10 +209,7 @@ fn boxes_and_spheres() {
     let a = OrientedBox::new(pose(5.0, 0.0, 0.0), [1.0, 2.0, 3.0]).expect("a box");
     let b = OrientedBox::new(pose(0.0, 0.0, -1.0), [0.5; 3]).expect("a box");
     // As in parallel_edges_and_corners, the frames of the boxes being shifted in those of the bodies.
-    near(
-        distance(&a, &b, &Isometry3::translation(6.7, 2.8, 5.1)),
-        0.7,
-    );
+    near(distance(&a, &b, &Isometry3::translation(6.7, 2.8, 5.1)), 0.7);
     // Turned by an eighth about z, b's corner is sqrt(0.5) towards a.
     let eighth = Isometry3::from_parts(
         Translation3::new(8.0, 0.0, 0.0),
@@ -273,44 +219,24 @@ fn boxes_and_spheres() {
 
     let s = Sphere::new(Vector3::new(0.0, 1.0, 0.0), 0.5).expect("a sphere");
     let t = Sphere::new(Vector3::new(0.0, 0.0, 1.0), 0.25).expect("a sphere");
-    near(
-        distance(&s, &t, &Isometry3::translation(3.0, 5.0, -1.0)),
-        4.25,
-    );
-    near(
-        distance(&s, &t, &Isometry3::translation(0.0, 1.5, -1.0)),
-        0.0,
-    );
+    near(distance(&s, &t, &Isometry3::translation(3.0, 5.0, -1.0)), 4.25);
+    near(distance(&s, &t, &Isometry3::translation(0.0, 1.5, -1.0)), 0.0);
 }
 
 #[test]
 fn what_is_no_shape() {
-    assert_eq!(
-        ConvexShape::new(&Mesh::default()).err(),
-        Some(ShapeError::Empty)
-    );
+    assert_eq!(ConvexShape::new(&Mesh::default()).err(), Some(ShapeError::Empty));
     let points = [[0.0; 3], [0.0, f64::NAN, 0.0]];
-    assert_eq!(
-        ConvexShape::of_points(&points).err(),
-        Some(ShapeError::OutOfRange { vertex: 1 })
-    );
+    assert_eq!(ConvexShape::of_points(&points).err(), Some(ShapeError::OutOfRange { vertex: 1 }));
     let points = [[f64::INFINITY, 0.0, 0.0]];
-    assert_eq!(
-        ConvexShape::of_points(&points).err(),
-        Some(ShapeError::OutOfRange { vertex: 0 })
-    );
+    assert_eq!(ConvexShape::of_points(&points).err(), Some(ShapeError::OutOfRange { vertex: 0 }));
     let size = OrientedBox::new(Isometry3::identity(), [1.0, -1.0, 1.0]).err();
     assert_eq!(size, Some(ShapeError::Size { size: -1.0 }));
     assert_eq!(
         Sphere::new(Vector3::zeros(), f64::INFINITY).err(),
-        Some(ShapeError::Size {
-            size: f64::INFINITY
-        })
+        Some(ShapeError::Size { size: f64::INFINITY })
     );
-    assert_eq!(
-        Sphere::new(Vector3::new(0.0, f64::NAN, 0.0), 1.0).err(),
-        Some(ShapeError::Pose)
-    );
+    assert_eq!(Sphere::new(Vector3::new(0.0, f64::NAN, 0.0), 1.0).err(), Some(ShapeError::Pose));
 }
 
 /// Some points: anywhere, on a coarse grid (many ties, coplanar and repeated points), or flat; of some size.
@@ -329,24 +255,16 @@ fn points() -> impl Strategy<Value = Vec<[f64; 3]>> {
 /// A pose; half of them on a grid and without a rotation.
 fn pose() -> impl Strategy<Value = Isometry3<f64>> {
     let angle = -3.1..3.1;
-    let any = (
-        prop::array::uniform3(-3.0..3.0),
-        prop::array::uniform3(angle),
-    )
-        .prop_map(|([x, y, z], [r, p, w])| {
-            Isometry3::from_parts(Translation3::new(x, y, z), turn(r, p, w))
-        });
+    let any = (prop::array::uniform3(-3.0..3.0), prop::array::uniform3(angle)).prop_map(
+        |([x, y, z], [r, p, w])| Isometry3::from_parts(Translation3::new(x, y, z), turn(r, p, w)),
+    );
     let whole = (-4..=4).prop_map(f64::from);
     let grid = prop::array::uniform3(whole).prop_map(|[x, y, z]| Isometry3::translation(x, y, z));
     prop_oneof![any, grid]
 }
 
 fn size(a: &[[f64; 3]], b: &[[f64; 3]], pose: &Isometry3<f64>) -> f64 {
-    let far = a
-        .iter()
-        .chain(b)
-        .flatten()
-        .fold(0.0_f64, |m, x| m.max(x.abs()));
+    let far = a.iter().chain(b).flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
     far + pose.translation.vector.norm()
 }
 

@@ -29,10 +29,7 @@ fn a_box_full_of_points_on_its_faces_has_eight_corners() {
         }
     }
     let hull = hull_of(&grid);
-    assert_eq!(
-        (hull.mesh().vertices.len(), hull.mesh().triangles.len()),
-        (8, 12)
-    );
+    assert_eq!((hull.mesh().vertices.len(), hull.mesh().triangles.len()), (8, 12));
     assert_eq!(volume(hull.mesh()), 13.5);
     assert_eq!(area(hull.mesh()), 36.0);
     // Rotated, its points are off their planes by single-precision rounding, and the hull has more corners.
@@ -73,10 +70,7 @@ fn points_in_a_plane_have_a_polygon_of_two_sides() {
     }
     let hull = hull_of(&points);
     assert!(hull.is_flat());
-    assert_eq!(
-        (hull.mesh().vertices.len(), hull.mesh().triangles.len()),
-        (3, 2)
-    );
+    assert_eq!((hull.mesh().vertices.len(), hull.mesh().triangles.len()), (3, 2));
     assert_near(area(hull.mesh()), 2.0 * 18.0 * 3f64.sqrt(), 1e-15);
     // A square: two fans, no edge in four triangles.
     let square = hull_of(&[
@@ -87,10 +81,7 @@ fn points_in_a_plane_have_a_polygon_of_two_sides() {
         [1.0, 0.5, 1.0],
     ]);
     assert!(square.is_flat());
-    assert_eq!(
-        (square.mesh().vertices.len(), square.mesh().triangles.len()),
-        (4, 4)
-    );
+    assert_eq!((square.mesh().vertices.len(), square.mesh().triangles.len()), (4, 4));
     assert_eq!(area(square.mesh()), 8.0);
 }
 
@@ -113,38 +104,19 @@ fn thin_plates_and_needles_are_not_flat() {
 
 #[test]
 fn what_has_no_area_is_refused() {
-    let line: Vec<Point> = (0..9)
-        .map(|i| [1.0, 2.0, 3.0].map(|x| x * f64::from(i)))
-        .collect();
+    let line: Vec<Point> = (0..9).map(|i| [1.0, 2.0, 3.0].map(|x| x * f64::from(i))).collect();
     let nan = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, f64::NAN, 0.0]];
     assert_eq!(ConvexHull::new(&[]), Err(HullError::Empty));
-    assert_eq!(
-        ConvexHull::new(&[[1.0, 2.0, 3.0]; 5]),
-        Err(HullError::Point)
-    );
-    assert_eq!(
-        ConvexHull::new(&[[0.0; 3], [-0.0; 3]]),
-        Err(HullError::Point)
-    );
+    assert_eq!(ConvexHull::new(&[[1.0, 2.0, 3.0]; 5]), Err(HullError::Point));
+    assert_eq!(ConvexHull::new(&[[0.0; 3], [-0.0; 3]]), Err(HullError::Point));
     assert_eq!(ConvexHull::new(&line), Err(HullError::Line));
-    assert_eq!(
-        ConvexHull::new(&nan),
-        Err(HullError::OutOfRange { point: 2 })
-    );
+    assert_eq!(ConvexHull::new(&nan), Err(HullError::OutOfRange { point: 2 }));
     for bad in [f64::INFINITY, f64::NEG_INFINITY, 1e61, 1e-61, 5e-324] {
         let points = [[0.0; 3], [1.0, bad, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        assert_eq!(
-            ConvexHull::new(&points),
-            Err(HullError::OutOfRange { point: 1 })
-        );
+        assert_eq!(ConvexHull::new(&points), Err(HullError::OutOfRange { point: 1 }));
     }
     for extreme in [f64::from(f32::MAX), f64::from(f32::from_bits(1))] {
-        let points = [
-            [0.0; 3],
-            [extreme, 0.0, 0.0],
-            [0.0, extreme, 0.0],
-            [0.0, 0.0, extreme],
-        ];
+        let points = [[0.0; 3], [extreme, 0.0, 0.0], [0.0, extreme, 0.0], [0.0, 0.0, extreme]];
         assert_eq!(hull_of(&points).mesh().triangles.len(), 4);
     }
 }

@@ -8,10 +8,7 @@ use urdd_geometry::primitives;
 const NO_TURN: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 fn near(found: f64, expected: f64) {
-    assert!(
-        (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
-        "{found} for {expected}"
-    );
+    assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} for {expected}");
 }
 
 #[test]
@@ -20,58 +17,32 @@ fn a_box_has_its_area_volume_and_bounds() {
     near(mesh.area(), 22.0);
     near(mesh.signed_volume(), 6.0);
     let bounds = mesh.bounds().unwrap();
-    assert_eq!(
-        (bounds.min, bounds.max),
-        ([-0.5, -1.0, -1.5], [0.5, 1.0, 1.5])
-    );
+    assert_eq!((bounds.min, bounds.max), ([-0.5, -1.0, -1.5], [0.5, 1.0, 1.5]));
 }
 
 #[test]
 fn the_volume_does_not_suffer_from_distance() {
     let mut mesh = primitives::cuboid([1.0, 1.0, 1.0]);
-    mesh.transform(&Matrix4::new_translation(&Vector3::new(
-        1e6 / 3.0,
-        -1e6 / 7.0,
-        1e6 / 9.0,
-    )));
-    assert!(
-        (mesh.signed_volume() - 1.0).abs() < 1e-8,
-        "{}",
-        mesh.signed_volume()
-    );
+    mesh.transform(&Matrix4::new_translation(&Vector3::new(1e6 / 3.0, -1e6 / 7.0, 1e6 / 9.0)));
+    assert!((mesh.signed_volume() - 1.0).abs() < 1e-8, "{}", mesh.signed_volume());
 }
 
 #[test]
 fn scale_comes_before_rotation_and_translation() {
     let quarter_turn = [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
     let mut mesh = primitives::cuboid([1.0, 1.0, 1.0]);
-    mesh.transform(&placement(
-        [2.0, 4.0, 6.0],
-        quarter_turn,
-        [10.0, 20.0, 30.0],
-    ));
+    mesh.transform(&placement([2.0, 4.0, 6.0], quarter_turn, [10.0, 20.0, 30.0]));
     let bounds = mesh.bounds().unwrap();
-    assert_eq!(
-        (bounds.min, bounds.max),
-        ([8.0, 19.0, 27.0], [12.0, 21.0, 33.0])
-    );
+    assert_eq!((bounds.min, bounds.max), ([8.0, 19.0, 27.0], [12.0, 21.0, 33.0]));
     near(mesh.signed_volume(), 48.0);
 }
 
 #[test]
 fn a_mirrored_mesh_still_faces_outward() {
-    for scale in [
-        [-1.0, 1.0, 1.0],
-        [1.0, -2.0, 1.0],
-        [-1.0, -1.0, -1.0],
-        [-1.0, -1.0, 1.0],
-    ] {
+    for scale in [[-1.0, 1.0, 1.0], [1.0, -2.0, 1.0], [-1.0, -1.0, -1.0], [-1.0, -1.0, 1.0]] {
         let mut mesh = primitives::cuboid([1.0, 2.0, 3.0]);
         mesh.transform(&placement(scale, NO_TURN, [0.0; 3]));
-        near(
-            mesh.signed_volume(),
-            6.0 * scale.iter().product::<f64>().abs(),
-        );
+        near(mesh.signed_volume(), 6.0 * scale.iter().product::<f64>().abs());
     }
 }
 
@@ -110,16 +81,8 @@ fn rounding_gives_binary32_without_negative_zero() {
         triangles: vec![[0, 1, 1], [0, 1, 2]],
     };
     assert_eq!(mesh.round_to_f32(), 1, "the triangle with 1e300 goes");
-    assert_eq!(
-        mesh.vertices,
-        [[f64::from(0.1_f32), 0.0, 0.0], [1.0, 0.0, 0.0]]
-    );
-    assert!(
-        mesh.vertices
-            .iter()
-            .flatten()
-            .all(|value| value.is_sign_positive())
-    );
+    assert_eq!(mesh.vertices, [[f64::from(0.1_f32), 0.0, 0.0], [1.0, 0.0, 0.0]]);
+    assert!(mesh.vertices.iter().flatten().all(|value| value.is_sign_positive()));
     assert_eq!(mesh.triangles, [[0, 1, 1]]);
 }
 
@@ -136,10 +99,7 @@ fn welding_keeps_the_first_of_equal_places() {
         triangles: vec![[0, 3, 1], [2, 3, 4], [1, 4, 3]],
     };
     assert_eq!(mesh.weld(), 2);
-    assert_eq!(
-        mesh.vertices,
-        [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-    );
+    assert_eq!(mesh.vertices, [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(mesh.triangles, [[0, 2, 1], [0, 2, 1], [1, 1, 2]]);
     assert_eq!(mesh.drop_degenerate(), 1);
     assert_eq!(mesh.triangles, [[0, 2, 1], [0, 2, 1]]);
@@ -161,16 +121,9 @@ fn a_soup_of_many_triangles_welds_to_its_vertices() {
 
 #[test]
 fn degenerate_is_no_area_and_no_less() {
-    let line = [
-        [0.0, 0.0, 0.0],
-        [1.0, 1.0, 1.0],
-        [2.0, 2.0, 2.0],
-        [2.0, 2.0, 2.0 + 1e-9],
-    ];
-    let mut mesh = Mesh {
-        vertices: line.to_vec(),
-        triangles: vec![[0, 1, 2], [0, 1, 3], [0, 0, 3]],
-    };
+    let line = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [2.0, 2.0, 2.0 + 1e-9]];
+    let mut mesh =
+        Mesh { vertices: line.to_vec(), triangles: vec![[0, 1, 2], [0, 1, 3], [0, 0, 3]] };
     assert_eq!(mesh.drop_degenerate(), 2);
     assert_eq!(mesh.triangles, [[0, 1, 3]]);
     assert_eq!(mesh.drop_unused_vertices(), 1);
@@ -183,12 +136,5 @@ fn unused_vertices_are_not_in_the_bounds() {
     let mut mesh = primitives::cuboid([1.0; 3]);
     mesh.vertices.push([9.0; 3]);
     assert_eq!(mesh.bounds().unwrap().max, [0.5; 3]);
-    assert!(
-        Mesh {
-            vertices: vec![[1.0; 3]],
-            triangles: vec![]
-        }
-        .bounds()
-        .is_none()
-    );
+    assert!(Mesh { vertices: vec![[1.0; 3]], triangles: vec![] }.bounds().is_none());
 }

@@ -18,10 +18,7 @@ fn assert_closed(mesh: &Mesh) {
         assert_eq!(*count, 1, "edge {from} {to}");
         assert_eq!(edges.get(&(*to, *from)), Some(&1), "edge {to} {from}");
     }
-    assert_eq!(
-        mesh.vertices.len() + mesh.triangles.len(),
-        edges.len() / 2 + 2
-    );
+    assert_eq!(mesh.vertices.len() + mesh.triangles.len(), edges.len() / 2 + 2);
 }
 
 /// All of these bodies are convex and contain the origin: each face must point away from it.

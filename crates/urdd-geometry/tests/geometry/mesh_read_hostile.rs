@@ -19,10 +19,7 @@ const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0
 "bufferViews":[{"buffer":0,"byteLength":48,"byteStride":12},{"buffer":0,"byteOffset":48,"byteLength":8}],"buffers":[{"byteLength":56,"uri":"a.bin"}]}"#;
 
 fn seeds() -> Vec<Vec<u8>> {
-    let part = Part {
-        color: Some([1.0; 4]),
-        ..Part::from(primitives::cuboid([1.0, 2.0, 3.0]))
-    };
+    let part = Part { color: Some([1.0; 4]), ..Part::from(primitives::cuboid([1.0, 2.0, 3.0])) };
     let parts = [part.clone(), part];
     let written = [write::stl(&parts), write::obj(&parts), write::glb(&parts)].map(Result::unwrap);
     let texts = [COLLADA, OBJ, STL, GLTF].map(|text| text.as_bytes().to_vec());
@@ -47,13 +44,7 @@ fn check(bytes: &[u8]) {
         };
         for part in &scene.parts {
             assert!(!part.mesh.triangles.is_empty());
-            assert!(
-                part.mesh
-                    .vertices
-                    .iter()
-                    .flatten()
-                    .all(|value| value.is_finite())
-            );
+            assert!(part.mesh.vertices.iter().flatten().all(|value| value.is_finite()));
             assert!(
                 part.mesh
                     .triangles
@@ -127,10 +118,7 @@ fn change() -> impl Strategy<Value = Change> {
             .prop_map(|(at, length)| Change::Remove(at, length)),
         (any::<prop::sample::Index>(), 1..200_usize)
             .prop_map(|(at, length)| Change::Repeat(at, length)),
-        (
-            any::<prop::sample::Index>(),
-            prop::sample::select(words.to_vec())
-        )
+        (any::<prop::sample::Index>(), prop::sample::select(words.to_vec()))
             .prop_map(|(at, word)| Change::Insert(at, word)),
     ]
 }

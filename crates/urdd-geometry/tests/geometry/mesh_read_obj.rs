@@ -4,10 +4,7 @@ use urdd_geometry::read::{Format, NoteCode, Scene, read};
 
 fn load_with(text: &str, files: &[(&str, &str)]) -> Scene {
     let mut fetch = |name: &str| {
-        files
-            .iter()
-            .find(|(file, _)| *file == name)
-            .map(|(_, text)| text.as_bytes().to_vec())
+        files.iter().find(|(file, _)| *file == name).map(|(_, text)| text.as_bytes().to_vec())
     };
     read(text.as_bytes(), "a.obj", &mut fetch).unwrap()
 }
@@ -27,28 +24,16 @@ fn faces_in_all_spellings() {
     for (faces, triangles, area) in [
         ("f 1 2 3\nf 1 3 4", 2, 1.0),
         ("f 1 2 3 4", 2, 1.0),
-        (
-            "vt 0.5\nvt 1\nvn 0 0 1\nf 1/1 2/2 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/2/1 3/1/1",
-            3,
-            1.5,
-        ),
+        ("vt 0.5\nvt 1\nvn 0 0 1\nf 1/1 2/2 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/2/1 3/1/1", 3, 1.5),
         ("f -4 -3 -2 -1", 2, 1.0),
         ("f -4 -3 -2\nv 9 9 9\nf -5 -3 -2", 2, 1.0),
         ("f 1 2 \\\n3\\\n4\r", 2, 1.0),
-        (
-            "g group\no object\ns off\nf 1 2 3 # comment\nl 1 2 3\np 1\ncurv 0 1 2",
-            1,
-            0.5,
-        ),
+        ("g group\no object\ns off\nf 1 2 3 # comment\nl 1 2 3\np 1\ncurv 0 1 2", 1, 0.5),
         ("f 1 2\nf 1", 0, 0.0),
     ] {
         let scene = load(&format!("# comment\n{SQUARE}{faces}\n"));
         assert_eq!(scene.format, Format::Obj);
-        assert_eq!(
-            (scene.triangle_count(), scene.merged().area()),
-            (triangles, area),
-            "{faces}"
-        );
+        assert_eq!((scene.triangle_count(), scene.merged().area()), (triangles, area), "{faces}");
         assert!(
             codes(&scene)
                 .iter()
@@ -58,9 +43,7 @@ fn faces_in_all_spellings() {
         );
     }
     assert_eq!(
-        load("f 1 2 3\nv 0 0 0 1.0\nv 2 0 0 0.5 0.5 0.5\nv 0 1 0")
-            .merged()
-            .area(),
+        load("f 1 2 3\nv 0 0 0 1.0\nv 2 0 0 0.5 0.5 0.5\nv 0 1 0").merged().area(),
         1.0,
         "vertices after the face, with weight or colour"
     );
@@ -79,15 +62,8 @@ fn a_face_that_is_not_convex() {
 #[test]
 fn a_face_that_is_not_convex_keeps_its_winding_in_every_plane() {
     // An L of area 3 and its mirror image, facing along each axis: the vector area is 3 along it.
-    let corners = [
-        [0.0, 1.0],
-        [0.0, 0.0],
-        [2.0, 0.0],
-        [2.0, 1.0],
-        [1.0, 1.0],
-        [1.0, 2.0],
-        [0.0, 2.0],
-    ];
+    let corners =
+        [[0.0, 1.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     for axis in 0..3 {
         for (face, sign) in [("f 1 2 3 4 5 6 7", 1.0), ("f 7 6 5 4 3 2 1", -1.0)] {
             let mut text = String::new();
@@ -118,14 +94,7 @@ fn bad_faces_and_numbers_are_dropped_with_a_note() {
     ));
     assert_eq!(
         (scene.triangle_count(), codes(&scene)),
-        (
-            1,
-            vec![
-                NoteCode::IndexOutOfRange,
-                NoteCode::UnusedVertices,
-                NoteCode::IndexOutOfRange
-            ]
-        )
+        (1, vec![NoteCode::IndexOutOfRange, NoteCode::UnusedVertices, NoteCode::IndexOutOfRange])
     );
     let notes = scene.notes.iter();
     let out_of_range = notes.filter(|note| note.code == NoteCode::IndexOutOfRange);
@@ -147,13 +116,7 @@ fn colours_come_from_the_library() {
     let parts: Vec<_> = scene
         .parts
         .iter()
-        .map(|part| {
-            (
-                part.material.as_deref(),
-                part.color,
-                part.mesh.triangles.len(),
-            )
-        })
+        .map(|part| (part.material.as_deref(), part.color, part.mesh.triangles.len()))
         .collect();
     assert_eq!(
         parts,
@@ -166,10 +129,7 @@ fn colours_come_from_the_library() {
             (Some("none"), None, 1),
         ]
     );
-    assert_eq!(
-        scene.side_files,
-        ["sub/gloss.png", "sub/img/photo.png", "sub/my colours.mtl"]
-    );
+    assert_eq!(scene.side_files, ["sub/gloss.png", "sub/img/photo.png", "sub/my colours.mtl"]);
     assert_eq!(scene.notes, []);
 }
 
@@ -180,11 +140,7 @@ fn libraries_that_are_missing_or_several() {
     assert_eq!(scene.parts[0].color, Some([0.0, 1.0, 0.0, 1.0]));
     assert_eq!(
         codes(&scene),
-        [
-            NoteCode::SideFileMissing,
-            NoteCode::SideFileMissing,
-            NoteCode::UnusedVertices
-        ]
+        [NoteCode::SideFileMissing, NoteCode::SideFileMissing, NoteCode::UnusedVertices]
     );
     assert_eq!(scene.side_files, ["a.mtl", "b.mtl", "my colours.mtl"]);
 }

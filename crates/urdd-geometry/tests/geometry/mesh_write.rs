@@ -8,25 +8,13 @@ use urdd_geometry::read::{Format, GltfUp, Options, Part, Scene, read_with};
 use urdd_geometry::write::{WriteError, glb, obj, stl};
 
 fn load(bytes: &[u8]) -> Scene {
-    read_with(
-        bytes,
-        "x",
-        &mut |_| None,
-        &Options {
-            gltf_up: GltfUp::Keep,
-            ..Options::default()
-        },
-    )
-    .unwrap()
+    read_with(bytes, "x", &mut |_| None, &Options { gltf_up: GltfUp::Keep, ..Options::default() })
+        .unwrap()
 }
 
 /// Two parts with a colour each, one without, in binary32.
 fn parts() -> Vec<Part> {
-    let colors = [
-        Some([0.25, 0.5, 0.75, 1.0]),
-        None,
-        Some([1.0, 0.0, 0.0, 0.5]),
-    ];
+    let colors = [Some([0.25, 0.5, 0.75, 1.0]), None, Some([1.0, 0.0, 0.0, 0.5])];
     let meshes = [
         primitives::capsule(0.1, 0.3),
         primitives::cuboid([0.1, 0.2, 0.3]),
@@ -47,10 +35,7 @@ fn parts() -> Vec<Part> {
 fn corners(mesh: &Mesh) -> Vec<[[f64; 3]; 3]> {
     let mut mesh = mesh.clone();
     mesh.round_to_f32();
-    mesh.triangles
-        .iter()
-        .map(|triangle| mesh.corners(*triangle))
-        .collect()
+    mesh.triangles.iter().map(|triangle| mesh.corners(*triangle)).collect()
 }
 
 fn json_of(glb: &[u8]) -> (Value, &[u8]) {
@@ -64,21 +49,16 @@ fn json_of(glb: &[u8]) -> (Value, &[u8]) {
         (end % 4, &glb[end + 4..end + 8], end + 8 + word(end)),
         (0, &b"BIN\0"[..], glb.len())
     );
-    (
-        serde_json::from_slice(&glb[20..end]).unwrap(),
-        &glb[end + 8..],
-    )
+    (serde_json::from_slice(&glb[20..end]).unwrap(), &glb[end + 8..])
 }
 
 #[test]
 fn all_formats_hold_the_same_triangles_in_the_same_order() {
     let parts = parts();
     let expected: Vec<_> = parts.iter().flat_map(|part| corners(&part.mesh)).collect();
-    for (bytes, format) in [
-        (stl(&parts), Format::StlBinary),
-        (obj(&parts), Format::Obj),
-        (glb(&parts), Format::Glb),
-    ] {
+    for (bytes, format) in
+        [(stl(&parts), Format::StlBinary), (obj(&parts), Format::Obj), (glb(&parts), Format::Glb)]
+    {
         let scene = load(&bytes.unwrap());
         assert_eq!((scene.format, &scene.notes[..]), (format, &[][..]));
         assert!(corners(&scene.merged()) == expected, "{format:?}");
@@ -90,14 +70,8 @@ fn vertices_and_indices_come_back_as_they_were() {
     let parts = parts();
     for bytes in [obj(&parts).unwrap(), glb(&parts).unwrap()] {
         let scene = load(&bytes);
-        let (mut found, mut expected) = (
-            scene.merged(),
-            Scene {
-                parts: parts.clone(),
-                ..scene
-            }
-            .merged(),
-        );
+        let (mut found, mut expected) =
+            (scene.merged(), Scene { parts: parts.clone(), ..scene }.merged());
         assert!(corners(&found) == corners(&expected));
         // Readers number vertices by first use, so only their number can be compared.
         found.weld();
@@ -111,10 +85,7 @@ fn vertices_and_indices_come_back_as_they_were() {
         .collect();
     assert_eq!(
         colors,
-        parts
-            .iter()
-            .map(|part| (part.color, part.material.clone()))
-            .collect::<Vec<_>>()
+        parts.iter().map(|part| (part.color, part.material.clone())).collect::<Vec<_>>()
     );
 }
 
@@ -129,10 +100,7 @@ fn the_text_of_obj_is_the_shortest() {
         triangles: vec![[0, 1, 2]],
     };
     let text = String::from_utf8(obj(&[mesh.into()]).unwrap()).unwrap();
-    assert_eq!(
-        text,
-        "v 0.1 0 1\nv 1e-10 16777216 -2.5\nv 3.4028235e+38 0 0.33333334\nf 1 2 3\n"
-    );
+    assert_eq!(text, "v 0.1 0 1\nv 1e-10 16777216 -2.5\nv 3.4028235e+38 0 0.33333334\nf 1 2 3\n");
 }
 
 #[test]
@@ -156,10 +124,7 @@ fn stl_has_unit_normals_and_a_header_that_is_not_solid() {
         triangles: vec![[0, 1, 2], [0, 0, 1]],
     };
     let bytes = stl(&[mesh.into()]).unwrap();
-    assert_eq!(
-        (bytes.len(), bytes[80..84].to_vec()),
-        (84 + 2 * 50, vec![2, 0, 0, 0])
-    );
+    assert_eq!((bytes.len(), bytes[80..84].to_vec()), (84 + 2 * 50, vec![2, 0, 0, 0]));
     assert!(!bytes.starts_with(b"solid"));
     let float = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
     assert_eq!([float(84), float(88), float(92)], [1.0, 0.0, 0.0]);
@@ -205,29 +170,17 @@ fn glb_follows_the_rules_of_gltf() {
 fn many_vertices_need_wide_indices() {
     for (count, component) in [(65535, 5123), (65536, 5125)] {
         let vertices = (0..count).map(|at| [f64::from(at), 0.0, 1.0]).collect();
-        let mesh = Mesh {
-            vertices,
-            triangles: vec![[0, 1, u32::try_from(count - 1).unwrap()]],
-        };
+        let mesh = Mesh { vertices, triangles: vec![[0, 1, u32::try_from(count - 1).unwrap()]] };
         let bytes = glb(&[mesh.into()]).unwrap();
-        assert_eq!(
-            json_of(&bytes).0["accessors"][1]["componentType"],
-            component
-        );
-        assert_eq!(
-            load(&bytes).merged().vertices[2],
-            [f64::from(count - 1), 0.0, 1.0]
-        );
+        assert_eq!(json_of(&bytes).0["accessors"][1]["componentType"], component);
+        assert_eq!(load(&bytes).merged().vertices[2], [f64::from(count - 1), 0.0, 1.0]);
     }
 }
 
 #[test]
 fn what_cannot_be_written_is_refused() {
     let triangle = |vertices: Vec<[f64; 3]>, triangle: [u32; 3]| {
-        vec![Part::from(Mesh {
-            vertices,
-            triangles: vec![triangle],
-        })]
+        vec![Part::from(Mesh { vertices, triangles: vec![triangle] })]
     };
     for write in [stl, obj, glb] {
         assert_eq!(write(&[]), Err(WriteError::Empty));
@@ -238,10 +191,7 @@ fn what_cannot_be_written_is_refused() {
         );
         assert_eq!(
             write(&triangle(vec![[0.0; 3]], [0, 0, 1])),
-            Err(WriteError::IndexOutOfRange {
-                part: 0,
-                triangle: 0
-            })
+            Err(WriteError::IndexOutOfRange { part: 0, triangle: 0 })
         );
     }
 }

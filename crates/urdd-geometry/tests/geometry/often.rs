@@ -39,30 +39,18 @@ fn a_material_without_a_face_is_no_part() {
     let scene = read_obj(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{names}f 1 2 3\n"));
     assert_eq!(scene.parts.len(), 1);
     assert_eq!(scene.parts[0].material.as_deref(), Some("m4999"));
-    assert!(
-        scene
-            .notes
-            .iter()
-            .all(|note| note.code != NoteCode::Assumed)
-    );
+    assert!(scene.notes.iter().all(|note| note.code != NoteCode::Assumed));
 }
 
 #[test]
 fn materials_beyond_the_limit_keep_their_triangles() {
-    let faces: String = (0..6000)
-        .map(|n| format!("usemtl m{n}\nf 1 2 3\n"))
-        .collect();
+    let faces: String = (0..6000).map(|n| format!("usemtl m{n}\nf 1 2 3\n")).collect();
     let scene = read_obj(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}"));
     assert!(scene.parts.len() <= 4097, "{}", scene.parts.len());
     assert_eq!(scene.triangle_count(), 6000);
     let without = scene.parts.iter().find(|part| part.material.is_none());
     assert!(without.is_some_and(|part| part.mesh.triangles.len() >= 6000 - 4097));
-    assert!(
-        scene
-            .notes
-            .iter()
-            .any(|note| note.code == NoteCode::Assumed)
-    );
+    assert!(scene.notes.iter().any(|note| note.code == NoteCode::Assumed));
 }
 
 /// Each polygon gives as many triangles as it has corners, less two, by ear clipping or as a fan.

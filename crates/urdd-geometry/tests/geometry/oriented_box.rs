@@ -17,10 +17,7 @@ fn box_of(points: &[Point]) -> OrientedBox {
         let inside = to_box * (Vector3::from(*p) - Vector3::from(found.centre));
         for k in 0..3 {
             let beyond = inside[k].abs() - found.half_extents[k];
-            assert!(
-                beyond <= ConvexHull::THINNEST * extent(points),
-                "{beyond:e} beyond"
-            );
+            assert!(beyond <= ConvexHull::THINNEST * extent(points), "{beyond:e} beyond");
         }
     }
     for p in &hull.mesh().vertices {
@@ -76,10 +73,7 @@ fn an_aligned_box_is_itself() {
     let points = placed(&box_corners([1.0, 1.0, 1.0]), [0.0; 3], [4.0, -2.0, 0.5]);
     let found = box_of(&points);
     assert_eq!(found.rotation, UnitQuaternion::identity());
-    assert_eq!(
-        (found.centre, found.half_extents),
-        ([4.0, -2.0, 0.5], [0.5; 3])
-    );
+    assert_eq!((found.centre, found.half_extents), ([4.0, -2.0, 0.5], [0.5; 3]));
 }
 
 #[test]
@@ -95,11 +89,7 @@ fn a_turned_box_is_found() {
     }
     // If the rotation is larger than its symmetries require, the smallest equivalent one is reported.
     let quarter = box_of(&placed(&box_corners(sides), [0.0, 0.0, 1.5], [0.0; 3]));
-    assert_near(
-        quarter.rotation.angle(),
-        std::f64::consts::FRAC_PI_2 - 1.5,
-        1e-5,
-    );
+    assert_near(quarter.rotation.angle(), std::f64::consts::FRAC_PI_2 - 1.5, 1e-5);
     assert_near(2.0 * quarter.half_extents[0], 2.0, 1e-6);
 }
 
@@ -117,11 +107,7 @@ fn regular_solids() {
         .collect();
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let rectangle = box_corners([0.0, 2.0, 2.0 * golden]);
-    let turn = |k: usize| {
-        rectangle
-            .iter()
-            .map(move |p| [p[k], p[(k + 1) % 3], p[(k + 2) % 3]])
-    };
+    let turn = |k: usize| rectangle.iter().map(move |p| [p[k], p[(k + 1) % 3], p[(k + 2) % 3]]);
     let icosahedron: Vec<Point> = turn(0).chain(turn(1)).chain(turn(2)).collect();
     for solid in [octahedron, icosahedron] {
         let turned = placed(&solid, [0.5, 1.1, -2.0], [0.0; 3]);
@@ -133,11 +119,7 @@ fn regular_solids() {
 
 #[test]
 fn a_cylinder_is_boxed_along_its_axis() {
-    for (corners, rpy) in [
-        (64, [0.0; 3]),
-        (64, [0.7, 0.5, -1.0]),
-        (400, [0.7, 0.5, -1.0]),
-    ] {
+    for (corners, rpy) in [(64, [0.0; 3]), (64, [0.7, 0.5, -1.0]), (400, [0.7, 0.5, -1.0])] {
         let found = box_of(&placed(&prism(corners, 0.5, 3.0), rpy, [0.0; 3]));
         // Two sides along edges of the polygon, and two at right angles.
         let across = (std::f64::consts::PI / f64::from(corners)).cos();
@@ -149,43 +131,20 @@ fn a_cylinder_is_boxed_along_its_axis() {
 fn flat_hulls_have_flat_boxes() {
     // In the plane x + y + z = 0 a rectangle of 3 sqrt 2 by 2 sqrt 6, and points in it.
     let at = |a: f64, b: f64| [a + b, b - a, -2.0 * b];
-    let points = [
-        at(0.0, 0.0),
-        at(3.0, 0.0),
-        at(0.0, 2.0),
-        at(3.0, 2.0),
-        at(1.0, 1.5),
-    ];
+    let points = [at(0.0, 0.0), at(3.0, 0.0), at(0.0, 2.0), at(3.0, 2.0), at(1.0, 1.5)];
     let found = box_of(&points);
-    assert_near(
-        found.area(),
-        2.0 * (3.0 * 2f64.sqrt()) * (2.0 * 6f64.sqrt()),
-        1e-14,
-    );
+    assert_near(found.area(), 2.0 * (3.0 * 2f64.sqrt()) * (2.0 * 6f64.sqrt()), 1e-14);
     assert!(found.half_extents.iter().any(|h| *h < 1e-15));
-    let aligned = box_of(&[
-        [0.0, 1.0, 2.0],
-        [4.0, 1.0, 2.0],
-        [0.0, 1.0, 8.0],
-        [4.0, 1.0, 8.0],
-    ]);
-    assert_eq!(
-        (aligned.centre, aligned.half_extents),
-        ([2.0, 1.0, 5.0], [2.0, 0.0, 3.0])
-    );
+    let aligned = box_of(&[[0.0, 1.0, 2.0], [4.0, 1.0, 2.0], [0.0, 1.0, 8.0], [4.0, 1.0, 8.0]]);
+    assert_eq!((aligned.centre, aligned.half_extents), ([2.0, 1.0, 5.0], [2.0, 0.0, 3.0]));
     assert_eq!(aligned.rotation, UnitQuaternion::identity());
 }
 
 #[test]
 fn nothing_smaller_is_found_by_brute_force() {
     let mut random = Random(5);
-    for stretch in [
-        [1.0; 3],
-        [3.0, 1.0, 1.0],
-        [10.0, 3.0, 1.0],
-        [1.0, 1.0, 0.1],
-        [1.0, 0.02, 0.02],
-    ] {
+    for stretch in [[1.0; 3], [3.0, 1.0, 1.0], [10.0, 3.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.02, 0.02]]
+    {
         for count in [4, 6, 20] {
             let mut point = |_| {
                 let p = random.point();
@@ -194,10 +153,7 @@ fn nothing_smaller_is_found_by_brute_force() {
             let points: Vec<Point> = (0..count).map(&mut point).collect();
             let points = placed(&points, random.point(), [0.0; 3]);
             let (found, brute) = (box_of(&points).volume(), brute_force(&points, 20));
-            assert!(
-                found <= brute * (1.0 + 2e-6),
-                "{stretch:?} {count}: {found} above {brute}"
-            );
+            assert!(found <= brute * (1.0 + 2e-6), "{stretch:?} {count}: {found} above {brute}");
         }
     }
 }
@@ -212,27 +168,16 @@ fn size_and_place_do_not_matter() {
         let scale = 2f64.powi(exponent);
         let scaled: Vec<Point> = points.iter().map(|p| p.map(|x| x * scale)).collect();
         let found = box_of(&scaled);
-        assert_eq!(
-            found.half_extents.map(|h| h / scale),
-            reference.half_extents
-        );
+        assert_eq!(found.half_extents.map(|h| h / scale), reference.half_extents);
         assert_eq!(found.rotation, reference.rotation);
     }
 }
 
 #[test]
 fn the_farthest_point_of_a_box_is_a_corner() {
-    let found = box_of(&placed(
-        &box_corners([2.0, 4.0, 6.0]),
-        [0.0; 3],
-        [10.0, -20.0, 30.0],
-    ));
+    let found = box_of(&placed(&box_corners([2.0, 4.0, 6.0]), [0.0; 3], [10.0, -20.0, 30.0]));
     assert_eq!(farthest::of_box(&found), (121f64 + 484.0 + 1089.0).sqrt());
-    let turned = box_of(&placed(
-        &box_corners([2.0, 4.0, 6.0]),
-        [0.3, 0.2, 0.4],
-        [0.0; 3],
-    ));
+    let turned = box_of(&placed(&box_corners([2.0, 4.0, 6.0]), [0.3, 0.2, 0.4], [0.0; 3]));
     assert_near(farthest::of_box(&turned), 14f64.sqrt(), 1e-6);
 }
 

@@ -24,10 +24,7 @@ pub fn theirs(points: &[[f64; 3]]) -> ConvexPolyhedron {
 }
 
 pub fn their_pose(pose: &Isometry3<f64>) -> Pose {
-    Pose::new(
-        vector(pose.translation.vector.into()),
-        vector(pose.rotation.scaled_axis().into()),
-    )
+    Pose::new(vector(pose.translation.vector.into()), vector(pose.rotation.scaled_axis().into()))
 }
 
 #[test]
@@ -45,14 +42,9 @@ fn distances_of_random_bodies() {
         )
         .expect("a distance")
         .distance;
-        let ours = bodies
-            .each_ref()
-            .map(|points| ConvexShape::of_points(points).expect("a shape"));
+        let ours = bodies.each_ref().map(|points| ConvexShape::of_points(points).expect("a shape"));
         let found = distance(&ours[0], &ours[1], &pose);
-        assert!(
-            (found - expected).abs() < 1e-6,
-            "{round}: {found}, parry {expected}"
-        );
+        assert!((found - expected).abs() < 1e-6, "{round}: {found}, parry {expected}");
         // For bodies that touch within parry's precision, either answer is right.
         if expected > 1e-6 {
             apart += 1;
@@ -61,24 +53,18 @@ fn distances_of_random_bodies() {
             touching += 1;
         }
     }
-    assert!(
-        touching > 50 && apart > 50,
-        "{touching} touch, {apart} are apart"
-    );
+    assert!(touching > 50 && apart > 50, "{touching} touch, {apart} are apart");
 }
 
 #[test]
 fn pairs_side_by_side_are_each_by_itself() {
     let mut dice = Dice(11);
-    let bodies: Vec<ConvexShape> = (0..23)
-        .map(|k| ConvexShape::of_points(&dice.body(4 + 3 * k)).expect("a shape"))
-        .collect();
+    let bodies: Vec<ConvexShape> =
+        (0..23).map(|k| ConvexShape::of_points(&dice.body(4 + 3 * k)).expect("a shape")).collect();
     let poses: Vec<Isometry3<f64>> = (0..200).map(|_| dice.pose()).collect();
     let place = |k: usize| (&bodies[k % 23], &bodies[(k * 7 + 1) % 23], &poses[k]);
-    let pairs: Vec<PlacedPair> = (0..200)
-        .map(place)
-        .map(|(a, b, pose)| PlacedPair::new(a, b, pose))
-        .collect();
+    let pairs: Vec<PlacedPair> =
+        (0..200).map(place).map(|(a, b, pose)| PlacedPair::new(a, b, pose)).collect();
     let mut found = vec![f64::NAN; 200];
     distances(Level::new(), &pairs, &mut found);
     let seen = witnesses(Level::new(), &pairs);
@@ -86,20 +72,12 @@ fn pairs_side_by_side_are_each_by_itself() {
         let (a, b, pose) = place(k);
         // Not the same bits: the centres are subtracted in another order.
         assert!((found[k] - distance(a, b, pose)).abs() < 2e-9, "{k}");
-        assert_eq!(
-            any_touches(Level::new(), &pairs[k..=k]),
-            found[k] == 0.0,
-            "{k}"
-        );
+        assert_eq!(any_touches(Level::new(), &pairs[k..=k]), found[k] == 0.0, "{k}");
         let mut alone = [f64::NAN];
         distances(Level::new(), &pairs[k..=k], &mut alone);
         assert_eq!(alone[0].to_bits(), found[k].to_bits(), "{k}");
         let [p, q] = seen[k].points.map(nalgebra::Vector3::from);
-        assert!(
-            ((p - q).norm() - found[k]).abs() < 2e-9,
-            "{k}: {:?}",
-            seen[k]
-        );
+        assert!(((p - q).norm() - found[k]).abs() < 2e-9, "{k}: {:?}", seen[k]);
     }
     let touching = found.iter().filter(|distance| **distance == 0.0).count();
     assert!((20..180).contains(&touching), "{touching}");
@@ -107,10 +85,7 @@ fn pairs_side_by_side_are_each_by_itself() {
 
 /// The volume within a closed mesh.
 fn volume(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> f64 {
-    let mesh = Mesh {
-        vertices: vertices.to_vec(),
-        triangles: triangles.to_vec(),
-    };
+    let mesh = Mesh { vertices: vertices.to_vec(), triangles: triangles.to_vec() };
     mesh.signed_volume()
 }
 
@@ -124,13 +99,8 @@ fn hulls_of_random_points_have_the_same_volume() {
             &points.iter().copied().map(vector).collect::<Vec<_>>(),
         );
         let vertices: Vec<[f64; 3]> = vertices.into_iter().map(|v| [v.x, v.y, v.z]).collect();
-        let (ours, theirs) = (
-            volume(&hull.vertices, &hull.triangles),
-            volume(&vertices, &triangles),
-        );
-        assert!(
-            (ours - theirs).abs() < 1e-9 * ours,
-            "{round}: {ours}, parry {theirs}"
-        );
+        let (ours, theirs) =
+            (volume(&hull.vertices, &hull.triangles), volume(&vertices, &triangles));
+        assert!((ours - theirs).abs() < 1e-9 * ours, "{round}: {ours}, parry {theirs}");
     }
 }

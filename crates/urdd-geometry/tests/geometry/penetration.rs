@@ -45,14 +45,8 @@ fn boxes_have_closed_forms() {
     let turn = UnitQuaternion::rotation_between(&diagonal, &-Vector3::z()).expect("a rotation");
     let on_corner = Isometry3::from_parts(Translation3::new(0.05, 0.03, 0.4), turn);
     let found = found(&a, &cube, &on_corner).expect("an overlap");
-    assert!(
-        (found.depth - (0.3 + 0.1 * 3f64.sqrt() - 0.4)).abs() < 1e-12,
-        "{found:?}"
-    );
-    assert!(
-        (found.points[1][2] - (0.4 - 0.1 * 3f64.sqrt())).abs() < 1e-9,
-        "{found:?}"
-    );
+    assert!((found.depth - (0.3 + 0.1 * 3f64.sqrt() - 0.4)).abs() < 1e-12, "{found:?}");
+    assert!((found.points[1][2] - (0.4 - 0.1 * 3f64.sqrt())).abs() < 1e-9, "{found:?}");
     assert!((found.points[0][2] - 0.3).abs() < 1e-9, "{found:?}");
 }
 
@@ -101,23 +95,14 @@ fn random_bodies_are_separated_by_the_depth_and_not_by_less() {
             0.0,
         );
         let expected = expected.expect("an answer").expect("a contact").dist;
-        assert!(
-            (found.depth + expected).abs() < 1e-6,
-            "{round}: {} {expected}",
-            found.depth
-        );
+        assert!((found.depth + expected).abs() < 1e-6, "{round}: {} {expected}", found.depth);
     }
     assert!(overlapping > 150, "{overlapping}");
 }
 
 #[test]
 fn flat_and_thin_shapes() {
-    let square = [
-        [-1.0, -1.0, 0.0],
-        [1.0, -1.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [-1.0, 1.0, 0.0],
-    ];
+    let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
     let cube = corners([0.1; 3]);
     let turned = Isometry3::from_parts(
         Translation3::new(0.2, 0.0, 0.04),
@@ -138,23 +123,10 @@ fn flat_and_thin_shapes() {
         let distance = distance(&shape(a), &shape(b), &at(0.0, 0.0, 0.0));
         assert_eq!(distance, 0.0);
     }
-    assert_eq!(
-        found(&square[..1], &square[1..2], &Isometry3::identity()),
-        None
-    );
-    assert_eq!(
-        found(&square[..2], &[[1.3, -1.0, 0.0]], &Isometry3::identity()),
-        None
-    );
+    assert_eq!(found(&square[..1], &square[1..2], &Isometry3::identity()), None);
+    assert_eq!(found(&square[..2], &[[1.3, -1.0, 0.0]], &Isometry3::identity()), None);
     // A needle through a box: out through the nearest side.
-    let needle = [
-        [-5.0, 0.0, 0.0],
-        [5.0, 0.0, 0.0],
-        [0.0, 1e-6, 0.0],
-        [0.0, 0.0, 1e-6],
-    ];
-    let depth = found(&cube, &needle, &at(0.0, 0.02, 0.0))
-        .expect("an overlap")
-        .depth;
+    let needle = [[-5.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 1e-6, 0.0], [0.0, 0.0, 1e-6]];
+    let depth = found(&cube, &needle, &at(0.0, 0.02, 0.0)).expect("an overlap").depth;
     assert!((depth - 0.08).abs() < 2e-6, "{depth}");
 }

@@ -50,9 +50,7 @@ pub fn placed(points: &[Point], rpy: Point, xyz: Point) -> Vec<Point> {
 /// The corners of a box about the origin.
 pub fn box_corners(sides: Point) -> Vec<Point> {
     let sign = |i: usize, k: usize| if i >> k & 1 == 0 { -0.5 } else { 0.5 };
-    (0..8)
-        .map(|i| [0, 1, 2].map(|k| sign(i, k) * sides[k]))
-        .collect()
+    (0..8).map(|i| [0, 1, 2].map(|k| sign(i, k) * sides[k])).collect()
 }
 
 /// The corners of a prism about z with a regular polygon across.
@@ -67,10 +65,7 @@ pub fn prism(corners: u32, radius: f64, height: f64) -> Vec<Point> {
 #[track_caller]
 pub fn assert_near(actual: f64, expected: f64, relative: f64) {
     let error = (actual - expected).abs();
-    assert!(
-        error <= relative * expected.abs(),
-        "{actual} is not {expected}"
-    );
+    assert!(error <= relative * expected.abs(), "{actual} is not {expected}");
 }
 
 /// The volume inside a closed mesh.
@@ -129,17 +124,10 @@ pub fn assert_closed_subset(mesh: &Mesh, points: &[Point]) {
     }
     for ((from, to), count) in &edges {
         assert_eq!(*count, 1, "edge {from} {to}");
-        assert!(
-            edges.contains_key(&(*to, *from)),
-            "edge {from} {to} has one side"
-        );
+        assert!(edges.contains_key(&(*to, *from)), "edge {from} {to} has one side");
     }
     let (v, e, f) = (mesh.vertices.len(), edges.len() / 2, mesh.triangles.len());
-    assert_eq!(
-        v + f,
-        e + 2,
-        "Euler: {v} vertices, {e} edges, {f} triangles"
-    );
+    assert_eq!(v + f, e + 2, "Euler: {v} vertices, {e} edges, {f} triangles");
     let used: BTreeSet<u32> = mesh.triangles.iter().flatten().copied().collect();
     assert_eq!(used.len(), v);
     let bits = |p: &Point| p.map(|x| (x + 0.0).to_bits());

@@ -119,10 +119,7 @@ fn symmetric_with_zeros_on_the_diagonal() {
 #[test]
 fn the_same_bits_for_each_number_of_threads() {
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| statistics(100))
     };
     let one = with(1);
@@ -142,10 +139,7 @@ fn spheres_on_a_circle() {
     };
     let found =
         pair_statistics(&[sphere(0, 0.5), sphere(1, 0.25)], &motion).expect("bodies of the motion");
-    assert_eq!(
-        [found.mean[0][1], found.min[0][1], found.max[0][1]],
-        [0.5, 0.0, 1.25]
-    );
+    assert_eq!([found.mean[0][1], found.min[0][1], found.max[0][1]], [0.5, 0.0, 1.25]);
 }
 
 #[test]
@@ -159,10 +153,8 @@ fn the_distance_in_each_sample() {
         ]
     };
     let motion = Motion::new(&[at(0.25), at(1.0), at(3.0)], &[0, 1, 1]).expect("a motion");
-    let on = |body| PlacedShape {
-        body,
-        shape: Sphere::new(Vector3::zeros(), 0.25).expect("a sphere"),
-    };
+    let on =
+        |body| PlacedShape { body, shape: Sphere::new(Vector3::zeros(), 0.25).expect("a sphere") };
     let pair = |a, b| pair_distances(&on(a), &on(b), &motion);
     assert_eq!(pair(0, 1), Some(vec![0.0, 0.5, 2.5]));
     assert_eq!(pair(1, 2), Some(vec![0.5; 3]));
@@ -173,23 +165,13 @@ fn the_distance_in_each_sample() {
 fn what_is_no_motion() {
     assert_eq!(Motion::new(&[], &[]).err(), Some(MotionError::NoSamples));
     let rows = [vec![Isometry3::identity(); 2], vec![Isometry3::identity()]];
-    let fault = MotionError::Bodies {
-        sample: 1,
-        expected: 2,
-        found: 1,
-    };
+    let fault = MotionError::Bodies { sample: 1, expected: 2, found: 1 };
     assert_eq!(Motion::new(&rows, &[0, 1]).err(), Some(fault));
     let rows = [vec![Isometry3::translation(0.0, f64::NAN, 0.0)]];
-    assert_eq!(
-        Motion::new(&rows, &[0]).err(),
-        Some(MotionError::NotFinite { sample: 0, body: 0 })
-    );
+    assert_eq!(Motion::new(&rows, &[0]).err(), Some(MotionError::NotFinite { sample: 0, body: 0 }));
     let motion = Motion::new(&[vec![Isometry3::identity()]], &[0]).expect("a motion");
     assert_eq!(pair_statistics(&shapes(), &motion), None);
-    assert_eq!(
-        pair_statistics::<Sphere>(&[], &motion),
-        Some(PairStatistics::default())
-    );
+    assert_eq!(pair_statistics::<Sphere>(&[], &motion), Some(PairStatistics::default()));
 }
 
 #[test]

@@ -53,10 +53,7 @@ fn a_triangle_too_many_too_few_or_turned_round_is_told() {
     more.triangles.push(more.triangles[3]);
     let found = compare(&mesh, &more).expect("a difference");
     assert_eq!((found.missing, found.extra.len(), found.turned), (0, 1, 0));
-    assert_eq!(
-        difference(&mesh, &more, TOLERANCE, Likeness::SameSurface),
-        None
-    );
+    assert_eq!(difference(&mesh, &more, TOLERANCE, Likeness::SameSurface), None);
     let mut turned = shuffled(&mesh);
     turned.triangles[5].swap(0, 1);
     let found = compare(&mesh, &turned).expect("a difference");
@@ -70,8 +67,7 @@ fn triangles_without_an_area_count_for_nothing() {
     let mesh = cuboid([1.0, 2.0, 3.0]);
     let mut more = shuffled(&mesh);
     let first = more.vertices.len() as u32;
-    more.vertices
-        .extend([[5.0, 5.0, 5.0], [5.0, 5.0, 6.0], [5.0, 5.0, 7.0]]);
+    more.vertices.extend([[5.0, 5.0, 5.0], [5.0, 5.0, 6.0], [5.0, 5.0, 7.0]]);
     more.triangles.push([first, first + 1, first + 2]);
     assert_eq!(compare(&mesh, &more), None);
     assert_eq!(compare(&more, &mesh), None);

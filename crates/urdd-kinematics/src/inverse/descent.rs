@@ -93,11 +93,7 @@ impl<'a> Descent<'a> {
                 refused += 1;
                 continue;
             }
-            slow = if after.cost > (1.0 - LITTLE) * left.cost {
-                slow + 1
-            } else {
-                0
-            };
+            slow = if after.cost > (1.0 - LITTLE) * left.cost { slow + 1 } else { 0 };
             refused = 0;
             damping = (damping * 0.3).max(least_damping);
             fresh = false;
@@ -141,9 +137,9 @@ impl<'a> Descent<'a> {
             None => Vector3::zeros(),
         };
         let turn = match &self.goal.rotation {
-            Some(rotation) => Vector3::from(to_rotation_vector(
-                &(rotation * self.place.pose.rotation.inverse()),
-            )),
+            Some(rotation) => {
+                Vector3::from(to_rotation_vector(&(rotation * self.place.pose.rotation.inverse())))
+            }
             None => Vector3::zeros(),
         };
         let scaled = turn * self.length;
@@ -156,12 +152,7 @@ impl<'a> Descent<'a> {
                 (part(0), part(3) / self.length)
             }
         };
-        Left {
-            vector,
-            cost: vector.norm_squared(),
-            position,
-            rotation,
-        }
+        Left { vector, cost: vector.norm_squared(), position, rotation }
     }
 
     /// Moves a solution toward a posture, along the motions that the goal leaves free.
@@ -173,11 +164,7 @@ impl<'a> Descent<'a> {
             let q = &found.configuration;
             self.left(q);
             self.linearise(q);
-            let mut free: Vec<f64> = path
-                .dofs
-                .iter()
-                .map(|dof| posture[*dof] - q[*dof])
-                .collect();
+            let mut free: Vec<f64> = path.dofs.iter().map(|dof| posture[*dof] - q[*dof]).collect();
             let mut matrix = Matrix6::from_diagonal_element(f64::MIN_POSITIVE);
             let mut moved = Vector6::zeros();
             for (column, change) in self.jacobian.iter().zip(&free) {

@@ -53,17 +53,12 @@ impl<'a> Path<'a> {
                     uses_of(&mut uses, position.dof, kind);
                 }
                 Motion::Slide { position, .. } => uses_of(&mut uses, position.dof, Kind::Bounded),
-                Motion::Plane {
-                    dofs: [x, y, angle],
-                    ..
-                } => {
+                Motion::Plane { dofs: [x, y, angle], .. } => {
                     uses_of(&mut uses, Some(*x), Kind::Bounded);
                     uses_of(&mut uses, Some(*y), Kind::Bounded);
                     uses_of(&mut uses, Some(*angle), Kind::Turning);
                 }
-                Motion::Float {
-                    dofs: [x, y, z, a, b, c],
-                } => {
+                Motion::Float { dofs: [x, y, z, a, b, c] } => {
                     for dof in [x, y, z] {
                         uses_of(&mut uses, Some(*dof), Kind::Bounded);
                     }
@@ -175,29 +170,18 @@ impl<'a> Path<'a> {
         jacobian.resize(self.dofs.len(), Vector6::zeros());
         let point = place.pose * self.point;
         for (step, (frame, child)) in self.branch.steps.iter().zip(&place.joints) {
-            columns(
-                step,
-                frame,
-                child,
-                &point,
-                configuration,
-                |dof, linear, angular| {
-                    if let Some(k) = self.place[dof] {
-                        add_to(jacobian[k].as_mut_slice(), linear, angular);
-                    }
-                },
-            );
+            columns(step, frame, child, &point, configuration, |dof, linear, angular| {
+                if let Some(k) = self.place[dof] {
+                    add_to(jacobian[k].as_mut_slice(), linear, angular);
+                }
+            });
         }
     }
 
     /// Approximate maximum distance of the point from the first joint, metres.
     pub fn reach(&self) -> f64 {
-        let shifts = self
-            .branch
-            .steps
-            .iter()
-            .skip(1)
-            .map(|step| step.origin.translation.vector.norm());
+        let shifts =
+            self.branch.steps.iter().skip(1).map(|step| step.origin.translation.vector.norm());
         shifts.sum::<f64>() + self.point.coords.norm()
     }
 }

@@ -52,11 +52,7 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
                     let pointer = format!("/inputs/{place}/Length");
                     return Err(ModelError::Number { pointer });
                 }
-                Input::Length {
-                    dof,
-                    middle,
-                    half_range,
-                }
+                Input::Length { dof, middle, half_range }
             }
             ModelInput::RotationVector(of) => {
                 let mut dofs = [0; 3];
@@ -94,19 +90,12 @@ impl Input {
         match *self {
             Input::Angle(dof) => {
                 let q = configuration[dof];
-                let waves = [
-                    libm::sin(q),
-                    libm::cos(q),
-                    libm::sin(2.0 * q),
-                    libm::cos(2.0 * q),
-                ];
+                let waves = [libm::sin(q), libm::cos(q), libm::sin(2.0 * q), libm::cos(2.0 * q)];
                 values.copy_from_slice(&waves);
             }
-            Input::Length {
-                dof,
-                middle,
-                half_range,
-            } => values[0] = (configuration[dof] - middle) / half_range,
+            Input::Length { dof, middle, half_range } => {
+                values[0] = (configuration[dof] - middle) / half_range
+            }
             Input::RotationVector(dofs) => {
                 let rotation = rotation(dofs.map(|dof| configuration[dof]));
                 for (value, element) in values.iter_mut().zip(rotation.transpose().iter()) {
@@ -131,9 +120,7 @@ impl Input {
                 let products = waves.iter().zip(by_values).map(|(a, b)| a * b);
                 by_dofs[dof] += products.sum::<f64>();
             }
-            Input::Length {
-                dof, half_range, ..
-            } => by_dofs[dof] += by_values[0] / half_range,
+            Input::Length { dof, half_range, .. } => by_dofs[dof] += by_values[0] / half_range,
             Input::RotationVector(dofs) => {
                 let v = dofs.map(|dof| configuration[dof]);
                 for (k, dof) in dofs.into_iter().enumerate() {

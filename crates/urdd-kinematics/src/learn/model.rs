@@ -124,11 +124,7 @@ impl CollisionModel {
         let least = clearances.min_by(|a, b| a.1.total_cmp(&b.1));
         Ok(least.map(|(pair, value)| {
             let by_inputs = self.network.derivative(&values, pair);
-            Clearance {
-                pair,
-                value,
-                gradient: self.by_dofs(configuration, &by_inputs),
-            }
+            Clearance { pair, value, gradient: self.by_dofs(configuration, &by_inputs) }
         }))
     }
 

@@ -37,9 +37,7 @@ impl Network {
         num_outputs: usize,
     ) -> Result<Self, ModelError> {
         if num_inputs == 0 {
-            return Err(ModelError::NoValues {
-                pointer: "/inputs".to_owned(),
-            });
+            return Err(ModelError::NoValues { pointer: "/inputs".to_owned() });
         }
         let mut width = num_inputs;
         let mut read = Vec::with_capacity(layers.len());
@@ -49,12 +47,7 @@ impl Network {
                 if found == expected {
                     return Ok(());
                 }
-                Err(ModelError::Length {
-                    pointer,
-                    found,
-                    expected,
-                    what,
-                })
+                Err(ModelError::Length { pointer, found, expected, what })
             };
             let rows = layer.weights.len();
             if rows == 0 {
@@ -72,14 +65,9 @@ impl Network {
             }
             let numbers = layer.weights.iter().flatten().chain(&layer.biases);
             if !numbers.clone().all(|number| number.is_finite()) {
-                return Err(ModelError::Number {
-                    pointer: format!("/layers/{place}"),
-                });
+                return Err(ModelError::Number { pointer: format!("/layers/{place}") });
             }
-            read.push(Layer {
-                weights: layer.weights.concat(),
-                biases: layer.biases.clone(),
-            });
+            read.push(Layer { weights: layer.weights.concat(), biases: layer.biases.clone() });
             width = rows;
         }
         match read.is_empty() {
@@ -128,9 +116,7 @@ impl Network {
             };
             let mut outputs: Vec<f64> = rows.zip(&layer.biases).map(sum).collect();
             if place != last {
-                outputs
-                    .iter_mut()
-                    .for_each(|value| *value = kernel::tanh(*value));
+                outputs.iter_mut().for_each(|value| *value = kernel::tanh(*value));
             }
             values.push(outputs);
         }
@@ -147,10 +133,7 @@ impl Network {
                 true => rows.skip(output).take(1).flatten().copied().collect(),
                 false => {
                     let outputs = values[place + 1].iter();
-                    let slopes = by_values
-                        .iter()
-                        .zip(outputs)
-                        .map(|(d, t)| d * (1.0 - t * t));
+                    let slopes = by_values.iter().zip(outputs).map(|(d, t)| d * (1.0 - t * t));
                     let mut sums = vec![0.0; layer.num_inputs()];
                     for (row, slope) in rows.zip(slopes) {
                         for (sum, weight) in sums.iter_mut().zip(row) {

@@ -15,10 +15,7 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 fn poses(joints: &[Joint], q: &[f64]) -> Vec<Isometry3<f64>> {
     let (chain, dof) = chain_of(joints);
-    ForwardKinematics::new(&chain, &dof)
-        .unwrap()
-        .link_poses(q)
-        .unwrap()
+    ForwardKinematics::new(&chain, &dof).unwrap().link_poses(q).unwrap()
 }
 
 /// Pose of the child link of a single joint at the root's origin.
@@ -30,10 +27,7 @@ fn pose(joint_type: JointType, axis: [f64; 3], q: &[f64]) -> Isometry3<f64> {
 fn assert_point(pose: &Isometry3<f64>, point: [f64; 3], expected: [f64; 3]) {
     let found = pose * Point3::from(point);
     let difference = (found - Point3::from(expected)).norm();
-    assert!(
-        difference < 1e-14,
-        "{point:?} is taken to {found:?}, not to {expected:?}"
-    );
+    assert!(difference < 1e-14, "{point:?} is taken to {found:?}, not to {expected:?}");
 }
 
 #[test]
@@ -110,10 +104,7 @@ fn a_planar_joint_near_minus_z_keeps_an_orthonormal_basis() {
             let x = pose(Planar, axis, &[1.0, 0.0, 0.0]).translation.vector;
             let y = pose(Planar, axis, &[0.0, 1.0, 0.0]).translation.vector;
             let basis = Matrix3::from_columns(&[x, y, a]);
-            assert!(
-                (basis.transpose() * basis - Matrix3::identity()).norm() < 1e-14,
-                "{axis:?}"
-            );
+            assert!((basis.transpose() * basis - Matrix3::identity()).norm() < 1e-14, "{axis:?}");
             assert!((basis.determinant() - 1.0).abs() < 1e-14, "{axis:?}");
             // The arc leaves the direction perpendicular to it unchanged.
             let still = Vector3::new(-angle.sin(), angle.cos(), 0.0);
@@ -154,10 +145,7 @@ fn a_tiny_rotation_vector_is_not_lost() {
         let pose = pose(Spherical, X, &[0.0, 2.0 * size, -size]);
         let q = pose.rotation.quaternion();
         assert_eq!((q.w, q.i), ((size * 5.0_f64.sqrt() / 2.0).cos(), 0.0));
-        assert!(
-            (q.j / size - 1.0).abs() < 1e-10 && (q.k / size + 0.5).abs() < 1e-10,
-            "{q}"
-        );
+        assert!((q.j / size - 1.0).abs() < 1e-10 && (q.k / size + 0.5).abs() < 1e-10, "{q}");
     }
 }
 
@@ -174,19 +162,13 @@ fn mimic_joints_follow_their_dof_by_factor_and_offset() {
     assert_point(&poses[2], [0.0; 3], [0.5, -0.75, 0.0]);
     assert_point(&poses[3], X, [0.5, 0.25, 0.0]);
     assert_point(&poses[4], [0.0; 3], [0.5, -0.75, 0.125]);
-    assert_eq!(
-        poses[5], poses[4],
-        "a fixed joint has no position to follow with"
-    );
+    assert_eq!(poses[5], poses[4], "a fixed joint has no position to follow with");
 }
 
 #[test]
 fn the_order_comes_from_the_joints() {
     // Links and joints listed from the tip up, and an empty hierarchy.
-    let joint = |parent, child| Joint {
-        child,
-        ..Joint::after(parent, Prismatic, X)
-    };
+    let joint = |parent, child| Joint { child, ..Joint::after(parent, Prismatic, X) };
     let names = ["tip", "middle", "root"].map(str::to_owned);
     let (mut chain, dof) = core_modules(&names, &[joint(1, 0), joint(2, 1)]);
     chain.kinematic_hierarchy = vec![vec![LinkIdx(77)]];
@@ -206,10 +188,7 @@ fn a_buffer_is_filled_anew() {
     kinematics.link_poses_into(&[0.5], &mut buffer).unwrap();
     assert_eq!(buffer, kinematics.link_poses(&[0.5]).unwrap());
     assert!(kinematics.link_poses_into(&[], &mut buffer).is_err());
-    assert!(
-        buffer.is_empty(),
-        "poses of another configuration must not be taken for these"
-    );
+    assert!(buffer.is_empty(), "poses of another configuration must not be taken for these");
 }
 
 #[test]
@@ -217,19 +196,7 @@ fn a_configuration_without_poses_says_what_is_wrong() {
     let (chain, dof) = chain_of(&[Joint::after(0, Prismatic, X), Joint::after(1, Prismatic, X)]);
     let kinematics = ForwardKinematics::new(&chain, &dof).unwrap();
     let error = |q: &[f64]| kinematics.link_poses(q).unwrap_err();
-    assert_eq!(
-        error(&[0.0]),
-        ConfigurationError::Length {
-            expected: 2,
-            found: 1
-        }
-    );
-    assert!(matches!(
-        error(&[0.0, f64::NAN]),
-        ConfigurationError::NotFinite { dof_idx: 1, .. }
-    ));
-    assert_eq!(
-        error(&[1.5e308, 1.5e308]),
-        ConfigurationError::Overflow { link_idx: 2 }
-    );
+    assert_eq!(error(&[0.0]), ConfigurationError::Length { expected: 2, found: 1 });
+    assert!(matches!(error(&[0.0, f64::NAN]), ConfigurationError::NotFinite { dof_idx: 1, .. }));
+    assert_eq!(error(&[1.5e308, 1.5e308]), ConfigurationError::Overflow { link_idx: 2 });
 }

@@ -24,9 +24,7 @@ pub fn bounds_module(bounds: &[[f64; 2]]) -> BoundsModule {
 
 /// Prismatic joints with these bounds.
 fn slides(bounds: &[[f64; 2]]) -> ConfigurationSpace {
-    let joints: Vec<Joint> = (0..bounds.len())
-        .map(|i| Joint::after(i, Prismatic, X))
-        .collect();
+    let joints: Vec<Joint> = (0..bounds.len()).map(|i| Joint::after(i, Prismatic, X)).collect();
     let (chain, dof) = chain_of(&joints);
     ConfigurationSpace::new(&dof, &chain, &bounds_module(bounds)).unwrap()
 }
@@ -47,11 +45,7 @@ fn with_rotation_vectors() -> ConfigurationSpace {
 #[test]
 fn units_are_the_upper_53_bits() {
     // The first outputs of SplitMix64 with seed 0, as published with the generator.
-    let published = [
-        0xE220_A839_7B1D_CDAF_u64,
-        0x6E78_9E6A_A1B9_65F4,
-        0x06C4_5D18_8009_454F,
-    ];
+    let published = [0xE220_A839_7B1D_CDAF_u64, 0x6E78_9E6A_A1B9_65F4, 0x06C4_5D18_8009_454F];
     for (i, bits) in (0..).zip(published) {
         assert_eq!(unit(0, i), (bits / 2048) as f64 / 9_007_199_254_740_992.0);
     }
@@ -100,12 +94,7 @@ fn nothing_overflows() {
 #[test]
 fn no_value_is_negative_zero() {
     let space = slides(&[[-0.0, -0.0], [0.0, -0.0]]);
-    for q in [
-        space.middle(),
-        space.lower(),
-        space.upper(),
-        space.sampled(0),
-    ] {
+    for q in [space.middle(), space.lower(), space.upper(), space.sampled(0)] {
         assert!(q.iter().all(|value| value.to_bits() == 0), "{q:?}");
     }
 }
@@ -113,28 +102,16 @@ fn no_value_is_negative_zero() {
 #[test]
 fn crossed_bounds_are_taken_as_they_are() {
     let space = slides(&[[3.0, -1.0]]);
-    assert_eq!(
-        (space.lower(), space.middle(), space.upper()),
-        (vec![3.0], vec![1.0], vec![-1.0])
-    );
+    assert_eq!((space.lower(), space.middle(), space.upper()), (vec![3.0], vec![1.0], vec![-1.0]));
     assert_eq!(space.sampled(0), [3.0 - 4.0 * unit(0, 0)]);
 }
 
 #[test]
 fn rotation_vectors_have_bounds_of_their_own() {
     let space = with_rotation_vectors();
-    assert_eq!(
-        space.middle(),
-        [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
-    );
-    assert_eq!(
-        space.lower(),
-        [-1.0, -1.0, -1.0, -1.0, -PI, 0.0, 0.0, -PI, 0.0, 0.0]
-    );
-    assert_eq!(
-        space.upper(),
-        [3.0, 3.0, 3.0, 3.0, PI, 0.0, 0.0, PI, 0.0, 0.0]
-    );
+    assert_eq!(space.middle(), [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    assert_eq!(space.lower(), [-1.0, -1.0, -1.0, -1.0, -PI, 0.0, 0.0, -PI, 0.0, 0.0]);
+    assert_eq!(space.upper(), [3.0, 3.0, 3.0, 3.0, PI, 0.0, 0.0, PI, 0.0, 0.0]);
 }
 
 #[test]
@@ -171,8 +148,5 @@ fn sampled_rotations_are_uniform() {
         (q[7] * q[7] + q[8] * q[8] + q[9] * q[9]).sqrt()
     });
     let mean = angles.sum::<f64>() / count as f64;
-    assert!(
-        (mean - (PI / 2.0 + 2.0 / PI)).abs() < 0.04,
-        "mean angle {mean}"
-    );
+    assert!((mean - (PI / 2.0 + 2.0 / PI)).abs() < 0.04, "mean angle {mean}");
 }

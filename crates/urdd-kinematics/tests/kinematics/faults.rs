@@ -23,9 +23,7 @@ fn fault(change: impl FnOnce(&mut ChainModule, &mut DofModule), expected: &str) 
     let (mut chain, mut dof) = robot();
     assert!(ForwardKinematics::new(&chain, &dof).is_ok());
     change(&mut chain, &mut dof);
-    let found = ForwardKinematics::new(&chain, &dof)
-        .unwrap_err()
-        .to_string();
+    let found = ForwardKinematics::new(&chain, &dof).unwrap_err().to_string();
     assert_eq!(found, expected);
 }
 
@@ -68,13 +66,8 @@ fn a_chain_without_links() {
     chain.joints_in_chain.clear();
     dof.joint_idx_to_dof_idxs_mapping.clear();
     dof.joint_idx_to_mimic_mapping.clear();
-    let error = ForwardKinematics::new(&chain, &dof)
-        .unwrap_err()
-        .to_string();
-    assert_eq!(
-        error,
-        "chain_module/root_idx: link 0 is out of range: there are 0"
-    );
+    let error = ForwardKinematics::new(&chain, &dof).unwrap_err().to_string();
+    assert_eq!(error, "chain_module/root_idx: link 0 is out of range: there are 0");
 }
 
 #[test]
@@ -160,10 +153,7 @@ fn a_hair_off_a_unit_vector_is_scaled_and_no_more() {
     let (mut chain, dof) = robot();
     chain.joints_in_chain[0].origin.quaternion_wxyz = [0.8660254, 0.5, 0.0, 0.0];
     let kinematics = ForwardKinematics::new(&chain, &dof).unwrap();
-    let norm = kinematics.link_poses(&[0.1, 0.2, 0.3, 0.4]).unwrap()[3]
-        .rotation
-        .coords
-        .norm();
+    let norm = kinematics.link_poses(&[0.1, 0.2, 0.3, 0.4]).unwrap()[3].rotation.coords.norm();
     assert!((norm - 1.0).abs() < 1e-15);
     chain.joints_in_chain[0].origin.quaternion_wxyz = [0.866, 0.5, 0.0, 0.0];
     assert!(ForwardKinematics::new(&chain, &dof).is_err());
@@ -181,10 +171,7 @@ fn bounds_that_make_no_configuration() {
         "bounds_module/bounds: 5 entries, expected 4: one for each DOF of dof_module"
     );
     assert_eq!(
-        error(
-            &dof,
-            &[[0.0, 1.0], [0.0, 1.0], [0.0, f64::INFINITY], [0.0, 1.0]]
-        ),
+        error(&dof, &[[0.0, 1.0], [0.0, 1.0], [0.0, f64::INFINITY], [0.0, 1.0]]),
         "bounds_module/bounds/2/1: inf is not a finite number"
     );
     dof.joint_idx_to_mimic_mapping.clear();

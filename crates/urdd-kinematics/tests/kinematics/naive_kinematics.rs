@@ -12,11 +12,7 @@ fn rodrigues(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
 }
 
 fn rotation_vector(v: Vector3<f64>) -> Matrix3<f64> {
-    if v.norm() == 0.0 {
-        Matrix3::identity()
-    } else {
-        rodrigues(v.normalize(), v.norm())
-    }
+    if v.norm() == 0.0 { Matrix3::identity() } else { rodrigues(v.normalize(), v.norm()) }
 }
 
 /// Rz(yaw) Ry(pitch) Rx(roll).
@@ -27,11 +23,7 @@ pub fn rpy([roll, pitch, yaw]: [f64; 3]) -> Matrix3<f64> {
 /// The shortest arc from z to `axis`; from z to -z through -y.
 fn arc(axis: Vector3<f64>) -> Matrix3<f64> {
     let about = Vector3::z().cross(&axis);
-    let about = if about.norm() == 0.0 {
-        Vector3::x()
-    } else {
-        about.normalize()
-    };
+    let about = if about.norm() == 0.0 { Vector3::x() } else { about.normalize() };
     rodrigues(about, axis.x.hypot(axis.y).atan2(axis.z))
 }
 

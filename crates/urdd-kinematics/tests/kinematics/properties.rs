@@ -24,14 +24,7 @@ fn axis() -> impl Strategy<Value = [f64; 3]> {
     ]
 }
 
-type Draft = (
-    JointType,
-    [f64; 3],
-    [f64; 3],
-    [f64; 3],
-    Index,
-    Option<(Option<Index>, f64, f64)>,
-);
+type Draft = (JointType, [f64; 3], [f64; 3], [f64; 3], Index, Option<(Option<Index>, f64, f64)>);
 
 fn draft() -> impl Strategy<Value = Draft> {
     (
@@ -42,11 +35,7 @@ fn draft() -> impl Strategy<Value = Draft> {
         any::<Index>(),
         prop::option::weighted(
             0.2,
-            (
-                prop::option::weighted(0.8, any::<Index>()),
-                -2.0..2.0_f64,
-                -1.0..1.0_f64,
-            ),
+            (prop::option::weighted(0.8, any::<Index>()), -2.0..2.0_f64, -1.0..1.0_f64),
         ),
     )
 }
@@ -78,13 +67,11 @@ fn assemble(drafts: &[Draft], links: &[usize], mut values: Vec<f64>) -> (Vec<Joi
             xyz: *xyz,
             rpy: *rpy,
             axis: *axis,
-            mimic: mimic
-                .filter(|_| one_number)
-                .map(|(_, multiplier, offset)| ResolvedMimic {
-                    dof_idx: None,
-                    multiplier,
-                    offset,
-                }),
+            mimic: mimic.filter(|_| one_number).map(|(_, multiplier, offset)| ResolvedMimic {
+                dof_idx: None,
+                multiplier,
+                offset,
+            }),
         });
     }
     // Not in the order of the tree.

@@ -27,10 +27,7 @@ fn of_two_quaternions_one_is_canonical() {
     ] {
         let isometry = Isometry3::from_parts(Translation3::new(-0.0, 1.0, -2.0), quaternion(wxyz));
         let pose = from_isometry(&isometry);
-        let expected = Pose {
-            position: [0.0, 1.0, -2.0],
-            quaternion_wxyz: expected,
-        };
+        let expected = Pose { position: [0.0, 1.0, -2.0], quaternion_wxyz: expected };
         // As text, since -0.0 equals 0.0 in numbers.
         let text = |pose: &Pose| serde_json::to_string(pose).unwrap();
         assert_eq!(text(&pose), text(&expected));
@@ -40,30 +37,13 @@ fn of_two_quaternions_one_is_canonical() {
 
 #[test]
 fn a_pose_that_is_no_rigid_transform() {
-    let pose = |position, quaternion_wxyz| {
-        to_isometry(&Pose {
-            position,
-            quaternion_wxyz,
-        })
-    };
+    let pose = |position, quaternion_wxyz| to_isometry(&Pose { position, quaternion_wxyz });
     let identity = [1.0, 0.0, 0.0, 0.0];
-    assert_eq!(
-        pose([f64::NAN, 0.0, 0.0], identity),
-        Err(PoseError::Position)
-    );
-    assert_eq!(
-        pose([0.0; 3], [0.0; 4]),
-        Err(PoseError::NotUnit { norm: 0.0 })
-    );
-    assert_eq!(
-        pose([0.0; 3], [1.0, 1.0, 1.0, 1.0]),
-        Err(PoseError::NotUnit { norm: 2.0 })
-    );
+    assert_eq!(pose([f64::NAN, 0.0, 0.0], identity), Err(PoseError::Position));
+    assert_eq!(pose([0.0; 3], [0.0; 4]), Err(PoseError::NotUnit { norm: 0.0 }));
+    assert_eq!(pose([0.0; 3], [1.0, 1.0, 1.0, 1.0]), Err(PoseError::NotUnit { norm: 2.0 }));
     assert!(pose([0.0; 3], [f64::NAN, 0.0, 0.0, 1.0]).is_err());
-    assert_eq!(
-        pose([1.0, 2.0, 3.0], identity),
-        Ok(Isometry3::translation(1.0, 2.0, 3.0))
-    );
+    assert_eq!(pose([1.0, 2.0, 3.0], identity), Ok(Isometry3::translation(1.0, 2.0, 3.0)));
 }
 
 #[test]
@@ -75,24 +55,13 @@ fn unit_axes() {
     assert_eq!(axis([0.0; 3]), None);
     assert_eq!(axis([f64::NAN, 1.0, 0.0]), None);
     assert_eq!(axis([f64::INFINITY, 1.0, 0.0]), None);
-    assert!(
-        axis([-0.0, 2.0, -0.0])
-            .unwrap()
-            .iter()
-            .all(|x| x.is_sign_positive())
-    );
+    assert!(axis([-0.0, 2.0, -0.0]).unwrap().iter().all(|x| x.is_sign_positive()));
 }
 
 #[test]
 fn half_a_turn_has_one_rotation_vector() {
-    assert_eq!(
-        to_rotation_vector(&quaternion([0.0, 0.0, -1.0, 0.0])),
-        [0.0, PI, 0.0]
-    );
-    assert_eq!(
-        to_rotation_vector(&quaternion([-0.0, 0.0, 0.6, -0.8])),
-        [0.0, 0.6 * PI, -0.8 * PI]
-    );
+    assert_eq!(to_rotation_vector(&quaternion([0.0, 0.0, -1.0, 0.0])), [0.0, PI, 0.0]);
+    assert_eq!(to_rotation_vector(&quaternion([-0.0, 0.0, 0.6, -0.8])), [0.0, 0.6 * PI, -0.8 * PI]);
     let [_, short_of, _] = to_rotation_vector(&quaternion([1e-12, 0.0, -1.0, 0.0]));
     assert!((short_of + (PI - 2e-12)).abs() < 1e-15, "{short_of}");
     assert_eq!(to_rotation_vector(&UnitQuaternion::identity()), [0.0; 3]);
@@ -120,15 +89,9 @@ fn distances() {
     assert!((rotation_distance(&identity, &about(axis, PI)) - 2.0).abs() < 1e-15);
     assert!((rotation_distance(&identity, &about(axis, FRAC_PI_2)) - SQRT_2).abs() < 1e-15);
     let small = rotation_distance(&about(axis, 1.0), &about(axis, 1.0 + 1e-6));
-    assert!(
-        (small - 1e-6).abs() < 1e-15,
-        "the angle itself, where it is small: {small}"
-    );
+    assert!((small - 1e-6).abs() < 1e-15, "the angle itself, where it is small: {small}");
     let a = about(axis, 2.0);
-    assert_eq!(
-        rotation_distance(&a, &quaternion([-a.w, -a.i, -a.j, -a.k])),
-        0.0
-    );
+    assert_eq!(rotation_distance(&a, &quaternion([-a.w, -a.i, -a.j, -a.k])), 0.0);
 }
 
 proptest! {

@@ -22,12 +22,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         } else {
             continue;
         };
-        let mut finding = urdf
-            .at_attribute(file.node, "filename", message)
-            .actual(file.name);
-        let inside = file
-            .path()
-            .and_then(|path| path.strip_prefix(urdf.folder).ok());
+        let mut finding = urdf.at_attribute(file.node, "filename", message).actual(file.name);
+        let inside = file.path().and_then(|path| path.strip_prefix(urdf.folder).ok());
         let relative = inside.and_then(|inside| inside.to_str());
         let is_there = file.path().is_some_and(std::path::Path::is_file);
         if let (Some(relative), Some(range), true) =

@@ -18,9 +18,7 @@ const MORE_THAN_A_TURN: f64 = 7.0;
 const STEP: f64 = 15.0;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let origins = urdf
-        .parts()
-        .filter(|node| node.tag_name().name() == "origin");
+    let origins = urdf.parts().filter(|node| node.tag_name().name() == "origin");
     for origin in origins {
         let Some(angles) = numbers::<3>(origin, "rpy") else {
             continue;

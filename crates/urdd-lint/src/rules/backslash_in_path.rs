@@ -20,9 +20,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         }
         let message = "only Windows takes a backslash as a separator; write `/`";
-        let mut finding = urdf
-            .at_attribute(file.node, "filename", message)
-            .actual(file.name);
+        let mut finding = urdf.at_attribute(file.node, "filename", message).actual(file.name);
         let range = urdf.value(file.node, "filename");
         if let Some(range) = range.filter(|_| is_there(urdf, file.name)) {
             let mended = urdf.text[range.clone()].replace('\\', "/");

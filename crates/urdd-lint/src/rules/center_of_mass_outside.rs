@@ -40,11 +40,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let has_shapes = !link.visual.is_empty() || !link.collision.is_empty();
-        let Some(hull) = body
-            .hull
-            .as_ref()
-            .filter(|_| has_shapes && inertial.mass > LIGHT)
-        else {
+        let Some(hull) = body.hull.as_ref().filter(|_| has_shapes && inertial.mass > LIGHT) else {
             continue;
         };
         let points = body.in_frame(&bodies.pose[index]);

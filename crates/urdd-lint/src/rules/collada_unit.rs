@@ -17,14 +17,9 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Ok(facts) = mesh.facts else { continue };
-        if facts
-            .notes
-            .iter()
-            .any(|note| note.code == NoteCode::UnitApplied)
-        {
+        if facts.notes.iter().any(|note| note.code == NoteCode::UnitApplied) {
             let message = "the mesh is not in metres, and programs differ in whether they convert it; export it in metres";
-            urdf.at_attribute(node, "filename", message)
-                .report(findings);
+            urdf.at_attribute(node, "filename", message).report(findings);
         }
     }
     Some(())

@@ -17,14 +17,9 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     for (node, mesh) in urdf.read_meshes(findings)? {
         let Ok(facts) = mesh.facts else { continue };
-        if facts
-            .notes
-            .iter()
-            .any(|note| note.code == NoteCode::UpAxisIgnored)
-        {
+        if facts.notes.iter().any(|note| note.code == NoteCode::UpAxisIgnored) {
             let message = "the mesh says that another axis than z is up, and some viewers turn it; export it with z up";
-            urdf.at_attribute(node, "filename", message)
-                .report(findings);
+            urdf.at_attribute(node, "filename", message).report(findings);
         }
     }
     Some(())

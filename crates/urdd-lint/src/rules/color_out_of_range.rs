@@ -18,10 +18,7 @@ const MOST: f64 = 1.001;
 const BYTE: f64 = 255.0;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let colors = urdf
-        .root
-        .descendants()
-        .filter(|node| node.tag_name().name() == "color");
+    let colors = urdf.root.descendants().filter(|node| node.tag_name().name() == "color");
     for color in colors {
         let Some(rgba) = numbers::<4>(color, "rgba") else {
             continue;
@@ -38,10 +35,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             let a = if a <= MOST { a } else { a / BYTE };
             let mended = [r / BYTE, g / BYTE, b / BYTE, a].map(|value| format!("{value}"));
             let fix = urdf.fix("divide the colour by 255", range, mended.join(" "));
-            finding = finding.fix(Fix {
-                is_safe: false,
-                ..fix
-            });
+            finding = finding.fix(Fix { is_safe: false, ..fix });
         }
         finding.report(findings);
     }

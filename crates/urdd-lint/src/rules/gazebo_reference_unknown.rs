@@ -14,10 +14,7 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    let known: Vec<&str> = urdf
-        .names(&urdf.links)
-        .chain(urdf.names(&urdf.joints))
-        .collect();
+    let known: Vec<&str> = urdf.names(&urdf.links).chain(urdf.names(&urdf.joints)).collect();
     for (_, node) in children(urdf.root).filter(|(name, _)| *name == "gazebo") {
         let reference = node.attribute("reference").filter(|name| !name.is_empty());
         let Some(reference) = reference.filter(|name| !known.contains(name)) else {
@@ -27,8 +24,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "neither a link nor a joint is called `{reference}`{hint}; write a name that is there"
         );
-        urdf.at_attribute(node, "reference", message)
-            .report(findings);
+        urdf.at_attribute(node, "reference", message).report(findings);
     }
     Some(())
 }

@@ -62,9 +62,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let points = body.in_frame(&bodies.pose[link]);
         let margin = PART * diagonal(points.iter().copied()) + MARGIN;
         let largest = largest_radii(inertial, &points, margin);
-        let radii = inertial
-            .moments
-            .map(|moment| (moment / inertial.mass).max(0.0).sqrt());
+        let radii = inertial.moments.map(|moment| (moment / inertial.mass).max(0.0).sqrt());
         let worst = (0..3)
             .max_by(|a, b| (radii[*a] / largest[*a]).total_cmp(&(radii[*b] / largest[*b])))?;
         if radii[worst] > largest[worst] {
@@ -75,9 +73,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                 metres(largest[worst])
             );
             let node = urdf.inertial(link, "inertia");
-            urdf.at(node, message)
-                .off_by(radii[worst] - largest[worst], "m")
-                .report(findings);
+            urdf.at(node, message).off_by(radii[worst] - largest[worst], "m").report(findings);
         }
     }
     Some(())
@@ -87,21 +83,11 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 /// with this centre: by the farthest point from the axis, and by the largest variance of a distribution on an interval
 /// whose mean is given, (high - mean)(mean - low) (Bhatia and Davis 2000).
 fn largest_radii(inertial: &Inertial, points: &[Vector3<f64>], margin: f64) -> Vector3<f64> {
-    let seen: Vec<Vector3<f64>> = points
-        .iter()
-        .map(|point| inertial.axes.tr_mul(&(point - inertial.center)))
-        .collect();
+    let seen: Vec<Vector3<f64>> =
+        points.iter().map(|point| inertial.axes.tr_mul(&(point - inertial.center))).collect();
     let variance = |axis: usize| {
-        let low = seen
-            .iter()
-            .map(|point| point[axis])
-            .fold(f64::INFINITY, f64::min)
-            - margin;
-        let high = seen
-            .iter()
-            .map(|point| point[axis])
-            .fold(f64::NEG_INFINITY, f64::max)
-            + margin;
+        let low = seen.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min) - margin;
+        let high = seen.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max) + margin;
         match low < 0.0 && high > 0.0 {
             true => -low * high,
             // The centre is outside: LNT002 says so.
@@ -111,11 +97,8 @@ fn largest_radii(inertial: &Inertial, points: &[Vector3<f64>], margin: f64) -> V
     let variances = [0, 1, 2].map(variance);
     let radius = |axis: usize| {
         let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-        let farthest = seen
-            .iter()
-            .map(|point| point[j].hypot(point[k]))
-            .fold(0.0, f64::max)
-            + margin;
+        let farthest =
+            seen.iter().map(|point| point[j].hypot(point[k])).fold(0.0, f64::max) + margin;
         farthest.powi(2).min(variances[j] + variances[k]).sqrt()
     };
     Vector3::new(radius(0), radius(1), radius(2))

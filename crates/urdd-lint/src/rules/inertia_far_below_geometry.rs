@@ -47,8 +47,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             number(even, 3),
             number(even / trace, 2)
         );
-        urdf.at(urdf.inertial(index, "inertia"), message)
-            .report(findings);
+        urdf.at(urdf.inertial(index, "inertia"), message).report(findings);
     }
     Some(())
 }

@@ -28,11 +28,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             None => missing.push("`<inertia>`"),
             Some(inertia) => {
                 let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
-                missing.extend(
-                    names
-                        .into_iter()
-                        .filter(|name| !inertia.has_attribute(*name)),
-                );
+                missing.extend(names.into_iter().filter(|name| !inertia.has_attribute(*name)));
             }
         }
         if !missing.is_empty() {

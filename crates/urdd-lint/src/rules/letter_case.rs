@@ -28,8 +28,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let near = texture.file.err()?.other_case?;
         let (node, name) = (texture.named.node, texture.named.name);
         // LNT030 says the others.
-        near.is_only
-            .then_some((node, name, near, Some(Severity::Info)))
+        near.is_only.then_some((node, name, near, Some(Severity::Info)))
     });
     for (node, name, near, severity) in meshes.chain(textures) {
         let value = urdf.value(node, "filename");

@@ -38,9 +38,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             "the limits look like degrees, and are taken as radians; write lower=\"{}\" upper=\"{}\"",
             radians[0], radians[1]
         );
-        urdf.at(limit, message)
-            .actual(format!("{lower} to {upper}"))
-            .report(findings);
+        urdf.at(limit, message).actual(format!("{lower} to {upper}")).report(findings);
     }
     Some(())
 }

@@ -21,9 +21,8 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let named = |node: Node<'_, '_>, wanted: &str| node.tag_name().name() == wanted;
     let global = children(urdf.root).filter(|(name, _)| *name == "material");
-    let mut defined: BTreeSet<&str> = global
-        .filter_map(|(_, node)| node.attribute("name"))
-        .collect();
+    let mut defined: BTreeSet<&str> =
+        global.filter_map(|(_, node)| node.attribute("name")).collect();
     let mut told = BTreeSet::new();
     for link in &urdf.links {
         let visuals = link.children().filter(|node| named(*node, "visual"));
@@ -39,8 +38,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                      in `<robot>`",
                     urdd_format::escape::line(name)
                 );
-                urdf.at_attribute(material, "name", message)
-                    .report(findings);
+                urdf.at_attribute(material, "name", message).report(findings);
             }
         }
     }

@@ -38,8 +38,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             continue;
         };
         let message = format!("the mesh is {} {message}", metres(size));
-        urdf.at_attribute(node, "filename", message)
-            .report(findings);
+        urdf.at_attribute(node, "filename", message).report(findings);
     }
     Some(())
 }

@@ -38,9 +38,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             let message = "another collision mesh in another folder has this file name, and MuJoCo before 4.0 takes one for both; \
                 rename one of them";
             let first = urdf.at_attribute(*first_node, "filename", "the other mesh is here");
-            urdf.at_attribute(*node, "filename", message)
-                .related(first)
-                .report(findings);
+            urdf.at_attribute(*node, "filename", message).related(first).report(findings);
         }
     }
     Some(())

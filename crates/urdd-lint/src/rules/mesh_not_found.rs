@@ -22,10 +22,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         let Err(missing) = &mesh.file else {
             continue;
         };
-        let file = NamedFile {
-            node,
-            name: &mesh.filename,
-        };
+        let file = NamedFile { node, name: &mesh.filename };
         // Other rules say these.
         if missing.other_case.is_some()
             || missing.no_package.is_some()
@@ -48,9 +45,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             }
             None => "the file is not there; correct the name, or add the file".to_owned(),
         };
-        urdf.at_attribute(node, "filename", message)
-            .actual(&mesh.filename)
-            .report(findings);
+        urdf.at_attribute(node, "filename", message).actual(&mesh.filename).report(findings);
     }
     Some(())
 }

@@ -18,8 +18,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if is_read_here(mesh.file) {
             let message =
                 format!("the mesh cannot be read: {reason}; export it again, or fetch it");
-            urdf.at_attribute(node, "filename", message)
-                .report(findings);
+            urdf.at_attribute(node, "filename", message).report(findings);
         }
     }
     Some(())

@@ -18,14 +18,7 @@ declare_lint! {
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let all = urdf.unknown();
-    for Unknown {
-        node,
-        what,
-        meant,
-        is_only,
-        ..
-    } in all.iter().cloned()
-    {
+    for Unknown { node, what, meant, is_only, .. } in all.iter().cloned() {
         let Some(meant) = meant else {
             continue;
         };

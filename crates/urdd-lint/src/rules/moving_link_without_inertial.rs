@@ -17,9 +17,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let (robot, bodies) = urdf.bodies(findings)?;
     let has_mass = |link: usize| {
         let inertial = robot.links[link].inertial.as_ref();
-        inertial
-            .and_then(|inertial| inertial.mass)
-            .is_some_and(|mass| mass != 0.0)
+        inertial.and_then(|inertial| inertial.mass).is_some_and(|mass| mass != 0.0)
     };
     // SRC003 tells of a moving link that says 0.
     let says_zero = |link: usize| {

@@ -30,9 +30,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     // LNT022 finds larger ones.
     let longest = urdf.longest_part(findings)?;
     for (&top, body) in geometry.bodies.iter().filter(|(_, body)| !body.is_partial) {
-        let masses = bodies
-            .members(top)
-            .filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
+        let masses =
+            bodies.members(top).filter_map(|link| robot.links[link].inertial.as_ref()?.mass);
         let mass: f64 = masses.sum();
         let Some(hull) = body.hull.as_ref().filter(|_| mass > 0.0) else {
             continue;
@@ -44,15 +43,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             hulls.map(|hull| hull.volume).sum()
         };
         let sums = [GeometryKind::Visual, GeometryKind::Collision].map(sum);
-        let least = sums
-            .into_iter()
-            .filter(|sum| *sum > 0.0)
-            .fold(f64::INFINITY, f64::min);
-        let least = if least.is_finite() {
-            least
-        } else {
-            hull.volume
-        };
+        let least = sums.into_iter().filter(|sum| *sum > 0.0).fold(f64::INFINITY, f64::min);
+        let least = if least.is_finite() { least } else { hull.volume };
         // A heavy base holds the robot in place.
         let is_dense = bodies.tree.parent_joint[top].is_some() && mass > DUMMY;
         let (volume, wrong) = if mass / hull.volume > GREATEST && is_dense {
@@ -73,13 +65,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             number(mass / volume, 3)
         );
         let mass_of = |link: &usize| robot.links[*link].inertial.as_ref()?.mass;
-        let heaviest = bodies.members(top).max_by(|a, b| {
-            mass_of(a)
-                .unwrap_or(0.0)
-                .total_cmp(&mass_of(b).unwrap_or(0.0))
-        });
-        urdf.at(urdf.inertial(heaviest.unwrap_or(top), "mass"), message)
-            .report(findings);
+        let heaviest = bodies
+            .members(top)
+            .max_by(|a, b| mass_of(a).unwrap_or(0.0).total_cmp(&mass_of(b).unwrap_or(0.0)));
+        urdf.at(urdf.inertial(heaviest.unwrap_or(top), "mass"), message).report(findings);
     }
     Some(())
 }

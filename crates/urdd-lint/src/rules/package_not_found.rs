@@ -29,8 +29,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "there is no package `{package}` at or above the URDF; say where it is: --package {package}=FOLDER"
             );
-            urdf.at_attribute(node, "filename", message)
-                .report(findings);
+            urdf.at_attribute(node, "filename", message).report(findings);
         }
     }
     Some(())

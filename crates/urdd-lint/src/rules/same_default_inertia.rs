@@ -37,15 +37,10 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             groups.entry(key).or_default().push(index);
         }
     }
-    let mut groups: Vec<_> = groups
-        .into_iter()
-        .filter(|(_, links)| links.len() >= MANY)
-        .collect();
+    let mut groups: Vec<_> = groups.into_iter().filter(|(_, links)| links.len() >= MANY).collect();
     groups.sort_by_key(|(_, links)| links[0]);
     for (key, links) in groups {
-        let hulls = links
-            .iter()
-            .filter(|link| !geometry.links[**link].is_partial);
+        let hulls = links.iter().filter(|link| !geometry.links[**link].is_partial);
         let hulls = hulls.filter_map(|link| Hull::of(geometry.links[*link].corners()));
         let mut volumes: Vec<f64> = hulls.map(|hull| hull.volume).collect();
         volumes.sort_by(f64::total_cmp);
@@ -68,8 +63,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             number(yy, 4),
             number(zz, 4)
         );
-        urdf.at(urdf.inertial(links[0], "inertia"), message)
-            .report(findings);
+        urdf.at(urdf.inertial(links[0], "inertia"), message).report(findings);
     }
     Some(())
 }

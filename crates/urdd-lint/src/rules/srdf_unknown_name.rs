@@ -21,9 +21,7 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    srdf::each(urdf, |file, document| {
-        compare(urdf, file, document, findings)
-    });
+    srdf::each(urdf, |file, document| compare(urdf, file, document, findings));
     Some(())
 }
 
@@ -36,9 +34,8 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
     let joints: BTreeSet<&str> = urdf.names(&urdf.joints).collect();
     let elements = || root.descendants().filter(Node::is_element);
     let virtual_joints = elements().filter(|node| node.tag_name().name() == "virtual_joint");
-    let virtual_joints: BTreeSet<&str> = virtual_joints
-        .filter_map(|node| node.attribute("name"))
-        .collect();
+    let virtual_joints: BTreeSet<&str> =
+        virtual_joints.filter_map(|node| node.attribute("name")).collect();
     let lines = LineIndex::new(document.input_text());
     let mut told = BTreeSet::new();
     for node in elements() {
@@ -67,12 +64,9 @@ fn compare(urdf: &Subject, file: &str, document: &Document, findings: &mut Findi
             let kind = if is_link { "link" } else { "joint" };
             let message =
                 format!("the URDF has no {kind} `{name}`; correct the name, or remove the line");
-            let offset = node
-                .attribute_node(*attribute)
-                .map_or(node.range().start, |one| one.range().start);
-            Finding::in_file(file, message)
-                .position(Some(lines.position(offset)))
-                .report(findings);
+            let offset =
+                node.attribute_node(*attribute).map_or(node.range().start, |one| one.range().start);
+            Finding::in_file(file, message).position(Some(lines.position(offset))).report(findings);
         }
     }
 }

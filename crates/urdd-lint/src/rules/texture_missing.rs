@@ -30,8 +30,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
                     "the mesh names the file `{}`, which is not there; add it beside the mesh",
                     urdd_format::escape::line(name)
                 );
-                urdf.at_attribute(node, "filename", message)
-                    .report(findings);
+                urdf.at_attribute(node, "filename", message).report(findings);
             }
         }
     }
@@ -63,10 +62,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
 
 /// Whether a file is there by its name, as it is or as a URI.
 fn is_there(folder: &Path, name: &str) -> bool {
-    let plain = name
-        .strip_prefix("file://")
-        .or_else(|| name.strip_prefix("file:"))
-        .unwrap_or(name);
+    let plain = name.strip_prefix("file://").or_else(|| name.strip_prefix("file:")).unwrap_or(name);
     let plain = plain.replace('\\', "/");
     let plain = plain.trim();
     let decoded = percent_decode_str(plain).decode_utf8_lossy();

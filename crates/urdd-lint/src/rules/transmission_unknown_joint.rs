@@ -15,9 +15,7 @@ declare_lint! {
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let transmissions = children(urdf.root).filter(|(name, _)| *name == "transmission");
     for (_, transmission) in transmissions {
-        let joints = transmission
-            .descendants()
-            .filter(|node| node.tag_name().name() == "joint");
+        let joints = transmission.descendants().filter(|node| node.tag_name().name() == "joint");
         for joint in joints {
             urdf.names_a_joint(joint, findings);
         }

@@ -13,14 +13,7 @@ declare_lint! {
 }
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
-    for Unknown {
-        node,
-        what,
-        meant,
-        belongs,
-        ..
-    } in urdf.unknown()
-    {
+    for Unknown { node, what, meant, belongs, .. } in urdf.unknown() {
         if meant.is_some() || !belongs.is_empty() {
             continue;
         }

@@ -28,11 +28,8 @@ const CLOSE: f64 = 0.03;
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
     let geometry = urdf.geometry(findings)?;
-    for (index, link) in geometry
-        .links
-        .iter()
-        .enumerate()
-        .filter(|(_, link)| !link.is_partial && !link.is_turned())
+    for (index, link) in
+        geometry.links.iter().enumerate().filter(|(_, link)| !link.is_partial && !link.is_turned())
     {
         let visual = bounds(link.corners_of(GeometryKind::Visual));
         let collision = bounds(link.corners_of(GeometryKind::Collision));
@@ -72,7 +69,5 @@ fn is_same(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
         sorted
     };
     let pairs = sorted(a).into_iter().zip(sorted(b));
-    pairs
-        .into_iter()
-        .all(|(a, b)| (a - b).abs() <= SAME * a.max(b))
+    pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME * a.max(b))
 }

@@ -31,10 +31,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         if robot.links[top].name == "world" || bodies.members(top).any(collides) {
             continue;
         }
-        let visuals = body
-            .shapes
-            .iter()
-            .filter(|shape| shape.kind == GeometryKind::Visual);
+        let visuals = body.shapes.iter().filter(|shape| shape.kind == GeometryKind::Visual);
         let size = diagonal(visuals.flat_map(|shape| shape.corners.iter().copied()));
         if size >= SMALL {
             let message = format!(
@@ -43,8 +40,7 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
             );
             let mut members = bodies.members(top);
             let drawn = members.find(|link| !robot.links[*link].visual.is_empty());
-            urdf.at(urdf.links[drawn.unwrap_or(top)], message)
-                .report(findings);
+            urdf.at(urdf.links[drawn.unwrap_or(top)], message).report(findings);
         }
     }
     Some(())

@@ -33,15 +33,10 @@ fn an_allowed_finding_is_left_out() {
 
 #[test]
 fn a_comment_elsewhere_allows_nothing_and_is_named() {
-    let line = 1 + SLIDE[..SLIDE.find("<limit").expect("it")]
-        .matches('\n')
-        .count();
+    let line = 1 + SLIDE[..SLIDE.find("<limit").expect("it")].matches('\n').count();
     for code in ["LNT012", "LNT999"] {
         let (codes, stale) = found("<limit", &format!("<!-- urdd: allow {code} --><limit"));
         assert_eq!(codes, ["LNT012"]);
-        assert_eq!(
-            stale,
-            [(Some(code.to_owned()), format!("slide.urdf:{line}"))]
-        );
+        assert_eq!(stale, [(Some(code.to_owned()), format!("slide.urdf:{line}"))]);
     }
 }

@@ -31,10 +31,7 @@ pub fn cases(code: Code, prefix: &str) -> Vec<PathBuf> {
 /// A copy of a case's folder, with all that the case names, and the case in it.
 pub fn copied(case: &Path) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut left = vec![(
-        case.parent().expect("a folder").to_owned(),
-        folder.path().to_owned(),
-    )];
+    let mut left = vec![(case.parent().expect("a folder").to_owned(), folder.path().to_owned())];
     while let Some((from, to)) = left.pop() {
         fs::create_dir_all(&to).expect("a folder");
         for entry in fs::read_dir(&from).expect("read") {
@@ -54,29 +51,13 @@ pub fn copied(case: &Path) -> (tempfile::TempDir, PathBuf) {
 fn found(rule: &LintRule, file: &Path) -> Vec<(String, String)> {
     let mut settings = LintSettings::default();
     let description = &rule.description;
-    settings
-        .report
-        .severities
-        .insert(description.code, description.severity);
+    settings.report.severities.insert(description.code, description.severity);
     let run = lint(&[file.to_owned()], &settings).expect("a report");
     let report = run.report.urdds.into_iter().next().expect("one file");
-    assert_ne!(
-        report.verdict,
-        Verdict::Unreadable,
-        "{}: {:?}",
-        file.display(),
-        report.reason
-    );
-    assert_ne!(
-        report.verdict,
-        Verdict::Incomplete,
-        "{}: a rule crashed",
-        file.display()
-    );
+    assert_ne!(report.verdict, Verdict::Unreadable, "{}: {:?}", file.display(), report.reason);
+    assert_ne!(report.verdict, Verdict::Incomplete, "{}: a rule crashed", file.display());
     let findings = report.findings.into_iter();
-    findings
-        .map(|finding| (finding.code, finding.message))
-        .collect()
+    findings.map(|finding| (finding.code, finding.message)).collect()
 }
 
 #[test]
@@ -86,12 +67,7 @@ fn a_rule_alone_finds_its_fault() {
         for file in cases(code, "invalid") {
             let found = found(rule, &file);
             let codes: BTreeSet<&str> = found.iter().map(|(code, _)| code.as_str()).collect();
-            assert_eq!(
-                codes,
-                BTreeSet::from([code.as_str()]),
-                "{}: {found:#?}",
-                file.display()
-            );
+            assert_eq!(codes, BTreeSet::from([code.as_str()]), "{}: {found:#?}", file.display());
         }
     }
 }
@@ -107,18 +83,12 @@ fn a_near_miss_has_no_finding() {
 
 #[test]
 fn every_code_of_the_family_is_a_rule_and_every_folder_a_code() {
-    let declared: BTreeSet<Code> = rules::all()
-        .iter()
-        .map(|rule| rule.description.code)
-        .collect();
+    let declared: BTreeSet<Code> = rules::all().iter().map(|rule| rule.description.code).collect();
     let codes = Code::ALL.iter().filter(|code| code.family() == "LNT");
     assert_eq!(declared, codes.copied().collect());
     for entry in fs::read_dir(folder_of(Code::LNT001).parent().expect("a folder")).expect("read") {
         let name = entry.expect("an entry").file_name();
         let name = name.to_string_lossy();
-        assert!(
-            name == "meshes" || Code::parse(&name).is_some(),
-            "no rule has the cases {name}"
-        );
+        assert!(name == "meshes" || Code::parse(&name).is_some(), "no rule has the cases {name}");
     }
 }

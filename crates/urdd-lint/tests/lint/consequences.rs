@@ -29,9 +29,7 @@ fn found(text: &str, settings: &LintSettings) -> Vec<Finding> {
 /// The codes and severities of what is found in a text.
 fn kinds(text: &str, settings: &LintSettings) -> Vec<(String, Severity)> {
     let found = found(text, settings).into_iter();
-    found
-        .map(|finding| (finding.code, finding.severity))
-        .collect()
+    found.map(|finding| (finding.code, finding.severity)).collect()
 }
 
 fn is(code: &str, severity: Severity) -> (String, Severity) {
@@ -77,10 +75,7 @@ fn each_misspelling_speaks_for_itself() {
     }
     effects.sort();
     let expected = [(10, "LNT016"), (11, "LNT017"), (17, "LNT008")];
-    assert_eq!(
-        effects,
-        expected.map(|(line, code)| (line, code.to_owned()))
-    );
+    assert_eq!(effects, expected.map(|(line, code)| (line, code.to_owned())));
 }
 
 #[test]
@@ -118,20 +113,16 @@ fn what_follows_is_reported_where_the_cause_is_not() {
     assert_eq!(kinds(&text, &by_file), effect);
     let allowed = text.replace("<inertia ", "<!-- urdd: allow LNT040 --><inertia ");
     assert_eq!(kinds(&allowed, &LintSettings::default()), effect);
-    let both = text.replace(
-        "<inertial>",
-        "<!-- urdd: allow LNT040, LNT008 --><inertial>",
-    );
+    let both = text.replace("<inertial>", "<!-- urdd: allow LNT040, LNT008 --><inertial>");
     assert_eq!(kinds(&both, &LintSettings::default()), []);
 }
 
 #[test]
 fn settings_say_how_severe_both_are() {
     let text = with(&[MISSPELT]);
-    for (code, severity, expected) in [
-        ("LNT008", Severity::Info, Severity::Warning),
-        ("LNT040", Severity::Info, Severity::Error),
-    ] {
+    for (code, severity, expected) in
+        [("LNT008", Severity::Info, Severity::Warning), ("LNT040", Severity::Info, Severity::Error)]
+    {
         let mut settings = LintSettings::default();
         let code = urdd_validate::code::Code::parse(code).expect("a code");
         settings.report.severities.insert(code, severity);
@@ -144,16 +135,9 @@ fn a_baseline_with_the_cause_leaves_out_what_follows() {
     let (folder, file) = written(&with(&[MISSPELT]));
     let run = linted(&file, &LintSettings::default());
     let baseline = Baseline::of(&run, folder.path());
-    let settings = LintSettings {
-        baseline: Some(baseline),
-        ..LintSettings::default()
-    };
+    let settings = LintSettings { baseline: Some(baseline), ..LintSettings::default() };
     let run = linted(&file, &settings);
     assert_eq!((codes(&run), run.report.stale_ignores), (vec![], vec![]));
     fs::write(&file, ARM.replacen(" ixz=\"0\"", "", 1)).expect("written");
-    assert_eq!(
-        codes(&linted(&file, &settings)),
-        ["LNT008"],
-        "another fault"
-    );
+    assert_eq!(codes(&linted(&file, &settings)), ["LNT008"], "another fault");
 }

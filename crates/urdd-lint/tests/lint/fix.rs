@@ -15,10 +15,7 @@ fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
         for case in cases(code, "invalid") {
             let (_folder, file) = copied(&case);
             let mut settings = LintSettings::default();
-            settings
-                .report
-                .severities
-                .insert(code, rule.description.severity);
+            settings.report.severities.insert(code, rule.description.severity);
             let mended = mend(std::slice::from_ref(&file), &settings, false).expect("it");
             let Some(mended) = mended.into_iter().next() else {
                 continue;
@@ -28,11 +25,7 @@ fn a_fix_mends_the_fault_and_the_second_time_nothing_is_left() {
             assert_eq!(before, mended.before, "nothing is written");
             fs::write(&file, &mended.after).expect("written");
             let left = codes(&linted(&file, &settings));
-            assert!(
-                !left.contains(&code.as_str().to_owned()),
-                "{}: {left:?}",
-                case.display()
-            );
+            assert!(!left.contains(&code.as_str().to_owned()), "{}: {left:?}", case.display());
             let again = mend(std::slice::from_ref(&file), &settings, false).expect("it");
             assert_eq!(again, [], "{}", case.display());
         }
@@ -49,16 +42,9 @@ fn every_other_byte_stays() {
         panic!("{mended:?}");
     };
     let (start, end) = text.split_once("0 0 1.01").expect("it");
-    assert!(
-        mended.after.starts_with(start) && mended.after.ends_with(end),
-        "{}",
-        mended.after
-    );
+    assert!(mended.after.starts_with(start) && mended.after.ends_with(end), "{}", mended.after);
     let axis = &mended.after[start.len()..mended.after.len() - end.len()];
-    let axis: Vec<f64> = axis
-        .split(' ')
-        .map(|x| x.parse().expect("a number"))
-        .collect();
+    let axis: Vec<f64> = axis.split(' ').map(|x| x.parse().expect("a number")).collect();
     assert_eq!(axis, [0.0, 0.0, 1.0]);
     assert_eq!(mended.places, 1);
     let target = mended.target.clone().expect("nothing forbids it");
@@ -98,10 +84,7 @@ fn a_misspelt_attribute_is_mended_where_it_can_mean_one_thing() {
     let arm = include_str!("../cases/LNT040/near_miss.urdf");
     let with = |from: &str, to: &str| {
         assert!(arm.contains(from), "{from}");
-        (
-            arm.replacen(from, to, 1),
-            mended(&arm.replacen(from, to, 1), &[]),
-        )
+        (arm.replacen(from, to, 1), mended(&arm.replacen(from, to, 1), &[]))
     };
     let (text, after) = with("upper=\"2\"", "uper=\"2\"");
     assert_eq!(after, Some(text.replace("uper=", "upper=")));

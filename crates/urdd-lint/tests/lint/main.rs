@@ -45,12 +45,7 @@ fn a_xacro_file_in_a_folder_is_left_out_unless_it_is_asked_for() {
     let (folder, file) = written(SLIDE);
     fs::write(folder.path().join("arm.urdf.xacro"), "<robot").expect("written");
     let run = lint(&[folder.path().to_owned()], &LintSettings::default()).expect("a report");
-    let names: Vec<&str> = run
-        .report
-        .urdds
-        .iter()
-        .map(|urdf| urdf.path.as_str())
-        .collect();
+    let names: Vec<&str> = run.report.urdds.iter().map(|urdf| urdf.path.as_str()).collect();
     assert_eq!(names, ["slide.urdf"]);
     fs::remove_file(&file).expect("removed");
     let refused = lint(&[folder.path().to_owned()], &LintSettings::default());
@@ -73,25 +68,16 @@ fn what_the_validator_says_is_not_said_again() {
     let link = "<link name=\"upper\">\n";
     let zero = "<inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial>";
     let massless = format!("{link}{zero}");
-    assert_eq!(
-        changed("LNT006/invalid_all.urdf", link, &massless),
-        ["SRC003"]
-    );
+    assert_eq!(changed("LNT006/invalid_all.urdf", link, &massless), ["SRC003"]);
     let limits = "lower=\"-2\" upper=\"2\"";
     let crossed = "lower=\"1\" upper=\"-1\"";
     assert_eq!(changed("LNT013/invalid.urdf", limits, crossed), ["SRC001"]);
     // A tensor that no body has: that it is also larger than the link's shapes allow follows.
     let izz = "izz=\"0.002\"";
-    assert_eq!(
-        changed("LNT001/invalid.urdf", izz, "izz=\"-0.002\""),
-        ["SRC004"]
-    );
+    assert_eq!(changed("LNT001/invalid.urdf", izz, "izz=\"-0.002\""), ["SRC004"]);
     // A pose that cannot be read: nothing is said about where shapes are.
     let pose = "<origin xyz=";
-    assert_eq!(
-        changed("LNT050/invalid.urdf", pose, "<origin rpy=\"0 0 0 0\" xyz="),
-        ["URD011"]
-    );
+    assert_eq!(changed("LNT050/invalid.urdf", pose, "<origin rpy=\"0 0 0 0\" xyz="), ["URD011"]);
 }
 
 #[test]
@@ -107,8 +93,5 @@ fn a_robot_that_is_no_xml_is_looked_at_as_far_as_it_can_be_mended() {
     assert_eq!(codes(&run), ["URD011", "SRC004"]);
     let line = run.report.urdds[0].findings[1].line.expect("a line").get();
     let shown = text.lines().nth(line - 1).expect("a line");
-    assert!(
-        shown.contains("<inertia ") || shown.contains("<link "),
-        "{shown}"
-    );
+    assert!(shown.contains("<inertia ") || shown.contains("<link "), "{shown}");
 }

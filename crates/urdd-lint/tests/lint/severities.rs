@@ -30,15 +30,10 @@ fn severity(case: &str, old: &str, new: &str) -> Severity {
     if new == HUGE {
         fs::write(copy.path().join(HUGE), huge()).expect("written");
     }
-    let found = linted(&file, &LintSettings::default())
-        .report
-        .urdds
-        .remove(0)
-        .findings;
+    let found = linted(&file, &LintSettings::default()).report.urdds.remove(0).findings;
     let code = &case[.."LNT000".len()];
-    let own: Vec<Severity> = (found.iter().filter(|one| one.code == code))
-        .map(|one| one.severity)
-        .collect();
+    let own: Vec<Severity> =
+        (found.iter().filter(|one| one.code == code)).map(|one| one.severity).collect();
     assert_eq!(own.len(), 1, "{case}, {new}: {found:#?}");
     own[0]
 }

@@ -18,11 +18,7 @@ fn not_checked(text: &str, select: &[&str]) -> Vec<(Vec<String>, String)> {
     let select = select.iter().map(|codes| codes.parse().expect("codes"));
     settings.report.selection.select = select.collect();
     let run = linted(&file, &settings);
-    let open = run
-        .report
-        .urdds
-        .into_iter()
-        .flat_map(|urdf| urdf.not_checked);
+    let open = run.report.urdds.into_iter().flat_map(|urdf| urdf.not_checked);
     open.map(|open| (open.codes, open.reason)).collect()
 }
 
@@ -64,10 +60,7 @@ fn the_rule_that_refused_the_file_is_named() {
 
 #[test]
 fn links_whose_meshes_were_not_read_are_named() {
-    let case = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/tests/cases/LNT029/near_miss.urdf"
-    );
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/LNT029/near_miss.urdf");
     let (folder, file) = copied(case.as_ref());
     let text = fs::read_to_string(&file).expect("it");
     let elsewhere = tempfile::tempdir().expect("a folder");

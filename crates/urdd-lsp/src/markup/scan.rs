@@ -19,11 +19,7 @@ const CONTAINERS: &[&str] = &[
 ];
 
 pub(super) fn scan(text: &str) -> Vec<Element> {
-    let mut scan = Scan {
-        text,
-        elements: Vec::new(),
-        open: Vec::new(),
-    };
+    let mut scan = Scan { text, elements: Vec::new(), open: Vec::new() };
     let mut at = 0;
     while let Some(next) = text.get(at..).and_then(|rest| rest.find('<')) {
         at = scan.markup(at + next);
@@ -43,12 +39,7 @@ impl Scan<'_> {
     /// Reads what begins with the `<` at `start`, and returns the offset behind it.
     fn markup(&mut self, start: usize) -> usize {
         let rest = &self.text[start..];
-        for (begin, end) in [
-            ("<!--", "-->"),
-            ("<![CDATA[", "]]>"),
-            ("<?", "?>"),
-            ("<!", ">"),
-        ] {
+        for (begin, end) in [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")] {
             if let Some(inside) = rest.strip_prefix(begin) {
                 let length = inside.find(end).map(|at| begin.len() + at + end.len());
                 return start + length.unwrap_or(rest.len());
@@ -130,14 +121,9 @@ impl Scan<'_> {
         if !matches!(name, "link" | "joint") {
             return;
         }
-        let names = self
-            .open
-            .iter()
-            .map(|open| &self.text[self.elements[*open].name.clone()]);
+        let names = self.open.iter().map(|open| &self.text[self.elements[*open].name.clone()]);
         let names: Vec<&str> = names.collect();
-        let unclosed = names
-            .iter()
-            .position(|open| matches!(*open, "link" | "joint"));
+        let unclosed = names.iter().position(|open| matches!(*open, "link" | "joint"));
         // Within these, joints and links are mentioned.
         let mentions = |open: &&str| matches!(*open, "transmission" | "gazebo" | "ros2_control");
         if let Some(depth) = unclosed
@@ -207,11 +193,7 @@ mod tests {
         let shape = |element: usize| {
             let one = &markup.elements[element];
             let values = one.attributes.iter().map(|attribute| {
-                format!(
-                    " {}={}",
-                    &text[attribute.name.clone()],
-                    &text[attribute.value.clone()]
-                )
+                format!(" {}={}", &text[attribute.name.clone()], &text[attribute.value.clone()])
             });
             let depth = markup.ancestors(element).count() - 1;
             let values: String = values.collect();
@@ -223,19 +205,13 @@ mod tests {
     #[test]
     fn whole_texts_are_read_as_xml_is() {
         let text = "<?xml version='1.0'?><!-- <no/> --><robot name = \"a b\"><link name='l'><visual/></link>\n<joint/></robot>";
-        assert_eq!(
-            shape(text),
-            ["0robot name=a b", "1link name=l", "2visual", "1joint"]
-        );
+        assert_eq!(shape(text), ["0robot name=a b", "1link name=l", "2visual", "1joint"]);
     }
 
     #[test]
     fn what_is_missing_ends_where_the_next_begins() {
         let cases: [(&str, &[&str]); 6] = [
-            (
-                "<robot><li <link name='b'/></robot>",
-                &["0robot", "1li", "1link name=b"],
-            ),
+            ("<robot><li <link name='b'/></robot>", &["0robot", "1li", "1link name=b"]),
             (
                 "<robot><link name='a'><visual><link name='b'/></robot>",
                 &["0robot", "1link name=a", "2visual", "1link name=b"],

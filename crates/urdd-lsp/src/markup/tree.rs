@@ -15,9 +15,7 @@ pub struct Markup {
 impl Markup {
     /// Reads a text.
     pub fn new(text: &str) -> Self {
-        Markup {
-            elements: scan(text),
-        }
+        Markup { elements: scan(text) }
     }
 
     /// The name of an element.
@@ -69,13 +67,9 @@ pub fn unescaped(value: &str) -> Cow<'_, str> {
         return Cow::Borrowed(value);
     }
     let mut plain = value.to_owned();
-    for (escaped, c) in [
-        ("&lt;", "<"),
-        ("&gt;", ">"),
-        ("&quot;", "\""),
-        ("&apos;", "'"),
-        ("&amp;", "&"),
-    ] {
+    for (escaped, c) in
+        [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")]
+    {
         plain = plain.replace(escaped, c);
     }
     Cow::Owned(plain)

@@ -20,8 +20,7 @@ impl Server {
     /// How long until the findings of a document are to be computed.
     pub(super) fn until_due(&self) -> Option<Duration> {
         let due = self.documents.values().filter_map(|document| document.due);
-        due.min()
-            .map(|due| due.saturating_duration_since(Instant::now()))
+        due.min().map(|due| due.saturating_duration_since(Instant::now()))
     }
 
     /// Computes the findings that are due.
@@ -56,9 +55,8 @@ impl Server {
             if cancellation.is_cancelled() {
                 return;
             }
-            let computed = catch_unwind(AssertUnwindSafe(|| {
-                Analysis::new(&snapshot, depth, &cancellation)
-            }));
+            let computed =
+                catch_unwind(AssertUnwindSafe(|| Analysis::new(&snapshot, depth, &cancellation)));
             let crashed = || {
                 let message =
                     "urdd crashed while it examined this file; this is a bug, please report it";
@@ -111,11 +109,7 @@ impl Server {
                 diagnostic.related_information = None;
             }
         }
-        let params = PublishDiagnosticsParams {
-            uri,
-            diagnostics,
-            version,
-        };
+        let params = PublishDiagnosticsParams { uri, diagnostics, version };
         let method = "textDocument/publishDiagnostics".to_owned();
         self.send(Notification::new(method, params));
     }

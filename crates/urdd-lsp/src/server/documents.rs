@@ -23,14 +23,8 @@ impl Server {
         let uri = item.uri.as_str().to_owned();
         let text = Text::new(item.text, self.client.encoding);
         let root = self.root.as_deref();
-        let snapshot = Snapshot::new(
-            item.uri,
-            &item.language_id,
-            item.version,
-            text,
-            root,
-            &self.options,
-        );
+        let snapshot =
+            Snapshot::new(item.uri, &item.language_id, item.version, text, root, &self.options);
         let document = Document {
             snapshot: Arc::new(snapshot),
             due: None,
@@ -54,9 +48,7 @@ impl Server {
         for change in params.content_changes {
             text.apply(change);
         }
-        let next = document
-            .snapshot
-            .next(params.text_document.version, text, &self.options);
+        let next = document.snapshot.next(params.text_document.version, text, &self.options);
         document.replace(next, due);
     }
 

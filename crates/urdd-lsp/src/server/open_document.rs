@@ -46,11 +46,7 @@ impl Document {
         };
         let mut found = of_text.found.clone();
         if let Some((snapshot, analysis)) = &self.of_files {
-            found.extend(kept(
-                (snapshot, analysis),
-                &self.snapshot,
-                &of_text.postponed,
-            ));
+            found.extend(kept((snapshot, analysis), &self.snapshot, &of_text.postponed));
         }
         found
     }

@@ -119,21 +119,13 @@ impl Server {
     }
 
     fn refuse(&self, id: RequestId, code: ErrorCode, message: String) {
-        let error = ResponseError {
-            code: code as i32,
-            message,
-            data: None,
-        };
+        let error = ResponseError { code: code as i32, message, data: None };
         self.send(response(id, Err(error)));
     }
 }
 
 fn failure(message: String) -> ResponseError {
-    ResponseError {
-        code: ErrorCode::InternalError as i32,
-        message,
-        data: None,
-    }
+    ResponseError { code: ErrorCode::InternalError as i32, message, data: None }
 }
 
 fn uri_of(params: &Value) -> Option<&str> {

@@ -129,11 +129,7 @@ impl Server {
         if self.client.configuration {
             let params = json!({ "items": [{ "section": "urdd" }] });
             let id = RequestId::from(CONFIGURATION.to_owned());
-            self.send(Request::new(
-                id,
-                "workspace/configuration".to_owned(),
-                params,
-            ));
+            self.send(Request::new(id, "workspace/configuration".to_owned(), params));
         }
     }
 

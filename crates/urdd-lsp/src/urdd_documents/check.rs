@@ -45,18 +45,13 @@ fn of_yaml(snapshot: &Snapshot, schema: Option<Schema>) -> Vec<Diagnostic> {
     let text = snapshot.text.as_str();
     let own = yaml::read(text);
     // It is a copy of module.json; without that, at least its form is checked.
-    let beside = snapshot
-        .path
-        .as_ref()
-        .map(|path| path.with_file_name("module.json"));
+    let beside = snapshot.path.as_ref().map(|path| path.with_file_name("module.json"));
     let beside = beside.and_then(|path| fs::read(path).ok());
     let beside = beside.and_then(|bytes| json::read(&bytes).ok());
     let value = beside.map(|document| document.value);
     let value = value.as_ref().or(own.as_ref().map(|own| &own.value));
-    let mut found = faults(
-        snapshot,
-        &mirror::check_mirror(text.as_bytes(), value.unwrap_or(&Value::Null)),
-    );
+    let mut found =
+        faults(snapshot, &mirror::check_mirror(text.as_bytes(), value.unwrap_or(&Value::Null)));
     let (Some(own), Some(schema)) = (own, schema) else {
         return found;
     };

@@ -67,20 +67,14 @@ fn inside<'s>(schema: &'s Value, key: &str) -> Option<&'s Value> {
             return Some(element);
         }
     }
-    schema
-        .get("additionalProperties")
-        .filter(|other| other.is_object())
+    schema.get("additionalProperties").filter(|other| other.is_object())
 }
 
 /// A schema, and those that it refers to or is a choice of.
 fn meant<'s>(whole: &'s Value, schema: &'s Value) -> Vec<&'s Value> {
     let mut found = vec![schema];
     let mut next = 0;
-    while let Some(one) = found
-        .get(next)
-        .copied()
-        .filter(|_| found.len() < MOST_REFERENCES)
-    {
+    while let Some(one) = found.get(next).copied().filter(|_| found.len() < MOST_REFERENCES) {
         next += 1;
         let reference = one.get("$ref").and_then(Value::as_str);
         let reference = reference.and_then(|reference| reference.strip_prefix('#'));
@@ -99,10 +93,7 @@ fn values(schema: &Value) -> String {
         return format!("`{value}`");
     }
     let values = schema.get("enum").and_then(Value::as_array);
-    let values = values
-        .into_iter()
-        .flatten()
-        .map(|value| format!("`{value}`"));
+    let values = values.into_iter().flatten().map(|value| format!("`{value}`"));
     let values: Vec<String> = values.collect();
     match values.is_empty() {
         true => String::new(),

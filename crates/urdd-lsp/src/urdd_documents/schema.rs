@@ -14,9 +14,9 @@ impl Schema {
     pub(super) fn subject(self) -> Subject {
         match self {
             Schema::Root => Subject::RootMetadata,
-            Schema::Module(index, _) => modules()
-                .get(index)
-                .map_or(Subject::RootMetadata, Subject::Module),
+            Schema::Module(index, _) => {
+                modules().get(index).map_or(Subject::RootMetadata, Subject::Module)
+            }
         }
     }
 

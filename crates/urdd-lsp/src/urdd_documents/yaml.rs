@@ -51,10 +51,7 @@ pub fn read(text: &str) -> Option<Yaml> {
         let (event, span) = event.ok()?;
         reader.event(event, span)?;
     }
-    Some(Yaml {
-        value: reader.value?,
-        places: reader.places,
-    })
+    Some(Yaml { value: reader.value?, places: reader.places })
 }
 
 struct Reader<'t> {
@@ -123,10 +120,7 @@ impl Reader<'_> {
 
     /// The place of the value at the pointer. A member's goes from its key to its value, if that is a scalar.
     fn place(&mut self, start: usize, end: usize) {
-        let place = self
-            .places
-            .entry(self.pointer.clone())
-            .or_insert(start..end);
+        let place = self.places.entry(self.pointer.clone()).or_insert(start..end);
         place.end = place.end.max(end);
     }
 
@@ -181,12 +175,7 @@ struct Offsets<'t> {
 
 impl<'t> Offsets<'t> {
     fn new(text: &'t str) -> Self {
-        Offsets {
-            text,
-            character: 0,
-            byte: 0,
-            is_ascii: text.is_ascii(),
-        }
+        Offsets { text, character: 0, byte: 0, is_ascii: text.is_ascii() }
     }
 
     fn bytes(&mut self, character: usize) -> usize {
@@ -232,22 +221,12 @@ mod tests {
             let offset = text.find(what).unwrap();
             assert_eq!(yaml.pointer_at(offset), Some(pointer), "{what}");
         }
-        assert_eq!(
-            yaml.range("/b/1/d/0").map(|range| &text[range]),
-            Some("2.5")
-        );
+        assert_eq!(yaml.range("/b/1/d/0").map(|range| &text[range]), Some("2.5"));
     }
 
     #[test]
     fn what_is_no_json_is_not_read() {
-        for text in [
-            "",
-            "a: &x 1\nb: *x",
-            "? [1]\n: 2",
-            "a: .nan",
-            "a: [",
-            "- 1\nb",
-        ] {
+        for text in ["", "a: &x 1\nb: *x", "? [1]\n: 2", "a: .nan", "a: [", "- 1\nb"] {
             assert!(read(text).is_none(), "{text}");
         }
         for (end, _) in "a:\n - {b: [1, 'x']}\n - |\n  é\n".char_indices() {

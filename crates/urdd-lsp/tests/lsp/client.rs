@@ -110,20 +110,14 @@ impl Client {
 
     pub fn notify(&self, method: &str, params: Value) {
         let notification = Notification::new(method.to_owned(), params);
-        self.connection
-            .sender
-            .send(notification.into())
-            .expect("a server");
+        self.connection.sender.send(notification.into()).expect("a server");
     }
 
     pub fn ask(&mut self, method: &str, params: Value) -> RequestId {
         let id = RequestId::from(self.next);
         self.next += 1;
         let request = Request::new(id.clone(), method.to_owned(), params);
-        self.connection
-            .sender
-            .send(request.into())
-            .expect("a server");
+        self.connection.sender.send(request.into()).expect("a server");
         id
     }
 
@@ -139,19 +133,12 @@ impl Client {
     pub fn request(&mut self, method: &str, params: Value) -> Value {
         let id = self.ask(method, params);
         let response = self.answer(&id);
-        response
-            .response_result
-            .unwrap_or_else(|error| panic!("{method}: {error:?}"))
+        response.response_result.unwrap_or_else(|error| panic!("{method}: {error:?}"))
     }
 
     /// Takes in one message; returns it if it is a response.
     fn receive(&mut self) -> Option<Response> {
-        match self
-            .connection
-            .receiver
-            .recv_timeout(PATIENCE)
-            .expect("a message")
-        {
+        match self.connection.receiver.recv_timeout(PATIENCE).expect("a message") {
             Message::Response(response) => return Some(response),
             Message::Notification(one) if one.method == "textDocument/publishDiagnostics" => {
                 self.published.push(one.params);
@@ -182,10 +169,7 @@ impl Client {
     }
 
     pub fn save(&self, uri: &str) {
-        self.notify(
-            "textDocument/didSave",
-            json!({"textDocument": {"uri": uri}}),
-        );
+        self.notify("textDocument/didSave", json!({"textDocument": {"uri": uri}}));
     }
 
     /// The findings of a version as soon as they are as wanted.
@@ -255,11 +239,7 @@ pub fn covered(text: &str, range: &Value) -> String {
 /// A folder with the robot and its mesh: a tetrahedron of 1000 to the side.
 pub fn robot_folder() -> (tempfile::TempDir, PathBuf, String) {
     let folder = tempfile::tempdir().expect("a folder");
-    let inside = folder
-        .path()
-        .canonicalize()
-        .unwrap()
-        .join("my robot \u{1F916}");
+    let inside = folder.path().canonicalize().unwrap().join("my robot \u{1F916}");
     std::fs::create_dir_all(inside.join("meshes")).unwrap();
     std::fs::write(inside.join("meshes/part.stl"), tetrahedron()).unwrap();
     let path = inside.join("arm.urdf");
@@ -284,11 +264,7 @@ pub fn uri(path: &Path) -> String {
     let text = path.to_str().expect("UTF-8");
     let keep = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'/' | b'.' | b'-' | b'_');
     let part = |b: u8| {
-        if keep(b) {
-            char::from(b).to_string()
-        } else {
-            format!("%{b:02x}")
-        }
+        if keep(b) { char::from(b).to_string() } else { format!("%{b:02x}") }
     };
     format!("file://{}", text.bytes().map(part).collect::<String>())
 }

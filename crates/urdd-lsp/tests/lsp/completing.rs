@@ -12,13 +12,8 @@ fn labels(client: &mut Client, version: i32, text: &str) -> (Vec<String>, String
     let params = json!({"textDocument": {"uri": URI}, "position": position(&text, offset)});
     let items = client.request("textDocument/completion", params);
     let items = items.as_array().unwrap().clone();
-    let labels = items
-        .iter()
-        .map(|item| item["label"].as_str().unwrap().to_owned())
-        .collect();
-    let replaced = items
-        .first()
-        .map(|item| covered(&text, &item["textEdit"]["range"]));
+    let labels = items.iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect();
+    let replaced = items.first().map(|item| covered(&text, &item["textEdit"]["range"]));
     (labels, replaced.unwrap_or_default(), items)
 }
 
@@ -33,61 +28,27 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
     let joints = ["shoulder", "elbow"];
     let links = ["base", "upper", "lower"];
     let cases: Vec<(String, Vec<&str>, &str)> = vec![
-        (
-            arm("parent link=\"base\"", "parent link=\"ba|\""),
-            links.to_vec(),
-            "ba",
-        ),
-        (
-            arm("<parent link=\"base\"/>", "<parent link=\"|"),
-            links.to_vec(),
-            "",
-        ),
+        (arm("parent link=\"base\"", "parent link=\"ba|\""), links.to_vec(), "ba"),
+        (arm("<parent link=\"base\"/>", "<parent link=\"|"), links.to_vec(), ""),
         // A joint does not follow itself.
-        (
-            arm("mimic joint=\"shoulder\"", "mimic joint=\"|\""),
-            vec!["shoulder"],
-            "",
-        ),
+        (arm("mimic joint=\"shoulder\"", "mimic joint=\"|\""), vec!["shoulder"], ""),
         (
             arm("</robot>", "<gazebo reference=\"|\"></robot>"),
             [&links[..], &joints[..]].concat(),
             "",
         ),
         (
-            arm(
-                "</robot>",
-                "<transmission name='t'><joint name=\"s|\"/></transmission></robot>",
-            ),
+            arm("</robot>", "<transmission name='t'><joint name=\"s|\"/></transmission></robot>"),
             joints.to_vec(),
             "s",
         ),
-        (
-            arm(
-                "      <material name=\"grey\"",
-                "      <material name=\"gr|\"",
-            ),
-            vec!["grey"],
-            "gr",
-        ),
+        (arm("      <material name=\"grey\"", "      <material name=\"gr|\""), vec!["grey"], "gr"),
         (
             arm("type=\"prismatic\"", "type=\"pris|matic\""),
-            vec![
-                "revolute",
-                "continuous",
-                "prismatic",
-                "fixed",
-                "floating",
-                "planar",
-                "spherical",
-            ],
+            vec!["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"],
             "prismatic",
         ),
-        (
-            arm("<link name=\"lower\"/>", "<link name=\"|lower\"/>"),
-            vec![],
-            "",
-        ),
+        (arm("<link name=\"lower\"/>", "<link name=\"|lower\"/>"), vec![], ""),
         (
             arm("<axis xyz=\"0 0 2\"/>", "<|"),
             vec![
@@ -118,27 +79,16 @@ fn names_elements_and_attributes_are_offered_where_they_fit() {
             ],
             "li",
         ),
-        (
-            arm("<box size=\"0.2 0.2 0.2\"/>", "<cylinder radius=\"1\" |/>"),
-            vec!["length"],
-            "",
-        ),
+        (arm("<box size=\"0.2 0.2 0.2\"/>", "<cylinder radius=\"1\" |/>"), vec!["length"], ""),
         (
             arm("velocity=\"2\"", "vel|"),
             vec!["velocity", "acceleration", "deceleration", "jerk"],
             "vel",
         ),
         (arm("<link name=\"lower\"/>", "<link |/>"), vec!["name"], ""),
+        (arm("<robot name=\"arm\">", "<robot name=\"arm\" |>"), vec!["version", "xmlns:xacro"], ""),
         (
-            arm("<robot name=\"arm\">", "<robot name=\"arm\" |>"),
-            vec!["version", "xmlns:xacro"],
-            "",
-        ),
-        (
-            arm(
-                "</robot>",
-                "<transmission name='t'><|</transmission></robot>",
-            ),
+            arm("</robot>", "<transmission name='t'><|</transmission></robot>"),
             vec!["type", "joint", "actuator"],
             "",
         ),

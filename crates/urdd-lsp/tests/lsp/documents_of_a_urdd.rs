@@ -24,11 +24,7 @@ fn urdd() -> (tempfile::TempDir, PathBuf) {
     let module = path.join("chain_module");
     let json = fs::read(module.join("module.json")).unwrap();
     let value = serde_json::from_slice(&json).unwrap();
-    fs::write(
-        module.join("module.yaml"),
-        urdd_directory::canonical::yaml_string(&value),
-    )
-    .unwrap();
+    fs::write(module.join("module.yaml"), urdd_directory::canonical::yaml_string(&value)).unwrap();
     (folder, path)
 }
 
@@ -43,11 +39,7 @@ fn open(client: &mut Client, path: &Path, change: impl Fn(&str) -> String) -> (S
 fn what_is_right_has_no_finding() {
     let (_folder, path) = urdd();
     let mut client = Client::new();
-    for file in [
-        "urdd.json",
-        "chain_module/module.json",
-        "chain_module/module.yaml",
-    ] {
+    for file in ["urdd.json", "chain_module/module.json", "chain_module/module.yaml"] {
         open(&mut client, &path.join(file), str::to_owned);
         let found = client.until(1, |_| true);
         assert_eq!(found, [] as [Value; 0], "{file}");
@@ -70,14 +62,10 @@ fn what_breaks_the_schema_is_found_where_it_is() {
     client.published.clear();
 
     let yaml = path.join("chain_module/module.yaml");
-    let (_, text) = open(&mut client, &yaml, |text| {
-        text.replacen("root_idx: 0", "root_idx: zero", 1)
-    });
+    let (_, text) =
+        open(&mut client, &yaml, |text| text.replacen("root_idx: 0", "root_idx: zero", 1));
     let found = client.with_code(1, "SCH001");
-    assert!(
-        covered(&text, &found[0]["range"]).starts_with("root_idx: zero"),
-        "{found:#?}"
-    );
+    assert!(covered(&text, &found[0]["range"]).starts_with("root_idx: zero"), "{found:#?}");
     // It differs from module.json, too.
     assert!(!client.with_code(1, "YML007").is_empty());
     client.published.clear();
@@ -86,15 +74,10 @@ fn what_breaks_the_schema_is_found_where_it_is() {
         text.replacen('{', "{\n  \"strange\": 1,", 1)
     });
     let found = client.with_code(1, "SCH001");
-    assert_eq!(
-        found[0]["range"]["start"],
-        json!({"line": 1, "character": 13})
-    );
+    assert_eq!(found[0]["range"]["start"], json!({"line": 1, "character": 13}));
     client.published.clear();
 
-    open(&mut client, &path.join("urdd.json"), |text| {
-        text.replacen('{', "{,", 1)
-    });
+    open(&mut client, &path.join("urdd.json"), |text| text.replacen('{', "{,", 1));
     client.with_code(1, "JSN001");
 }
 
@@ -103,17 +86,11 @@ fn values_are_explained_by_the_schema() {
     let (_folder, path) = urdd();
     let mut client = Client::new();
     for (file, needle) in [("module.json", "\"root_idx\""), ("module.yaml", "root_idx")] {
-        let (address, text) = open(
-            &mut client,
-            &path.join("chain_module").join(file),
-            str::to_owned,
-        );
+        let (address, text) =
+            open(&mut client, &path.join("chain_module").join(file), str::to_owned);
         let hover = client.at("textDocument/hover", &address, &text, needle, 2);
         let shown = hover["contents"]["value"].as_str().unwrap_or_default();
-        assert!(
-            shown.contains("The one link without a parent."),
-            "{file}: {shown}"
-        );
+        assert!(shown.contains("The one link without a parent."), "{file}: {shown}");
         assert!(shown.contains("Index of: `link`."), "{file}: {shown}");
         let hover = client.at("textDocument/hover", &address, &text, "axis", 1);
         let shown = hover["contents"]["value"].as_str().unwrap_or_default();
@@ -126,11 +103,8 @@ fn broken_documents_end_nothing() {
     let (_folder, path) = urdd();
     let mut client = Client::new();
     for file in ["module.json", "module.yaml"] {
-        let (address, text) = open(
-            &mut client,
-            &path.join("chain_module").join(file),
-            str::to_owned,
-        );
+        let (address, text) =
+            open(&mut client, &path.join("chain_module").join(file), str::to_owned);
         for (version, end) in (2..).zip((0..text.len()).step_by(37)) {
             client.change(&address, version, &text[..end]);
             client.request(

@@ -12,19 +12,10 @@ fn findings_have_code_severity_place_and_values() {
     assert_eq!(covered(ARM, &found[0]["range"]), "xyz=\"0 0 2\"");
     assert_eq!(found[0]["source"], "urdd");
     assert_eq!(found[0]["severity"], 2);
-    assert!(
-        found[0]["message"]
-            .as_str()
-            .unwrap()
-            .contains("joint `shoulder`"),
-        "{found:#?}"
-    );
+    assert!(found[0]["message"].as_str().unwrap().contains("joint `shoulder`"), "{found:#?}");
     let found = client.with_code(1, "LNT002");
     let message = found[0]["message"].as_str().unwrap();
-    assert!(
-        message.contains("\nfound: (9.0000, 0.0000, 0.0000)"),
-        "{message}"
-    );
+    assert!(message.contains("\nfound: (9.0000, 0.0000, 0.0000)"), "{message}");
 }
 
 #[test]
@@ -33,10 +24,7 @@ fn each_place_of_a_folded_finding_is_one() {
     let mut client = Client::new();
     client.open("untitled:Untitled-1", &text);
     let found = client.with_code(1, "LNT012");
-    let places: Vec<String> = found
-        .iter()
-        .map(|one| covered(&text, &one["range"]))
-        .collect();
+    let places: Vec<String> = found.iter().map(|one| covered(&text, &one["range"])).collect();
     assert_eq!(places.len(), 2, "{found:#?}");
     assert!(
         places.contains(&"xyz=\"0 0 2\"".to_owned())
@@ -51,15 +39,10 @@ fn a_finding_about_shapes_stays_until_its_link_changes() {
     client.open(&uri, ARM);
     client.with_code(1, "LNT002");
     // Above the link, and in another element: it moves along.
-    let above = ARM
-        .replace("<color", "\n\n   <color")
-        .replace("velocity=\"2\"", "velocity=\"3\"");
+    let above = ARM.replace("<color", "\n\n   <color").replace("velocity=\"2\"", "velocity=\"3\"");
     client.change(&uri, 2, &above);
     let found = client.with_code(2, "LNT002");
-    assert_eq!(
-        covered(&above, &found[0]["range"]),
-        "<origin xyz=\"9 0 0\"/>"
-    );
+    assert_eq!(covered(&above, &found[0]["range"]), "<origin xyz=\"9 0 0\"/>");
     // In the link: gone, though the fault is still there.
     let inside = above.replace("value=\"2.5\"", "value=\"2.4\"");
     client.change(&uri, 3, &inside);
@@ -116,10 +99,7 @@ fn positions_are_in_the_agreed_unit() {
                 json!({"line": 26, "character": column}),
                 "{encoding}"
             );
-            assert_eq!(
-                found[0]["range"]["end"],
-                json!({"line": 26, "character": column + 11})
-            );
+            assert_eq!(found[0]["range"]["end"], json!({"line": 26, "character": column + 11}));
         }
     }
 }
@@ -128,10 +108,7 @@ fn positions_are_in_the_agreed_unit() {
 fn what_is_not_xml_says_where() {
     let mut client = Client::new();
     let uri = "untitled:Untitled-1";
-    let broken = ARM.replace(
-        "</link>\n  <link name=\"upper\"",
-        "</lin>\n  <link name=\"upper\"",
-    );
+    let broken = ARM.replace("</link>\n  <link name=\"upper\"", "</lin>\n  <link name=\"upper\"");
     client.open(uri, &broken);
     let found = client.until(1, |found| !found.is_empty());
     assert_eq!(found.len(), 1, "{found:#?}");
@@ -139,18 +116,12 @@ fn what_is_not_xml_says_where() {
     assert_eq!(found[0]["range"]["start"]["line"], 10, "{found:#?}");
     client.change(uri, 2, ARM);
     client.with_code(2, "LNT012");
-    client.notify(
-        "textDocument/didClose",
-        json!({"textDocument": {"uri": uri}}),
-    );
+    client.notify("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
     let begun = client.published.len();
     client.request(
         "textDocument/hover",
         json!({"textDocument": {"uri": uri}, "position": {"line": 0, "character": 0}}),
     );
     let last = client.published.last().unwrap();
-    assert!(
-        client.published.len() > begun || last["diagnostics"] == json!([]),
-        "{last:#?}"
-    );
+    assert!(client.published.len() > begun || last["diagnostics"] == json!([]), "{last:#?}");
 }

@@ -6,11 +6,7 @@ const URI: &str = "untitled:Untitled-1";
 
 fn actions(client: &mut Client, range: &Value, only: Value) -> Vec<Value> {
     let params = json!({"textDocument": {"uri": URI}, "range": range, "context": {"diagnostics": [], "only": only}});
-    client
-        .request("textDocument/codeAction", params)
-        .as_array()
-        .unwrap()
-        .clone()
+    client.request("textDocument/codeAction", params).as_array().unwrap().clone()
 }
 
 #[test]
@@ -19,10 +15,7 @@ fn a_fix_mends_its_finding() {
     client.open(URI, ARM);
     let found = client.with_code(1, "LNT012");
     let actions = actions(&mut client, &found[0]["range"], Value::Null);
-    let fix = actions
-        .iter()
-        .find(|action| action["kind"] == "quickfix")
-        .expect("a fix");
+    let fix = actions.iter().find(|action| action["kind"] == "quickfix").expect("a fix");
     assert_eq!(fix["diagnostics"][0]["code"], "LNT012");
     assert_eq!(fix["isPreferred"], true);
     let changes = &fix["edit"]["documentChanges"][0];
@@ -49,9 +42,6 @@ fn all_safe_fixes_are_one_action_also_before_findings_are_there() {
     assert_eq!(actions.len(), 1, "{actions:#?}");
     assert_eq!(actions[0]["kind"], "source.fixAll");
     let edits = actions[0]["edit"]["changes"][URI].as_array().unwrap();
-    let covered: Vec<String> = edits
-        .iter()
-        .map(|edit| covered(&text, &edit["range"]))
-        .collect();
+    let covered: Vec<String> = edits.iter().map(|edit| covered(&text, &edit["range"])).collect();
     assert_eq!(covered, ["0 0 2", "0 0 3"]);
 }

@@ -17,10 +17,7 @@ fn ask_all(client: &mut Client, uri: &str, text: &str, offset: usize) {
     for method in ["hover", "definition", "completion"] {
         client.request(&format!("textDocument/{method}"), at.clone());
     }
-    client.request(
-        "textDocument/documentSymbol",
-        json!({"textDocument": {"uri": uri}}),
-    );
+    client.request("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
 }
 
 #[test]
@@ -68,11 +65,7 @@ fn texts_that_are_no_robots_are_answered() {
         client.change("untitled:a", version, text);
         ask_all(&mut client, "untitled:a", text, text.len());
         let found = client.until(version, |_| true);
-        assert!(
-            !found.is_empty(),
-            "{:?}",
-            text.chars().take(30).collect::<String>()
-        );
+        assert!(!found.is_empty(), "{:?}", text.chars().take(30).collect::<String>());
     }
 }
 
@@ -83,16 +76,10 @@ fn a_large_text_is_said_to_be_too_large() {
     client.open("untitled:a", &text);
     let found = client.until(1, |found| !found.is_empty());
     let message = found[0]["message"].as_str().unwrap();
-    assert!(
-        message.contains("too large for the editor: 64 MiB, at most 16 MiB"),
-        "{message}"
-    );
+    assert!(message.contains("too large for the editor: 64 MiB, at most 16 MiB"), "{message}");
     let start = json!({"line": 0, "character": 3});
     let at = json!({"textDocument": {"uri": "untitled:a"}, "position": start});
-    assert_eq!(
-        client.request("textDocument/hover", at.clone()),
-        Value::Null
-    );
+    assert_eq!(client.request("textDocument/hover", at.clone()), Value::Null);
     assert_eq!(client.request("textDocument/completion", at), json!([]));
     // A change makes it small enough.
     let end = json!({"line": 0, "character": (64 << 20) + 10});
@@ -100,9 +87,7 @@ fn a_large_text_is_said_to_be_too_large() {
     client.edit("untitled:a", 2, json!([{"range": range, "text": ""}]));
     let found = client.until(2, |_| true);
     assert!(
-        found
-            .iter()
-            .all(|one| !one["message"].as_str().unwrap().contains("too large")),
+        found.iter().all(|one| !one["message"].as_str().unwrap().contains("too large")),
         "{found:#?}"
     );
 }
@@ -121,17 +106,9 @@ fn opened(text: &str) -> (String, Value) {
 fn a_text_of_very_many_elements_is_said_to_be_too_large() {
     let text = |part: &str, count: usize| format!("<robot name='r'>{}</robot>", part.repeat(count));
     for (part, count, words) in [
-        (
-            "<link name='l'/>",
-            300_000,
-            "300001 elements, at most 100000",
-        ),
+        ("<link name='l'/>", 300_000, "300001 elements, at most 100000"),
         ("<a/>", 100_000, "100001 elements, at most 100000"),
-        (
-            "<link name='l'/>",
-            20_001,
-            "20001 links and joints, at most 20000",
-        ),
+        ("<link name='l'/>", 20_001, "20001 links and joints, at most 20000"),
     ] {
         let (message, symbols) = opened(&text(part, count));
         let expected = format!("too large for the editor: {words}; `urdd lint` examines it");
@@ -152,18 +129,10 @@ fn many_findings_are_cut_with_a_word() {
     };
     let joints: String = (0..1500).map(joint).collect();
     let mut client = Client::new();
-    client.open(
-        "untitled:a",
-        &format!("<robot name='r'><link name='b'/>{joints}</robot>"),
-    );
+    client.open("untitled:a", &format!("<robot name='r'><link name='b'/>{joints}</robot>"));
     let found = client.until(1, |found| !found.is_empty());
     assert_eq!(found.len(), 1000);
-    assert!(
-        found[999]["message"]
-            .as_str()
-            .unwrap()
-            .contains("more findings are not shown")
-    );
+    assert!(found[999]["message"].as_str().unwrap().contains("more findings are not shown"));
 }
 
 #[test]
@@ -174,10 +143,7 @@ fn a_file_in_a_folder_that_is_not_there_is_a_robot_without_meshes() {
         let hover = client.at("textDocument/hover", uri, ARM, "<link name=\"upper", 14);
         hover["contents"]["value"].to_string()
     };
-    for gone in [
-        "file:///nowhere/arm.urdf",
-        "file:///c%3A/my%20robots/arm.urdf",
-    ] {
+    for gone in ["file:///nowhere/arm.urdf", "file:///c%3A/my%20robots/arm.urdf"] {
         client.open(gone, ARM);
         client.published.clear();
         client.with_code(1, "LNT002");

@@ -28,10 +28,7 @@ fn a_link_has_its_pose_mass_and_children() {
     let hover = client.at("textDocument/hover", &uri, ARM, "link name=\"lower\"", 1);
     let text = shown(&hover);
     assert!(text.contains("1.1 m, rpy 0 0 0.5 rad"), "{text}");
-    assert!(
-        text.contains("mass: none") && text.contains("children: none"),
-        "{text}"
-    );
+    assert!(text.contains("mass: none") && text.contains("children: none"), "{text}");
 }
 
 #[test]
@@ -88,24 +85,13 @@ fn half_typed_text_still_answers() {
     client.open(uri, ARM);
     client.with_code(1, "LNT012");
     // The robot is that of the text before; places are those of the text as it is.
-    let typed = ARM.replace(
-        "<link name=\"lower\"/>",
-        "<link name=\"lower\"/>\n  <link name=\"ha",
-    );
+    let typed = ARM.replace("<link name=\"lower\"/>", "<link name=\"lower\"/>\n  <link name=\"ha");
     client.change(uri, 2, &typed);
     let hover = client.at("textDocument/hover", uri, &typed, "link=\"upper\"", 7);
     assert!(shown(&hover).contains("mass: 2.5 kg"), "{hover:#?}");
-    let symbols = client.request(
-        "textDocument/documentSymbol",
-        serde_json::json!({"textDocument": {"uri": uri}}),
-    );
+    let symbols = client
+        .request("textDocument/documentSymbol", serde_json::json!({"textDocument": {"uri": uri}}));
     assert_eq!(symbols[0]["name"], "base", "{symbols:#?}");
-    let at = client.at(
-        "textDocument/definition",
-        uri,
-        &typed,
-        "child link=\"lower\"",
-        13,
-    );
+    let at = client.at("textDocument/definition", uri, &typed, "child link=\"lower\"", 13);
     assert_eq!(covered(&typed, &at["range"]), "lower");
 }

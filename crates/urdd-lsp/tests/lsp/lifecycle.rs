@@ -76,9 +76,7 @@ fn each_request_has_one_answer_also_if_it_is_cancelled() {
     let last = client.ask("textDocument/documentSymbol", params);
     let mut open: std::collections::HashSet<_> = asked.into_iter().collect();
     while !open.is_empty() {
-        let Ok(message) = client.connection.receiver.recv() else {
-            panic!("ended")
-        };
+        let Ok(message) = client.connection.receiver.recv() else { panic!("ended") };
         if let lsp_server::Message::Response(response) = message
             && response.id != last
         {
@@ -109,15 +107,9 @@ fn settings_are_asked_for_where_the_editor_answers() {
 #[cfg(target_os = "linux")]
 #[test]
 fn it_ends_with_the_editor_s_process() {
-    let mut child = std::process::Command::new("sleep")
-        .arg("600")
-        .spawn()
-        .unwrap();
+    let mut child = std::process::Command::new("sleep").arg("600").spawn().unwrap();
     let mut client = Client::connected();
-    client.request(
-        "initialize",
-        json!({"processId": child.id(), "capabilities": {}}),
-    );
+    client.request("initialize", json!({"processId": child.id(), "capabilities": {}}));
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(client.server.join().unwrap(), Ended::ParentGone);

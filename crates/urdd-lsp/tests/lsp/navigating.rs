@@ -15,23 +15,11 @@ fn names_lead_to_their_elements() {
     ] {
         let place = client.at("textDocument/definition", address, ARM, needle, after);
         assert_eq!(place["uri"], address);
-        assert_eq!(
-            place["range"]["start"]["line"], expected_line,
-            "{needle}: {place:#?}"
-        );
+        assert_eq!(place["range"]["start"]["line"], expected_line, "{needle}: {place:#?}");
     }
-    let place = client.at(
-        "textDocument/definition",
-        address,
-        ARM,
-        "mimic joint=\"shoulder",
-        14,
-    );
+    let place = client.at("textDocument/definition", address, ARM, "mimic joint=\"shoulder", 14);
     assert_eq!(covered(ARM, &place["range"]), "shoulder");
-    assert_eq!(
-        client.at("textDocument/definition", address, ARM, "rgba", 1),
-        Value::Null
-    );
+    assert_eq!(client.at("textDocument/definition", address, ARM, "rgba", 1), Value::Null);
 }
 
 #[test]
@@ -39,13 +27,7 @@ fn meshes_lead_to_their_files() {
     let (_folder, path, address) = robot_folder();
     let mut client = Client::new();
     client.open(&address, ARM);
-    let place = client.at(
-        "textDocument/definition",
-        &address,
-        ARM,
-        "meshes/part.stl",
-        3,
-    );
+    let place = client.at("textDocument/definition", &address, ARM, "meshes/part.stl", 3);
     let file = path.with_file_name("meshes").join("part.stl");
     let lower = |text: &str| text.to_lowercase();
     assert_eq!(lower(place["uri"].as_str().unwrap()), lower(&uri(&file)));
@@ -56,11 +38,8 @@ fn packages_are_found_where_the_user_says() {
     let (_folder, path, address) = robot_folder();
     let packages = path.parent().unwrap().join("other packages");
     std::fs::create_dir_all(packages.join("parts/meshes")).unwrap();
-    std::fs::write(
-        packages.join("parts/package.xml"),
-        "<package><name>parts</name></package>",
-    )
-    .unwrap();
+    std::fs::write(packages.join("parts/package.xml"), "<package><name>parts</name></package>")
+        .unwrap();
     std::fs::copy(
         path.with_file_name("meshes").join("part.stl"),
         packages.join("parts/meshes/a.stl"),
@@ -70,13 +49,7 @@ fn packages_are_found_where_the_user_says() {
     let mut client = Client::with(json!({"debounce": 0, "packagePaths": [packages]}), able());
     client.open(&address, &text);
     let place = client.at("textDocument/definition", &address, &text, "package:", 3);
-    assert!(
-        place["uri"]
-            .as_str()
-            .unwrap()
-            .ends_with("/parts/meshes/a.stl"),
-        "{place:#?}"
-    );
+    assert!(place["uri"].as_str().unwrap().ends_with("/parts/meshes/a.stl"), "{place:#?}");
     // Settings may come later, too.
     let settings = json!({"settings": {"urdd": {"packagePaths": []}}});
     client.notify("workspace/didChangeConfiguration", settings);
@@ -89,10 +62,8 @@ fn the_outline_is_the_kinematic_tree() {
     let mut client = Client::new();
     let address = "untitled:Untitled-1";
     client.open(address, ARM);
-    let symbols = client.request(
-        "textDocument/documentSymbol",
-        json!({"textDocument": {"uri": address}}),
-    );
+    let symbols =
+        client.request("textDocument/documentSymbol", json!({"textDocument": {"uri": address}}));
     let mut names = Vec::new();
     let mut inner = &symbols;
     while let Some(symbol) = inner.get(0) {
@@ -105,10 +76,8 @@ fn the_outline_is_the_kinematic_tree() {
 
     let mut client = Client::with(json!({}), json!({}));
     client.open(address, ARM);
-    let symbols = client.request(
-        "textDocument/documentSymbol",
-        json!({"textDocument": {"uri": address}}),
-    );
+    let symbols =
+        client.request("textDocument/documentSymbol", json!({"textDocument": {"uri": address}}));
     assert_eq!(symbols.as_array().unwrap().len(), 5);
     assert_eq!(symbols[1]["containerName"], "base");
 }
@@ -133,10 +102,8 @@ fn circles_and_long_chains_end() {
     }
     for (address, text, expected) in [("untitled:a", circle, 4), ("untitled:b", &chain, 1001)] {
         client.open(address, text);
-        let symbols = client.request(
-            "textDocument/documentSymbol",
-            json!({"textDocument": {"uri": address}}),
-        );
+        let symbols = client
+            .request("textDocument/documentSymbol", json!({"textDocument": {"uri": address}}));
         assert_eq!(count(&symbols), expected);
     }
 }

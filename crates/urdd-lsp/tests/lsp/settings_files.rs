@@ -53,9 +53,7 @@ fn is_complete(found: &[Value]) -> bool {
 /// The findings without a code: what the server says of settings.
 fn words(found: &[Value]) -> Vec<&str> {
     let without = found.iter().filter(|one| one["code"].is_null());
-    without
-        .map(|one| one["message"].as_str().unwrap())
-        .collect()
+    without.map(|one| one["message"].as_str().unwrap()).collect()
 }
 
 #[test]
@@ -70,14 +68,9 @@ fn urdd_toml_sets_severities_and_leaves_out() {
     // A change counts at the next analysis. The path is that from the folder of the settings.
     let ignore = "[[ignore]]\ncode = \"LNT012\"\npath = \"my robot*/arm.urdf\"\nreason = \"r\"\n";
     workspace.write("urdd.toml", ignore);
-    workspace.until(&mut client, 2, |found| {
-        !has(found, "LNT012") && has(found, "LNT002")
-    });
+    workspace.until(&mut client, 2, |found| !has(found, "LNT012") && has(found, "LNT002"));
     // The nearest settings count, and those alone.
-    workspace.write(
-        "my robot \u{1F916}/urdd.toml",
-        "[severity]\nLNT012 = \"info\"\n",
-    );
+    workspace.write("my robot \u{1F916}/urdd.toml", "[severity]\nLNT012 = \"info\"\n");
     let found = workspace.until(&mut client, 3, is_complete);
     let one = found.iter().find(|one| one["code"] == "LNT012").unwrap();
     assert_eq!(one["severity"], 3);
@@ -96,22 +89,13 @@ fn broken_settings_are_said_once_with_their_place_and_the_defaults_count() {
     for (version, (text, place, part)) in (2..).zip([
         ("\n\ncolour = true\n", ":3:1: ", "colour"),
         ("fail-on = ", ":1:11: ", ""),
-        (
-            "[severity]\nLNT012 = \"info\"\nLNT999 = \"info\"\n",
-            ":3:1: ",
-            "LNT999",
-        ),
+        ("[severity]\nLNT012 = \"info\"\nLNT999 = \"info\"\n", ":3:1: ", "LNT999"),
         ("[severity]\nLNT012 = \"fatal\"\n", ":2:10: ", "fatal"),
-        (
-            "[[ignore]]\npath = \"[\"\nreason = \"r\"\n",
-            ":2:8: ",
-            "`[`",
-        ),
+        ("[[ignore]]\npath = \"[\"\nreason = \"r\"\n", ":2:8: ", "`[`"),
     ]) {
         workspace.write("urdd.toml", text);
-        let found = workspace.until(&mut client, version, |found| {
-            is_complete(found) && !words(found).is_empty()
-        });
+        let found = workspace
+            .until(&mut client, version, |found| is_complete(found) && !words(found).is_empty());
         let said = words(&found);
         assert_eq!(said.len(), 1, "{said:?}");
         assert!(said[0].contains(&format!("urdd.toml{place}")), "{said:?}");
@@ -137,10 +121,8 @@ fn broken_settings_are_said_once_with_their_place_and_the_defaults_count() {
 
 /// A baseline of what the rule of codes finds on a joint or link.
 fn baseline(file: &str, keys: &[&str]) -> String {
-    let keys: serde_json::Map<String, Value> = keys
-        .iter()
-        .map(|key| ((*key).to_owned(), json!(1)))
-        .collect();
+    let keys: serde_json::Map<String, Value> =
+        keys.iter().map(|key| ((*key).to_owned(), json!(1))).collect();
     json!({"urdd_baseline": 1, "files": {file: keys}}).to_string()
 }
 
@@ -150,10 +132,7 @@ fn what_is_in_a_baseline_is_not_shown() {
     let file = "../my robot \u{1F916}/arm.urdf";
     workspace.write(
         "known.json",
-        &baseline(
-            &file[3..],
-            &["LNT012 joint `shoulder`", "LNT002 link `upper`"],
-        ),
+        &baseline(&file[3..], &["LNT012 joint `shoulder`", "LNT002 link `upper`"]),
     );
     let is_left_out =
         |found: &[Value]| !found.is_empty() && !has(found, "LNT012") && !has(found, "LNT002");
@@ -169,10 +148,7 @@ fn what_is_in_a_baseline_is_not_shown() {
     assert_eq!(client.with_code(2, "LNT012").len(), 1);
 
     // Named by the editor, which comes before the settings.
-    workspace.write(
-        "other.json",
-        &baseline(&file[3..], &["LNT002 link `upper`"]),
-    );
+    workspace.write("other.json", &baseline(&file[3..], &["LNT002 link `upper`"]));
     let others = json!({"debounce": 0, "baseline": workspace.root.join("other.json")});
     let mut client = Client::with(others, able());
     client.open(&workspace.address, ARM);
@@ -188,20 +164,15 @@ fn what_is_in_a_baseline_is_not_shown() {
     // What is no baseline is said, and leaves nothing out.
     for (version, (text, part)) in (3..).zip([("{", "not a baseline"), ("", "not a baseline")]) {
         workspace.write("known.json", text);
-        let found = workspace.until(&mut client, version, |found| {
-            is_complete(found) && !words(found).is_empty()
-        });
+        let found = workspace
+            .until(&mut client, version, |found| is_complete(found) && !words(found).is_empty());
         assert!(words(&found)[0].contains("known.json: "), "{found:#?}");
         assert!(words(&found)[0].contains(part), "{found:#?}");
     }
     fs::remove_file(workspace.root.join("known.json")).unwrap();
-    let found = workspace.until(&mut client, 5, |found| {
-        is_complete(found) && !words(found).is_empty()
-    });
-    assert!(
-        words(&found)[0].contains("there is no such file"),
-        "{found:#?}"
-    );
+    let found =
+        workspace.until(&mut client, 5, |found| is_complete(found) && !words(found).is_empty());
+    assert!(words(&found)[0].contains("there is no such file"), "{found:#?}");
 }
 
 #[test]

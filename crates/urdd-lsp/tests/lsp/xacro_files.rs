@@ -21,24 +21,13 @@ fn without_leave_a_file_is_only_read_as_xml() {
         "textDocument/documentSymbol",
         json!({"textDocument": {"uri": "file:///nowhere/arm.urdf.xacro"}}),
     );
-    let names: Vec<&str> = symbols
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|one| one["name"].as_str().unwrap())
-        .collect();
+    let names: Vec<&str> =
+        symbols.as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["size", "arm", "${prefix}_upper", "base"]);
-    client.change(
-        "file:///nowhere/arm.urdf.xacro",
-        2,
-        &XACRO.replace("</xacro:macro>", ""),
-    );
+    client.change("file:///nowhere/arm.urdf.xacro", 2, &XACRO.replace("</xacro:macro>", ""));
     let found = client.until(2, |found| !found.is_empty());
     assert!(
-        found[0]["message"]
-            .as_str()
-            .unwrap()
-            .starts_with("not well-formed XML: "),
+        found[0]["message"].as_str().unwrap().starts_with("not well-formed XML: "),
         "{found:#?}"
     );
 }
@@ -71,18 +60,11 @@ fn included_files_that_are_missing_are_said_without_xacro() {
     ];
     client.open(&address, &text(&fine));
     assert_eq!(client.until(1, |_| true), [""; 0]);
-    let wrong = [
-        "none.xacro",
-        "$(find my_arm)/urdf/n&amp;ne.xacro",
-        "/none.xacro",
-    ];
+    let wrong = ["none.xacro", "$(find my_arm)/urdf/n&amp;ne.xacro", "/none.xacro"];
     let text = text(&wrong);
     client.change(&address, 2, &text);
     let found = client.until(2, |found| !found.is_empty());
-    let marked: Vec<String> = found
-        .iter()
-        .map(|one| covered(&text, &one["range"]))
-        .collect();
+    let marked: Vec<String> = found.iter().map(|one| covered(&text, &one["range"])).collect();
     assert_eq!(marked, wrong);
     let message = found[1]["message"].as_str().unwrap();
     assert!(message.contains("my arm/urdf/n&ne.xacro"), "{message}");
@@ -120,8 +102,5 @@ fn with_leave_it_is_expanded_when_it_is_saved_and_not_before() {
     client.published.clear();
     client.save(&address);
     let found = client.until(1, |found| !found.is_empty());
-    assert!(
-        found[0]["message"].as_str().unwrap().contains("xacro"),
-        "{found:#?}"
-    );
+    assert!(found[0]["message"].as_str().unwrap().contains("xacro"), "{found:#?}");
 }

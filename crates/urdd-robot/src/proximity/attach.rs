@@ -39,11 +39,7 @@ impl Proximity {
         let count = self.motion.links.len();
         if link >= count {
             let what = "link";
-            return Err(RobotError::OutOfRange {
-                what,
-                index: link,
-                count,
-            });
+            return Err(RobotError::OutOfRange { what, index: link, count });
         }
         if self.names.iter().any(|name| **name == *object.name()) {
             return Err(RobotError::Obstacle {
@@ -74,10 +70,7 @@ impl Proximity {
                 sphere: part.sphere,
                 is_ball: false,
             });
-            let pair = |other: &usize| Pair {
-                shapes: [*other, place],
-                mean: None,
-            };
+            let pair = |other: &usize| Pair { shapes: [*other, place], mean: None };
             with.pairs.extend(others.iter().map(pair));
         }
         Ok(with.arranged())

@@ -46,10 +46,7 @@ impl Proximity {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn cancellable<'a>(&'a self, cancellation: &'a Cancellation) -> Cancellable<'a> {
-        Cancellable {
-            proximity: self,
-            cancellation,
-        }
+        Cancellable { proximity: self, cancellation }
     }
 
     /// Whether the robot collides with itself in each configuration, as [`Proximity::in_collision`].
@@ -58,8 +55,7 @@ impl Proximity {
     /// [`RobotError::Batch`] if the number of values is not a multiple of the number of DOFs; [`RobotError::Memory`] if
     /// there is not enough memory; and as [`Proximity::closest_points`], for the first invalid configuration.
     pub fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
-        self.cancellable(&Cancellation::default())
-            .in_collision_batch(configurations)
+        self.cancellable(&Cancellation::default()).in_collision_batch(configurations)
     }
 
     /// For each two links with checked pairs of shapes, by index: the number of configurations in which any of these
@@ -93,8 +89,7 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
     pub fn self_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        self.cancellable(&Cancellation::default())
-            .self_distance_batch(configurations)
+        self.cancellable(&Cancellation::default()).self_distance_batch(configurations)
     }
 
     /// The distances of all pairs in each configuration, in metres: value `k * pairs + pair` is that of `pair`, in the
@@ -103,8 +98,7 @@ impl Proximity {
     /// # Errors
     /// As [`Proximity::in_collision_batch`].
     pub fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
-        self.cancellable(&Cancellation::default())
-            .distances_batch(configurations)
+        self.cancellable(&Cancellation::default()).distances_batch(configurations)
     }
 }
 
@@ -221,9 +215,7 @@ impl Cancellable<'_> {
         fill(out, 1, EDGES, Workspace::default, |workspace, k, out| {
             self.cancellation.check()?;
             let [start, end] = [starts, ends].map(|all| &all[k * dofs..(k + 1) * dofs]);
-            let blocked = self
-                .proximity
-                .blocked_edge_with(start, end, settings, workspace)?;
+            let blocked = self.proximity.blocked_edge_with(start, end, settings, workspace)?;
             out[0] = blocked.unwrap_or(f64::NAN);
             Ok(())
         })
@@ -238,16 +230,10 @@ impl Cancellable<'_> {
     ) -> Result<(), RobotError> {
         check_room(out.len(), self.count(configurations)?, width)?;
         let dofs = self.proximity.num_dofs();
-        fill(
-            out,
-            width,
-            BLOCK,
-            Workspace::default,
-            |workspace, k, out| {
-                self.cancellation.check()?;
-                ask(&configurations[k * dofs..(k + 1) * dofs], workspace, out)
-            },
-        )
+        fill(out, width, BLOCK, Workspace::default, |workspace, k, out| {
+            self.cancellation.check()?;
+            ask(&configurations[k * dofs..(k + 1) * dofs], workspace, out)
+        })
     }
 
     /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.

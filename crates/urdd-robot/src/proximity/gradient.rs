@@ -79,9 +79,7 @@ impl Proximity {
         let overlap = |place: usize| {
             let swept = self.swept(place, self.pose(&placed, place));
             let found = penetration_of(self.level, &swept)?;
-            let [a, b] = self.pairs[place]
-                .shapes
-                .map(|shape| self.shapes[shape].link);
+            let [a, b] = self.pairs[place].shapes.map(|shape| self.shapes[shape].link);
             let (direction, points) = in_root(&placed.links[a], &found);
             let speeds = |link: usize, point: [f64; 3]| {
                 self.speeds(configuration, &placed.poses, link, point, direction)

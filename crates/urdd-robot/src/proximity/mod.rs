@@ -146,12 +146,8 @@ impl Robot {
     ) -> Result<Proximity, RobotError> {
         let motion = Arc::clone(self.shared_motion()?);
         let statistics = self.statistics(kind)?;
-        let index: HashMap<(usize, usize), usize> = skips
-            .places()
-            .iter()
-            .enumerate()
-            .map(|(index, place)| (*place, index))
-            .collect();
+        let index: HashMap<(usize, usize), usize> =
+            skips.places().iter().enumerate().map(|(index, place)| (*place, index)).collect();
         let count = motion.links.len();
         let mut shapes = Vec::new();
         for shape in self.shapes(kind)? {
@@ -176,18 +172,11 @@ impl Robot {
                 }
                 let recorded = |all: &AllStatistics| both.and_then(|(i, j)| all.pair(i, j));
                 let mean = statistics.as_ref().and_then(recorded).map(|pair| pair.mean);
-                pairs.push(Pair {
-                    shapes: [i, j],
-                    mean: mean.filter(|mean| *mean > 0.0),
-                });
+                pairs.push(Pair { shapes: [i, j], mean: mean.filter(|mean| *mean > 0.0) });
             }
         }
         Ok(Proximity {
-            names: motion
-                .links
-                .iter()
-                .map(|name| Arc::from(name.as_str()))
-                .collect(),
+            names: motion.links.iter().map(|name| Arc::from(name.as_str())).collect(),
             spheres: Vec::new(),
             kind,
             shapes,
@@ -275,9 +264,7 @@ impl Proximity {
             }
         }
         let count = self.motion.links.len();
-        self.spheres = (0..count)
-            .map(|link| body::about_link(shapes, link))
-            .collect();
+        self.spheres = (0..count).map(|link| body::about_link(shapes, link)).collect();
         self
     }
 

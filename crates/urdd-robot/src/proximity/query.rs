@@ -131,10 +131,7 @@ impl Proximity {
             let mut values = [0.0; AT_ONCE];
             self.values(&placed, pairs, &mut values[..pairs.len()]);
             let both = pairs.iter().zip(values);
-            touching.extend(
-                both.filter(|(_, value)| *value == 0.0)
-                    .map(|(pair, _)| *pair),
-            );
+            touching.extend(both.filter(|(_, value)| *value == 0.0).map(|(pair, _)| *pair));
         }
         Ok(self.witnesses(&placed, &touching))
     }
@@ -217,11 +214,7 @@ impl Proximity {
     /// The cores of a pair.
     fn cores(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> PlacedPair<'_> {
         let [a, b] = self.pairs[pair].shapes;
-        PlacedPair {
-            a: &self.shapes[a].core,
-            b: &self.shapes[b].core,
-            b_in_a,
-        }
+        PlacedPair { a: &self.shapes[a].core, b: &self.shapes[b].core, b_in_a }
     }
 
     /// The sum of the radii of a pair.

@@ -19,8 +19,7 @@ pub(crate) fn witnesses(level: Level, pairs: &[SweptPair]) -> Vec<(f64, [[f64; 3
     let cores: Vec<PlacedPair> = pairs.iter().map(|pair| pair.cores).collect();
     let found = across::witnesses(level, &cores);
     let each = found.iter().zip(pairs);
-    each.map(|(witness, pair)| rounded(witness, pair.radii))
-        .collect()
+    each.map(|(witness, pair)| rounded(witness, pair.radii)).collect()
 }
 
 /// How far two shapes overlap, in the frame of the first; `None` if they are apart.
@@ -50,11 +49,7 @@ pub(crate) fn penetration_of(level: Level, pair: &SweptPair) -> Option<Penetrati
     (length > 0.0 && length <= a + b).then(|| {
         let direction = between.map(|x| x / length);
         let along = |point: [f64; 3], by: f64| [0, 1, 2].map(|k| point[k] + by * direction[k]);
-        Penetration {
-            depth: a + b - length,
-            direction,
-            points: [along(p, a), along(q, -b)],
-        }
+        Penetration { depth: a + b - length, direction, points: [along(p, a), along(q, -b)] }
     })
 }
 
@@ -88,12 +83,7 @@ pub(crate) struct Waiting<'a> {
 
 impl<'a> Waiting<'a> {
     pub fn new(level: Level) -> Self {
-        Waiting {
-            level,
-            flat: ArrayVec::new(),
-            swept: ArrayVec::new(),
-            radii: ArrayVec::new(),
-        }
+        Waiting { level, flat: ArrayVec::new(), swept: ArrayVec::new(), radii: ArrayVec::new() }
     }
 
     /// Adds a pair, whose radii have this sum. True if one of those that waited touches.

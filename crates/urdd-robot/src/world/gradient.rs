@@ -32,13 +32,9 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
             let gradient = toward(&found.points, found.distance).map(|toward| {
                 let (link, point) = (found.link_idx, found.points[0]);
                 let away = toward.map(|x| -x);
-                self.proximity
-                    .speeds(configuration, &placed.poses, link, point, away)
+                self.proximity.speeds(configuration, &placed.poses, link, point, away)
             });
-            ObstacleGradient {
-                pair: found,
-                gradient,
-            }
+            ObstacleGradient { pair: found, gradient }
         };
         let nearest = self.least(&placed, self.tested(), k);
         Ok(nearest.into_iter().map(of).collect())
@@ -53,9 +49,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         configuration: &[f64],
     ) -> Result<Vec<Overlap<ObstacleDistance>>, RobotError> {
         let placed = self.place(configuration)?;
-        let near = self
-            .tested()
-            .filter(|pair| self.bound(&placed, *pair) <= 0.0);
+        let near = self.tested().filter(|pair| self.bound(&placed, *pair) <= 0.0);
         let overlap = |pair: Pair| {
             let found = penetration_of(self.proximity.level, &self.swept(&placed, pair))?;
             let link = self.proximity.shapes[pair.0].link;
@@ -65,9 +59,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
                 pair: self.obstacle_distance(pair, 0.0, points),
                 depth: found.depth,
                 direction,
-                gradient: self
-                    .proximity
-                    .speeds(configuration, poses, link, points[0], direction),
+                gradient: self.proximity.speeds(configuration, poses, link, points[0], direction),
             })
         };
         Ok(near.filter_map(overlap).collect())

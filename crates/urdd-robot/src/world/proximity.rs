@@ -145,11 +145,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         configuration: &[f64],
         workspace: &mut Workspace,
     ) -> Result<Option<f64>, RobotError> {
-        let Workspace {
-            placed,
-            least_of_parts,
-            ..
-        } = workspace;
+        let Workspace { placed, least_of_parts, .. } = workspace;
         self.place_into(configuration, placed)?;
         let nearest = self.least_pairs(placed, self.tested(), 1, least_of_parts);
         Ok(nearest.first().map(|(distance, _)| *distance))
@@ -213,9 +209,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// Whether any pair touches or overlaps.
     pub(super) fn touches(&self, placed: &Placed) -> bool {
         let mut waiting = Waiting::new(self.proximity.level);
-        let mut near = self
-            .tested()
-            .filter(|pair| self.bound(placed, *pair) <= 0.0);
+        let mut near = self.tested().filter(|pair| self.bound(placed, *pair) <= 0.0);
         near.any(|pair| waiting.touches_with(self.cores(placed, pair), self.radii(pair)))
             || waiting.any_touches()
     }
@@ -310,10 +304,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
 
     pub(super) fn swept(&self, placed: &Placed, pair: Pair) -> SweptPair<'_> {
         let own = self.proximity.shapes[pair.0].radius;
-        SweptPair {
-            cores: self.cores(placed, pair),
-            radii: [own, self.parts[pair.1].1.radius],
-        }
+        SweptPair { cores: self.cores(placed, pair), radii: [own, self.parts[pair.1].1.radius] }
     }
 
     /// The distances of some pairs, at most [`AT_ONCE`].

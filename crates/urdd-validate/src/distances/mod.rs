@@ -75,10 +75,8 @@ impl Distances {
             let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
             sets.push(set);
         }
-        let work: Vec<Option<Work>> = sets
-            .iter()
-            .map(|set| set.as_ref().map(|set| set.work(&poses)))
-            .collect();
+        let work: Vec<Option<Work>> =
+            sets.iter().map(|set| set.as_ref().map(|set| set.work(&poses))).collect();
         let budget = plan::budget(deep);
         let configurations = plan::configurations(&work, num_samples, budget);
 
@@ -95,17 +93,9 @@ impl Distances {
                 true => shapes.statistics(motion),
                 false => shapes.ranges(motion, stated),
             })?;
-            *kind = Some(KindDistances {
-                shapes,
-                complete,
-                found,
-            });
+            *kind = Some(KindDistances { shapes, complete, found });
         }
-        Ok(Distances {
-            kinds,
-            first,
-            default,
-        })
+        Ok(Distances { kinds, first, default })
     }
 
     /// The kinds in the order of [`ShapeKind::ALL`]; `None` for one without statistics.
@@ -183,12 +173,8 @@ fn join(all: &mut PairStatistics, part: &PairStatistics, start: u32, end: u32) {
     each(&mut all.mean, &part.mean, &|into, from| {
         *into += (from - *into) * weight;
     });
-    each(&mut all.min, &part.min, &|into, from| {
-        *into = into.min(from)
-    });
-    each(&mut all.max, &part.max, &|into, from| {
-        *into = into.max(from)
-    });
+    each(&mut all.min, &part.min, &|into, from| *into = into.min(from));
+    each(&mut all.max, &part.max, &|into, from| *into = into.max(from));
 }
 
 #[cfg(test)]
@@ -202,11 +188,7 @@ mod tests {
             let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
             let most = distances.iter().copied().fold(0.0, f64::max);
             let mean = distances.iter().sum::<f64>() / distances.len() as f64;
-            PairStatistics {
-                mean: rows(mean),
-                min: rows(least),
-                max: rows(most),
-            }
+            PairStatistics { mean: rows(mean), min: rows(least), max: rows(most) }
         };
         let mut all = of(&[1.0, 2.0, 6.0]);
         join(&mut all, &of(&[0.5]), 3, 4);

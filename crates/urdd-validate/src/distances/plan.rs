@@ -104,9 +104,6 @@ mod tests {
     fn eight_at_least_and_never_more_than_there_are() {
         assert_eq!(configurations(&kinds(), 100, 0), [8, 0, 8, 8]);
         assert_eq!(configurations(&kinds(), 5, 0), [5, 0, 5, 5]);
-        assert_eq!(
-            configurations(&kinds(), u32::MAX, u64::MAX),
-            [u32::MAX, 0, u32::MAX, u32::MAX]
-        );
+        assert_eq!(configurations(&kinds(), u32::MAX, u64::MAX), [u32::MAX, 0, u32::MAX, u32::MAX]);
     }
 }

@@ -44,11 +44,7 @@ impl Poses {
         if groups.of_link.len() != kinematics.num_links() {
             return Err(SkipReason::Failed(Code::CHN001));
         }
-        Ok(Poses {
-            space,
-            kinematics,
-            groups: groups.of_link.clone(),
-        })
+        Ok(Poses { space, kinematics, groups: groups.of_link.clone() })
     }
 
     /// Number of links.

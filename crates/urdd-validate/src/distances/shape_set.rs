@@ -99,10 +99,7 @@ impl ShapeSet {
             List::Boxes(_) => plan::BOX,
             List::Spheres(_) => 1,
         };
-        let mut work = Work {
-            once: 0,
-            each: poses.num_links() as u64 * plan::POSE,
-        };
+        let mut work = Work { once: 0, each: poses.num_links() as u64 * plan::POSE };
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[i + 1..] {
                 match poses.is_rigid(*a, *b) {
@@ -122,9 +119,8 @@ impl ShapeSet {
 
     /// The smallest and largest distances of all pairs: exact where they are outside the stated ones.
     pub fn ranges(&self, motion: &Motion, stated: &Statistics) -> PairStatistics {
-        let shapes: Vec<usize> = (0..self.places.len())
-            .filter(|shape| self.place(*shape).is_some())
-            .collect();
+        let shapes: Vec<usize> =
+            (0..self.places.len()).filter(|shape| self.place(*shape).is_some()).collect();
         let range = |i: usize, j: usize| {
             let (i, j) = (*shapes.get(i)?, *shapes.get(j)?);
             Some([at(stated.min, i, j)?, at(stated.max, i, j)?])
@@ -169,12 +165,7 @@ fn sphere(volume: Volume) -> Option<Sphere> {
 }
 
 fn cuboid(volume: Volume) -> Option<OrientedBox> {
-    let Volume::Box {
-        half_extents,
-        offset,
-        rpy,
-    } = volume
-    else {
+    let Volume::Box { half_extents, offset, rpy } = volume else {
         return None;
     };
     let pose = Isometry3::from_parts(Translation3::from(offset), from_rpy(rpy));

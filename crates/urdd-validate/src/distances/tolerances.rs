@@ -33,9 +33,7 @@ impl Tolerances {
         let robot = urdd.robot().zip(urdd.tree());
         Tolerances {
             reach: robot.map_or(0.0, |(robot, tree)| reach(robot, tree)),
-            shapes: (0..shapes.count(kind))
-                .map(|shape| of_shape(shape).unwrap_or(0.0))
-                .collect(),
+            shapes: (0..shapes.count(kind)).map(|shape| of_shape(shape).unwrap_or(0.0)).collect(),
         }
     }
 

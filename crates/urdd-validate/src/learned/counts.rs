@@ -114,9 +114,7 @@ impl Judge {
 /// SPEC 8.8.10: steps towards the next configuration, until a DOF has changed by 0.05 or the next is reached.
 fn stepped(from: &[f64], next: &[f64]) -> Vec<f64> {
     let differences: Vec<f64> = next.iter().zip(from).map(|(b, a)| b - a).collect();
-    let largest = differences
-        .iter()
-        .fold(0.0, |most: f64, d| most.max(d.abs()));
+    let largest = differences.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
     let scale = (NEAR_CONTACT_STEP / largest).min(1.0);
     let moved = from.iter().zip(&differences).map(|(a, d)| a + scale * d);
     moved.collect()

@@ -45,10 +45,7 @@ impl Network {
     /// For a model in which LRN003 found no fault.
     pub fn new(model: &SelfCollisionModelModule) -> Self {
         let layers = model.layers.iter().map(|layer| {
-            let (rows, columns) = (
-                layer.weights.len(),
-                layer.weights.first().map_or(0, Vec::len),
-            );
+            let (rows, columns) = (layer.weights.len(), layer.weights.first().map_or(0, Vec::len));
             let numbers = layer.weights.iter().flatten().copied();
             let weights = DMatrix::from_row_iterator(rows, columns, numbers);
             (weights, DVector::from_column_slice(&layer.biases))

@@ -38,11 +38,7 @@ enum Source {
     /// Its own DOFs, starting at this index.
     Own(usize),
     /// Another joint.
-    Mimic {
-        joint: usize,
-        multiplier: f64,
-        offset: f64,
-    },
+    Mimic { joint: usize, multiplier: f64, offset: f64 },
     /// Nothing: the joint does not move.
     None,
 }
@@ -105,12 +101,7 @@ impl Reference {
             });
         }
         let order = order(robot.links.len(), &joints)?;
-        Ok(Reference {
-            links: robot.links.len(),
-            joints,
-            order,
-            dofs,
-        })
+        Ok(Reference { links: robot.links.len(), joints, order, dofs })
     }
 
     /// Number of links.
@@ -179,12 +170,7 @@ impl Reference {
                 }
             }
             for follower in chain.into_iter().rev() {
-                if let Source::Mimic {
-                    joint,
-                    multiplier,
-                    offset,
-                } = self.joints[follower].source
-                {
+                if let Source::Mimic { joint, multiplier, offset } = self.joints[follower].source {
                     let driver = known[joint].unwrap_or_default()[0];
                     let position = multiplier * driver + offset;
                     known[follower] = Some([position, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -34,10 +34,9 @@ pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
             let basis = turn(arc_from_z(unit));
             (basis * Vector3::new(q[0], q[1], 0.0), turn(unit * q[2]))
         }
-        JointType::Floating => (
-            Vector3::new(q[0], q[1], q[2]),
-            turn(Vector3::new(q[3], q[4], q[5])),
-        ),
+        JointType::Floating => {
+            (Vector3::new(q[0], q[1], q[2]), turn(Vector3::new(q[3], q[4], q[5])))
+        }
         JointType::Spherical => (Vector3::zeros(), turn(Vector3::new(q[0], q[1], q[2]))),
     };
     Isometry3::from_parts(Translation3::from(shift), rotation)

@@ -41,10 +41,9 @@ pub(super) fn causes(report: &Report) -> Vec<Cause<'_>> {
     for (number, urdd) in report.urdds.iter().enumerate() {
         for finding in &urdd.findings {
             let key = (finding.code.as_str(), meaning(&finding.message));
-            let cause = all.entry(key).or_insert_with(|| Gathered {
-                subjects_known: true,
-                ..Gathered::default()
-            });
+            let cause = all
+                .entry(key)
+                .or_insert_with(|| Gathered { subjects_known: true, ..Gathered::default() });
             cause.first.get_or_insert(finding);
             cause.severity = cause.severity.max(Some(finding.severity));
             cause.without_place += finding.places_cut.get();
@@ -105,8 +104,7 @@ fn subject(place: &Place) -> Option<String> {
 }
 
 fn within(file: &str, root: &str) -> bool {
-    file.strip_prefix(root)
-        .is_some_and(|rest| rest.starts_with('/'))
+    file.strip_prefix(root).is_some_and(|rest| rest.starts_with('/'))
 }
 
 fn inside(file: &str, roots: &BTreeSet<&str>) -> bool {
@@ -129,15 +127,11 @@ fn meaning(message: &str) -> String {
         }
         depth == 0
     };
-    let text: String = without_particulars(message)
-        .chars()
-        .filter(outside)
-        .collect();
+    let text: String = without_particulars(message).chars().filter(outside).collect();
     let words = text.split_whitespace();
     let words: Vec<&str> = words.filter(|word| !word.starts_with('/')).collect();
     let text = words.join(" ");
-    text.replace("piece # of link", "link")
-        .replace("the hull of link", "link")
+    text.replace("piece # of link", "link").replace("the hull of link", "link")
 }
 
 /// Removes names (in backticks or quotes) and numbers from a message.
@@ -169,14 +163,8 @@ mod tests {
     #[test]
     fn names_and_numbers_do_not_tell_causes_apart() {
         let same = without_particulars("link `a` is off by 0.25 m, at most 1e-6");
-        assert_eq!(
-            same,
-            without_particulars("link `b c` is off by 3 m, at most 2")
-        );
-        assert_ne!(
-            same,
-            without_particulars("joint `a` is off by 0.25 m, at most 1e-6")
-        );
+        assert_eq!(same, without_particulars("link `b c` is off by 3 m, at most 2"));
+        assert_ne!(same, without_particulars("joint `a` is off by 0.25 m, at most 1e-6"));
     }
 
     #[test]
@@ -189,18 +177,12 @@ mod tests {
             meaning("the sphere about piece 1 of link 1 (`a`) is large"),
             meaning("the sphere about the hull of link 3 (`b`) is large")
         );
-        assert_ne!(
-            meaning("the origin (`a`) is lost"),
-            meaning("the axis (`a`) is lost")
-        );
+        assert_ne!(meaning("the origin (`a`) is lost"), meaning("the axis (`a`) is lost"));
     }
 
     #[test]
     fn a_pair_is_the_same_either_way_round() {
-        let at = |subject: &str| Place {
-            subject: Some(subject.to_owned()),
-            ..Place::default()
-        };
+        let at = |subject: &str| Place { subject: Some(subject.to_owned()), ..Place::default() };
         let one = subject(&at("`b` piece 3, `a` piece 1"));
         assert_eq!(one.as_deref(), Some("`a`, `b`"));
         assert_eq!(one, subject(&at("`a`, `b`")));

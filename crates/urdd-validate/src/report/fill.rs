@@ -20,10 +20,7 @@ use urdd_format::report::{
 pub(crate) fn fill(mut examined: Vec<Examined>, settings: &Settings) -> Report {
     let stale_ignores = settings.apply(&mut examined);
     let fail_on = settings.fail_on.unwrap_or(Severity::Error);
-    let urdds: Vec<Urdd> = examined
-        .into_iter()
-        .map(|examined| urdd(examined, fail_on))
-        .collect();
+    let urdds: Vec<Urdd> = examined.into_iter().map(|examined| urdd(examined, fail_on)).collect();
     let total = |severity: Severity| {
         let findings = urdds.iter().flat_map(|urdd| &urdd.findings);
         let alike = findings.filter(|finding| finding.severity == severity);
@@ -99,20 +96,13 @@ fn status(check: &Check) -> CheckStatus {
         }
         Outcome::Crashed(message) => (Status::Crashed, Some(message.clone()), None),
     };
-    CheckStatus {
-        code: check.rule.code.to_string(),
-        status,
-        reason,
-        skipped,
-    }
+    CheckStatus { code: check.rule.code.to_string(), status, reason, skipped }
 }
 
 /// The rules that could not verify something, by reason.
 fn not_checked(checks: &[CheckStatus]) -> Vec<NotChecked> {
-    let of_reason = |(reason, codes): (&str, Vec<String>)| NotChecked {
-        codes,
-        reason: reason.to_owned(),
-    };
+    let of_reason =
+        |(reason, codes): (&str, Vec<String>)| NotChecked { codes, reason: reason.to_owned() };
     let open = by_reason(checks, Skipped::NotVerified);
     open.into_iter().map(of_reason).collect()
 }
@@ -131,9 +121,8 @@ pub(super) fn by_reason(checks: &[CheckStatus], how: Skipped) -> BTreeMap<&str, 
 /// The findings of all checks: by module, then by severity, code and place.
 fn findings(modules: &[Module], checks: Vec<Check>) -> Vec<Finding> {
     let folders = modules.iter().enumerate();
-    let folders: HashMap<&str, usize> = folders
-        .map(|(idx, module)| (module.path.as_str(), idx))
-        .collect();
+    let folders: HashMap<&str, usize> =
+        folders.map(|(idx, module)| (module.path.as_str(), idx)).collect();
     let mut findings: Vec<(Option<usize>, Code, Finding)> = Vec::new();
     for mut check in checks {
         for found in std::mem::take(&mut check.findings) {
@@ -146,29 +135,17 @@ fn findings(modules: &[Module], checks: Vec<Check>) -> Vec<Finding> {
     fn order<'a>(
         (module, code, finding): &'a (Option<usize>, Code, Finding),
     ) -> impl Ord + use<'a> {
-        let Finding {
-            severity,
-            file,
-            line,
-            column,
-            pointer,
-            ..
-        } = finding;
+        let Finding { severity, file, line, column, pointer, .. } = finding;
         (module, Reverse(severity), code, file, line, column, pointer)
     }
     findings.sort_by(|a, b| order(a).cmp(&order(b)));
-    findings
-        .into_iter()
-        .map(|(_, _, finding)| finding)
-        .collect()
+    findings.into_iter().map(|(_, _, finding)| finding).collect()
 }
 
 /// Index of the module whose folder contains a file, or is that path itself.
 fn module_of(file: &str, folders: &HashMap<&str, usize>) -> Option<usize> {
     let parents = file.match_indices('/').map(|(end, _)| &file[..end]);
-    parents
-        .chain([file])
-        .find_map(|folder| folders.get(folder).copied())
+    parents.chain([file]).find_map(|folder| folders.get(folder).copied())
 }
 
 fn finding(module: Option<String>, check: &Check, found: Found) -> Finding {

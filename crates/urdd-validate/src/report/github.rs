@@ -18,11 +18,7 @@ pub fn github(report: &Report, places: &[String], out: &mut impl Write) -> fmt::
             let verdict = urdd.verdict.as_str();
             writeln!(out, "::error file={file},title={verdict}::{}", data(reason))?;
         }
-        for check in urdd
-            .checks
-            .iter()
-            .filter(|check| check.status == Status::Crashed)
-        {
+        for check in urdd.checks.iter().filter(|check| check.status == Status::Crashed) {
             let reason = data(check.reason.as_deref().unwrap_or_default());
             writeln!(out, "::error title={} crashed::{reason}", check.code)?;
         }

@@ -119,20 +119,9 @@ fn describe(urdd: &Urdd) -> String {
     if let Some(name) = &urdd.name {
         parts.push(format!("robot {}", escape::quoted(name)));
     }
-    let sizes = [
-        (urdd.size.links, "link"),
-        (urdd.size.joints, "joint"),
-        (urdd.size.dofs, "DOF"),
-    ];
-    parts.extend(
-        sizes
-            .into_iter()
-            .filter_map(|(size, unit)| Some(plural(size?.get(), unit))),
-    );
-    let legacy = urdd
-        .modules
-        .iter()
-        .any(|module| module.profile.as_deref() == Some("legacy"));
+    let sizes = [(urdd.size.links, "link"), (urdd.size.joints, "joint"), (urdd.size.dofs, "DOF")];
+    parts.extend(sizes.into_iter().filter_map(|(size, unit)| Some(plural(size?.get(), unit))));
+    let legacy = urdd.modules.iter().any(|module| module.profile.as_deref() == Some("legacy"));
     if !urdd.modules.is_empty() {
         let family = if legacy { " (legacy)" } else { "" };
         parts.push(format!("{}{family}", plural(urdd.modules.len(), "module")));
@@ -142,11 +131,8 @@ fn describe(urdd: &Urdd) -> String {
 
 /// Writes one finding.
 pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
-    let times = if finding.count.get() > 1 {
-        format!(" ({} times)", finding.count)
-    } else {
-        String::new()
-    };
+    let times =
+        if finding.count.get() > 1 { format!(" ({} times)", finding.count) } else { String::new() };
     let code = style.paint(BOLD, &finding.code);
     let word = severity(finding.severity, style);
     writeln!(out, "    {word} {code} {}{times}", finding.name)?;
@@ -157,12 +143,7 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
         writeln!(out, "      {} {at}", style.paint(DIM, "at"))?;
     }
     if let Some(written) = first.and_then(|first| first.written_at.as_ref()) {
-        writeln!(
-            out,
-            "      {} {}",
-            style.paint(DIM, "written at"),
-            written_at(written)
-        )?;
+        writeln!(out, "      {} {}", style.paint(DIM, "written at"), written_at(written))?;
     }
     writeln!(out, "      {}", safe(&finding.message))?;
     let mut line = |label: &str, text: &str| {
@@ -216,16 +197,12 @@ pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Writ
 fn is_bare(actual: &Option<String>) -> bool {
     let bare =
         |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | ',' | ' ' | '[' | ']');
-    actual
-        .as_ref()
-        .is_none_or(|actual| actual.chars().all(bare))
+    actual.as_ref().is_none_or(|actual| actual.chars().all(bare))
 }
 
 /// The difference of numbers, to four digits.
 pub(super) fn off_by(magnitude: &Magnitude) -> String {
-    let number = magnitude
-        .value
-        .map_or_else(|| "no number".to_owned(), |value| number(value, 4));
+    let number = magnitude.value.map_or_else(|| "no number".to_owned(), |value| number(value, 4));
     match magnitude.unit.as_str() {
         "" => number,
         unit => format!("{number} {unit}"),
@@ -246,10 +223,7 @@ fn place(found: &Place, with_file: bool) -> String {
     }
     let parts = [
         pointer.map(|pointer| safe(pointer).into_owned()),
-        found
-            .subject
-            .as_ref()
-            .map(|subject| format!("({})", safe(subject))),
+        found.subject.as_ref().map(|subject| format!("({})", safe(subject))),
     ];
     for part in parts.into_iter().flatten() {
         let space = if place.is_empty() { "" } else { " " };
@@ -285,9 +259,7 @@ fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result
         writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
     }
     let optional = ModuleKind::ALL.iter().filter(|kind| kind.is_optional());
-    let normal: Vec<_> = optional
-        .map(|kind| Some(SkipReason::Absent(*kind).to_string()))
-        .collect();
+    let normal: Vec<_> = optional.map(|kind| Some(SkipReason::Absent(*kind).to_string())).collect();
     let absent = |check: &&CheckStatus| {
         check.skipped == Some(Skipped::Absent) && !normal.contains(&check.reason)
     };
@@ -317,10 +289,7 @@ fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Res
         "{}: {}. {}: {}, {}, {}.",
         style.paint(BOLD, plural(totals.urdds.get(), unit(report))),
         verdicts.join(", "),
-        plural(
-            totals.error.get() + totals.warning.get() + totals.info.get(),
-            "finding"
-        ),
+        plural(totals.error.get() + totals.warning.get() + totals.info.get(), "finding"),
         plural(totals.error.get(), "error"),
         plural(totals.warning.get(), "warning"),
         plural(totals.info.get(), "info"),

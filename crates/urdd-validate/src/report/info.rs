@@ -101,21 +101,14 @@ impl ModelInfo {
             true => String::new(),
             false => format!(": {}", safe(&self.reasons.join(", "))),
         };
-        writeln!(
-            out,
-            "  model     rates {verdict}{reasons} (95 % intervals in brackets)"
-        )?;
+        writeln!(out, "  model     rates {verdict}{reasons} (95 % intervals in brackets)")?;
         writeln!(out, "            misses {} collisions", self.miss_rate)?;
         let near = &self.near_contact_miss_rate;
         writeln!(
             out,
             "            misses {near} collisions within a step of 0.05 rad or m of contact"
         )?;
-        writeln!(
-            out,
-            "            clears {} free configurations",
-            self.clear_rate
-        )
+        writeln!(out, "            clears {} free configurations", self.clear_rate)
     }
 }
 
@@ -266,15 +259,8 @@ pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
         model.write(out)?;
     }
     if !info.parts.is_empty() {
-        let base = info
-            .base
-            .as_deref()
-            .map(|base| format!("on {}", safe(base)));
-        writeln!(
-            out,
-            "{}",
-            format!("  parts     {}", base.unwrap_or_default()).trim_end()
-        )?;
+        let base = info.base.as_deref().map(|base| format!("on {}", safe(base)));
+        writeln!(out, "{}", format!("  parts     {}", base.unwrap_or_default()).trim_end())?;
         info_parts::write(&info.parts, "    ", out)?;
     }
     writeln!(out, "  modules   {}", info.modules.len())?;

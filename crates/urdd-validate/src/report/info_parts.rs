@@ -42,8 +42,7 @@ pub struct PartInfo {
 pub(super) fn tree(parts: &[CompositionPart], robot: Option<&Robot>) -> Vec<PartInfo> {
     let on = |part: &CompositionPart| Some(part.attachment.as_ref()?.part_idx?.get());
     let tops = (0..parts.len()).filter(|idx| on(&parts[*idx]).is_none());
-    tops.map(|idx| part(parts, idx, robot, parts.len()))
-        .collect()
+    tops.map(|idx| part(parts, idx, robot, parts.len())).collect()
 }
 
 /// `depth` bounds the recursion for invalid documents, in which a part can be attached to itself.
@@ -99,16 +98,8 @@ pub(super) fn base(base: Option<&CompositionBase>, robot: Option<&Robot>) -> Opt
 pub(super) fn write(parts: &[PartInfo], margin: &str, out: &mut impl Write) -> fmt::Result {
     for part in parts {
         write!(out, "{margin}{}", escape::line(&part.id))?;
-        write!(
-            out,
-            "  (robot {}, {} links",
-            escape::line(&part.robot),
-            part.links
-        )?;
-        let counts = [
-            (part.dropped_links, "dropped"),
-            (part.frozen_joints, "joints frozen"),
-        ];
+        write!(out, "  (robot {}, {} links", escape::line(&part.robot), part.links)?;
+        let counts = [(part.dropped_links, "dropped"), (part.frozen_joints, "joints frozen")];
         for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
             write!(out, ", {count} {what}")?;
         }

@@ -25,9 +25,8 @@ type Out = Writer<Vec<u8>>;
 pub fn junit(run: &Run, places: &[String], fail_on: Severity) -> io::Result<String> {
     let report = &run.report;
     let urdds = report.urdds.iter().zip(places);
-    let suites: Vec<Suite> = urdds
-        .map(|(urdd, place)| Suite::new(run, urdd, place, fail_on))
-        .collect();
+    let suites: Vec<Suite> =
+        urdds.map(|(urdd, place)| Suite::new(run, urdd, place, fail_on)).collect();
     let sum = |count: fn(&Suite) -> usize| suites.iter().map(count).sum::<usize>().to_string();
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 2);
     out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -74,10 +73,7 @@ impl Suite {
             "" => &urdd.path,
             place => place,
         };
-        Suite {
-            name: allowed(name),
-            cases,
-        }
+        Suite { name: allowed(name), cases }
     }
 
     fn count(&self, element: &str) -> usize {
@@ -95,9 +91,7 @@ impl Suite {
                 ("skipped", &self.count("skipped").to_string()),
             ])
             .write_inner_content(|out| {
-                self.cases
-                    .iter()
-                    .try_for_each(|case| case.write(&self.name, out))
+                self.cases.iter().try_for_each(|case| case.write(&self.name, out))
             })?;
         Ok(())
     }
@@ -133,15 +127,10 @@ impl Case {
 }
 
 fn case(run: &Run, urdd: &Urdd, check: &CheckStatus, fail_on: Severity) -> Case {
-    let findings: Vec<&Finding> = urdd
-        .findings
-        .iter()
-        .filter(|finding| finding.code == check.code)
-        .collect();
+    let findings: Vec<&Finding> =
+        urdd.findings.iter().filter(|finding| finding.code == check.code).collect();
     let text: String = findings.iter().map(|finding| described(finding)).collect();
-    let worst = findings
-        .iter()
-        .min_by_key(|finding| Reverse(finding.severity));
+    let worst = findings.iter().min_by_key(|finding| Reverse(finding.severity));
     let reason = || allowed(check.reason.as_deref().unwrap_or_default());
     let plain = |element, kind: &str| Some((element, kind.to_owned(), reason(), String::new()));
     let outcome = match (check.status, worst) {

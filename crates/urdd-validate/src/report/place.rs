@@ -47,10 +47,8 @@ pub fn file_in(place: &str, file: Option<&str>) -> String {
 fn relative(path: &Path, current: &Path) -> Option<String> {
     let whole = plain(&current.join(path));
     let inside = whole.strip_prefix(plain(current)).ok()?;
-    let parts: Vec<_> = inside
-        .components()
-        .map(|part| part.as_os_str().to_string_lossy())
-        .collect();
+    let parts: Vec<_> =
+        inside.components().map(|part| part.as_os_str().to_string_lossy()).collect();
     Some(parts.join("/"))
 }
 
@@ -88,15 +86,9 @@ mod tests {
 
     #[test]
     fn files_are_seen_from_there_too() {
-        assert_eq!(
-            file_in("robots/ur5", Some("a/b.json")),
-            "robots/ur5/a/b.json"
-        );
+        assert_eq!(file_in("robots/ur5", Some("a/b.json")), "robots/ur5/a/b.json");
         assert_eq!(file_in("", Some("urdd.json")), "urdd.json");
-        assert_eq!(
-            file_in("robots/ur5", Some("../panda/a.stl")),
-            "robots/panda/a.stl"
-        );
+        assert_eq!(file_in("robots/ur5", Some("../panda/a.stl")), "robots/panda/a.stl");
         assert_eq!(file_in("ur5", Some("../../a.stl")), "ur5/");
         assert_eq!(file_in("ur5", None), "ur5/");
         assert_eq!(file_in("", None), "./");

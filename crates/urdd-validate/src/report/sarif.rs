@@ -27,12 +27,8 @@ const BASE: &str = "%SRCROOT%";
 const MOST_LOCATIONS: usize = 999;
 
 /// Characters to percent-encode in a URI reference: all except letters, digits and those removed here.
-const KEPT: &AsciiSet = &NON_ALPHANUMERIC
-    .remove(b'/')
-    .remove(b'-')
-    .remove(b'.')
-    .remove(b'_')
-    .remove(b'~');
+const KEPT: &AsciiSet =
+    &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'.').remove(b'_').remove(b'~');
 
 /// Writes the report of a run. `places` are the folders of its URDDs (see [`super::place::places`]), `exit_code` is the
 /// exit status of the program.
@@ -43,12 +39,10 @@ pub fn sarif(run: &Run, places: &[String], exit_code: u8) -> serde_json::Result<
     let report = &run.report;
     let rules = Rules::used(run);
     let placed = || report.urdds.iter().zip(places);
-    let results: Vec<Value> = placed()
-        .flat_map(|(urdd, place)| results(urdd, place, &rules))
-        .collect();
-    let notifications: Vec<Value> = placed()
-        .flat_map(|(urdd, place)| notifications(urdd, place, &rules))
-        .collect();
+    let results: Vec<Value> =
+        placed().flat_map(|(urdd, place)| results(urdd, place, &rules)).collect();
+    let notifications: Vec<Value> =
+        placed().flat_map(|(urdd, place)| notifications(urdd, place, &rules)).collect();
     let stale: Vec<Value> = report
         .stale_ignores
         .iter()
@@ -125,9 +119,7 @@ impl Rules {
 }
 
 fn describe(rule: &Description) -> Value {
-    let clause = rule
-        .clause
-        .map(|clause| format!("SPEC.md, clause {clause}. "));
+    let clause = rule.clause.map(|clause| format!("SPEC.md, clause {clause}. "));
     let help = format!(
         "{}\n\n{}`urdd explain {}` says the same.",
         rule.explanation(),

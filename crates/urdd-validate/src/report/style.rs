@@ -47,11 +47,7 @@ pub const STYLES: &[&str] = &[BOLD, DIM, RED, GREEN, YELLOW, BLUE, PLAIN];
 
 impl Style {
     pub(super) fn paint(self, code: &str, text: impl fmt::Display) -> String {
-        if self.color {
-            format!("{code}{text}{PLAIN}")
-        } else {
-            text.to_string()
-        }
+        if self.color { format!("{code}{text}{PLAIN}") } else { text.to_string() }
     }
 }
 

@@ -42,14 +42,10 @@ const NAME: usize = 28;
 pub(super) fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
     write_table(report, style, out)?;
     let all = causes(report);
-    let (errors, lesser): (Vec<_>, Vec<_>) = all
-        .into_iter()
-        .partition(|cause| cause.severity == Severity::Error);
+    let (errors, lesser): (Vec<_>, Vec<_>) =
+        all.into_iter().partition(|cause| cause.severity == Severity::Error);
     if !errors.is_empty() {
-        let title = format!(
-            "What to fix first ({} of errors)",
-            plural(errors.len(), "cause")
-        );
+        let title = format!("What to fix first ({} of errors)", plural(errors.len(), "cause"));
         writeln!(out, "{}", style.paint(BOLD, title))?;
         let most = if style.full { errors.len() } else { CAUSES };
         let mut above = None;
@@ -118,10 +114,7 @@ fn write_cause(cause: &Cause<'_>, unit: &str, style: Style, out: &mut impl Write
     }
     if cause.borrowed > 0 {
         let text_of = |count| plural(count, unit);
-        text += &format!(
-            ", {} only by the parts that it names",
-            text_of(cause.borrowed)
-        );
+        text += &format!(", {} only by the parts that it names", text_of(cause.borrowed));
     }
     writeln!(out, "    {word} {code} {}: {text}", cause.first.name)?;
     let urdd = cause.urdds.first().map(|path| shorten(&safe(path), NAME));
@@ -159,9 +152,7 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
         .filter(|links| *links > 0)
         .collect();
     let models = report.urdds.iter();
-    let models = models
-        .filter(|urdd| urdd.model_not_verified.is_some())
-        .count();
+    let models = models.filter(|urdd| urdd.model_not_verified.is_some()).count();
     if by_reason.is_empty() && unverified.is_empty() && models == 0 {
         return Ok(());
     }
@@ -180,11 +171,7 @@ fn write_not_checked(report: &Report, style: Style, out: &mut impl Write) -> fmt
     let most = if style.full { reasons.len() } else { LESSER };
     for (reason, (urdds, codes)) in reasons.iter().take(most) {
         let rules = plural(codes.len(), "rule");
-        let text = format!(
-            "    {rules} in {}: {}",
-            plural(*urdds, unit(report)),
-            safe(reason)
-        );
+        let text = format!("    {rules} in {}: {}", plural(*urdds, unit(report)), safe(reason));
         writeln!(out, "{}", shorten(&text, style.width))?;
     }
     write_more(reasons.len(), most, style, out)?;

@@ -49,9 +49,5 @@ fn describe_links(urdd: &Urdd) -> Option<String> {
         format!("{word} {text} by {}: {}", list(&codes), safe(&reasons))
     });
     let described: Vec<String> = described.collect();
-    Some(format!(
-        "{} ({})",
-        not_verified(links.len()),
-        described.join("; ")
-    ))
+    Some(format!("{} ({})", not_verified(links.len()), described.join("; ")))
 }

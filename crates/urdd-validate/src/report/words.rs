@@ -8,10 +8,7 @@ pub(super) fn list(codes: &[String]) -> String {
     if codes.len() <= MOST {
         return codes.join(" ");
     }
-    let mut families: Vec<&str> = codes
-        .iter()
-        .map(|code| &code[..code.len().min(3)])
-        .collect();
+    let mut families: Vec<&str> = codes.iter().map(|code| &code[..code.len().min(3)]).collect();
     families.sort_unstable();
     families.dedup();
     format!("{} ({})", plural(codes.len(), "rule"), families.join(", "))

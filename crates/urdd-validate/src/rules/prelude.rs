@@ -36,9 +36,7 @@ pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
 
 /// Whether the module's version is from before the specification.
 pub(super) fn is_legacy(module: &Module) -> bool {
-    module
-        .spec
-        .is_some_and(|spec| spec.profile == Profile::Legacy)
+    module.spec.is_some_and(|spec| spec.profile == Profile::Legacy)
 }
 
 /// The values that are present, with their kinds of shape.

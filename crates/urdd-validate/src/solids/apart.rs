@@ -18,9 +18,7 @@ pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
         .map(|triangle| expected.corners(*triangle))
         .filter(|corners| !is_thin(*corners, tolerance));
     // With two such corners, none of the three is merged with another, and the triangle counts.
-    thick
-        .take(TRIANGLES)
-        .any(|corners| corners.iter().filter(is_alone).count() >= 2)
+    thick.take(TRIANGLES).any(|corners| corners.iter().filter(is_alone).count() >= 2)
 }
 
 #[cfg(test)]

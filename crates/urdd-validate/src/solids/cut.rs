@@ -27,25 +27,16 @@ pub fn as_found(mut expected: Expected, found: &Mesh) -> Option<Expected> {
     let known: HashSet<[u32; 3]> = whole.iter().map(|t| from_least(t.map(point))).collect();
     let mut at_point: HashMap<u32, Vec<usize>> = HashMap::new();
     for (at, triangle) in found.triangles.iter().enumerate() {
-        at_point
-            .entry(theirs[triangle[0] as usize])
-            .or_default()
-            .push(at);
+        at_point.entry(theirs[triangle[0] as usize]).or_default().push(at);
     }
     let mut work = 0;
     let mut cut = Vec::new();
     for fan in faces {
         let places: BTreeMap<u32, Vector3<f64>> = (fan.iter().flatten())
-            .map(|vertex| {
-                (
-                    point(*vertex),
-                    expected.mesh.vertices[*vertex as usize].into(),
-                )
-            })
+            .map(|vertex| (point(*vertex), expected.mesh.vertices[*vertex as usize].into()))
             .collect();
-        let normal: Vector3<f64> = (fan.iter())
-            .map(|triangle| area(expected.mesh.corners(*triangle)))
-            .sum();
+        let normal: Vector3<f64> =
+            (fan.iter()).map(|triangle| area(expected.mesh.corners(*triangle))).sum();
         let own = |triangle: [u32; 3]| triangle.map(|vertex| theirs[vertex as usize]);
         let near = || (places.keys()).flat_map(|point| at_point.get(point).into_iter().flatten());
         work += near().count();
@@ -80,10 +71,7 @@ pub fn as_found(mut expected: Expected, found: &Mesh) -> Option<Expected> {
             }
         }
     }
-    let cut = Mesh {
-        vertices: found.vertices.clone(),
-        triangles: cut,
-    };
+    let cut = Mesh { vertices: found.vertices.clone(), triangles: cut };
     expected.mesh.triangles = whole;
     expected.mesh.append(&cut);
     Some(expected)
@@ -103,10 +91,7 @@ fn faces(mesh: &Mesh) -> Option<(Triangles, Vec<Triangles>)> {
 
 /// A triangle's corners from the least one on, in the same direction.
 fn from_least([a, b, c]: [u32; 3]) -> [u32; 3] {
-    [[a, b, c], [b, c, a], [c, a, b]]
-        .into_iter()
-        .min()
-        .unwrap_or([a, b, c])
+    [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap_or([a, b, c])
 }
 
 fn area(corners: [[f64; 3]; 3]) -> Vector3<f64> {
@@ -223,9 +208,7 @@ mod tests {
     /// The trial's L-shaped face, uncut, beside a triangle that fills its notch.
     fn expected() -> Expected {
         let points = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
-        let vertices = points
-            .map(|[x, y]| [f64::from(x), f64::from(y), 0.0])
-            .to_vec();
+        let vertices = points.map(|[x, y]| [f64::from(x), f64::from(y), 0.0]).to_vec();
         let mesh = Mesh {
             vertices,
             triangles: vec![
@@ -238,11 +221,7 @@ mod tests {
                 [2, 4, 3],
             ],
         };
-        Expected {
-            mesh,
-            primitives: Vec::new(),
-            extent: 2.0,
-        }
+        Expected { mesh, primitives: Vec::new(), extent: 2.0 }
     }
 
     fn accepts(triangles: &[[u32; 3]]) -> bool {
@@ -264,12 +243,6 @@ mod tests {
         assert!(!accepts(&[[0, 2, 1], [0, 2, 3], [5, 0, 3], [3, 4, 5]]));
         assert!(!accepts(&[[0, 1, 2], [0, 2, 3], [5, 0, 3]]));
         assert!(!accepts(&[[0, 1, 2], [0, 2, 4], [0, 4, 5]]));
-        assert!(!accepts(&[
-            [0, 1, 2],
-            [0, 2, 3],
-            [5, 0, 3],
-            [3, 4, 5],
-            [0, 1, 3]
-        ]));
+        assert!(!accepts(&[[0, 1, 2], [0, 2, 3], [5, 0, 3], [3, 4, 5], [0, 1, 3]]));
     }
 }

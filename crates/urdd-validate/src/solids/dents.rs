@@ -27,12 +27,8 @@ pub fn dents(mesh: &Mesh) -> Option<Dents> {
     let polytope = Polytope::new(&hull)?;
     let sum: Vector3<f64> = vertices.iter().map(|p| Vector3::from(*p)).sum();
     let middle = sum / vertices.len() as f64;
-    let mut dents = Dents {
-        inward: 0,
-        faces: mesh.triangles.len(),
-        depth: 0.0,
-        place: middle.into(),
-    };
+    let mut dents =
+        Dents { inward: 0, faces: mesh.triangles.len(), depth: 0.0, place: middle.into() };
     let mut centres = Vec::with_capacity(mesh.triangles.len());
     for triangle in &mesh.triangles {
         let [a, b, c] = mesh.corners(*triangle).map(Vector3::from);
@@ -80,9 +76,6 @@ mod tests {
         let found = dents(&mesh).expect("a hull");
         assert!((found.depth - 0.25).abs() < 1e-12, "{found:?}");
         assert_eq!(found.place, [0.0, 0.0, 0.75]);
-        assert_eq!(
-            dents(&cuboid([2.0, 2.0, 2.0])).map(|d| (d.inward, d.depth)),
-            Some((0, 0.0))
-        );
+        assert_eq!(dents(&cuboid([2.0, 2.0, 2.0])).map(|d| (d.inward, d.depth)), Some((0, 0.0)));
     }
 }

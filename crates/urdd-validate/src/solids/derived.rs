@@ -44,18 +44,14 @@ impl Derived {
     /// The mesh of copies of its files, which are sound.
     fn copied(&self, link: usize, piece: usize, paths: &[&MeshPath]) -> Derived {
         let paths = paths.iter().filter(|path| path.format.is_some());
-        let files = self
-            .files
-            .iter()
-            .zip(paths)
-            .map(|(file, path)| DerivedFile {
-                path: path.path.to_owned(),
-                pointer: path.pointer.clone(),
-                format: file.format,
-                content: file.content,
-                fault: None,
-                not_glb: file.not_glb,
-            });
+        let files = self.files.iter().zip(paths).map(|(file, path)| DerivedFile {
+            path: path.path.to_owned(),
+            pointer: path.pointer.clone(),
+            format: file.format,
+            content: file.content,
+            fault: None,
+            not_glb: file.not_glb,
+        });
         Derived {
             link,
             piece,

@@ -75,9 +75,7 @@ impl Expected {
         let own = extent(&mesh);
         let mut placed = mesh;
         placed.transform(&placement(scale, rows, element.origin.xyz));
-        let largest = scale
-            .into_iter()
-            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest = scale.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         self.extent = self
             .extent
             .max(own * largest)

@@ -44,21 +44,16 @@ pub fn derived(
     path: &str,
     profile: Profile,
 ) -> Result<(Scene, Option<String>), MeshFault> {
-    let options = Options {
-        gltf_up: GltfUp::Keep,
-        ..Options::default()
-    };
+    let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     // A derived mesh is read alone: a material file is not part of its surface.
     let scene = read_with(bytes, path, &mut |_| None, &options)
         .map_err(|error| MeshFault::Broken(without_name(&error)))?;
     let named = scene.side_files.first().filter(|_| profile == Profile::V1);
     let fault = match named {
         Some(name) => Some(format!("it names another file, `{name}`")),
-        None => scene
-            .notes
-            .iter()
-            .find(|note| is_fault(note.code, profile))
-            .map(ToString::to_string),
+        None => {
+            scene.notes.iter().find(|note| is_fault(note.code, profile)).map(ToString::to_string)
+        }
     };
     Ok((scene, fault))
 }

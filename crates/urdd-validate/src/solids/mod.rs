@@ -41,10 +41,7 @@ pub struct Solids {
 impl Solids {
     /// Reads every mesh file that the modules name, in parallel.
     pub fn read(urdd: &Urdd) -> Self {
-        let mut solids = Solids {
-            originals: original::read_all(urdd),
-            ..Solids::default()
-        };
+        let mut solids = Solids { originals: original::read_all(urdd), ..Solids::default() };
         for kind in urdd_document::meshes::DERIVED {
             let Some(meshes) = urdd.meshes(*kind) else {
                 continue;

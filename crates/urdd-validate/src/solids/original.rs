@@ -37,10 +37,7 @@ pub fn read_all(urdd: &Urdd) -> HashMap<String, Original> {
 pub fn uncut(urdd: &Urdd, path: &str) -> Option<Mesh> {
     let (profile, _) = paths(urdd);
     let bytes = file::bytes(&mut MeshFiles::new(urdd), profile, path).ok()?;
-    let options = Options {
-        uncut: true,
-        ..Options::default()
-    };
+    let options = Options { uncut: true, ..Options::default() };
     let scene = read_with(&bytes, path, &mut |_| None, &options).ok()?;
     let has_faces = matches!(scene.format, Format::Obj | Format::Collada);
     has_faces.then(|| scene.merged())
@@ -61,10 +58,7 @@ fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {
 }
 
 fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
-    let unreadable = |fault| Original {
-        mesh: Err(fault),
-        side_files: None,
-    };
+    let unreadable = |fault| Original { mesh: Err(fault), side_files: None };
     let bytes = match file::bytes(files, profile, path) {
         Ok(bytes) => bytes,
         Err(fault) => return unreadable(fault),

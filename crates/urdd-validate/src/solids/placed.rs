@@ -78,10 +78,7 @@ pub fn all(urdd: &Urdd, solids: &Solids) -> Placed {
         }))
     };
     let meshes = solids.derived(ModuleKind::PlainMeshes);
-    let looks: Vec<_> = meshes
-        .par_iter()
-        .map(|mesh| (mesh.link, look(mesh)))
-        .collect();
+    let looks: Vec<_> = meshes.par_iter().map(|mesh| (mesh.link, look(mesh))).collect();
     let mut placed = Placed::default();
     for (link, look) in looks {
         match look {
@@ -166,9 +163,7 @@ fn primitives(
         }
         let mut on_any = false;
         for (primitive, sum) in expected.primitives.iter().zip(&mut areas) {
-            let on = corners
-                .iter()
-                .all(|p| primitive.distance(*p).abs() <= tolerance);
+            let on = corners.iter().all(|p| primitive.distance(*p).abs() <= tolerance);
             if on
                 && primitive.depth(vectors) <= primitive.sag(PRIMITIVE_SAG) + tolerance
                 && primitive.faces_outward(vectors, tolerance)
@@ -209,16 +204,10 @@ fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) ->
         let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
         distances.fold(f64::INFINITY, f64::min)
     };
-    let worst = corners
-        .into_iter()
-        .fold((middle, nearest(middle)), |worst, corner| {
-            let distance = nearest(corner);
-            if distance > worst.1 {
-                (corner, distance)
-            } else {
-                worst
-            }
-        });
+    let worst = corners.into_iter().fold((middle, nearest(middle)), |worst, corner| {
+        let distance = nearest(corner);
+        if distance > worst.1 { (corner, distance) } else { worst }
+    });
     format!(
         "a triangle at {} is {} off the surface, or faces inward",
         point(worst.0),
@@ -230,17 +219,9 @@ fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) ->
 fn in_words(expected: &Expected) -> String {
     let mut parts = Vec::new();
     if !expected.mesh.triangles.is_empty() {
-        parts.push(format!(
-            "{} triangles of its meshes",
-            expected.mesh.triangles.len()
-        ));
+        parts.push(format!("{} triangles of its meshes", expected.mesh.triangles.len()));
     }
-    parts.extend(
-        expected
-            .primitives
-            .iter()
-            .map(|one| format!("a {}", one.name())),
-    );
+    parts.extend(expected.primitives.iter().map(|one| format!("a {}", one.name())));
     match parts.is_empty() {
         true => "nothing".to_owned(),
         false => parts.join(", "),
@@ -262,15 +243,13 @@ mod tests {
         for end in [-0.5, 0.5] {
             for i in 0..corners {
                 let angle = std::f64::consts::TAU * i as f64 / corners as f64;
-                mesh.vertices
-                    .push([radius * angle.cos(), radius * angle.sin(), end * length]);
+                mesh.vertices.push([radius * angle.cos(), radius * angle.sin(), end * length]);
             }
         }
         let n = corners as u32;
         for i in 0..n {
             let next = (i + 1) % n;
-            mesh.triangles
-                .extend([[i, next, next + n], [i, next + n, i + n]]);
+            mesh.triangles.extend([[i, next, next + n], [i, next + n, i + n]]);
             if i > 0 && next > 0 {
                 mesh.triangles.extend([[0, next, i], [n, i + n, next + n]]);
             }
@@ -296,41 +275,21 @@ mod tests {
     }
 
     fn shapes() -> Vec<(Geometry, Mesh, [f64; 3])> {
-        let cylinder = Cylinder {
-            radius: 0.1,
-            length: 0.4,
-        };
+        let cylinder = Cylinder { radius: 0.1, length: 0.4 };
         vec![
             (
-                Geometry::Box(Cuboid {
-                    size: [0.1, 0.2, 0.3],
-                }),
+                Geometry::Box(Cuboid { size: [0.1, 0.2, 0.3] }),
                 primitives::cuboid([0.1, 0.2, 0.3]),
                 [0.0; 3],
             ),
+            (Geometry::Cylinder(cylinder.clone()), primitives::cylinder(0.1, 0.4), [0.3, 0.0, 0.0]),
+            (Geometry::Cylinder(cylinder), coarse(17, 0.1, 0.4), [0.0, 0.9, 0.0]),
             (
-                Geometry::Cylinder(cylinder.clone()),
-                primitives::cylinder(0.1, 0.4),
-                [0.3, 0.0, 0.0],
-            ),
-            (
-                Geometry::Cylinder(cylinder),
-                coarse(17, 0.1, 0.4),
-                [0.0, 0.9, 0.0],
-            ),
-            (
-                Geometry::Capsule(Capsule {
-                    radius: 0.1,
-                    length: 0.4,
-                }),
+                Geometry::Capsule(Capsule { radius: 0.1, length: 0.4 }),
                 primitives::capsule(0.1, 0.4),
                 [0.0, 0.1, 0.2],
             ),
-            (
-                Geometry::Sphere(Sphere { radius: 0.25 }),
-                primitives::sphere(0.25),
-                [-0.4, 0.0, 0.1],
-            ),
+            (Geometry::Sphere(Sphere { radius: 0.25 }), primitives::sphere(0.25), [-0.4, 0.0, 0.1]),
         ]
     }
 
@@ -349,13 +308,8 @@ mod tests {
     #[test]
     fn thin_shapes_pass_and_their_turned_faces_do_not() {
         for length in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-            let disk = Geometry::Cylinder(Cylinder {
-                radius: 1.5,
-                length,
-            });
-            let plate = Geometry::Box(Cuboid {
-                size: [3.0, length, 2.0],
-            });
+            let disk = Geometry::Cylinder(Cylinder { radius: 1.5, length });
+            let plate = Geometry::Box(Cuboid { size: [3.0, length, 2.0] });
             for (shape, mesh) in [
                 (disk.clone(), primitives::cylinder(1.5, length)),
                 (disk, coarse(17, 1.5, length)),

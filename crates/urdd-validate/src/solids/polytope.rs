@@ -57,11 +57,7 @@ impl Polytope {
                 slack: resolution * (1.0 + size / height),
             });
         }
-        Some(Polytope {
-            planes: HalfSpaces::new(&planes)?,
-            bounds,
-            resolution,
-        })
+        Some(Polytope { planes: HalfSpaces::new(&planes)?, bounds, resolution })
     }
 
     /// How far outside a point is, m, by the plane that it is farthest beyond. Not positive inside, nor where it may be

@@ -19,21 +19,11 @@ impl Primitive {
         let shape = match geometry {
             Geometry::Mesh(_) => return None,
             Geometry::Box(of) => Shape::Box(of.size.map(|side| side / 2.0)),
-            Geometry::Cylinder(of) => Shape::Cylinder {
-                radius: of.radius,
-                half: of.length / 2.0,
-            },
-            Geometry::Capsule(of) => Shape::Capsule {
-                radius: of.radius,
-                half: of.length / 2.0,
-            },
+            Geometry::Cylinder(of) => Shape::Cylinder { radius: of.radius, half: of.length / 2.0 },
+            Geometry::Capsule(of) => Shape::Capsule { radius: of.radius, half: of.length / 2.0 },
             Geometry::Sphere(of) => Shape::Sphere { radius: of.radius },
         };
-        Some(Primitive {
-            shape,
-            rotation,
-            position: Vector3::from(position),
-        })
+        Some(Primitive { shape, rotation, position: Vector3::from(position) })
     }
 
     /// Distance of a point in the link's frame from the surface, m; negative inside.
@@ -96,12 +86,7 @@ impl Primitive {
     pub fn depth(&self, [a, b, c]: [Vector3<f64>; 3]) -> f64 {
         let normal = (b - a).cross(&(c - a));
         let nearest = |p: Vector3<f64>| p - normal * ((p - a).dot(&normal) / normal.norm_squared());
-        let mut places = vec![
-            (a + b + c) / 3.0,
-            (a + b) / 2.0,
-            (b + c) / 2.0,
-            (c + a) / 2.0,
-        ];
+        let mut places = vec![(a + b + c) / 3.0, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
         if let Shape::Sphere { .. } | Shape::Capsule { .. } = self.shape {
             let half = match self.shape {
                 Shape::Capsule { half, .. } => self.rotation * Vector3::z() * half,
@@ -110,9 +95,7 @@ impl Primitive {
             let centres = [self.position - half, self.position + half].map(nearest);
             let is_inside = |p: &Vector3<f64>| {
                 let edges = [(a, b), (b, c), (c, a)];
-                let mut sides = edges
-                    .iter()
-                    .map(|(u, v)| (v - u).cross(&(p - u)).dot(&normal));
+                let mut sides = edges.iter().map(|(u, v)| (v - u).cross(&(p - u)).dot(&normal));
                 sides.all(|side| side >= 0.0)
             };
             places.extend(centres.into_iter().filter(is_inside));
@@ -151,30 +134,19 @@ mod tests {
 
     #[test]
     fn distances_have_closed_forms() {
-        let box_ = at_origin(Geometry::Box(Cuboid {
-            size: [2.0, 4.0, 6.0],
-        }));
+        let box_ = at_origin(Geometry::Box(Cuboid { size: [2.0, 4.0, 6.0] }));
         assert_eq!(box_.distance([1.0, 0.5, -2.0]), 0.0);
         assert_eq!(box_.distance([0.0, 0.0, 0.0]), -1.0);
         assert_eq!(box_.distance([4.0, 6.0, 0.0]), 5.0);
-        let cylinder = at_origin(Geometry::Cylinder(Cylinder {
-            radius: 1.0,
-            length: 2.0,
-        }));
+        let cylinder = at_origin(Geometry::Cylinder(Cylinder { radius: 1.0, length: 2.0 }));
         assert_eq!(cylinder.distance([1.0, 0.0, 0.3]), 0.0);
         assert_eq!(cylinder.distance([0.2, 0.0, 1.0]), 0.0);
         assert_eq!(cylinder.distance([0.0, 4.0, 5.0]), 5.0);
-        let capsule = at_origin(Geometry::Capsule(Capsule {
-            radius: 1.0,
-            length: 2.0,
-        }));
+        let capsule = at_origin(Geometry::Capsule(Capsule { radius: 1.0, length: 2.0 }));
         assert_eq!(capsule.distance([0.0, 0.0, 2.0]), 0.0);
         assert_eq!(capsule.distance([0.0, 1.0, -1.0]), 0.0);
         let turn = nalgebra::Rotation3::from_euler_angles(0.0, std::f64::consts::FRAC_PI_2, 0.0);
-        let turned = Geometry::Capsule(Capsule {
-            radius: 1.0,
-            length: 2.0,
-        });
+        let turned = Geometry::Capsule(Capsule { radius: 1.0, length: 2.0 });
         let turned = Primitive::new(&turned, turn.into_inner(), [0.0, 0.0, 5.0]).expect("no mesh");
         assert!(turned.distance([2.0, 0.0, 5.0]).abs() < 1e-15);
     }
@@ -183,30 +155,16 @@ mod tests {
     fn areas_are_those_of_fine_tessellations() {
         // Inscribed surfaces with 32 corners a circle are up to 2 % smaller.
         for (geometry, mesh) in [
+            (Geometry::Box(Cuboid { size: [1.0, 2.0, 3.0] }), primitives::cuboid([1.0, 2.0, 3.0])),
             (
-                Geometry::Box(Cuboid {
-                    size: [1.0, 2.0, 3.0],
-                }),
-                primitives::cuboid([1.0, 2.0, 3.0]),
-            ),
-            (
-                Geometry::Cylinder(Cylinder {
-                    radius: 0.5,
-                    length: 2.0,
-                }),
+                Geometry::Cylinder(Cylinder { radius: 0.5, length: 2.0 }),
                 primitives::cylinder(0.5, 2.0),
             ),
             (
-                Geometry::Capsule(Capsule {
-                    radius: 0.5,
-                    length: 2.0,
-                }),
+                Geometry::Capsule(Capsule { radius: 0.5, length: 2.0 }),
                 primitives::capsule(0.5, 2.0),
             ),
-            (
-                Geometry::Sphere(Sphere { radius: 0.5 }),
-                primitives::sphere(0.5),
-            ),
+            (Geometry::Sphere(Sphere { radius: 0.5 }), primitives::sphere(0.5)),
         ] {
             let ratio = mesh.area() / at_origin(geometry).area();
             assert!((0.98..=1.0 + 1e-12).contains(&ratio), "{ratio}");

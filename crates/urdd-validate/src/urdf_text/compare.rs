@@ -187,11 +187,8 @@ fn how_names_differ(wanted: &[String], there: &[String]) -> String {
 /// The first few of a list of names.
 pub fn first_names<S: AsRef<str>>(names: &[S]) -> String {
     const SHOWN: usize = 5;
-    let mut text: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{}`", name.as_ref()))
-        .collect();
+    let mut text: Vec<String> =
+        names.iter().take(SHOWN).map(|name| format!("`{}`", name.as_ref())).collect();
     if names.len() > SHOWN {
         text.push(format!("and {} more", names.len() - SHOWN));
     }
@@ -214,10 +211,8 @@ mod tests {
     }
 
     fn named(names: &[&str]) -> Value {
-        let links: Vec<Value> = names
-            .iter()
-            .map(|name| json!({"name": name, "mass": name.len()}))
-            .collect();
+        let links: Vec<Value> =
+            names.iter().map(|name| json!({"name": name, "mass": name.len()})).collect();
         json!({ "links": links })
     }
 

@@ -24,9 +24,9 @@ impl Reader {
         let origin = self.origin(joint, at);
         let parent = self.joint_link(joint, "parent", at);
         let child = self.joint_link(joint, "child", at);
-        let axis = self.only(joint, "axis", at).map(|(axis, at)| v1::Axis {
-            xyz: self.vector(axis, "xyz", &at),
-        });
+        let axis = self
+            .only(joint, "axis", at)
+            .map(|(axis, at)| v1::Axis { xyz: self.vector(axis, "xyz", &at) });
         let limit = self.only(joint, "limit", at).map(|(limit, at)| v1::Limit {
             lower: self.number(limit, "lower", &at),
             upper: self.number(limit, "upper", &at),
@@ -36,26 +36,20 @@ impl Reader {
             deceleration: self.number(limit, "deceleration", &at),
             jerk: self.number(limit, "jerk", &at),
         });
-        let dynamics = self
-            .only(joint, "dynamics", at)
-            .map(|(dynamics, at)| v1::Dynamics {
-                damping: self.number(dynamics, "damping", &at),
-                friction: self.number(dynamics, "friction", &at),
-            });
-        let mimic = self
-            .only(joint, "mimic", at)
-            .and_then(|(mimic, at)| self.mimic(mimic, &at));
+        let dynamics = self.only(joint, "dynamics", at).map(|(dynamics, at)| v1::Dynamics {
+            damping: self.number(dynamics, "damping", &at),
+            friction: self.number(dynamics, "friction", &at),
+        });
+        let mimic = self.only(joint, "mimic", at).and_then(|(mimic, at)| self.mimic(mimic, &at));
         let safety_controller =
-            self.only(joint, "safety_controller", at)
-                .map(|(soft, at)| v1::SafetyController {
-                    soft_lower_limit: self.number(soft, "soft_lower_limit", &at),
-                    soft_upper_limit: self.number(soft, "soft_upper_limit", &at),
-                    k_position: self.number(soft, "k_position", &at),
-                    k_velocity: self.number(soft, "k_velocity", &at),
-                });
-        let calibration = self
-            .only(joint, "calibration", at)
-            .map(|(calibration, at)| v1::Calibration {
+            self.only(joint, "safety_controller", at).map(|(soft, at)| v1::SafetyController {
+                soft_lower_limit: self.number(soft, "soft_lower_limit", &at),
+                soft_upper_limit: self.number(soft, "soft_upper_limit", &at),
+                k_position: self.number(soft, "k_position", &at),
+                k_velocity: self.number(soft, "k_velocity", &at),
+            });
+        let calibration =
+            self.only(joint, "calibration", at).map(|(calibration, at)| v1::Calibration {
                 rising: self.number(calibration, "rising", &at),
                 falling: self.number(calibration, "falling", &at),
             });
@@ -102,10 +96,7 @@ impl Reader {
                 Some(v1::LinkName { link })
             }
             None => {
-                let fault = Fault::MissingElement {
-                    element: name,
-                    parent: "joint",
-                };
+                let fault = Fault::MissingElement { element: name, parent: "joint" };
                 self.problem(
                     joint.range().start,
                     fault,
@@ -120,10 +111,6 @@ impl Reader {
         let joint = self.needed_text(mimic, "joint", at);
         let multiplier = self.number(mimic, "multiplier", at);
         let offset = self.number(mimic, "offset", at);
-        Some(v1::Mimic {
-            joint: joint?,
-            multiplier,
-            offset,
-        })
+        Some(v1::Mimic { joint: joint?, multiplier, offset })
     }
 }

@@ -58,11 +58,7 @@ const VISUAL: Keys = &[
     ("geometry", Same),
     ("material", Optional(MATERIAL)),
 ];
-const COLLISION: Keys = &[
-    ("name", Same),
-    ("origin", Object(ORIGIN)),
-    ("geometry", Same),
-];
+const COLLISION: Keys = &[("name", Same), ("origin", Object(ORIGIN)), ("geometry", Same)];
 const MATERIAL: Keys = &[("name", Text), ("color", Same), ("texture", Same)];
 const JOINT: Keys = &[
     ("name", Same),

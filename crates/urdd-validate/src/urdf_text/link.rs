@@ -11,9 +11,8 @@ const SHAPES: &[&str] = &["mesh", "box", "cylinder", "capsule", "sphere"];
 impl Reader {
     pub(super) fn link(&mut self, link: Element<'_>, at: &str) -> Option<v1::Link> {
         let name = self.needed_text(link, "name", at);
-        let inertial = self
-            .only(link, "inertial", at)
-            .map(|(inertial, at)| self.inertial(inertial, &at));
+        let inertial =
+            self.only(link, "inertial", at).map(|(inertial, at)| self.inertial(inertial, &at));
         let mut visual = Vec::new();
         let mut collision = Vec::new();
         for element in xml::elements(link) {
@@ -44,13 +43,7 @@ impl Reader {
             }
         }
         let unknown_elements = self.unknown(link, LINK_ELEMENTS, at);
-        Some(v1::Link {
-            name: name?,
-            inertial,
-            visual,
-            collision,
-            unknown_elements,
-        })
+        Some(v1::Link { name: name?, inertial, visual, collision, unknown_elements })
     }
 
     fn inertial(&mut self, inertial: Element<'_>, at: &str) -> v1::Inertial {
@@ -60,21 +53,15 @@ impl Reader {
             .only(inertial, "mass", at)
             .and_then(|(mass, at)| self.number(mass, "value", &at))
             .map(|value| v1::Mass { value });
-        let inertia = self
-            .only(inertial, "inertia", at)
-            .map(|(inertia, at)| v1::Inertia {
-                ixx: self.number(inertia, "ixx", &at),
-                ixy: self.number(inertia, "ixy", &at),
-                ixz: self.number(inertia, "ixz", &at),
-                iyy: self.number(inertia, "iyy", &at),
-                iyz: self.number(inertia, "iyz", &at),
-                izz: self.number(inertia, "izz", &at),
-            });
-        v1::Inertial {
-            origin,
-            mass,
-            inertia,
-        }
+        let inertia = self.only(inertial, "inertia", at).map(|(inertia, at)| v1::Inertia {
+            ixx: self.number(inertia, "ixx", &at),
+            ixy: self.number(inertia, "ixy", &at),
+            ixz: self.number(inertia, "ixz", &at),
+            iyy: self.number(inertia, "iyy", &at),
+            iyz: self.number(inertia, "iyz", &at),
+            izz: self.number(inertia, "izz", &at),
+        });
+        v1::Inertial { origin, mass, inertia }
     }
 
     fn geometry(&mut self, parent: Element<'_>, at: &str) -> Option<v1::Geometry> {
@@ -95,10 +82,7 @@ impl Reader {
                 let at = format!("{at}/Mesh");
                 let filename = self.needed_text(shape, "filename", &at);
                 let scale = self.vector(shape, "scale", &at);
-                Some(v1::Geometry::Mesh(v1::Mesh {
-                    filename: filename?,
-                    scale,
-                }))
+                Some(v1::Geometry::Mesh(v1::Mesh { filename: filename?, scale }))
             }
             "box" => {
                 let size = self.size(shape, "size", &format!("{at}/Box"))?;

@@ -21,9 +21,8 @@ pub use reading::Reading;
 pub fn read(text: &str) -> Reading {
     match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
         Ok(document) => reader::read(&document),
-        Err(error) => Reading {
-            problems: vec![problem::not_xml(&error, text)],
-            ..Reading::default()
-        },
+        Err(error) => {
+            Reading { problems: vec![problem::not_xml(&error, text)], ..Reading::default() }
+        }
     }
 }

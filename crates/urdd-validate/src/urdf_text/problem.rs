@@ -101,9 +101,7 @@ pub struct Repeated {
 
 pub(super) fn not_xml(error: &XmlError, text: &str) -> Problem {
     let place = error.pos();
-    let start = LineIndex::new(text)
-        .line_start(place.row as usize)
-        .unwrap_or(text.len());
+    let start = LineIndex::new(text).line_start(place.row as usize).unwrap_or(text.len());
     let rest = text.get(start..).unwrap_or_default();
     let column = rest
         .char_indices()

@@ -31,11 +31,7 @@ pub(super) struct Reader {
 
 impl Reader {
     pub(super) fn problem(&mut self, offset: usize, fault: Fault, actual: Option<&str>) {
-        self.reading.problems.push(Problem {
-            offset,
-            fault,
-            actual: actual.map(str::to_owned),
-        });
+        self.reading.problems.push(Problem { offset, fault, actual: actual.map(str::to_owned) });
     }
 
     pub(super) fn place(&mut self, pointer: &str, offset: usize) {
@@ -85,10 +81,8 @@ impl Reader {
     ) -> Option<String> {
         let text = self.text(element, attribute, at);
         if text.is_none() {
-            let fault = Fault::MissingAttribute {
-                element: xml::name(element).to_owned(),
-                attribute,
-            };
+            let fault =
+                Fault::MissingAttribute { element: xml::name(element).to_owned(), attribute };
             self.problem(element.range().start, fault, None);
         }
         text
@@ -124,8 +118,7 @@ impl Reader {
         attribute: &'static str,
         at: &str,
     ) -> Option<f64> {
-        self.vector::<1>(element, attribute, at)
-            .map(|[number]| number)
+        self.vector::<1>(element, attribute, at).map(|[number]| number)
     }
 
     /// Like [`Reader::vector`], for a required attribute of a shape.
@@ -141,14 +134,8 @@ impl Reader {
             let text = xml::attribute(element, attribute).map(|found| found.value());
             let element_name = xml::name(element).to_owned();
             let fault = match text {
-                Some(_) => Fault::NotFinite {
-                    element: element_name,
-                    attribute,
-                },
-                None => Fault::MissingAttribute {
-                    element: element_name,
-                    attribute,
-                },
+                Some(_) => Fault::NotFinite { element: element_name, attribute },
+                None => Fault::MissingAttribute { element: element_name, attribute },
             };
             self.problem(element.range().start, fault, text);
         }
@@ -159,10 +146,7 @@ impl Reader {
         let unknown = xml::elements(parent).filter(|child| !known.contains(&xml::name(*child)));
         let mut kept = Vec::new();
         for (index, element) in unknown.enumerate() {
-            self.place(
-                &format!("{at}/unknown_elements/{index}"),
-                element.range().start,
-            );
+            self.place(&format!("{at}/unknown_elements/{index}"), element.range().start);
             kept.push(xml::verbatim(element));
         }
         kept

@@ -57,9 +57,7 @@ pub fn judging<'i>(
 /// Whether the elements of a list are lists over the pieces of one link each.
 fn has_pieces_inside(schema: &Map<String, Value>) -> bool {
     let inside = schema.get("items").and_then(|items| items.get(LENGTH));
-    let things = inside
-        .and_then(Value::as_str)
-        .and_then(annotations::of_length);
+    let things = inside.and_then(Value::as_str).and_then(annotations::of_length);
     things.is_some_and(|things| things == [Thing::Piece])
 }
 
@@ -94,10 +92,7 @@ impl IndexOf {
             }
         };
         let all: Vec<String> = self.things.iter().map(of_thing).collect();
-        format!(
-            "`{INDEX}` of schema.json asks for the index of a {}",
-            all.join(" or ")
-        )
+        format!("`{INDEX}` of schema.json asks for the index of a {}", all.join(" or "))
     }
 }
 
@@ -146,11 +141,7 @@ impl LengthOf {
             ));
         }
         let pieces = self.counts.pieces().filter(|_| self.pieces_inside)?;
-        let lists = list
-            .iter()
-            .map(Value::as_array)
-            .zip(&pieces.of_link)
-            .enumerate();
+        let lists = list.iter().map(Value::as_array).zip(&pieces.of_link).enumerate();
         let mut wrong = lists.filter_map(|(link, (inside, pieces))| {
             let length = inside?.len();
             (length != *pieces).then_some((link, length, pieces))

@@ -34,11 +34,7 @@ pub struct Pieces {
 
 impl Pieces {
     fn new(of_link: Vec<usize>) -> Pieces {
-        Pieces {
-            numbers: of_link.iter().copied().collect(),
-            total: of_link.iter().sum(),
-            of_link,
-        }
+        Pieces { numbers: of_link.iter().copied().collect(), total: of_link.iter().sum(), of_link }
     }
 }
 
@@ -49,11 +45,7 @@ impl Counts {
         let most = |counts: &mut dyn Iterator<Item = usize>| counts.max().unwrap_or(0);
         let meshes = |kind| {
             let meshes = context.meshes(kind)?;
-            Some(
-                (0..meshes.num_links())
-                    .map(|link| meshes.count(link))
-                    .collect::<Vec<_>>(),
-            )
+            Some((0..meshes.num_links()).map(|link| meshes.count(link)).collect::<Vec<_>>())
         };
         let hulls = meshes(ModuleKind::ConvexHullMeshes);
         Counts {

@@ -62,11 +62,7 @@ impl Fit {
                     off: (Side::Round, (radius - most).max(0.0)),
                 }
             }
-            Volume::Box {
-                half_extents,
-                offset,
-                rpy: [roll, pitch, yaw],
-            } => {
+            Volume::Box { half_extents, offset, rpy: [roll, pitch, yaw] } => {
                 let to_box = Rotation3::from_euler_angles(roll, pitch, yaw).inverse();
                 let half = Vector3::from(half_extents);
                 let inside = |p: &[f64; 3]| to_box * (Point3::from(*p) - Point3::from(offset));
@@ -82,10 +78,7 @@ impl Fit {
                         }
                     }
                 }
-                Fit {
-                    outside: most(inside.iter().map(beyond)),
-                    off,
-                }
+                Fit { outside: most(inside.iter().map(beyond)), off }
             }
         }
     }
@@ -184,18 +177,12 @@ mod tests {
             [0.0, -1.0, 0.0],
             [0.0, 0.0, 2.0],
         ];
-        Mesh {
-            vertices,
-            ..Mesh::default()
-        }
+        Mesh { vertices, ..Mesh::default() }
     }
 
     fn turned_box(half_extents: [f64; 3]) -> Fit {
-        let volume = Volume::Box {
-            half_extents,
-            offset: [0.0, 0.0, 1.0],
-            rpy: [0.0, 0.0, FRAC_PI_4],
-        };
+        let volume =
+            Volume::Box { half_extents, offset: [0.0, 0.0, 1.0], rpy: [0.0, 0.0, FRAC_PI_4] };
         Fit::new(&volume, &pyramid())
     }
 
@@ -210,10 +197,7 @@ mod tests {
         assert!((low.outside.1 - 0.25).abs() < 1e-15, "{low:?}");
 
         let wide = turned_box([half, half + 0.5, 1.25]);
-        assert!(
-            matches!(wide.off, (Side::Of(1, _), off) if (off - 0.5).abs() < 1e-15),
-            "{wide:?}"
-        );
+        assert!(matches!(wide.off, (Side::Of(1, _), off) if (off - 0.5).abs() < 1e-15), "{wide:?}");
         assert_eq!(wide.outside.1, 0.0);
     }
 

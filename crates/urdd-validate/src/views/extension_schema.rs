@@ -131,10 +131,7 @@ fn violations_with(
                 .take(limit)
                 .collect(),
         };
-        Violations {
-            found,
-            is_first_only,
-        }
+        Violations { found, is_first_only }
     })
 }
 
@@ -151,10 +148,7 @@ fn places(error: &ValidationError<'_>, judged: Option<Judged>) -> Vec<(String, S
     let mut message: String = error.masked().to_string().chars().take(200).collect();
     if let Some(judged) = judged.filter(|_| !is_annotation(error)) {
         // Of a keyword around it, such as `contains`.
-        message = format!(
-            "`{}` of schema.json is not met: {message}",
-            judged.keyword()
-        );
+        message = format!("`{}` of schema.json is not met: {message}", judged.keyword());
     }
     vec![(error.instance_path().to_string(), message)]
 }
@@ -187,9 +181,7 @@ pub fn mentions(value: &Value, key: &str) -> bool {
 fn options<'i>() -> ValidationOptions<'i> {
     // Without a retriever, so that a reference to another file fails without opening anything.
     jsonschema::draft202012::options().with_pattern_options(
-        jsonschema::PatternOptions::regex()
-            .size_limit(PATTERN_BYTES)
-            .dfa_size_limit(PATTERN_BYTES),
+        jsonschema::PatternOptions::regex().size_limit(PATTERN_BYTES).dfa_size_limit(PATTERN_BYTES),
     )
 }
 
@@ -209,9 +201,7 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 #[cfg(not(target_family = "wasm"))]
 fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     std::thread::scope(|scope| {
-        let spawned = std::thread::Builder::new()
-            .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, work);
+        let spawned = std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, work);
         match spawned.map(|thread| thread.join()) {
             Ok(Ok(result)) => result,
             // The engine reports a rule that panics as crashed.

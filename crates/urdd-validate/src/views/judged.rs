@@ -29,10 +29,7 @@ pub fn judged(context: &Context, findings: &mut Findings, part: Part, by: &[Part
 
 /// Every box and sphere whose hull or piece is judged.
 pub fn enclosures<'a>(context: &'a Context, findings: &mut Findings) -> Vec<Enclosure<'a>> {
-    for kind in [
-        ModuleKind::ConvexHullMeshes,
-        ModuleKind::ConvexDecompositionMeshes,
-    ] {
+    for kind in [ModuleKind::ConvexHullMeshes, ModuleKind::ConvexDecompositionMeshes] {
         for mesh in context.solids().derived(kind) {
             if let (None, Some(part)) = (mesh.sound(), Part::of(kind, mesh.link, mesh.piece)) {
                 findings.not_verified(part, Why::Unreadable);

@@ -16,9 +16,7 @@ pub struct WrongLengths {
 pub fn wrong_lengths(lists: &[(&str, usize)], expected: usize) -> Option<WrongLengths> {
     let wrong = lists.iter().filter(|(_, length)| *length != expected);
     let (first, length) = wrong.clone().next()?;
-    let words: Vec<String> = wrong
-        .map(|(key, length)| format!("`{key}` has {length}"))
-        .collect();
+    let words: Vec<String> = wrong.map(|(key, length)| format!("`{key}` has {length}")).collect();
     Some(WrongLengths {
         pointer: format!("/{first}"),
         length: *length,

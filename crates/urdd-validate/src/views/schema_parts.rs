@@ -32,11 +32,7 @@ pub fn faults_of_parts(schema: &Value) -> Vec<SchemaFault> {
                 });
             }
         }
-        for fault in schema
-            .as_object()
-            .map(annotations::faults)
-            .unwrap_or_default()
-        {
+        for fault in schema.as_object().map(annotations::faults).unwrap_or_default() {
             faults.push(SchemaFault {
                 pointer: format!("{pointer}/{}", fault.keyword),
                 message: fault.to_string(),

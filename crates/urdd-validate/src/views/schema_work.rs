@@ -27,19 +27,12 @@ const ONE: &[(&str, bool)] = &[
 ];
 
 /// Keywords whose value is a list of schemas.
-const LISTS: &[(&str, bool)] = &[
-    ("allOf", false),
-    ("anyOf", false),
-    ("oneOf", false),
-    ("prefixItems", true),
-];
+const LISTS: &[(&str, bool)] =
+    &[("allOf", false), ("anyOf", false), ("oneOf", false), ("prefixItems", true)];
 
 /// Keywords whose value is an object of schemas.
-const MAPS: &[(&str, bool)] = &[
-    ("dependentSchemas", false),
-    ("properties", true),
-    ("patternProperties", true),
-];
+const MAPS: &[(&str, bool)] =
+    &[("dependentSchemas", false), ("properties", true), ("patternProperties", true)];
 
 /// The schemas inside a schema, each with its pointer and whether it applies to the values inside the value.
 pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)> {
@@ -54,9 +47,7 @@ pub fn schemas_in(schema: &Value) -> impl Iterator<Item = (String, &Value, bool)
         .iter()
         .filter_map(move |(key, inner)| Some((*key, object?.get(*key)?.as_object()?, *inner)));
     one.chain(lists.flat_map(|(key, list, inner)| {
-        list.iter()
-            .enumerate()
-            .map(move |(i, schema)| (format!("/{key}/{i}"), schema, inner))
+        list.iter().enumerate().map(move |(i, schema)| (format!("/{key}/{i}"), schema, inner))
     }))
     .chain(maps.flat_map(|(key, map, inner)| {
         map.iter().map(move |(name, schema)| {
@@ -79,9 +70,7 @@ pub fn affordable_work(schema: &Value, document: &Value) -> Option<u64> {
         steps: 0,
         allowed,
     };
-    estimate
-        .work(schema, document, 0)
-        .filter(|work| *work <= allowed)
+    estimate.work(schema, document, 0).filter(|work| *work <= allowed)
 }
 
 fn longest_key(value: &Value) -> &str {
@@ -92,10 +81,7 @@ fn longest_key(value: &Value) -> &str {
             Value::Array(items) => open.extend(items),
             Value::Object(map) => {
                 let keys = map.keys().map(String::as_str);
-                longest = keys
-                    .chain([longest])
-                    .max_by_key(|key| key.len())
-                    .unwrap_or_default();
+                longest = keys.chain([longest]).max_by_key(|key| key.len()).unwrap_or_default();
                 open.extend(map.values());
             }
             _ => {}
@@ -190,10 +176,7 @@ impl<'a> Estimate<'a> {
         if let (Some(Value::Object(patterns)), Value::Object(map)) =
             (keywords.get("patternProperties"), value)
         {
-            for (pattern, key) in patterns
-                .keys()
-                .flat_map(|p| map.keys().map(move |k| (p, k)))
-            {
+            for (pattern, key) in patterns.keys().flat_map(|p| map.keys().map(move |k| (p, k))) {
                 // Once for its own schema, once for `additionalProperties`.
                 work = work.saturating_add(2 * pattern_work(pattern, key));
             }

@@ -46,21 +46,12 @@ impl<'a> Pairs<'a> {
             let sound = numbers_agree(a, b) && (statistics.num_samples.is_none() || a >= 0.0);
             sound.then_some(a)
         };
-        let (mean, min, max) = (
-            one(statistics.mean)?,
-            one(statistics.min)?,
-            one(statistics.max)?,
-        );
+        let (mean, min, max) = (one(statistics.mean)?, one(statistics.min)?, one(statistics.max)?);
         if self.tangled.iter().any(|tangled| tangled.pair(i, j)) {
             return None;
         }
         let samples = statistics.num_samples.unwrap_or(LEGACY_SAMPLES);
-        Some(Pair {
-            mean,
-            min,
-            max,
-            tolerance: mean_tolerance(samples, min.abs().max(max.abs())),
-        })
+        Some(Pair { mean, min, max, tolerance: mean_tolerance(samples, min.abs().max(max.abs())) })
     }
 }
 

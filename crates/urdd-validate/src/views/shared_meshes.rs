@@ -68,10 +68,7 @@ type Use<'a> = (usize, usize, &'a MeshPath<'a>);
 
 /// Every path of a module, with its link and piece.
 fn places<'a>(meshes: &'a Meshes<'a>) -> impl Iterator<Item = Use<'a>> {
-    let links = meshes
-        .lists
-        .iter()
-        .flat_map(|list| list.links.iter().enumerate());
+    let links = meshes.lists.iter().flat_map(|list| list.links.iter().enumerate());
     let pieces = links.flat_map(|(link, pieces)| {
         let pieces = pieces.iter().enumerate();
         pieces.map(move |(piece, mesh)| (link, piece, mesh))
@@ -93,16 +90,11 @@ fn placed_alike(urdd: &Urdd, a: usize, b: usize) -> bool {
 
 /// The meshes that a link shows: origin, file, scale.
 fn placements(link: &legacy::Link) -> Vec<(&legacy::Origin, &str, [f64; 3])> {
-    let meshes = link
-        .visual
-        .iter()
-        .filter_map(|visual| match &visual.geometry {
-            legacy::Geometry::Mesh(mesh) => Some((
-                &visual.origin,
-                mesh.filename.as_str(),
-                mesh.scale.unwrap_or([1.0; 3]),
-            )),
-            _ => None,
-        });
+    let meshes = link.visual.iter().filter_map(|visual| match &visual.geometry {
+        legacy::Geometry::Mesh(mesh) => {
+            Some((&visual.origin, mesh.filename.as_str(), mesh.scale.unwrap_or([1.0; 3])))
+        }
+        _ => None,
+    });
     meshes.collect()
 }

@@ -26,10 +26,7 @@ impl Tangled {
             }
         }
         let off_diagonal = (0..rows).map(|i| !diagonal_sound(elements, i)).collect();
-        Tangled {
-            asymmetric,
-            off_diagonal,
-        }
+        Tangled { asymmetric, off_diagonal }
     }
 
     /// Whether some element of the shape differs from its mirror, which SHP006 reports.
@@ -108,25 +105,13 @@ mod tests {
 
     #[test]
     fn exchanged_rows_are_tangled_and_others_are_not() {
-        let sound = skips([
-            [true, false, true],
-            [false, true, false],
-            [true, false, true],
-        ]);
+        let sound = skips([[true, false, true], [false, true, false], [true, false, true]]);
         assert!((0..3).all(|i| !sound.asymmetric(i) && !sound.pair(i, i)));
         // The last two rows are exchanged.
-        let exchanged = skips([
-            [true, false, true],
-            [true, false, true],
-            [false, true, false],
-        ]);
+        let exchanged = skips([[true, false, true], [true, false, true], [false, true, false]]);
         assert!(exchanged.asymmetric(1) && exchanged.pair(1, 2));
         // Equal except for the two diagonal elements and those across.
-        let across = skips([
-            [true, false, false],
-            [false, false, true],
-            [false, true, false],
-        ]);
+        let across = skips([[true, false, false], [false, false, true], [false, true, false]]);
         assert!(!across.asymmetric(1) && across.pair(1, 2) && !across.pair(0, 1));
     }
 }

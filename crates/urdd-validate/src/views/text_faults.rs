@@ -61,10 +61,7 @@ fn report(file: &str, faults: &TextFaults, kinds: &[TextFaultKind], findings: &m
         let mut finding = Finding::in_file(file, first.message.clone());
         finding.place = place(file, first);
         finding.count = faults.total(*kind);
-        finding.more = kept
-            .take(KEPT_PLACES - 1)
-            .map(|fault| place(file, fault))
-            .collect();
+        finding.more = kept.take(KEPT_PLACES - 1).map(|fault| place(file, fault)).collect();
         findings.report(finding);
     }
 }

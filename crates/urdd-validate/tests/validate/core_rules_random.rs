@@ -32,9 +32,7 @@ const MODULES: [&str; 5] = [
 fn found(urdd: &Fixture) -> BTreeMap<Code, String> {
     let run =
         urdd_validate::validate_source(urdd.in_memory(), "robot", &Settings::default()).unwrap();
-    let [urdd] = &run.report.urdds[..] else {
-        panic!("one URDD")
-    };
+    let [urdd] = &run.report.urdds[..] else { panic!("one URDD") };
     assert_ne!(urdd.verdict, Verdict::Unreadable);
     for check in &urdd.checks {
         let crashed = check.status == Status::Crashed;

@@ -21,18 +21,11 @@ fn published_urdds_have_the_findings_that_were_judged_true() {
         let mut found: BTreeMap<(&str, &str), Vec<u32>> = BTreeMap::new();
         for finding in &urdd.findings {
             let file = finding.file.as_deref().unwrap_or("-");
-            found
-                .entry((&finding.code, file))
-                .or_default()
-                .push(finding.count.0);
+            found.entry((&finding.code, file)).or_default().push(finding.count.0);
         }
         for ((code, file), counts) in found {
             let counts: Vec<String> = counts.iter().map(u32::to_string).collect();
-            lines.push_str(&format!(
-                "{:14} {code} {file} x {}\n",
-                urdd.path,
-                counts.join(" + ")
-            ));
+            lines.push_str(&format!("{:14} {code} {file} x {}\n", urdd.path, counts.join(" + ")));
         }
     }
     insta::assert_snapshot!("corpus_findings", lines);

@@ -4,20 +4,12 @@ use serde_json::{Value, json};
 use urdd_validate::views::extension_schema::{faults, violations};
 
 fn message(schema: &Value, document: &Value) -> Option<String> {
-    faults(schema, Some(document))
-        .into_iter()
-        .next()
-        .map(|fault| fault.message)
+    faults(schema, Some(document)).into_iter().next().map(|fault| fault.message)
 }
 
 #[test]
 fn nothing_outside_is_referred_to() {
-    for target in [
-        "other.json",
-        "file:///etc/passwd",
-        "http://localhost/x",
-        "/a",
-    ] {
+    for target in ["other.json", "file:///etc/passwd", "http://localhost/x", "/a"] {
         let schema = json!({"properties": {"a": {"$ref": target}}});
         let faults = faults(&schema, None);
         assert_eq!(faults.len(), 1);
@@ -68,10 +60,7 @@ fn recursion_is_fine_and_explosion_is_not() {
 fn long_chains_of_references_do_not_overflow() {
     let mut definitions = serde_json::Map::new();
     for i in 0..20_000 {
-        definitions.insert(
-            format!("a{i}"),
-            json!({"$ref": format!("#/$defs/a{}", i + 1)}),
-        );
+        definitions.insert(format!("a{i}"), json!({"$ref": format!("#/$defs/a{}", i + 1)}));
     }
     definitions.insert("a20000".to_owned(), json!(true));
     let chain = json!({"$defs": definitions, "$ref": "#/$defs/a0"});
@@ -90,10 +79,7 @@ fn large_documents_are_checked() {
     assert!(broken.is_first_only);
     // Of a million violations, one is kept; of a few, all.
     let all = json!({"items": {"type": "string"}});
-    assert_eq!(
-        violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(),
-        1
-    );
+    assert_eq!(violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(), 1);
     let few = violations(&all, &json!([1, 2, "a"]), 10);
     assert_eq!((few.found.len(), few.is_first_only), (2, false));
 }
@@ -124,14 +110,8 @@ fn long_texts_and_lists_of_values_count_as_work() {
     let text = "ab".repeat(150_000);
     for (schema, document) in [
         (json!({"pattern": states}), json!(text)),
-        (
-            json!({"patternProperties": {states: true}}),
-            json!({&text: 1}),
-        ),
-        (
-            json!({"propertyNames": {"pattern": states}}),
-            json!({&text: 1}),
-        ),
+        (json!({"patternProperties": {states: true}}), json!({&text: 1})),
+        (json!({"propertyNames": {"pattern": states}}), json!({&text: 1})),
     ] {
         assert!(message(&schema, &document).is_some());
     }

@@ -66,10 +66,7 @@ fn compare(source: &str, folder: &Path) {
         let path = folder.join(&robot.path);
         let text =
             fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        let hash: String = Sha256::digest(&text)
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
+        let hash: String = Sha256::digest(&text).iter().map(|byte| format!("{byte:02x}")).collect();
         assert_eq!(
             hash,
             robot.sha256,
@@ -90,9 +87,8 @@ fn compare_robot(robot: &Robot, text: &str) {
     assert_eq!(links[kinematics.root()], robot.root);
     for configuration in &robot.configurations {
         let moving = joints.iter().filter(|joint| dof_count(joint) > 0);
-        let q: Vec<f64> = moving
-            .flat_map(|joint| configuration.joints[&joint.name].clone())
-            .collect();
+        let q: Vec<f64> =
+            moving.flat_map(|joint| configuration.joints[&joint.name].clone()).collect();
         if let Some(in_dof_order) = &configuration.configuration {
             assert_eq!(&q, in_dof_order, "{}", robot.path.display());
             // The validator's reference too, which shares no code with the consumer's kinematics.
@@ -101,12 +97,7 @@ fn compare_robot(robot: &Robot, text: &str) {
                 MimicDofs::Follow,
             )
             .unwrap();
-            compare_poses(
-                robot,
-                configuration,
-                &links,
-                &reference.link_poses(&q).unwrap(),
-            );
+            compare_poses(robot, configuration, &links, &reference.link_poses(&q).unwrap());
             assert_eq!(configuration.links.len(), links.len());
         }
         let poses = kinematics.link_poses(&q).unwrap();
@@ -123,11 +114,7 @@ fn compare_poses(
     for (name, pose) in &configuration.links {
         let found = &poses[links.iter().position(|link| link == name).unwrap()];
         let expected = to_isometry(pose).unwrap();
-        let place = format!(
-            "{}, {}, link {name}",
-            robot.path.display(),
-            configuration.label
-        );
+        let place = format!("{}, {}, link {name}", robot.path.display(), configuration.label);
         let (position, rotation) = (
             (found.translation.vector - expected.translation.vector).norm(),
             rotation_distance(&found.rotation, &expected.rotation),
@@ -150,28 +137,19 @@ fn our_own_robots() {
 #[test]
 #[ignore = "needs ../shared, or what URDD_SHARED names"]
 fn published_urdds() {
-    compare(
-        "corpus",
-        &elsewhere("URDD_SHARED", "../shared").join("corpus"),
-    );
+    compare("corpus", &elsewhere("URDD_SHARED", "../shared").join("corpus"));
 }
 
 #[test]
 #[ignore = "needs ../shared, or what URDD_SHARED names"]
 fn robots_of_the_timing_table() {
-    compare(
-        "robots",
-        &elsewhere("URDD_SHARED", "../shared").join("robots"),
-    );
+    compare("robots", &elsewhere("URDD_SHARED", "../shared").join("robots"));
 }
 
 #[test]
 #[ignore = "needs the data of PyPI's example-robot-data, which EXAMPLE_ROBOT_DATA names"]
 fn example_robot_data() {
-    compare(
-        "example-robot-data",
-        &elsewhere("EXAMPLE_ROBOT_DATA", "../example-robot-data"),
-    );
+    compare("example-robot-data", &elsewhere("EXAMPLE_ROBOT_DATA", "../example-robot-data"));
 }
 
 #[derive(Deserialize)]
@@ -243,11 +221,7 @@ fn whole_configurations() {
     };
     let joints: Vec<Joint> = samples.joints.iter().enumerate().map(joint).collect();
     let (chain, dof) = chain_of(&joints);
-    let bounds: Vec<[f64; 2]> = samples
-        .joints
-        .iter()
-        .flat_map(|j| j.bounds.clone())
-        .collect();
+    let bounds: Vec<[f64; 2]> = samples.joints.iter().flat_map(|j| j.bounds.clone()).collect();
     let bounds = BoundsModule {
         dof_lower_bounds: bounds.iter().map(|[lower, _]| *lower).collect(),
         dof_upper_bounds: bounds.iter().map(|[_, upper]| *upper).collect(),
@@ -273,12 +247,6 @@ fn whole_configurations() {
 
 #[track_caller]
 fn assert_near(found: &[f64], expected: &[f64]) {
-    let near = found
-        .iter()
-        .zip(expected)
-        .all(|(found, expected)| (found - expected).abs() < 1e-14);
-    assert!(
-        near && found.len() == expected.len(),
-        "{found:?}, expected {expected:?}"
-    );
+    let near = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-14);
+    assert!(near && found.len() == expected.len(), "{found:?}, expected {expected:?}");
 }

@@ -76,19 +76,14 @@ fn try_all(base: impl Fn() -> Fixture + Sync, change: impl Fn(&mut Fixture, &mut
         examine(&urdd, trial)
     });
     let broken = broken.filter(|broken| *broken).count() as u64;
-    assert!(
-        broken > trials * 3 / 4,
-        "only {broken} of {trials} were judged wrong"
-    );
+    assert!(broken > trials * 3 / 4, "only {broken} of {trials} were judged wrong");
 }
 
 /// Whether the URDD has findings.
 fn examine(urdd: &Fixture, trial: u64) -> bool {
     let run =
         urdd_validate::validate_source(urdd.in_memory(), "robot", &Settings::default()).unwrap();
-    let [urdd_report] = &run.report.urdds[..] else {
-        panic!("one URDD")
-    };
+    let [urdd_report] = &run.report.urdds[..] else { panic!("one URDD") };
     assert_ne!(urdd_report.verdict, Verdict::Unreadable);
     for check in &urdd_report.checks {
         let changed = || {
@@ -154,43 +149,14 @@ fn nonsense(place: &mut Value, document: &Value, dice: &mut Dice) {
         *place = descend(&mut document.clone(), dice).take();
         return;
     }
-    let numbers = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        0.5,
-        1e308,
-        -1e308,
-        f64::MAX,
-        5e-324,
-        1e-300,
-        1e155,
-        -1e154,
-        1e16,
-    ];
+    let numbers =
+        [0.0, -0.0, 1.0, -1.0, 0.5, 1e308, -1e308, f64::MAX, 5e-324, 1e-300, 1e155, -1e154, 1e16];
     let indices = [0, 1, 2, 14, 15, 1000, 1 << 31, u32::MAX - 1, u32::MAX];
-    let words = [
-        "",
-        "/",
-        "base",
-        "..",
-        "a/../../b",
-        "\u{feff}",
-        "1:30",
-        "tip",
-        "\u{1f916}\n",
-    ];
+    let words = ["", "/", "base", "..", "a/../../b", "\u{feff}", "1:30", "tip", "\u{1f916}\n"];
     match place {
         Value::Null | Value::Bool(_) => {
-            *place = [
-                json!(true),
-                json!(false),
-                Value::Null,
-                json!([]),
-                json!(0),
-                json!(1e308),
-            ][dice.below(6)]
+            *place = [json!(true), json!(false), Value::Null, json!([]), json!(0), json!(1e308)]
+                [dice.below(6)]
             .clone();
         }
         Value::Number(number) if number.is_f64() => {

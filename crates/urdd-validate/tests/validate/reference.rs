@@ -36,10 +36,7 @@ fn a_quaternion_is_x_y_z_w_and_exact() {
     let turned = |version, origin, expected: [[f64; 3]; 3]| {
         for (found, expected) in axes(version, origin).iter().zip(expected) {
             let apart = (found - Vector3::from(expected)).norm();
-            assert!(
-                apart < 1e-15,
-                "{version} {origin}: {found}, expected {expected:?}"
-            );
+            assert!(apart < 1e-15, "{version} {origin}: {found}, expected {expected:?}");
         }
     };
     let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -47,20 +44,12 @@ fn a_quaternion_is_x_y_z_w_and_exact() {
     // A quarter turn about x, of any length and sign.
     turned("version='1.1'", "quat_xyzw='3 0 0 3'", [x, z, minus(y)]);
     turned("version='1.2'", "quat_xyzw='-1 0 0 -1'", [x, z, minus(y)]);
-    turned(
-        "version='1.1'",
-        "quat_xyzw='2e-200 0 0 2e-200'",
-        [x, z, minus(y)],
-    );
+    turned("version='1.1'", "quat_xyzw='2e-200 0 0 2e-200'", [x, z, minus(y)]);
     // A third of a turn about (1, 1, 1): x to y to z to x.
     turned("version='1.1'", "quat_xyzw='.5 .5 .5 .5'", [y, z, x]);
     // Before version 1.1 it has no meaning.
     turned("", "quat_xyzw='3 0 0 3'", [x, y, z]);
-    turned(
-        "version='1.0'",
-        "quat_xyzw='1 0 0 1' rpy='0 0 0'",
-        [x, y, z],
-    );
+    turned("version='1.0'", "quat_xyzw='1 0 0 1' rpy='0 0 0'", [x, y, z]);
     turned("version='1.1'", "quat_xyzw='0 0 0 0'", [x, y, z]);
 }
 
@@ -91,10 +80,8 @@ fn what_is_not_finite_is_absent() {
 
 #[test]
 fn numbers_near_the_largest_are_numbers() {
-    let huge = with_joint(
-        "revolute",
-        "<axis xyz='0 0 1e300'/><limit lower='-1e200' upper='1e200'/>",
-    );
+    let huge =
+        with_joint("revolute", "<axis xyz='0 0 1e300'/><limit lower='-1e200' upper='1e200'/>");
     assert_eq!(huge.intervals(), [[-PI, PI]]);
     let pose = huge.link_poses(&[PI]).expect("one DOF")[1];
     assert!((pose.rotation * Vector3::x() + Vector3::x()).norm() < 1e-15);
@@ -146,20 +133,13 @@ fn joints_are_read_as_a_peer_reads_them() {
             let kind = format!("{:?}", theirs.joint_type);
             assert_eq!(ours.joint_type.as_str(), kind, "{place}");
             let [parent, child] = [&theirs.parent.link, &theirs.child.link];
-            assert_eq!(
-                [&ours.parent.link, &ours.child.link],
-                [parent, child],
-                "{place}"
-            );
+            assert_eq!([&ours.parent.link, &ours.child.link], [parent, child], "{place}");
             let origin = ours.origin.clone();
             let of = |pick: fn(&urdd_format::urdf::Origin) -> Option<[f64; 3]>| {
                 origin.as_ref().and_then(pick).unwrap_or_default()
             };
             assert_eq!(of(|origin| origin.xyz), theirs.origin.xyz.0, "{place}");
-            if origin
-                .as_ref()
-                .is_none_or(|origin| origin.quat_xyzw.is_none())
-            {
+            if origin.as_ref().is_none_or(|origin| origin.quat_xyzw.is_none()) {
                 assert_eq!(of(|origin| origin.rpy), theirs.origin.rpy.0, "{place}");
             }
             if let Some(axis) = ours.axis.as_ref().and_then(|axis| axis.xyz) {

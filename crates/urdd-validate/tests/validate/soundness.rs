@@ -43,12 +43,7 @@ fn robot(moved: Option<usize>) -> Robot {
     for at in 1..4 {
         robot.urdf.joints.push(Joint {
             origin: origin([at as f64, 0.0, 0.0], [0.0; 3]),
-            ..joint(
-                &format!("joint {at}"),
-                JointType::Fixed,
-                "link 0",
-                &format!("link {at}"),
-            )
+            ..joint(&format!("joint {at}"), JointType::Fixed, "link 0", &format!("link {at}"))
         });
     }
     robot
@@ -93,11 +88,7 @@ fn check(examined: &Examined, code: Code) -> &Check {
 fn at_fault(examined: &Examined, code: Code) -> Vec<Part> {
     let check = check(examined, code);
     assert_eq!(check.outcome, Outcome::Failed, "{code}");
-    check
-        .findings
-        .iter()
-        .flat_map(|finding| finding.parts.clone())
-        .collect()
+    check.findings.iter().flat_map(|finding| finding.parts.clone()).collect()
 }
 
 /// The pointers at which a rule found a fault.
@@ -144,26 +135,16 @@ fn the_misplaced_one_of_two_links_that_share_a_file_is_named() {
     let shared = urdd.get(PLAIN, "/link_meshes/1/files").clone();
     urdd.set(PLAIN, "/link_meshes/2/files", shared);
     // And a box of a link that shares nothing.
-    urdd.set(
-        APPROXIMATIONS,
-        "/full_obbs/3/half_extents",
-        json!([0.0625, 0.125, 0.1]),
-    );
+    urdd.set(APPROXIMATIONS, "/full_obbs/3/half_extents", json!([0.0625, 0.125, 0.1]));
     let examined = examine(urdd);
     assert_eq!(
-        at_fault(&examined, MSH005)
-            .iter()
-            .map(|part| part.link())
-            .collect::<BTreeSet<_>>(),
+        at_fault(&examined, MSH005).iter().map(|part| part.link()).collect::<BTreeSet<_>>(),
         BTreeSet::from([1, 2])
     );
     assert_eq!(at_fault(&examined, MSH015), [Part::Plain(2)]);
     assert_eq!(pointers(&examined, SHP017), ["/full_obbs/3"]);
     // Hulls and pieces cannot be compared with a mesh that is elsewhere.
-    let not_held = NotVerified {
-        part: Part::Hull(2),
-        why: Why::Failed(MSH015),
-    };
+    let not_held = NotVerified { part: Part::Hull(2), why: Why::Failed(MSH015) };
     assert_eq!(left_out(&examined, MSH018), BTreeSet::from([not_held]));
     assert!(left_out(&examined, SHP017).is_empty());
     assert_eq!(links_left(&examined), BTreeSet::from([1, 2]));
@@ -174,21 +155,14 @@ fn a_folded_piece_leaves_the_other_pieces_judged() {
     let mut urdd = Fixture::full(&robot(None));
     put(&mut urdd, PIECES, "/link_pieces/2/0", &corners(1.0, true));
     put(&mut urdd, PIECES, "/link_pieces/1/0", &corners(0.5, false));
-    urdd.set(
-        APPROXIMATIONS,
-        "/decomposition_obbs/3/0/half_extents",
-        json!([0.0625, 0.125, 0.1]),
-    );
+    urdd.set(APPROXIMATIONS, "/decomposition_obbs/3/0/half_extents", json!([0.0625, 0.125, 0.1]));
     let examined = examine(urdd);
     // Links of even numbers have two pieces, the others one.
     let piece = |link, piece| Part::Piece { link, piece };
     assert_eq!(at_fault(&examined, MSH020), [piece(2, 0)]);
     assert_eq!(at_fault(&examined, MSH022), [piece(1, 0)]);
     assert_eq!(pointers(&examined, SHP017), ["/decomposition_obbs/3/0"]);
-    let left = |part, code| NotVerified {
-        part,
-        why: Why::Failed(code),
-    };
+    let left = |part, code| NotVerified { part, why: Why::Failed(code) };
     // Whether a link's pieces cover it depends on all of them; a box depends on one.
     let folded = [piece(2, 0), piece(2, 1)].map(|part| left(part, MSH020));
     assert_eq!(left_out(&examined, MSH022), BTreeSet::from(folded));
@@ -201,11 +175,7 @@ fn a_folded_piece_leaves_the_other_pieces_judged() {
 fn an_unsound_hull_leaves_the_distances_of_others_judged() {
     let mut urdd = Fixture::full(&robot(None));
     put(&mut urdd, HULLS, "/link_hulls/1", &corners(1.0, true));
-    urdd.set(
-        REACHES,
-        "/full_convex_hulls_maximum_distances/3",
-        json!(0.2),
-    );
+    urdd.set(REACHES, "/full_convex_hulls_maximum_distances/3", json!(0.2));
     for key in ["mean_distances", "min_distances", "max_distances"] {
         // Links 2 and 3, and 0 and 1; boxes side by side, 0.875 m apart.
         for (i, j) in [(2, 3), (3, 2), (0, 1), (1, 0)] {
@@ -217,18 +187,9 @@ fn an_unsound_hull_leaves_the_distances_of_others_judged() {
     }
     let examined = examine(urdd);
     assert_eq!(at_fault(&examined, MSH017), [Part::Hull(1)]);
-    assert_eq!(
-        pointers(&examined, SHP021),
-        ["/full_convex_hulls_maximum_distances/3"]
-    );
-    assert_eq!(
-        pointers(&examined, SHP024),
-        ["/full_convex_hulls/mean_distances/2/3"]
-    );
-    let left = BTreeSet::from([NotVerified {
-        part: Part::Hull(1),
-        why: Why::Failed(MSH017),
-    }]);
+    assert_eq!(pointers(&examined, SHP021), ["/full_convex_hulls_maximum_distances/3"]);
+    assert_eq!(pointers(&examined, SHP024), ["/full_convex_hulls/mean_distances/2/3"]);
+    let left = BTreeSet::from([NotVerified { part: Part::Hull(1), why: Why::Failed(MSH017) }]);
     for code in [MSH018, MSH019, SHP017, SHP021, SHP024] {
         assert_eq!(left_out(&examined, code), left, "{code}");
     }
@@ -238,18 +199,10 @@ fn an_unsound_hull_leaves_the_distances_of_others_judged() {
 fn where_no_part_is_sound_the_rule_is_skipped_for_that() {
     let mut urdd = Fixture::full(&robot(None));
     for link in 0..4 {
-        put(
-            &mut urdd,
-            HULLS,
-            &format!("/link_hulls/{link}"),
-            &corners(1.0, true),
-        );
+        put(&mut urdd, HULLS, &format!("/link_hulls/{link}"), &corners(1.0, true));
     }
     let examined = examine(urdd);
-    assert_eq!(
-        check(&examined, MSH018).outcome,
-        Outcome::Skipped(SkipReason::Failed(MSH017))
-    );
+    assert_eq!(check(&examined, MSH018).outcome, Outcome::Skipped(SkipReason::Failed(MSH017)));
     assert_eq!(links_left(&examined), BTreeSet::from([0, 1, 2, 3]));
 }
 
@@ -259,10 +212,7 @@ fn a_mesh_that_cannot_be_read_is_not_verified() {
     let path: Value = urdd.get(PLAIN, "/link_meshes/2/files/obj").clone();
     urdd.put_file(path.as_str().expect("a path"), *b"v 0 0\n");
     let examined = examine(urdd);
-    let unread = NotVerified {
-        part: Part::Plain(2),
-        why: Why::Unreadable,
-    };
+    let unread = NotVerified { part: Part::Plain(2), why: Why::Unreadable };
     assert_eq!(left_out(&examined, MSH015), BTreeSet::from([unread]));
     assert_eq!(links_left(&examined), BTreeSet::from([2]));
 }

@@ -9,11 +9,7 @@ fn robot(inside: &str) -> Reading {
 }
 
 fn faults(inside: &str) -> Vec<String> {
-    robot(inside)
-        .problems
-        .iter()
-        .map(|problem| problem.fault.to_string())
-        .collect()
+    robot(inside).problems.iter().map(|problem| problem.fault.to_string()).collect()
 }
 
 const ENDS: &str = "<parent link='a'/><child link='b'/>";
@@ -48,10 +44,7 @@ fn what_is_not_finite_is_absent() {
     assert_eq!(reading.problems, []);
     let robot = reading.robot.unwrap();
     let limit = robot.joints[0].limit.as_ref().unwrap();
-    assert_eq!(
-        (limit.lower, limit.upper, limit.effort),
-        (None, None, Some(1.0))
-    );
+    assert_eq!((limit.lower, limit.upper, limit.effort), (None, None, Some(1.0)));
     assert_eq!(robot.joints[0].origin.as_ref().unwrap().xyz, None);
     assert_eq!(
         faults(
@@ -92,23 +85,11 @@ fn unknown_elements_are_kept_as_they_stand() {
     let robot = reading.robot.as_ref().unwrap();
     assert_eq!(
         robot.unknown_elements,
-        [
-            "<gazebo reference=\"a>b\" ><x>&lt;</x> <!-- > --></gazebo >",
-            "<xacro:link name='n'/>"
-        ]
+        ["<gazebo reference=\"a>b\" ><x>&lt;</x> <!-- > --></gazebo >", "<xacro:link name='n'/>"]
     );
-    assert_eq!(
-        robot.links[0].unknown_elements,
-        ["<contact>\r\n </contact>"]
-    );
-    assert_eq!(
-        robot.joints[0].unknown_elements,
-        ["<joint_properties  d='1' />"]
-    );
-    assert_eq!(
-        reading.offset("/unknown_elements/1"),
-        text.find("<xacro:link")
-    );
+    assert_eq!(robot.links[0].unknown_elements, ["<contact>\r\n </contact>"]);
+    assert_eq!(robot.joints[0].unknown_elements, ["<joint_properties  d='1' />"]);
+    assert_eq!(reading.offset("/unknown_elements/1"), text.find("<xacro:link"));
 }
 
 #[test]
@@ -167,10 +148,7 @@ fn bad_xml_is_refused_with_its_place() {
         "<robot name='r'><link name='a'></robot>",
         "<robot name='\u{1}'/>",
     ] {
-        assert!(
-            matches!(read(text).problems[0].fault, Fault::NotXml(_)),
-            "{text}"
-        );
+        assert!(matches!(read(text).problems[0].fault, Fault::NotXml(_)), "{text}");
     }
     for text in [
         "<!DOCTYPE robot><robot name='r'/>",

@@ -29,11 +29,7 @@ impl Chunk {
     fn new(points: Vec<Vector3<f64>>) -> Self {
         let list: Vec<[f64; 3]> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
         let Ok(hull) = ConvexHull::new(&list) else {
-            return Chunk {
-                points,
-                edges: Vec::new(),
-                volume: 0.0,
-            };
+            return Chunk { points, edges: Vec::new(), volume: 0.0 };
         };
         let mesh = hull.into_mesh();
         let mut edges: Vec<[usize; 2]> = Vec::new();
@@ -46,11 +42,7 @@ impl Chunk {
         edges.dedup();
         let volume = mesh.signed_volume().max(0.0);
         let points = mesh.vertices.into_iter().map(Vector3::from).collect();
-        Chunk {
-            points,
-            edges,
-            volume,
-        }
+        Chunk { points, edges, volume }
     }
 
     /// The parts below and above a plane; both include the points on it.
@@ -101,10 +93,8 @@ impl Cell {
     }
 
     fn of(chunks: Vec<Chunk>) -> Self {
-        let points: Vec<[f64; 3]> = chunks
-            .iter()
-            .flat_map(|chunk| chunk.points.iter().map(|p| [p.x, p.y, p.z]))
-            .collect();
+        let points: Vec<[f64; 3]> =
+            chunks.iter().flat_map(|chunk| chunk.points.iter().map(|p| [p.x, p.y, p.z])).collect();
         Cell {
             sphere: BoundingSphere::of_points(&points),
             volume: chunks.iter().map(|chunk| chunk.volume).sum(),
@@ -178,10 +168,8 @@ impl Cell {
             sum + from * from.transpose()
         });
         let own = spread.symmetric_eigen().eigenvectors;
-        let mut directions: Vec<Vector3<f64>> = own
-            .column_iter()
-            .map(|column| column.into_owned())
-            .collect();
+        let mut directions: Vec<Vector3<f64>> =
+            own.column_iter().map(|column| column.into_owned()).collect();
         directions.extend([Vector3::x(), Vector3::y(), Vector3::z()]);
         directions.retain(|direction| direction.iter().all(|x| x.is_finite()));
         directions

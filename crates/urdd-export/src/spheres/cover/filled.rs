@@ -32,8 +32,7 @@ pub(super) fn filled(spheres: &[BoundingSphere]) -> f64 {
             .collect();
         let is_new = |point: &&[f64; 3]| {
             let at = [0, 1, 2].map(|k| sphere.centre[k] + sphere.radius * point[k]);
-            near.iter()
-                .all(|other| apart(&other.centre, &at) > other.radius * other.radius)
+            near.iter().all(|other| apart(&other.centre, &at) > other.radius * other.radius)
         };
         let new = ball().iter().filter(is_new).count();
         volume(sphere) * new as f64 / POINTS as f64
@@ -52,10 +51,7 @@ mod tests {
 
     #[test]
     fn the_union_of_two_spheres_by_its_closed_form() {
-        let sphere = |x: f64, radius: f64| BoundingSphere {
-            centre: [x, 0.2, -0.1],
-            radius,
-        };
+        let sphere = |x: f64, radius: f64| BoundingSphere { centre: [x, 0.2, -0.1], radius };
         let whole = volume(&sphere(0.0, 0.3));
         for d in [0.0, 0.1, 0.3, 0.5, 0.6, 1.0] {
             // The intersection is two caps.

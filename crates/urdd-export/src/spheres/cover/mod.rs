@@ -81,11 +81,7 @@ struct Cover {
 impl Cover {
     fn new(cells: Vec<Cell>) -> Self {
         let best = held(&cells);
-        Cover {
-            volume: filled(&best),
-            best,
-            cells,
-        }
+        Cover { volume: filled(&best), best, cells }
     }
 
     /// The waste of the worst cell, m³.
@@ -115,9 +111,7 @@ impl Cover {
 fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     let mut spheres: Vec<BoundingSphere> = Vec::new();
     let inside = |a: &BoundingSphere, b: &BoundingSphere| {
-        let apart: f64 = (0..3)
-            .map(|axis| (a.centre[axis] - b.centre[axis]).powi(2))
-            .sum();
+        let apart: f64 = (0..3).map(|axis| (a.centre[axis] - b.centre[axis]).powi(2)).sum();
         apart.sqrt() + a.radius <= b.radius
     };
     for cell in cells {

@@ -46,8 +46,7 @@ impl<'a> Document<'a> {
 
 /// The children with this tag, in any namespace (1.4 and 1.5 have different ones).
 pub(super) fn children<'a>(node: Node<'a, 'a>, tag: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children()
-        .filter(move |child| child.is_element() && child.tag_name().name() == tag)
+    node.children().filter(move |child| child.is_element() && child.tag_name().name() == tag)
 }
 
 /// The first child with this tag.
@@ -57,20 +56,13 @@ pub(super) fn child<'a>(node: Node<'a, 'a>, tag: &'a str) -> Option<Node<'a, 'a>
 
 /// All text of an element; comments may split it.
 pub(super) fn text<'a>(node: Node<'a, 'a>) -> Cow<'a, str> {
-    let mut texts = node
-        .children()
-        .filter(Node::is_text)
-        .filter_map(|part| part.text());
+    let mut texts = node.children().filter(Node::is_text).filter_map(|part| part.text());
     let first = texts.next().unwrap_or("");
     match texts.next() {
         None => Cow::Borrowed(first),
-        Some(second) => Cow::Owned(
-            [first, second]
-                .into_iter()
-                .chain(texts)
-                .collect::<Vec<_>>()
-                .join(" "),
-        ),
+        Some(second) => {
+            Cow::Owned([first, second].into_iter().chain(texts).collect::<Vec<_>>().join(" "))
+        }
     }
 }
 

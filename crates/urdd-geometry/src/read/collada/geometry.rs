@@ -25,11 +25,7 @@ pub(super) struct Tools {
 
 impl Tools {
     pub(super) fn new(uncut: bool) -> Self {
-        Self {
-            picker: Picker::default(),
-            splitter: Splitter::new(uncut),
-            read: Read::default(),
-        }
+        Self { picker: Picker::default(), splitter: Splitter::new(uncut), read: Read::default() }
     }
 }
 
@@ -50,11 +46,7 @@ pub(super) fn read<'a>(
         );
         return Ok(Vec::new());
     };
-    let Tools {
-        picker,
-        splitter,
-        read,
-    } = tools;
+    let Tools { picker, splitter, read } = tools;
     let mut positions = Positions::new(document, mesh, read);
     let mut primitives = Vec::new();
     for element in mesh.children().filter(Node::is_element) {
@@ -70,21 +62,12 @@ pub(super) fn read<'a>(
             continue;
         };
         let vertices = positions.of(layout.source)?;
-        let mut faces = Faces {
-            shape,
-            layout,
-            triangles: Vec::new(),
-            corners: Vec::new(),
-            bad: 0,
-        };
+        let mut faces = Faces { shape, layout, triangles: Vec::new(), corners: Vec::new(), bad: 0 };
         faces.read(element, vertices, splitter, notes);
         let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
         let text = "a triangle was dropped: a vertex index is out of range, or is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
-        primitives.push(Primitive {
-            symbol: element.attribute("material"),
-            mesh,
-        });
+        primitives.push(Primitive { symbol: element.attribute("material"), mesh });
     }
     Ok(primitives)
 }
@@ -115,15 +98,9 @@ impl<'a> Layout<'a> {
         let mut vertex = None;
         let mut stride = 0;
         for input in children(element, "input") {
-            let offset = input
-                .attribute("offset")
-                .or_else(|| input.attribute("idx"))
-                .unwrap_or("0");
-            let offset = offset
-                .trim()
-                .parse::<usize>()
-                .ok()
-                .filter(|offset| *offset < MOST_INPUTS);
+            let offset =
+                input.attribute("offset").or_else(|| input.attribute("idx")).unwrap_or("0");
+            let offset = offset.trim().parse::<usize>().ok().filter(|offset| *offset < MOST_INPUTS);
             let offset = offset.ok_or_else(|| {
                 Fault::malformed("an `input` whose offset is not a small whole number")
             })?;
@@ -135,11 +112,7 @@ impl<'a> Layout<'a> {
             }
         }
         match vertex {
-            Some((source, offset)) => Ok(Some(Self {
-                source,
-                offset,
-                stride,
-            })),
+            Some((source, offset)) => Ok(Some(Self { source, offset, stride })),
             None if child(element, "p").is_none() => Ok(None),
             None => Err(Fault::malformed(format!(
                 "a `{}` without a VERTEX input",
@@ -259,10 +232,6 @@ impl Faces<'_> {
 /// The triangles of a strip; every second one has its winding reversed.
 pub(crate) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
     corners.windows(3).enumerate().map(|(at, three)| {
-        if at % 2 == 0 {
-            [three[0], three[1], three[2]]
-        } else {
-            [three[0], three[2], three[1]]
-        }
+        if at % 2 == 0 { [three[0], three[1], three[2]] } else { [three[0], three[2], three[1]] }
     })
 }

@@ -14,15 +14,10 @@ pub(super) type Colors = HashMap<NodeId, Option<[f64; 4]>>;
 /// The bindings of a geometry instance: from symbol to material URL.
 pub(super) fn bindings<'a>(instance: Option<Node<'a, 'a>>) -> HashMap<&'a str, &'a str> {
     let mut bindings = HashMap::new();
-    for node in instance
-        .into_iter()
-        .flat_map(|instance| instance.descendants())
-    {
-        if let ("instance_material", Some(symbol), Some(target)) = (
-            node.tag_name().name(),
-            node.attribute("symbol"),
-            node.attribute("target"),
-        ) {
+    for node in instance.into_iter().flat_map(|instance| instance.descendants()) {
+        if let ("instance_material", Some(symbol), Some(target)) =
+            (node.tag_name().name(), node.attribute("symbol"), node.attribute("target"))
+        {
             bindings.entry(symbol).or_insert(target);
         }
     }
@@ -40,19 +35,13 @@ pub(super) fn of_symbol(
         return Material::default();
     };
     let material = document.find("material", bindings.get(symbol).unwrap_or(&symbol));
-    let name = material.and_then(|material| {
-        material
-            .attribute("name")
-            .or_else(|| material.attribute("id"))
-    });
+    let name = material
+        .and_then(|material| material.attribute("name").or_else(|| material.attribute("id")));
     let color = material
         .and_then(|material| child(material, "instance_effect"))
         .and_then(|effect| document.find("effect", effect.attribute("url")?))
         .and_then(|effect| *colors.entry(effect.id()).or_insert_with(|| diffuse(effect)));
-    Material {
-        name: Some(name.unwrap_or(symbol).to_owned()),
-        color,
-    }
+    Material { name: Some(name.unwrap_or(symbol).to_owned()), color }
 }
 
 /// The diffuse colour of an effect, or the emission of a `constant` one, which has no diffuse colour; `None` for a
@@ -61,16 +50,9 @@ fn diffuse(effect: Node<'_, '_>) -> Option<[f64; 4]> {
     let profile = child(effect, "profile_COMMON")?;
     let technique = child(profile, "technique")?;
     let shader = technique.children().find(|node| {
-        matches!(
-            node.tag_name().name(),
-            "phong" | "blinn" | "lambert" | "constant"
-        )
+        matches!(node.tag_name().name(), "phong" | "blinn" | "lambert" | "constant")
     })?;
-    let wanted = if shader.tag_name().name() == "constant" {
-        "emission"
-    } else {
-        "diffuse"
-    };
+    let wanted = if shader.tag_name().name() == "constant" { "emission" } else { "diffuse" };
     let value = child(shader, wanted)?;
     if let Some(color) = child(value, "color") {
         return rgba(color);

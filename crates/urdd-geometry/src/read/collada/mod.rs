@@ -63,10 +63,7 @@ fn decode<'a>(
     let bytes = sniff::skip_byte_order_mark(bytes);
     let text = String::from_utf8_lossy(bytes);
     if matches!(text, std::borrow::Cow::Owned(_)) {
-        assembly.notes.add(
-            NoteCode::Assumed,
-            "the text is not UTF-8; invalid bytes were replaced",
-        );
+        assembly.notes.add(NoteCode::Assumed, "the text is not UTF-8; invalid bytes were replaced");
     }
     Ok(text)
 }

@@ -90,11 +90,7 @@ impl<'a> Walker<'a, '_> {
             .filter(|part| part.tag_name().name() != "node")
             .map(|part| part.range().len())
             .sum::<usize>();
-        within(
-            "bytes of nodes, counted once per instance",
-            self.text,
-            MOST_TEXT,
-        )?;
+        within("bytes of nodes, counted once per instance", self.text, MOST_TEXT)?;
         let matrix =
             parent * transform::of_node(node).map_err(|failure| failure.within("node", name))?;
         for element in node.children().filter(Node::is_element) {
@@ -129,10 +125,9 @@ impl<'a> Walker<'a, '_> {
         // A skin may deform a morph, which deforms a geometry. Longer chains do not occur.
         for _ in 0..4 {
             if let Some(geometry) = self.document.find("geometry", url) {
-                self.assembly.notes.add(
-                    NoteCode::SkinAsShape,
-                    "a skinned mesh was read in its bind shape",
-                );
+                self.assembly
+                    .notes
+                    .add(NoteCode::SkinAsShape, "a skinned mesh was read in its bind shape");
                 return self.geometry(geometry, Some(instance), &matrix);
             }
             let Some(controller) = self.document.find("controller", url) else {
@@ -162,16 +157,10 @@ impl<'a> Walker<'a, '_> {
     ) -> Result<(), Failure> {
         let name = geometry.attribute("id").unwrap_or("");
         if !self.geometries.contains_key(&geometry.id()) {
-            let read = geometry::read(
-                self.document,
-                geometry,
-                &mut self.tools,
-                &mut self.assembly.notes,
-            );
-            self.geometries.insert(
-                geometry.id(),
-                read.map_err(|failure| failure.within("geometry", name))?,
-            );
+            let read =
+                geometry::read(self.document, geometry, &mut self.tools, &mut self.assembly.notes);
+            self.geometries
+                .insert(geometry.id(), read.map_err(|failure| failure.within("geometry", name))?);
         }
         let bindings = material::bindings(instance);
         let primitives = &self.geometries[&geometry.id()];

@@ -27,12 +27,7 @@ impl<'a, 'd> Positions<'a, 'd> {
                 own.entry((node.tag_name().name(), id)).or_insert(node);
             }
         }
-        Self {
-            document,
-            own,
-            sources: HashMap::new(),
-            read,
-        }
+        Self { document, own, sources: HashMap::new(), read }
     }
 
     /// The positions that an input references through a `vertices` element or a `source`.
@@ -65,10 +60,7 @@ impl<'a, 'd> Positions<'a, 'd> {
     /// Searches this mesh first: some exporters reuse the same ids in each mesh.
     fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
         let id = url.trim().strip_prefix('#').unwrap_or(url.trim());
-        self.own
-            .get(&(tag, id) as &(&str, &str))
-            .copied()
-            .or_else(|| self.document.find(tag, url))
+        self.own.get(&(tag, id) as &(&str, &str)).copied().or_else(|| self.document.find(tag, url))
     }
 
     fn read_source(&self, source: Node<'a, 'a>) -> Result<Vec<[f64; 3]>, Failure> {
@@ -82,10 +74,7 @@ impl<'a, 'd> Positions<'a, 'd> {
                     .find(|array| array.attribute("id") == url.trim().strip_prefix('#'))
             })
             .or_else(|| child(source, "float_array"))
-            .or_else(|| {
-                self.document
-                    .find("float_array", accessor?.attribute("source")?)
-            });
+            .or_else(|| self.document.find("float_array", accessor?.attribute("source")?));
         let array =
             array.ok_or_else(|| Fault::malformed("no float_array").within("source", name))?;
         let number = |key: &str| {

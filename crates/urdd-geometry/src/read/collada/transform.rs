@@ -41,23 +41,14 @@ pub(super) fn numbers<const N: usize>(element: Node<'_, '_>) -> Result<[f64; N],
     let mut words = Words::new(text.as_bytes());
     let mut values = [0.0; N];
     for value in &mut values {
-        *value = words
-            .float()
-            .filter(|value| value.is_finite())
-            .ok_or_else(|| wrong(element, N))?;
+        *value =
+            words.float().filter(|value| value.is_finite()).ok_or_else(|| wrong(element, N))?;
     }
-    if words.next().is_some() {
-        Err(wrong(element, N))
-    } else {
-        Ok(values)
-    }
+    if words.next().is_some() { Err(wrong(element, N)) } else { Ok(values) }
 }
 
 fn wrong(element: Node<'_, '_>, count: usize) -> Failure {
-    Fault::malformed(format!(
-        "a `{}` does not have {count} numbers",
-        element.tag_name().name()
-    ))
+    Fault::malformed(format!("a `{}` does not have {count} numbers", element.tag_name().name()))
 }
 
 /// Rotation about an axis, in degrees; the identity for an axis of length 0.

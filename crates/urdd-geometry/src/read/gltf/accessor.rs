@@ -25,16 +25,10 @@ pub(super) fn positions(
 ) -> Result<Vec<[f64; 3]>, Failure> {
     let accessor = get(root, index)?;
     if accessor.shape != "VEC3" {
-        return Err(Fault::malformed(format!(
-            "positions are {} instead of VEC3",
-            accessor.shape
-        )));
+        return Err(Fault::malformed(format!("positions are {} instead of VEC3", accessor.shape)));
     }
     let read = reader(accessor.component_type, accessor.normalized).ok_or_else(|| {
-        Fault::malformed(format!(
-            "positions of component type {}",
-            accessor.component_type
-        ))
+        Fault::malformed(format!("positions of component type {}", accessor.component_type))
     })?;
     let size = size(accessor.component_type);
     let element = |bytes: &[u8]| [0, 1, 2].map(|axis| read(&bytes[axis * size..]));
@@ -157,21 +151,15 @@ fn indices_of(
         UNSIGNED_SHORT => |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
         UNSIGNED_INT => |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
         other => {
-            return Err(Fault::malformed(format!(
-                "indices of component type {other}"
-            )));
+            return Err(Fault::malformed(format!("indices of component type {other}")));
         }
     };
     let view = buffers.view(view, assembly)?;
-    Ok(elements(view, offset, size(kind), count)?
-        .map(read)
-        .collect())
+    Ok(elements(view, offset, size(kind), count)?.map(read).collect())
 }
 
 fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
-    root.accessors
-        .get(index)
-        .ok_or_else(|| Fault::malformed("it does not exist"))
+    root.accessors.get(index).ok_or_else(|| Fault::malformed("it does not exist"))
 }
 
 /// `count` elements of `size` bytes of a buffer view, which has bytes and a stride. Fails unless all are inside it.
@@ -189,9 +177,7 @@ fn elements(
     }
     let length = match count {
         0 => Some(0),
-        _ => stride
-            .checked_mul(count - 1)
-            .and_then(|length| length.checked_add(size)),
+        _ => stride.checked_mul(count - 1).and_then(|length| length.checked_add(size)),
     };
     let end = length.and_then(|length| length.checked_add(offset));
     let bytes = end.and_then(|end| bytes.get(offset..end));

@@ -30,12 +30,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 
 impl<'r, 'f> Buffers<'r, 'f> {
     pub(super) fn new(root: &'r Root, data: Option<&'r [u8]>, fetch: Fetch<'f>) -> Self {
-        Self {
-            root,
-            data,
-            fetch,
-            loaded: root.buffers.iter().map(|_| None).collect(),
-        }
+        Self { root, data, fetch, loaded: root.buffers.iter().map(|_| None).collect() }
     }
 
     /// The bytes of a buffer view, and its stride.
@@ -80,13 +75,8 @@ impl<'r, 'f> Buffers<'r, 'f> {
             } else {
                 let path = path_of_url(uri);
                 assembly.add_side_file(&path);
-                let found = (self.fetch)(&path).or_else(|| {
-                    if path == *uri {
-                        None
-                    } else {
-                        (self.fetch)(uri)
-                    }
-                });
+                let found = (self.fetch)(&path)
+                    .or_else(|| if path == *uri { None } else { (self.fetch)(uri) });
                 found.ok_or(Fault::NoSideFile(path))?
             };
             *slot = Some(bytes);
@@ -97,12 +87,10 @@ impl<'r, 'f> Buffers<'r, 'f> {
 
 /// Whether a URI is a data URI.
 pub(super) fn is_data(uri: &str) -> bool {
-    uri.get(..5)
-        .is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
 fn decode(uri: &str) -> Option<Vec<u8>> {
     let (head, data) = uri.split_once(',')?;
-    head.ends_with(";base64")
-        .then(|| BASE64.decode(data.trim()).ok())?
+    head.ends_with(";base64").then(|| BASE64.decode(data.trim()).ok())?
 }

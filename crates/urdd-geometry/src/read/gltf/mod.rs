@@ -27,10 +27,7 @@ pub(super) fn read_binary(
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
     let word = |at: usize| {
-        bytes
-            .get(at..at + 4)
-            .and_then(|word| word.try_into().ok())
-            .map(u32::from_le_bytes)
+        bytes.get(at..at + 4).and_then(|word| word.try_into().ok()).map(u32::from_le_bytes)
     };
     let cut = || {
         Failure::from(Fault::Truncated(
@@ -46,18 +43,10 @@ pub(super) fn read_binary(
     }
     let length = word(8).ok_or_else(cut)? as usize;
     if length != bytes.len() {
-        let text = format!(
-            "the header states {length} bytes, but the file has {}",
-            bytes.len()
-        );
-        assembly.notes.add(
-            if length > bytes.len() {
-                NoteCode::CutOff
-            } else {
-                NoteCode::WrongCount
-            },
-            text,
-        );
+        let text = format!("the header states {length} bytes, but the file has {}", bytes.len());
+        assembly
+            .notes
+            .add(if length > bytes.len() { NoteCode::CutOff } else { NoteCode::WrongCount }, text);
     }
     let mut chunks = Vec::new();
     let mut at = 12;
@@ -100,7 +89,7 @@ fn read_document(
             | "EXT_meshopt_compression"
             | "KHR_meshopt_compression" => {
                 return Err(
-                    Fault::NotSupported(format!("the mesh is compressed ({extension})")).into(),
+                    Fault::NotSupported(format!("the mesh is compressed ({extension})")).into()
                 );
             }
             // These do not change positions, or are supported.
@@ -117,9 +106,7 @@ fn read_document(
         }
     }
     if !root.animations.is_empty() {
-        assembly
-            .notes
-            .add(NoteCode::ShownOtherwise, "its animations were left out");
+        assembly.notes.add(NoteCode::ShownOtherwise, "its animations were left out");
     }
     let files = root.images.iter().chain(&root.buffers);
     for uri in files.filter_map(|file| file.uri.as_deref()) {
@@ -127,9 +114,5 @@ fn read_document(
             assembly.add_side_file(&super::collada::path_of_url(uri));
         }
     }
-    scene::walk(
-        &root,
-        &mut buffer::Buffers::new(&root, data, fetch),
-        assembly,
-    )
+    scene::walk(&root, &mut buffer::Buffers::new(&root, data, fetch), assembly)
 }

@@ -38,19 +38,14 @@ pub(super) fn walk<'r>(
         }
     };
     let nodes = if root.scenes.is_empty() {
-        assembly.notes.add(
-            NoteCode::Assumed,
-            "the file has no scene; all its nodes were used",
-        );
+        assembly.notes.add(NoteCode::Assumed, "the file has no scene; all its nodes were used");
         let mut is_child = vec![false; root.nodes.len()];
         for child in root.nodes.iter().flat_map(|node| &node.children) {
             if let Some(flag) = is_child.get_mut(*child) {
                 *flag = true;
             }
         }
-        (0..root.nodes.len())
-            .filter(|node| !is_child[*node])
-            .collect()
+        (0..root.nodes.len()).filter(|node| !is_child[*node]).collect()
     } else {
         if root.scene.is_none() && root.scenes.len() > 1 {
             assembly.notes.add(
@@ -80,12 +75,7 @@ pub(super) fn walk<'r>(
     for node in nodes {
         walker.node(node, &start)?;
     }
-    let Walker {
-        positions,
-        used,
-        assembly,
-        ..
-    } = walker;
+    let Walker { positions, used, assembly, .. } = walker;
     for (accessor, used) in used {
         assembly.note_unused(&positions[&accessor], &used);
     }
@@ -128,14 +118,12 @@ impl Walker<'_, '_, '_, '_> {
         }
         let matrix = parent * own;
         if node.skin.is_some() {
-            self.assembly.notes.add(
-                NoteCode::SkinAsShape,
-                "a skinned mesh was read without its skin",
-            );
+            self.assembly
+                .notes
+                .add(NoteCode::SkinAsShape, "a skinned mesh was read without its skin");
         }
         if let Some(mesh) = node.mesh {
-            self.mesh(mesh, &matrix)
-                .map_err(|failure| failure.within("mesh", mesh))?;
+            self.mesh(mesh, &matrix).map_err(|failure| failure.within("mesh", mesh))?;
         }
         for child in &node.children {
             self.node(*child, &matrix)?;
@@ -146,11 +134,8 @@ impl Walker<'_, '_, '_, '_> {
 
     fn mesh(&mut self, index: usize, matrix: &Matrix4<f64>) -> Result<(), Failure> {
         if !self.meshes.contains_key(&index) {
-            let mesh = self
-                .root
-                .meshes
-                .get(index)
-                .ok_or_else(|| Fault::malformed("it does not exist"))?;
+            let mesh =
+                self.root.meshes.get(index).ok_or_else(|| Fault::malformed("it does not exist"))?;
             let mut parts = Vec::new();
             for primitive in &mesh.primitives {
                 if let Some(mesh) = self.primitive(primitive)? {
@@ -170,25 +155,17 @@ impl Walker<'_, '_, '_, '_> {
     fn primitive(&mut self, primitive: &Primitive) -> Result<Option<Mesh>, Failure> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         if !(TRIANGLES..=FAN).contains(&mode) {
-            self.assembly
-                .notes
-                .add(NoteCode::LeftOut, "points or lines were left out");
+            self.assembly.notes.add(NoteCode::LeftOut, "points or lines were left out");
             return Ok(None);
         }
-        if primitive
-            .extensions
-            .get("KHR_draco_mesh_compression")
-            .is_some()
-        {
+        if primitive.extensions.get("KHR_draco_mesh_compression").is_some() {
             return Err(Fault::NotSupported(
                 "the mesh is compressed (KHR_draco_mesh_compression)".to_owned(),
             )
             .into());
         }
         let Some(position) = primitive.attributes.position else {
-            self.assembly
-                .notes
-                .add(NoteCode::LeftOut, "faces without positions were left out");
+            self.assembly.notes.add(NoteCode::LeftOut, "faces without positions were left out");
             return Ok(None);
         };
         if !self.positions.contains_key(&position) {
@@ -226,10 +203,7 @@ impl Walker<'_, '_, '_, '_> {
                 .windows(2)
                 .map(|pair| [corners[0], pair[0], pair[1]])
                 .collect(),
-            _ => corners
-                .chunks_exact(3)
-                .map(|three| [three[0], three[1], three[2]])
-                .collect(),
+            _ => corners.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect(),
         };
         self.num_triangles += triangles.len();
         self.assembly.check_triangles(self.num_triangles)?;
@@ -238,9 +212,7 @@ impl Walker<'_, '_, '_, '_> {
         mark(used, &triangles);
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
-        self.assembly
-            .notes
-            .add_many(NoteCode::IndexOutOfRange, text, left_out);
+        self.assembly.notes.add_many(NoteCode::IndexOutOfRange, text, left_out);
         Ok(Some(mesh))
     }
 }
@@ -275,21 +247,13 @@ fn material(root: &Root, index: Option<usize>) -> Material {
         return Material::default();
     };
     let pbr = &material.pbr_metallic_roughness;
-    let old = material
-        .extensions
-        .get("KHR_materials_pbrSpecularGlossiness");
+    let old = material.extensions.get("KHR_materials_pbrSpecularGlossiness");
     let (values, factor, texture) = match old {
         Some(old) if pbr.is_null() => (old, "diffuseFactor", "diffuseTexture"),
         _ => (pbr, "baseColorFactor", "baseColorTexture"),
     };
-    let color = values
-        .get(texture)
-        .is_none()
-        .then(|| rgba(values.get(factor)));
-    Material {
-        name: material.name.clone(),
-        color,
-    }
+    let color = values.get(texture).is_none().then(|| rgba(values.get(factor)));
+    Material { name: material.name.clone(), color }
 }
 
 /// Four numbers, clamped to 0 to 1; 1 for missing ones.

@@ -40,12 +40,7 @@ const PLAIN: File<'static> = File {
 
 impl File<'_> {
     fn text(&self) -> String {
-        let Self {
-            asset,
-            libraries,
-            faces,
-            nodes,
-        } = self;
+        let Self { asset, libraries, faces, nodes } = self;
         format!(
             "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset>{asset}</asset>{libraries}
             <library_geometries><geometry id='g'><mesh>{POSITIONS}{faces}</mesh></geometry></library_geometries>
@@ -84,21 +79,13 @@ fn the_unit_is_applied_and_the_up_axis_is_not() {
             0.0254,
             vec![NoteCode::UnitApplied, NoteCode::UpAxisIgnored],
         ),
-        (
-            "<up_axis> X_UP </up_axis>",
-            1.0,
-            vec![NoteCode::UpAxisIgnored],
-        ),
+        ("<up_axis> X_UP </up_axis>", 1.0, vec![NoteCode::UpAxisIgnored]),
         ("<unit meter='1'/>", 1.0, vec![]),
         ("<unit meter='-1'/>", 1.0, vec![NoteCode::Assumed]),
         ("<unit meter='1,5'/>", 1.0, vec![NoteCode::Assumed]),
     ] {
         let scene = File { asset, ..PLAIN }.load().unwrap();
-        assert_eq!(
-            bounds(&scene),
-            ([0.0; 3], [factor, 2.0 * factor, 3.0 * factor]),
-            "{asset}"
-        );
+        assert_eq!(bounds(&scene), ([0.0; 3], [factor, 2.0 * factor, 3.0 * factor]), "{asset}");
         assert_eq!(codes(&scene), expected, "{asset}");
     }
 }
@@ -106,16 +93,8 @@ fn the_unit_is_applied_and_the_up_axis_is_not() {
 #[test]
 fn transforms_apply_in_their_order_and_nodes_nest() {
     for (transforms, low, high) in [
-        (
-            "<translate>10 0 0</translate><scale>2 2 2</scale>",
-            [10.0, 0.0, 0.0],
-            [12.0, 4.0, 6.0],
-        ),
-        (
-            "<scale>2 2 2</scale><translate>10 0 0</translate>",
-            [20.0, 0.0, 0.0],
-            [22.0, 4.0, 6.0],
-        ),
+        ("<translate>10 0 0</translate><scale>2 2 2</scale>", [10.0, 0.0, 0.0], [12.0, 4.0, 6.0]),
+        ("<scale>2 2 2</scale><translate>10 0 0</translate>", [20.0, 0.0, 0.0], [22.0, 4.0, 6.0]),
         (
             "<matrix>0 -1 0 10  1 0 0 20  0 0 1 30  0 0 0 1</matrix>",
             [8.0, 20.0, 30.0],
@@ -127,27 +106,12 @@ fn transforms_apply_in_their_order_and_nodes_nest() {
             [0.0, 1.0, 8.0],
         ),
         // Looks from (0, 0, 5) at the origin with y up: nothing turns.
-        (
-            "<lookat>0 0 5 0 0 0 0 1 0</lookat>",
-            [0.0, 0.0, 5.0],
-            [1.0, 2.0, 8.0],
-        ),
+        ("<lookat>0 0 5 0 0 0 0 1 0</lookat>", [0.0, 0.0, 5.0], [1.0, 2.0, 8.0]),
         // Shears x by y: the corner at y = 2 moves by 2 tan 45 degrees.
-        (
-            "<skew>45 0 1 0 1 0 0</skew>",
-            [0.0, 0.0, 0.0],
-            [2.0, 2.0, 3.0],
-        ),
+        ("<skew>45 0 1 0 1 0 0</skew>", [0.0, 0.0, 0.0], [2.0, 2.0, 3.0]),
     ] {
         let nodes = format!("<node>{transforms}<instance_geometry url='#g'/></node>");
-        let (min, max) = bounds(
-            &File {
-                nodes: &nodes,
-                ..PLAIN
-            }
-            .load()
-            .unwrap(),
-        );
+        let (min, max) = bounds(&File { nodes: &nodes, ..PLAIN }.load().unwrap());
         for axis in 0..3 {
             assert!(
                 (min[axis] - low[axis]).abs() < 1e-14 && (max[axis] - high[axis]).abs() < 1e-14,
@@ -156,19 +120,9 @@ fn transforms_apply_in_their_order_and_nodes_nest() {
         }
     }
     let nodes = "<node><translate>0 0 1</translate><node><scale>10 10 10</scale><node><translate>1 0 0</translate><instance_geometry url='#g'/></node></node></node>";
-    let scene = File {
-        nodes,
-        asset: "<unit meter='0.1'/>",
-        ..PLAIN
-    }
-    .load()
-    .unwrap();
+    let scene = File { nodes, asset: "<unit meter='0.1'/>", ..PLAIN }.load().unwrap();
     let (min, max) = bounds(&scene);
-    for (found, expected) in min
-        .into_iter()
-        .chain(max)
-        .zip([1.0, 0.0, 0.1, 2.0, 2.0, 3.1])
-    {
+    for (found, expected) in min.into_iter().chain(max).zip([1.0, 0.0, 0.1, 2.0, 2.0, 3.1]) {
         assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
     }
 }
@@ -176,27 +130,14 @@ fn transforms_apply_in_their_order_and_nodes_nest() {
 #[test]
 fn a_mirroring_node_keeps_faces_outward() {
     let nodes = "<node><scale>-1 1 1</scale><instance_geometry url='#g'/></node>";
-    assert_eq!(
-        File { nodes, ..PLAIN }
-            .load()
-            .unwrap()
-            .merged()
-            .signed_volume(),
-        1.0
-    );
+    assert_eq!(File { nodes, ..PLAIN }.load().unwrap().merged().signed_volume(), 1.0);
 }
 
 #[test]
 fn one_geometry_is_placed_often_also_through_instance_node() {
     let libraries = "<library_nodes><node id='twin'><node><instance_geometry url='#g'/></node><node><translate>0 0 10</translate><instance_geometry url='#g'/></node></node></library_nodes>";
     let nodes = "<node><instance_node url='#twin'/></node><node><translate>100 0 0</translate><instance_node url='#twin'/><instance_geometry url='#g'/></node>";
-    let scene = File {
-        libraries,
-        nodes,
-        ..PLAIN
-    }
-    .load()
-    .unwrap();
+    let scene = File { libraries, nodes, ..PLAIN }.load().unwrap();
     assert_eq!(scene.triangle_count(), 5 * 4);
     assert_eq!(bounds(&scene), ([0.0; 3], [101.0, 2.0, 13.0]));
 }
@@ -207,11 +148,7 @@ fn every_kind_of_face() {
     let square = "<source id='q'><float_array>0 0 0 1 0 0 1 1 0 0 1 0</float_array></source><vertices id='w'><input semantic='POSITION' source='#q'/></vertices>";
     let input = "<input semantic='NORMAL' source='#none' offset='1'/><input semantic='VERTEX' source='#w' offset='0'/>";
     for (faces, triangles, area) in [
-        (
-            format!("<triangles>{input}<p>0 9 1 9 2 9  0 9 2 9 3 9</p></triangles>"),
-            2,
-            1.0,
-        ),
+        (format!("<triangles>{input}<p>0 9 1 9 2 9  0 9 2 9 3 9</p></triangles>"), 2, 1.0),
         (
             format!(
                 "<polylist>{input}<vcount>4 3</vcount><p>0 0 1 0 2 0 3 0  0 0 1 0 2 0</p></polylist>"
@@ -219,11 +156,7 @@ fn every_kind_of_face() {
             3,
             1.5,
         ),
-        (
-            format!("<polygons>{input}<p>0 0 1 0 2 0 3 0</p><p>0 0 1 0 2 0</p></polygons>"),
-            3,
-            1.5,
-        ),
+        (format!("<polygons>{input}<p>0 0 1 0 2 0 3 0</p><p>0 0 1 0 2 0</p></polygons>"), 3, 1.5),
         (
             format!(
                 "<polygons>{input}<ph><p>0 0 1 0 2 0 3 0</p><h>0 0 1 0 2 0</h></ph></polygons>"
@@ -231,30 +164,13 @@ fn every_kind_of_face() {
             2,
             1.0,
         ),
-        (
-            format!("<trifans>{input}<p>0 0 1 0 2 0 3 0</p></trifans>"),
-            2,
-            1.0,
-        ),
-        (
-            format!("<tristrips>{input}<p>0 0 1 0 3 0 2 0</p></tristrips>"),
-            2,
-            1.0,
-        ),
+        (format!("<trifans>{input}<p>0 0 1 0 2 0 3 0</p></trifans>"), 2, 1.0),
+        (format!("<tristrips>{input}<p>0 0 1 0 3 0 2 0</p></tristrips>"), 2, 1.0),
         (format!("<lines>{input}<p>0 0 1 0</p></lines>"), 0, 0.0),
     ] {
-        let scene = File {
-            faces: &format!("{square}{faces}"),
-            ..PLAIN
-        }
-        .load()
-        .unwrap();
+        let scene = File { faces: &format!("{square}{faces}"), ..PLAIN }.load().unwrap();
         let mesh = scene.merged();
-        assert_eq!(
-            (mesh.triangles.len(), mesh.area()),
-            (triangles, area),
-            "{faces}"
-        );
+        assert_eq!((mesh.triangles.len(), mesh.area()), (triangles, area), "{faces}");
         for triangle in &mesh.triangles {
             let [a, b, c] = mesh.corners(*triangle);
             assert!(
@@ -268,14 +184,8 @@ fn every_kind_of_face() {
 #[test]
 fn a_polygon_that_is_not_convex_keeps_its_area_and_winding() {
     // An L of three unit squares, from a corner where a fan would leave it, in both windings and in another plane.
-    let corners = [
-        "0 1 0", "0 0 0", "2 0 0", "2 1 0", "1 1 0", "1 2 0", "0 2 0",
-    ];
-    for (order, sign) in [
-        ("0 1 2 3 4 5 6", 1.0),
-        ("6 5 4 3 2 1 0", -1.0),
-        ("3 4 5 6 0 1 2", 1.0),
-    ] {
+    let corners = ["0 1 0", "0 0 0", "2 0 0", "2 1 0", "1 1 0", "1 2 0", "0 2 0"];
+    for (order, sign) in [("0 1 2 3 4 5 6", 1.0), ("6 5 4 3 2 1 0", -1.0), ("3 4 5 6 0 1 2", 1.0)] {
         let faces = format!(
             "<source id='q'><float_array>{}</float_array></source><polylist><input semantic='VERTEX' source='#q'/><vcount>7</vcount><p>{order}</p></polylist>",
             corners.join(" ")
@@ -284,19 +194,8 @@ fn a_polygon_that_is_not_convex_keeps_its_area_and_winding() {
             "<node><instance_geometry url='#g'/></node>",
             "<node><rotate>1 0 0 90</rotate><instance_geometry url='#g'/></node>",
         ] {
-            let mesh = File {
-                faces: &faces,
-                nodes,
-                ..PLAIN
-            }
-            .load()
-            .unwrap()
-            .merged();
-            assert!(
-                (mesh.area() - 3.0).abs() < 1e-14,
-                "{order}: {}",
-                mesh.area()
-            );
+            let mesh = File { faces: &faces, nodes, ..PLAIN }.load().unwrap().merged();
+            assert!((mesh.area() - 3.0).abs() < 1e-14, "{order}: {}", mesh.area());
             if !nodes.contains("rotate") {
                 for triangle in &mesh.triangles {
                     let [a, b, c] = mesh.corners(*triangle);
@@ -314,10 +213,7 @@ fn sources_with_stride_offset_names_and_comments() {
         <accessor source='#qa' offset='1' stride='4'><param/><param name='Y'/><param name='X'/><param name='Z'/></accessor></technique_common></source>
         <triangles><input semantic='VERTEX' source='#q'/><p>0 1 2</p></triangles>";
     let mesh = File { faces, ..PLAIN }.load().unwrap().merged();
-    assert_eq!(
-        mesh.vertices,
-        [[0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 4.0]]
-    );
+    assert_eq!(mesh.vertices, [[0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 4.0]]);
 }
 
 #[test]
@@ -345,13 +241,7 @@ fn colours_come_through_the_binding() {
         let nodes = format!(
             "<node><instance_geometry url='#g'><bind_material><technique_common><instance_material symbol='red' target='#{target}'/></technique_common></bind_material></instance_geometry></node>"
         );
-        let scene = File {
-            libraries: &libraries,
-            nodes: &nodes,
-            ..PLAIN
-        }
-        .load()
-        .unwrap();
+        let scene = File { libraries: &libraries, nodes: &nodes, ..PLAIN }.load().unwrap();
         assert_eq!(scene.parts[0].color, color, "{target}");
         assert_eq!(scene.parts[0].material.as_deref(), Some(name));
         assert_eq!(scene.side_files, ["b.png", "sub dir/skin.png"]);
@@ -365,13 +255,7 @@ fn parts_go_by_material() {
     let counts: Vec<_> = scene
         .parts
         .iter()
-        .map(|part| {
-            (
-                part.material.as_deref(),
-                part.mesh.triangles.len(),
-                part.mesh.vertices.len(),
-            )
-        })
+        .map(|part| (part.material.as_deref(), part.mesh.triangles.len(), part.mesh.vertices.len()))
         .collect();
     assert_eq!(counts, [(Some("a"), 2, 6), (Some("b"), 1, 3)]);
 }

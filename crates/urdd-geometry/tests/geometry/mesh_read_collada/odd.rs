@@ -8,43 +8,22 @@ use super::{File, PLAIN, bounds, codes, load};
 fn a_skin_is_read_in_its_bind_shape() {
     let libraries = "<library_controllers><controller id='c'><skin source='#g'><bind_shape_matrix>1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix></skin></controller></library_controllers>";
     let nodes = "<node><scale>2 2 2</scale><instance_controller url='#c'/></node>";
-    let scene = File {
-        libraries,
-        nodes,
-        ..PLAIN
-    }
-    .load()
-    .unwrap();
+    let scene = File { libraries, nodes, ..PLAIN }.load().unwrap();
     assert_eq!(
         (bounds(&scene), codes(&scene)),
-        (
-            ([10.0, 0.0, 0.0], [12.0, 4.0, 6.0]),
-            vec![NoteCode::SkinAsShape]
-        )
+        (([10.0, 0.0, 0.0], [12.0, 4.0, 6.0]), vec![NoteCode::SkinAsShape])
     );
 }
 
 #[test]
 fn scenes_that_are_missing() {
-    let text = PLAIN
-        .text()
-        .replace("<scene><instance_visual_scene url='#vs'/></scene>", "");
+    let text = PLAIN.text().replace("<scene><instance_visual_scene url='#vs'/></scene>", "");
     let scene = load(&text).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (4, vec![NoteCode::Assumed])
-    );
+    assert_eq!((scene.triangle_count(), codes(&scene)), (4, vec![NoteCode::Assumed]));
     let scene = load(&text.replace("library_visual_scenes", "library_other")).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (4, vec![NoteCode::Assumed])
-    );
-    let scene = File {
-        nodes: "<node><instance_geometry url='#nowhere'/></node>",
-        ..PLAIN
-    }
-    .load()
-    .unwrap();
+    assert_eq!((scene.triangle_count(), codes(&scene)), (4, vec![NoteCode::Assumed]));
+    let scene =
+        File { nodes: "<node><instance_geometry url='#nowhere'/></node>", ..PLAIN }.load().unwrap();
     assert_eq!(
         (scene.triangle_count(), codes(&scene)),
         (0, vec![NoteCode::LeftOut, NoteCode::NoTriangles])
@@ -59,16 +38,10 @@ fn bad_numbers_and_indices_cost_their_triangles_only() {
         (scene.triangle_count(), codes(&scene), scene.notes[0].count),
         (1, vec![NoteCode::IndexOutOfRange], 3)
     );
-    let scene = load(
-        &PLAIN
-            .text()
-            .replace("0 0 0 1 0 0 0 2 0 0 0 3", "0 0 0 1 0 0 0 2 0 0 0 1.#QNAN"),
-    )
-    .unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (1, vec![NoteCode::NotFinite])
-    );
+    let scene =
+        load(&PLAIN.text().replace("0 0 0 1 0 0 0 2 0 0 0 3", "0 0 0 1 0 0 0 2 0 0 0 1.#QNAN"))
+            .unwrap();
+    assert_eq!((scene.triangle_count(), codes(&scene)), (1, vec![NoteCode::NotFinite]));
 }
 
 #[test]
@@ -93,10 +66,7 @@ fn what_has_no_meaning_is_refused_with_its_place() {
     assert_eq!(error.place, Some(Place::Element("geometry 'g'".to_owned())));
     let error = load(&PLAIN.text().replace("</COLLADA>", "")).unwrap_err();
     assert!(
-        matches!(
-            (&error.place, &error.fault),
-            (Some(Place::Line(_)), Fault::Malformed(_))
-        ),
+        matches!((&error.place, &error.fault), (Some(Place::Line(_)), Fault::Malformed(_))),
         "{error}"
     );
     let bomb = "<?xml version='1.0'?><!DOCTYPE COLLADA [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;'>]><COLLADA>&b;</COLLADA>";
@@ -107,13 +77,9 @@ fn what_has_no_meaning_is_refused_with_its_place() {
 fn nodes_that_hold_themselves_or_multiply_without_end() {
     let libraries =
         "<library_nodes><node id='loop'><instance_node url='#loop'/></node></library_nodes>";
-    let error = File {
-        libraries,
-        nodes: "<node><instance_node url='#loop'/></node>",
-        ..PLAIN
-    }
-    .load()
-    .unwrap_err();
+    let error = File { libraries, nodes: "<node><instance_node url='#loop'/></node>", ..PLAIN }
+        .load()
+        .unwrap_err();
     assert!(error.to_string().contains("contains itself"), "{error}");
     let laughs: String = (0..40)
         .map(|level| format!("<node id='n{level}'><instance_node url='#n{next}'/><instance_node url='#n{next}'/></node>", next = level + 1))
@@ -121,25 +87,14 @@ fn nodes_that_hold_themselves_or_multiply_without_end() {
     let libraries = format!(
         "<library_nodes>{laughs}<node id='n40'><instance_geometry url='#g'/></node></library_nodes>"
     );
-    let error = File {
-        libraries: &libraries,
-        nodes: "<node><instance_node url='#n0'/></node>",
-        ..PLAIN
-    }
-    .load()
-    .unwrap_err();
+    let error =
+        File { libraries: &libraries, nodes: "<node><instance_node url='#n0'/></node>", ..PLAIN }
+            .load()
+            .unwrap_err();
     assert!(matches!(error.fault, Fault::TooLarge { .. }), "{error}");
     let deep = format!("{}{}", "<node>".repeat(5000), "</node>".repeat(5000));
-    let error = File {
-        nodes: &deep,
-        ..PLAIN
-    }
-    .load()
-    .unwrap_err();
-    assert!(
-        error.to_string().contains("more than 256 levels"),
-        "{error}"
-    );
+    let error = File { nodes: &deep, ..PLAIN }.load().unwrap_err();
+    assert!(error.to_string().contains("more than 256 levels"), "{error}");
     let deep = format!(
         "<COLLADA>{}{}</COLLADA>",
         "<extra>".repeat(1_000_000),
@@ -152,24 +107,14 @@ fn nodes_that_hold_themselves_or_multiply_without_end() {
 #[test]
 fn other_encodings() {
     let text = PLAIN.text();
-    let utf16: Vec<u8> = [0xff, 0xfe]
-        .into_iter()
-        .chain(text.encode_utf16().flat_map(u16::to_le_bytes))
-        .collect();
-    assert_eq!(
-        read(&utf16, "a.dae", &mut |_| None)
-            .unwrap()
-            .triangle_count(),
-        4
-    );
+    let utf16: Vec<u8> =
+        [0xff, 0xfe].into_iter().chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect();
+    assert_eq!(read(&utf16, "a.dae", &mut |_| None).unwrap().triangle_count(), 4);
     let latin = text
         .replace("<asset>", "<asset><author>Ren@</author>")
         .bytes()
         .map(|byte| if byte == b'@' { 0xe9 } else { byte })
         .collect::<Vec<u8>>();
     let scene = read(&latin, "a.dae", &mut |_| None).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (4, vec![NoteCode::Assumed])
-    );
+    assert_eq!((scene.triangle_count(), codes(&scene)), (4, vec![NoteCode::Assumed]));
 }

@@ -19,10 +19,7 @@ fn what_is_broken_is_an_error_or_a_note() {
         ("/bufferViews/1/byteOffset", json!(u64::MAX)),
     ] {
         assert!(
-            matches!(
-                change(pointer, value.clone()).unwrap_err().fault,
-                Fault::Truncated(_)
-            ),
+            matches!(change(pointer, value.clone()).unwrap_err().fault, Fault::Truncated(_)),
             "{pointer} {value}"
         );
     }
@@ -44,10 +41,7 @@ fn what_is_broken_is_an_error_or_a_note() {
         ("/asset", json!(3)),
     ] {
         assert!(
-            matches!(
-                change(pointer, value.clone()).unwrap_err().fault,
-                Fault::Malformed(_)
-            ),
+            matches!(change(pointer, value.clone()).unwrap_err().fault, Fault::Malformed(_)),
             "{pointer} {value}"
         );
     }
@@ -57,40 +51,27 @@ fn what_is_broken_is_an_error_or_a_note() {
     ));
     let (mut root, data) = document();
     root["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
-    assert!(matches!(
-        load(&root, &data).unwrap_err().fault,
-        Fault::NotSupported(_)
-    ));
+    assert!(matches!(load(&root, &data).unwrap_err().fault, Fault::NotSupported(_)));
     root["extensionsRequired"] = json!(["VENDOR_shape"]);
     assert_eq!(codes(&load(&root, &data).unwrap()), [NoteCode::LeftOut]);
     let (mut root, data) = document();
     root["accessors"][0] =
         json!({"componentType": 5126, "count": 4_000_000_000_u64, "type": "VEC3"});
-    assert!(matches!(
-        load(&root, &data).unwrap_err().fault,
-        Fault::TooLarge { .. }
-    ));
+    assert!(matches!(load(&root, &data).unwrap_err().fault, Fault::TooLarge { .. }));
     let (root, mut data) = document();
     data[48..52].copy_from_slice(&[9, 0, 0, 0]);
     let scene = load(&root, &data).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (3, vec![NoteCode::IndexOutOfRange])
-    );
+    assert_eq!((scene.triangle_count(), codes(&scene)), (3, vec![NoteCode::IndexOutOfRange]));
 }
 
 #[test]
 fn nodes_that_multiply_without_end() {
     let (mut root, data) = document();
-    let mut nodes: Vec<Value> = (0..40)
-        .map(|level| json!({"children": [level + 1, level + 1]}))
-        .collect();
+    let mut nodes: Vec<Value> =
+        (0..40).map(|level| json!({"children": [level + 1, level + 1]})).collect();
     nodes.push(json!({"mesh": 0}));
     root["nodes"] = json!(nodes);
-    assert!(matches!(
-        load(&root, &data).unwrap_err().fault,
-        Fault::TooLarge { .. }
-    ));
+    assert!(matches!(load(&root, &data).unwrap_err().fault, Fault::TooLarge { .. }));
 }
 
 #[test]
@@ -100,18 +81,13 @@ fn glb_containers_that_are_odd() {
     let mut wrong = whole.clone();
     wrong[8..12].copy_from_slice(&7_u32.to_le_bytes());
     let scene = load_bytes(&wrong, "a.glb", GltfUp::Keep, &[]).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (4, vec![NoteCode::WrongCount])
-    );
+    assert_eq!((scene.triangle_count(), codes(&scene)), (4, vec![NoteCode::WrongCount]));
     let error = load_bytes(&whole[..whole.len() - 4], "a.glb", GltfUp::Keep, &[]).unwrap_err();
     assert!(matches!(error.fault, Fault::Truncated(_)), "{error}");
     let mut old = whole.clone();
     old[4] = 1;
     assert!(matches!(
-        load_bytes(&old, "a.glb", GltfUp::Keep, &[])
-            .unwrap_err()
-            .fault,
+        load_bytes(&old, "a.glb", GltfUp::Keep, &[]).unwrap_err().fault,
         Fault::NotSupported(_)
     ));
     for length in 4..20 {

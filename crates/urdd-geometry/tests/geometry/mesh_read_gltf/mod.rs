@@ -7,30 +7,18 @@ use serde_json::{Value, json};
 use urdd_geometry::read::{Fault, Format, GltfUp, MeshError, NoteCode, Options, Scene, read_with};
 
 /// The tetrahedron of legs 1, 2, 3 at the origin.
-const POSITIONS: [[f32; 3]; 4] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 2.0, 0.0],
-    [0.0, 0.0, 3.0],
-];
+const POSITIONS: [[f32; 3]; 4] =
+    [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
 const CORNERS: [u8; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
 
 fn floats(values: &[[f32; 3]]) -> Vec<u8> {
-    values
-        .iter()
-        .flatten()
-        .flat_map(|value| value.to_le_bytes())
-        .collect()
+    values.iter().flatten().flat_map(|value| value.to_le_bytes()).collect()
 }
 
 /// A document with a mesh of POSITION 0 and indices 1 in one buffer: positions, 12 indices of 4 bytes.
 fn document() -> (Value, Vec<u8>) {
     let mut data = floats(&POSITIONS);
-    data.extend(
-        CORNERS
-            .iter()
-            .flat_map(|corner| u32::from(*corner).to_le_bytes()),
-    );
+    data.extend(CORNERS.iter().flat_map(|corner| u32::from(*corner).to_le_bytes()));
     let root = json!({
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
@@ -69,20 +57,9 @@ fn load_bytes(
     files: &[(&str, &[u8])],
 ) -> Result<Scene, MeshError> {
     let mut fetch = |wanted: &str| {
-        files
-            .iter()
-            .find(|(file, _)| *file == wanted)
-            .map(|(_, bytes)| bytes.to_vec())
+        files.iter().find(|(file, _)| *file == wanted).map(|(_, bytes)| bytes.to_vec())
     };
-    read_with(
-        bytes,
-        name,
-        &mut fetch,
-        &Options {
-            gltf_up,
-            ..Options::default()
-        },
-    )
+    read_with(bytes, name, &mut fetch, &Options { gltf_up, ..Options::default() })
 }
 
 fn load(root: &Value, data: &[u8]) -> Result<Scene, MeshError> {
@@ -102,24 +79,14 @@ fn a_glb_is_turned_to_z_up_unless_told_otherwise() {
     let (root, data) = document();
     let kept = load(&root, &data).unwrap();
     assert_eq!(
-        (
-            kept.format,
-            high(&kept),
-            kept.merged().signed_volume(),
-            codes(&kept)
-        ),
+        (kept.format, high(&kept), kept.merged().signed_volume(), codes(&kept)),
         (Format::Glb, [1.0, 2.0, 3.0], 1.0, vec![])
     );
     let turned = load_bytes(&glb(&root, &data), "a.GLB", GltfUp::Turn, &[]).unwrap();
     // Its y is our z, its z our -y.
     assert_eq!(
         turned.merged().vertices,
-        [
-            [0.0, 0.0, 0.0],
-            [0.0, 0.0, 2.0],
-            [1.0, 0.0, 0.0],
-            [0.0, -3.0, 0.0]
-        ]
+        [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [0.0, -3.0, 0.0]]
     );
     assert_eq!(
         (turned.merged().signed_volume(), codes(&turned)),
@@ -134,30 +101,16 @@ fn buffers_in_files_and_data_uris() {
     root["images"] =
         json!([{"uri": "skin.png"}, {"uri": "data:image/png;base64,AAAA"}, {"bufferView": 0}]);
     let text = root.to_string();
-    let scene = load_bytes(
-        text.as_bytes(),
-        "a.gltf",
-        GltfUp::Keep,
-        &[("my data.bin", &data)],
-    )
-    .unwrap();
+    let scene =
+        load_bytes(text.as_bytes(), "a.gltf", GltfUp::Keep, &[("my data.bin", &data)]).unwrap();
     assert_eq!(
         (scene.format, high(&scene), &scene.side_files[..]),
-        (
-            Format::Gltf,
-            [1.0, 2.0, 3.0],
-            &["my data.bin".to_owned(), "skin.png".to_owned()][..]
-        )
+        (Format::Gltf, [1.0, 2.0, 3.0], &["my data.bin".to_owned(), "skin.png".to_owned()][..])
     );
     let error = load_bytes(text.as_bytes(), "a.gltf", GltfUp::Keep, &[]).unwrap_err();
     assert_eq!(error.fault, Fault::NoSideFile("my data.bin".to_owned()));
-    let cut = load_bytes(
-        text.as_bytes(),
-        "a.gltf",
-        GltfUp::Keep,
-        &[("my data.bin", &data[..95])],
-    )
-    .unwrap_err();
+    let cut = load_bytes(text.as_bytes(), "a.gltf", GltfUp::Keep, &[("my data.bin", &data[..95])])
+        .unwrap_err();
     assert!(matches!(cut.fault, Fault::Truncated(_)), "{cut}");
     use base64::engine::general_purpose::{STANDARD, STANDARD_NO_PAD};
     let longer = [&data[..], b"x"].concat();
@@ -177,43 +130,28 @@ fn indices_of_every_kind_and_none() {
         let (mut root, _) = document();
         let mut data = floats(&POSITIONS);
         data.extend(
-            CORNERS
-                .iter()
-                .flat_map(|corner| u32::from(*corner).to_le_bytes()[..size].to_vec()),
+            CORNERS.iter().flat_map(|corner| u32::from(*corner).to_le_bytes()[..size].to_vec()),
         );
         data.resize(96, 0);
         root["accessors"][1]["componentType"] = json!(component);
         root["bufferViews"][1]["byteLength"] = json!(12 * size);
-        assert_eq!(
-            load(&root, &data).unwrap().merged().signed_volume(),
-            1.0,
-            "{component}"
-        );
+        assert_eq!(load(&root, &data).unwrap().merged().signed_volume(), 1.0, "{component}");
     }
     let (mut root, _) = document();
     root["meshes"][0]["primitives"][0] = json!({"attributes": {"POSITION": 0}});
     root["accessors"][0]["count"] = json!(12);
     root["bufferViews"][0]["byteLength"] = json!(144);
     root["buffers"][0]["byteLength"] = json!(144);
-    let soup: Vec<[f32; 3]> = CORNERS
-        .iter()
-        .map(|corner| POSITIONS[usize::from(*corner)])
-        .collect();
+    let soup: Vec<[f32; 3]> =
+        CORNERS.iter().map(|corner| POSITIONS[usize::from(*corner)]).collect();
     let scene = load(&root, &floats(&soup)).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), scene.merged().signed_volume()),
-        (4, 1.0)
-    );
+    assert_eq!((scene.triangle_count(), scene.merged().signed_volume()), (4, 1.0));
 }
 
 #[test]
 fn strips_fans_and_what_is_no_surface() {
-    let square: [[f32; 3]; 4] = [
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.0],
-    ];
+    let square: [[f32; 3]; 4] =
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
     for (mode, corners, area) in [
         (4, [0, 1, 2, 3], 0.5),
         (5, [0, 1, 3, 2], 1.0),
@@ -248,11 +186,8 @@ fn nodes_nest_with_matrix_or_parts() {
         {"mesh": 0},
     ]);
     let bounds = load(&root, &data).unwrap().merged().bounds().unwrap();
-    for (found, expected) in bounds
-        .min
-        .into_iter()
-        .chain(bounds.max)
-        .zip([8.0, 20.0, 30.0, 12.0, 22.0, 90.0])
+    for (found, expected) in
+        bounds.min.into_iter().chain(bounds.max).zip([8.0, 20.0, 30.0, 12.0, 22.0, 90.0])
     {
         assert!((found - expected).abs() < 1e-12, "{bounds:?}");
     }
@@ -270,10 +205,7 @@ fn the_default_scene_counts() {
     assert_eq!(load(&root, &data).unwrap().triangle_count(), 8);
     root.as_object_mut().unwrap().remove("scene");
     let scene = load(&root, &data).unwrap();
-    assert_eq!(
-        (scene.triangle_count(), codes(&scene)),
-        (4, vec![NoteCode::Assumed])
-    );
+    assert_eq!((scene.triangle_count(), codes(&scene)), (4, vec![NoteCode::Assumed]));
     root.as_object_mut().unwrap().remove("scenes");
     let scene = load(&root, &data).unwrap();
     assert_eq!(
@@ -295,15 +227,9 @@ fn sparse_positions_with_and_without_a_base() {
         ]);
         root["accessors"][0]["sparse"] = json!({"count": 2, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 3}});
         if !base {
-            root["accessors"][0]
-                .as_object_mut()
-                .unwrap()
-                .remove("bufferView");
+            root["accessors"][0].as_object_mut().unwrap().remove("bufferView");
         }
-        assert_eq!(
-            high(&load(&root, &data).unwrap()),
-            [7.0, if base { 2.0 } else { 0.0 }, 9.0]
-        );
+        assert_eq!(high(&load(&root, &data).unwrap()), [7.0, if base { 2.0 } else { 0.0 }, 9.0]);
     }
 }
 
@@ -316,22 +242,14 @@ fn interleaved_and_quantized_positions() {
         .flat_map(|[x, y, z]: &[i16; 3]| [*x, *y, *z, 99].map(i16::to_le_bytes).concat())
         .collect();
     data.resize(48, 0);
-    data.extend(
-        CORNERS
-            .iter()
-            .flat_map(|corner| u32::from(*corner).to_le_bytes()),
-    );
+    data.extend(CORNERS.iter().flat_map(|corner| u32::from(*corner).to_le_bytes()));
     root["bufferViews"][0]["byteStride"] = json!(8);
     root["accessors"][0]["componentType"] = json!(5122);
     root["accessors"][0]["normalized"] = json!(true);
     root["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
     let scene = load(&root, &data).unwrap();
     assert_eq!(
-        (
-            high(&scene),
-            scene.merged().bounds().unwrap().min[2],
-            codes(&scene)
-        ),
+        (high(&scene), scene.merged().bounds().unwrap().min[2], codes(&scene)),
         ([1.0, 1.0, 0.0], -1.0, vec![])
     );
 }
@@ -344,10 +262,7 @@ fn colours() {
             Some([0.25, 0.5, 1.0, 0.5]),
         ),
         (json!({}), Some([1.0; 4])),
-        (
-            json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}),
-            None,
-        ),
+        (json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}), None),
         (
             json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 1, 0, 1]}}}),
             Some([0.0, 1.0, 0.0, 1.0]),
@@ -356,11 +271,7 @@ fn colours() {
         let (mut root, data) = document();
         root["materials"] = json!([material]);
         root["meshes"][0]["primitives"][0]["material"] = json!(0);
-        assert_eq!(
-            load(&root, &data).unwrap().parts[0].color,
-            color,
-            "{material}"
-        );
+        assert_eq!(load(&root, &data).unwrap().parts[0].color, color, "{material}");
     }
     let (root, data) = document();
     assert_eq!(load(&root, &data).unwrap().parts[0].color, None);

@@ -16,12 +16,10 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
     let module = context.module(ModuleKind::Bounds)?;
-    for (column, (name, values)) in [
-        ("dof_lower_bounds", bounds.lower),
-        ("dof_upper_bounds", bounds.upper),
-    ]
-    .into_iter()
-    .enumerate()
+    for (column, (name, values)) in
+        [("dof_lower_bounds", bounds.lower), ("dof_upper_bounds", bounds.upper)]
+            .into_iter()
+            .enumerate()
     {
         for (dof, (pair, value)) in bounds.bounds.iter().zip(values).enumerate() {
             let paired = pair[column];

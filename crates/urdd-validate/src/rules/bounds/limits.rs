@@ -20,17 +20,10 @@ pub(in crate::rules) struct LimitedDof<'a> {
 /// Every DOF whose joint has position limits.
 pub(in crate::rules) fn limited_dofs(context: &Context) -> Option<Vec<LimitedDof<'_>>> {
     let bounds = context.bounds()?.bounds.iter();
-    let dofs = bounds
-        .zip(dofs(context)?)
-        .filter_map(|(bounds, (dof, joint))| {
-            let (lower, upper) = joint.position_limits()?;
-            Some(LimitedDof {
-                dof,
-                joint,
-                limits: [lower, upper],
-                bounds: *bounds,
-            })
-        });
+    let dofs = bounds.zip(dofs(context)?).filter_map(|(bounds, (dof, joint))| {
+        let (lower, upper) = joint.position_limits()?;
+        Some(LimitedDof { dof, joint, limits: [lower, upper], bounds: *bounds })
+    });
     Some(dofs.collect())
 }
 
@@ -45,8 +38,7 @@ pub(in crate::rules) fn dofs(context: &Context) -> Option<impl Iterator<Item = (
 pub(in crate::rules) fn columns_agree(bounds: Bounds<'_>, dof: usize, end: usize) -> bool {
     let list = [bounds.lower, bounds.upper][end];
     let pair = bounds.bounds.get(dof);
-    pair.zip(list.get(dof))
-        .is_none_or(|(pair, value)| numbers_agree(pair[end], *value))
+    pair.zip(list.get(dof)).is_none_or(|(pair, value)| numbers_agree(pair[end], *value))
 }
 
 /// By how much legacy modules raised an upper bound equal to the lower one (SPEC 10.3).

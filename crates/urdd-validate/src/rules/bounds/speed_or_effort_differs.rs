@@ -16,10 +16,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?.v1?;
     let module = context.module(ModuleKind::Bounds)?;
-    let lists = bounds
-        .dof_velocity_limits
-        .iter()
-        .zip(&bounds.dof_effort_limits);
+    let lists = bounds.dof_velocity_limits.iter().zip(&bounds.dof_effort_limits);
     for ((dof, joint), (speed, effort)) in dofs(context)?.zip(lists) {
         let limit = joint.limit.filter(|_| joint.num_dofs() == 1);
         let right_speed = limit.and_then(|limit| limit.velocity);

@@ -58,9 +58,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
                     joint.name
                 );
-                Finding::of(module, pointer, message)
-                    .numbers(right, written)
-                    .report(findings);
+                Finding::of(module, pointer, message).numbers(right, written).report(findings);
             }
         }
     }

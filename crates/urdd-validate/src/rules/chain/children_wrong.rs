@@ -20,9 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let module = context.module(ModuleKind::Chain)?;
     let any_order = is_legacy(module);
     for (index, (link, joints)) in chain.links.iter().zip(&tree.child_joints).enumerate() {
-        let links = joints
-            .iter()
-            .filter_map(|joint| tree.joint_links.get(*joint));
+        let links = joints.iter().filter_map(|joint| tree.joint_links.get(*joint));
         let mut links: Vec<usize> = links.map(|(_, child)| *child).collect();
         links.sort_unstable();
         let written_joints = link.children_joint_idxs.iter().map(|joint| joint.get());

@@ -58,10 +58,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             report(at("joint_idx"), message);
         }
     }
-    let roots = parts
-        .iter()
-        .filter(|part| part.attachment.is_none())
-        .count();
+    let roots = parts.iter().filter(|part| part.attachment.is_none()).count();
     let expected = usize::from(composition.base.is_none());
     if roots != expected {
         let message = "exactly one part without `attach`, or none if there is a base";

@@ -39,10 +39,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let joint_order = part.joints.iter().map(|of| of.joint_idx.get());
         let links: Vec<&String> = part.links.iter().map(|of| &of.name).collect();
         let joints: Vec<&String> = part.joints.iter().map(|of| &of.name).collect();
-        for (key, order) in [
-            ("links", link_order.collect::<Vec<_>>()),
-            ("joints", joint_order.collect()),
-        ] {
+        for (key, order) in
+            [("links", link_order.collect::<Vec<_>>()), ("joints", joint_order.collect())]
+        {
             if let Some(at) = order.windows(2).position(|two| two[0] > two[1]) {
                 let pointer = format!("/parts/{place}/{key}/{}", at + 1);
                 report(pointer, format!("the {key} are not in ascending order"));

@@ -50,11 +50,7 @@ fn fault(tree: &Tree, [i, top, j]: [usize; 3], path: &Option<Vec<LinkIdx>>) -> O
     let differ = right.iter().zip(path).enumerate().rev();
     let mut differ = differ.filter(|(_, (right, written))| **right != written.get());
     differ.next().map(|(place, (right, written))| {
-        (
-            format!("/{place}"),
-            right.to_string(),
-            written.get().to_string(),
-        )
+        (format!("/{place}"), right.to_string(), written.get().to_string())
     })
 }
 

@@ -35,10 +35,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     let missing = connections.link_to_link_paths.is_none();
     let descendants_missing = connections.link_connection_paths.is_none();
-    for (name, missing) in [
-        ("link_to_link_paths", missing),
-        ("link_connection_paths", descendants_missing),
-    ] {
+    for (name, missing) in
+        [("link_to_link_paths", missing), ("link_connection_paths", descendants_missing)]
+    {
         if missing {
             let message = format!(
                 "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"

@@ -24,10 +24,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if let Some((place, right, written)) = path_fault(tree, [tree.root, tree.root, to], path) {
             fold.add(|| {
                 let pointer = format!("/root_paths/{to}{place}");
-                let message = format!(
-                    "this is not the path from the root to link {to} ({:?})",
-                    link.name
-                );
+                let message =
+                    format!("this is not the path from the root to link {to} ({:?})", link.name);
                 let finding = Finding::of(module, pointer, message);
                 finding.expected(right).actual(written)
             });

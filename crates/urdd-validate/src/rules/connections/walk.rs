@@ -45,11 +45,7 @@ pub(super) struct Ancestors<'a> {
 impl<'a> Ancestors<'a> {
     pub(super) fn new(tree: &'a Tree) -> Self {
         let links = tree.parent_link.len();
-        Ancestors {
-            tree,
-            above: vec![false; links],
-            row: vec![tree.root; links],
-        }
+        Ancestors { tree, above: vec![false; links], row: vec![tree.root; links] }
     }
 
     /// The lowest common ancestor of `link` with every link.
@@ -81,22 +77,16 @@ pub(super) fn path_fault(
     let up = tree.depth[from] - tree.depth[top];
     let down = tree.depth[to] - tree.depth[top];
     let length = up + down;
-    for (key, right, written) in [
-        ("links", length + 1, path.links.len()),
-        ("joints", length, path.joints.len()),
-    ] {
+    for (key, right, written) in
+        [("links", length + 1, path.links.len()), ("joints", length, path.joints.len())]
+    {
         if right != written {
             return Some((format!("/{key}"), count(right, key), count(written, key)));
         }
     }
     let fault = |key: &str, place: usize, right: usize, written: usize| {
-        (right != written).then(|| {
-            (
-                format!("/{key}/{place}"),
-                right.to_string(),
-                written.to_string(),
-            )
-        })
+        (right != written)
+            .then(|| (format!("/{key}/{place}"), right.to_string(), written.to_string()))
     };
     // Up from the one end, then up from the other: which end, and the places of the link and of the joint above it.
     let ups = (0..up).map(|place| (0, place, place));

@@ -68,11 +68,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     });
     for (listed, change) in &changes {
         let (key, expected, actual) = match change {
-            Change::Size(actual) => (
-                "size",
-                format!("{} bytes", listed.file.size),
-                format!("{actual} bytes"),
-            ),
+            Change::Size(actual) => {
+                ("size", format!("{} bytes", listed.file.size), format!("{actual} bytes"))
+            }
             Change::Hash(actual) => ("sha256", listed.file.sha256.to_string(), actual.clone()),
             Change::LfsPointer | Change::LineEndings => continue,
         };
@@ -101,10 +99,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 fn listed(context: &Context) -> Option<Vec<Listed<'_>>> {
     let metadata = context.metadata()?;
     let source = match &metadata.source {
-        Some(Source::Urdf(file)) => Some(Listed {
-            pointer: "/source/Urdf".to_owned(),
-            file,
-        }),
+        Some(Source::Urdf(file)) => Some(Listed { pointer: "/source/Urdf".to_owned(), file }),
         _ => None,
     };
     let modules = entries::all(context).into_iter().flat_map(|entry| {
@@ -113,10 +108,7 @@ fn listed(context: &Context) -> Option<Vec<Listed<'_>>> {
         // DIR012 reports a file of another module.
         files
             .filter(move |(_, file)| entry.holds(&file.path))
-            .map(move |(f, file)| Listed {
-                pointer: format!("/modules/{m}/files/{f}"),
-                file,
-            })
+            .map(move |(f, file)| Listed { pointer: format!("/modules/{m}/files/{f}"), file })
     });
     let mut times: HashMap<&str, usize> = HashMap::new();
     for path in paths::of_metadata(metadata) {
@@ -140,11 +132,8 @@ fn report_cause(
     cause: Change,
     message: impl Fn(&str, &str) -> String,
 ) {
-    let of_cause: Vec<&Listed<'_>> = changes
-        .iter()
-        .filter(|(_, change)| *change == cause)
-        .map(|(listed, _)| *listed)
-        .collect();
+    let of_cause: Vec<&Listed<'_>> =
+        changes.iter().filter(|(_, change)| *change == cause).map(|(listed, _)| *listed).collect();
     let Some(first) = of_cause.first() else {
         return;
     };
@@ -158,10 +147,7 @@ fn report_cause(
         .iter()
         .skip(1)
         .take(KEPT_PLACES - 1)
-        .map(|listed| Place {
-            file: Some(listed.file.path.clone()),
-            ..Place::default()
-        })
+        .map(|listed| Place { file: Some(listed.file.path.clone()), ..Place::default() })
         .collect();
     findings.report(finding);
 }

@@ -44,11 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             false => "the files are not sorted by path, byte by byte",
         };
         let finding = Finding::of(entry, format!("files/{place}/path"), message);
-        findings.report(
-            finding
-                .expected(format!("a path after {before}"))
-                .actual(path),
-        );
+        findings.report(finding.expected(format!("a path after {before}")).actual(path));
     }
     Some(())
 }

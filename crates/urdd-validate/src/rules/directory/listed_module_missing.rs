@@ -35,10 +35,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "a symbolic link",
                 format!("{folder} is a symbolic link: put the folder itself there"),
             ),
-            Some(_) => (
-                "a file",
-                format!("{folder} is not a folder: put the module's folder there"),
-            ),
+            Some(_) => {
+                ("a file", format!("{folder} is not a folder: put the module's folder there"))
+            }
         };
         let finding = Finding::of(&entry, "path", message);
         findings.report(finding.expected("a folder").actual(actual));

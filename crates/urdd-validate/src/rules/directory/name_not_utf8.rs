@@ -13,10 +13,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
-        let mut bad = context
-            .listing()
-            .below(&module.folder)
-            .filter(|entry| !entry.utf8);
+        let mut bad = context.listing().below(&module.folder).filter(|entry| !entry.utf8);
         if let Some(first) = bad.next() {
             let message = "the name is not UTF-8 (shown with replacement characters): rename it";
             let finding = Finding::in_file(&first.path, message);

@@ -15,9 +15,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let parse = |text: &str| semver::Version::parse(text).ok();
-    let stated = context
-        .metadata()
-        .and_then(|metadata| parse(metadata.urdd_version.as_str()));
+    let stated = context.metadata().and_then(|metadata| parse(metadata.urdd_version.as_str()));
     if let Some((stated, known)) = stated.zip(parse(SPEC_VERSION))
         && stated.major == known.major
         && stated > known

@@ -19,9 +19,7 @@ declare_rule! {
 pub fn folders(context: &Context) -> HashSet<&str> {
     let entries = entries::all(context);
     let differing = entries.iter().filter_map(differing);
-    differing
-        .map(|(module, _)| module.folder.as_str())
-        .collect()
+    differing.map(|(module, _)| module.folder.as_str()).collect()
 }
 
 /// The module and the version in its `VERSION` file, if that is a version and differs from the one in `urdd.json`.

@@ -27,10 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
         let message = match twice {
             true => "a module is named twice: name each once".to_owned(),
-            false => format!(
-                "these are not the modules that {} is derived from",
-                entry.entry.name
-            ),
+            false => format!("these are not the modules that {} is derived from", entry.entry.name),
         };
         let mut finding = Finding::of(&entry, "depends_on", message).actual(words(&stated));
         finding.place.expected = right.as_deref().map(words);

@@ -24,9 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         counts.push(("dofs", v1.dofs.len()));
     }
     if let Some((name, count, others)) = odd_one(&counts) {
-        let all = counts
-            .iter()
-            .map(|(name, count)| format!("`{name}` {count}"));
+        let all = counts.iter().map(|(name, count)| format!("`{name}` {count}"));
         let message = format!(
             "the number of DOFs differs from place to place: {}; make them agree",
             all.collect::<Vec<_>>().join(", ")

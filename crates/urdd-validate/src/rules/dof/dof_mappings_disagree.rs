@@ -87,10 +87,7 @@ mod tests {
     use super::*;
 
     fn inverse(joint_of_dof: &[usize], dofs_of_joint: &[&[usize]]) -> bool {
-        are_inverse(
-            joint_of_dof,
-            dofs_of_joint.iter().map(|list| list.iter().copied()),
-        )
+        are_inverse(joint_of_dof, dofs_of_joint.iter().map(|list| list.iter().copied()))
     }
 
     #[test]

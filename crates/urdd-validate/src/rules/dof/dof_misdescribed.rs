@@ -33,11 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
         };
         let quoted = |name: &str| format!("{name:?}");
-        expect(
-            "joint_idx",
-            joint_idx.to_string(),
-            dof.joint_idx.to_string(),
-        );
+        expect("joint_idx", joint_idx.to_string(), dof.joint_idx.to_string());
         expect("joint_name", quoted(&joint.name), quoted(&dof.joint_name));
         let name = format!("{}{suffix}", joint.name);
         expect("name", quoted(&name), quoted(&dof.name));

@@ -49,14 +49,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ] {
             if found != expected {
                 let pointer = format!("/samples/{place}/{key}");
-                Finding::of(
-                    module,
-                    pointer,
-                    format!("`{key}` needs one entry per {unit}"),
-                )
-                .expected(format!("{expected} entries"))
-                .actual(format!("{found} entries"))
-                .report(findings);
+                Finding::of(module, pointer, format!("`{key}` needs one entry per {unit}"))
+                    .expected(format!("{expected} entries"))
+                    .actual(format!("{found} entries"))
+                    .report(findings);
             }
         }
     }

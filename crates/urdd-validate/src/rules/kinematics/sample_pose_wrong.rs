@@ -98,10 +98,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "the quaternion of link {name:?} in {kind} has w < 0; negate all four numbers, which is the same rotation"
                 );
-                Finding::of(module, pointer, message)
-                    .expected("w >= 0")
-                    .actual(w)
-                    .report(findings);
+                Finding::of(module, pointer, message).expected("w >= 0").actual(w).report(findings);
             }
         }
     }
@@ -117,8 +114,5 @@ fn describe(pose: &Isometry3<f64>) -> String {
     let p = pose.translation;
     let rotation = canonical(&pose.rotation);
     let q = rotation.quaternion();
-    format!(
-        "position [{}, {}, {}], quaternion [{}, {}, {}, {}]",
-        p.x, p.y, p.z, q.w, q.i, q.j, q.k
-    )
+    format!("position [{}, {}, {}], quaternion [{}, {}, {}, {}]", p.x, p.y, p.z, q.w, q.i, q.j, q.k)
 }

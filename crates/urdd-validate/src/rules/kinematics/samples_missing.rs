@@ -15,10 +15,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::KinematicsSamples;
     // DIR002 reports a module that is listed and missing.
-    let mut listed = context
-        .metadata()
-        .into_iter()
-        .flat_map(|metadata| &metadata.modules);
+    let mut listed = context.metadata().into_iter().flat_map(|metadata| &metadata.modules);
     if context.module(kind).is_none() && listed.all(|module| module.name != kind.name()) {
         let message =
             "kinematics_samples_module is missing; consumers test their forward kinematics with it";

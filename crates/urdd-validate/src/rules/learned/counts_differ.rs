@@ -32,25 +32,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (missed, near_missed) = (found.num_missed, found.num_near_contact_missed);
     let (cleared, free) = (found.num_cleared, found.num_free);
     for (key, stated, found, among) in [
-        (
-            "num_colliding",
-            stated.num_colliding,
-            colliding,
-            EVALUATION_COUNT,
-        ),
+        ("num_colliding", stated.num_colliding, colliding, EVALUATION_COUNT),
         ("num_missed", stated.num_missed, missed, colliding.0),
-        (
-            "num_near_contact",
-            stated.num_near_contact,
-            near,
-            colliding.0,
-        ),
-        (
-            "num_near_contact_missed",
-            stated.num_near_contact_missed,
-            near_missed,
-            near.0,
-        ),
+        ("num_near_contact", stated.num_near_contact, near, colliding.0),
+        ("num_near_contact_missed", stated.num_near_contact_missed, near_missed, near.0),
         ("num_cleared", stated.num_cleared, cleared, free.0),
     ] {
         let tolerance = among.div_ceil(PER_TOLERANCE);

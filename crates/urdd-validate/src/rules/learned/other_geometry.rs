@@ -20,21 +20,15 @@ declare_rule! {
 }
 
 /// The modules whose documents are part of the digest.
-const TRAINED_ON: [ModuleKind; 4] = [
-    ModuleKind::Dof,
-    ModuleKind::Chain,
-    ModuleKind::Bounds,
-    ModuleKind::LinkShapesSkips,
-];
+const TRAINED_ON: [ModuleKind; 4] =
+    [ModuleKind::Dof, ModuleKind::Chain, ModuleKind::Bounds, ModuleKind::LinkShapesSkips];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (module, model) = subject(context)?;
     let metadata = context.metadata()?;
     let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
     let documents = TRAINED_ON.map(|kind| format!("{}/module.json", kind.folder()));
-    let glbs = pieces
-        .paths()
-        .filter(|(_, path)| path.format == Some(Format::Glb));
+    let glbs = pieces.paths().filter(|(_, path)| path.format == Some(Format::Glb));
     let glbs = glbs.map(|(_, path)| path.path.to_owned());
     let mut text = String::new();
     for path in documents.into_iter().chain(glbs) {

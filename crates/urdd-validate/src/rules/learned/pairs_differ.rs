@@ -32,12 +32,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (a, b) = (context.link_label(a), context.link_label(b));
         format!("{a} and {b}")
     };
-    let outputs = outputs
-        .enumerate()
-        .map(|(place, pair)| ("pairs", place, pair));
-    let others = others
-        .enumerate()
-        .map(|(place, pair)| ("other_pairs", place, pair));
+    let outputs = outputs.enumerate().map(|(place, pair)| ("pairs", place, pair));
+    let others = others.enumerate().map(|(place, pair)| ("other_pairs", place, pair));
     let mut fold = Fold::new(findings);
     for (list, place, pair) in outputs.chain(others) {
         if !expected.contains(&pair) {

@@ -128,9 +128,7 @@ mod tests {
         let mut findings = Findings::default();
         mapping.check("f", &mut findings);
         let pointers = findings.take().into_iter();
-        pointers
-            .filter_map(|finding| finding.place.pointer)
-            .collect()
+        pointers.filter_map(|finding| finding.place.pointer).collect()
     }
 
     #[test]

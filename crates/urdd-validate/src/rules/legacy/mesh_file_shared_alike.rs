@@ -19,9 +19,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut shared = shared_meshes::all(context);
     shared.retain(|shared| shared.alike);
-    let pairs = shared
-        .iter()
-        .flat_map(|shared| [shared.first.0, shared.other.0]);
+    let pairs = shared.iter().flat_map(|shared| [shared.first.0, shared.other.0]);
     let links: BTreeSet<usize> = pairs.collect();
     if let Some(first) = shared.first() {
         let message = format!(

@@ -41,10 +41,7 @@ fn listed(
     let paths = original.files.iter().map(|f| &f.path).chain(side_files);
     let named: HashSet<&str> = paths.map(String::as_str).collect();
     // A missing file may have been renamed: MSH002 reports it.
-    if named
-        .iter()
-        .any(|path| entries::look(context, path).is_err())
-    {
+    if named.iter().any(|path| entries::look(context, path).is_err()) {
         return;
     }
     let meshes = module.file("meshes/");
@@ -100,11 +97,8 @@ fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
 
 /// Reports files that no reference names.
 fn used(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
-    let used: HashSet<&str> = original
-        .references
-        .iter()
-        .filter_map(|reference| reference.path.as_deref())
-        .collect();
+    let used: HashSet<&str> =
+        original.references.iter().filter_map(|reference| reference.path.as_deref()).collect();
     for (at, carried) in original.files.iter().enumerate() {
         if !used.contains(carried.path.as_str()) {
             let message =
@@ -119,10 +113,8 @@ fn used(original: &OriginalMeshesModule, module: &Module, findings: &mut Finding
 
 /// Reports lists of files that are unsorted or contain duplicates.
 fn order(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
-    let mut lists = vec![(
-        "/files".to_owned(),
-        original.files.iter().map(|f| f.path.as_str()).collect(),
-    )];
+    let mut lists =
+        vec![("/files".to_owned(), original.files.iter().map(|f| f.path.as_str()).collect())];
     for (at, carried) in original.files.iter().enumerate() {
         let side: Vec<&str> = carried.side_files.iter().map(String::as_str).collect();
         lists.push((format!("/files/{at}/side_files"), side));

@@ -33,10 +33,9 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
         let depth = depth.filter(|depth| *depth > resolution);
         let what = match fault {
             NotConvex::Nothing => "it has no face with an area".to_owned(),
-            NotConvex::Open(at) => format!(
-                "the edge at {} is not shared by two faces that are wound alike",
-                point(at)
-            ),
+            NotConvex::Open(at) => {
+                format!("the edge at {} is not shared by two faces that are wound alike", point(at))
+            }
             NotConvex::Inward => "its faces are oriented inward".to_owned(),
             NotConvex::Vertex(at, _) => match dents {
                 Some(dents) => in_words(&dents, depth),
@@ -71,10 +70,8 @@ fn in_words(dents: &Dents, depth: Option<f64>) -> String {
     };
     match depth {
         None => faces,
-        Some(depth) => format!(
-            "{faces}, the deepest dent is {:.3} mm, at {}",
-            1e3 * depth,
-            point(dents.place)
-        ),
+        Some(depth) => {
+            format!("{faces}, the deepest dent is {:.3} mm, at {}", 1e3 * depth, point(dents.place))
+        }
     }
 }

@@ -55,9 +55,5 @@ fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let corners = corners.into_iter().step_by(every);
     let (place, distance) = farthest(corners.map(|corner| (corner, polytope.outside(corner))))?;
     let tolerance = polytope.resolution;
-    (distance > tolerance).then_some(Farthest {
-        place,
-        distance,
-        tolerance,
-    })
+    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
 }

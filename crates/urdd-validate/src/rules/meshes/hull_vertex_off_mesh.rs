@@ -50,9 +50,5 @@ fn farthest_off(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let unknown = unknown.take(MAX_SEARCHED);
     let (place, distance) = farthest(unknown.map(|vertex| (vertex, nearest(mesh, vertex))))?;
     let tolerance = mesh_resolution(extent(mesh));
-    (distance > tolerance).then_some(Farthest {
-        place,
-        distance,
-        tolerance,
-    })
+    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
 }

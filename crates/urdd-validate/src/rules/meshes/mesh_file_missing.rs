@@ -75,9 +75,7 @@ fn named(
         return Vec::new();
     };
     let paths = meshes.paths();
-    paths
-        .map(|(_, mesh)| (meshes.profile, mesh.path.to_owned(), mesh.pointer.clone()))
-        .collect()
+    paths.map(|(_, mesh)| (meshes.profile, mesh.path.to_owned(), mesh.pointer.clone())).collect()
 }
 
 fn no_sibling(context: &Context, name: &str) -> String {

@@ -40,9 +40,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let pieces = meshes.of_link(link).enumerate();
             for (piece, path) in pieces.flat_map(|(i, mesh)| mesh.paths.iter().map(move |p| (i, p)))
             {
-                let expected = path
-                    .format
-                    .map(|format| expected_path(kind, format, &stem, piece));
+                let expected = path.format.map(|format| expected_path(kind, format, &stem, piece));
                 if let Some(expected) = expected.filter(|expected| path.path != expected) {
                     let label = context.link_label(link);
                     let message = format!("the file of {label} is not named after it");

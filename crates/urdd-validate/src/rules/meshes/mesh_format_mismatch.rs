@@ -97,10 +97,8 @@ fn counts(
             ModuleKind::ConvexDecompositionMeshes => "pieces",
             _ => "meshes",
         };
-        let all: Vec<String> = counts
-            .iter()
-            .map(|(key, count)| format!("{count} in `{key}`"))
-            .collect();
+        let all: Vec<String> =
+            counts.iter().map(|(key, count)| format!("{count} in `{key}`")).collect();
         let message = format!(
             "the formats of {} differ in {what}: {}",
             context.link_label(link),

@@ -13,10 +13,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let modules: Vec<_> = context.mesh_modules(DERIVED).collect();
-    let links = modules
-        .iter()
-        .map(|(_, _, meshes)| meshes.num_links())
-        .max();
+    let links = modules.iter().map(|(_, _, meshes)| meshes.num_links()).max();
     for link in 0..links.unwrap_or(0) {
         let (with, without): (Vec<_>, Vec<_>) =
             (modules.iter()).partition(|(_, _, meshes)| meshes.count(link) > 0);
@@ -25,11 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
         // Reported at the module that differs from the others; of two, at the one without a mesh.
         let odd_has = with.len() < without.len();
-        let (odd, others) = if odd_has {
-            (with, without)
-        } else {
-            (without, with)
-        };
+        let (odd, others) = if odd_has { (with, without) } else { (without, with) };
         let (_, module, meshes) = odd.first()?;
         let others: Vec<&str> = others.iter().map(|(kind, ..)| kind.name()).collect();
         let (label, others) = (context.link_label(link), others.join(" and "));

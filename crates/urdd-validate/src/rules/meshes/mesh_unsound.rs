@@ -42,9 +42,7 @@ fn fault(file: &DerivedFile, profile: Profile) -> Option<String> {
     match &file.fault {
         Some(MeshFault::Absent(_)) => return None,
         Some(MeshFault::TooLarge(size)) => {
-            return Some(format!(
-                "it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"
-            ));
+            return Some(format!("it is {size} bytes long; the limit is {MAX_DOCUMENT_BYTES}"));
         }
         Some(MeshFault::Broken(why)) => return Some(why.clone()),
         None => {}

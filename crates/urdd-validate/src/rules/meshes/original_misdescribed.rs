@@ -25,10 +25,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (usable, message) = match &read.mesh {
             Ok(_) => (true, format!("`{path}` can be read, and has a surface")),
             Err(MeshFault::Broken(why)) => (false, format!("`{path}` cannot be used: {why}")),
-            Err(MeshFault::TooLarge(size)) => (
-                false,
-                format!("`{path}` cannot be used: it is {size} bytes long"),
-            ),
+            Err(MeshFault::TooLarge(size)) => {
+                (false, format!("`{path}` cannot be used: it is {size} bytes long"))
+            }
             Err(MeshFault::Absent(_)) => continue,
         };
         if usable != listed.usable {

@@ -29,10 +29,7 @@ pub enum How {
 pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::ConvexDecompositionMeshes;
     let module = context.module(kind)?;
-    let part = |piece: &Derived| Part::Piece {
-        link: piece.link,
-        piece: piece.piece,
-    };
+    let part = |piece: &Derived| Part::Piece { link: piece.link, piece: piece.piece };
     let pieces: Vec<&Derived> = context
         .solids()
         .derived(kind)
@@ -118,10 +115,6 @@ fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<F
         let vertices = vertices.into_iter().step_by(every);
         let outside = vertices.map(|vertex| (vertex, polytope.outside(vertex)));
         let (place, distance) = farthest(outside)?;
-        Some(Farthest {
-            place,
-            distance,
-            tolerance: polytope.resolution,
-        })
+        Some(Farthest { place, distance, tolerance: polytope.resolution })
     })
 }

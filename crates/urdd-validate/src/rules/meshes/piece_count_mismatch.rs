@@ -34,9 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         counts: links.clone().map(|link| pieces.count(link)).collect(),
     }];
     for (_, module, document) in context.documents(LIST_MODULES) {
-        let of_pieces = entry_counts(document)
-            .into_iter()
-            .filter(|list| !list.kind.is_of_links());
+        let of_pieces = entry_counts(document).into_iter().filter(|list| !list.kind.is_of_links());
         lists.extend(of_pieces.map(|list| Counted {
             module,
             key: list.key,
@@ -44,9 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }));
     }
     for link in links {
-        let counts = lists
-            .iter()
-            .filter_map(|list| Some((*list.counts.get(link)?, list)));
+        let counts = lists.iter().filter_map(|list| Some((*list.counts.get(link)?, list)));
         // One finding per link, reported at the first list that differs from most lists.
         let usual = most_common(counts.clone().map(|(count, _)| count));
         let mut odd = counts.filter(|(count, _)| *count != usual);
@@ -75,9 +71,8 @@ fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
     for (place, number) in numbers.enumerate() {
         seen.entry(number).or_insert((0, place)).0 += 1;
     }
-    let best = seen
-        .into_iter()
-        .max_by_key(|(_, (times, place))| (*times, std::cmp::Reverse(*place)));
+    let best =
+        seen.into_iter().max_by_key(|(_, (times, place))| (*times, std::cmp::Reverse(*place)));
     best.map_or(0, |(number, _)| number)
 }
 

@@ -45,9 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let pieces = pieces_of(*link);
         let mut by = pieces.clone();
         by.push(Part::Plain(*link));
-        let judged = pieces
-            .iter()
-            .filter(|piece| judged(context, findings, **piece, &by));
+        let judged = pieces.iter().filter(|piece| judged(context, findings, **piece, &by));
         judged.count() == pieces.len()
     });
     let bare: Vec<Option<Farthest>> = links
@@ -58,10 +56,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let pieces = (0..meshes.count(*link)).map(|piece| solids.content(kind, *link, piece));
             let contents = std::iter::once(solids.content(ModuleKind::PlainMeshes, *link, 0));
             let contents: Option<Vec<usize>> = contents.chain(pieces).collect();
-            context
-                .memos()
-                .farthest
-                .get((Code::MSH022, contents?), compute)
+            context.memos().farthest.get((Code::MSH022, contents?), compute)
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
@@ -90,9 +85,8 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
     let solids = context.solids();
     let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
     let kind = ModuleKind::ConvexDecompositionMeshes;
-    let pieces: Option<Vec<Polytope>> = (0..pieces)
-        .map(|piece| Polytope::new(solids.sound(kind, link, piece)?))
-        .collect();
+    let pieces: Option<Vec<Polytope>> =
+        (0..pieces).map(|piece| Polytope::new(solids.sound(kind, link, piece)?)).collect();
     let pieces = pieces.filter(|pieces| !pieces.is_empty())?;
     let bounds = mesh.bounds()?;
     let diagonal = (Vector3::from(bounds.max) - Vector3::from(bounds.min)).norm();
@@ -107,11 +101,7 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
         let outside = pieces.iter().map(|piece| piece.outside(point));
         (point, outside.fold(f64::INFINITY, f64::min))
     }))?;
-    (distance > tolerance).then_some(Farthest {
-        place,
-        distance,
-        tolerance,
-    })
+    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
 }
 
 /// Points of a surface: corners and centroids of triangles.

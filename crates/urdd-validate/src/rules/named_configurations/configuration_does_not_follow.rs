@@ -24,9 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = &document!(context, Bounds)?.bounds;
     let known = indices(dof);
     // The bounds of a rotation vector contain 0.
-    let default = bounds
-        .iter()
-        .map(|[a, b]| 0.0_f64.clamp(a.min(*b), a.max(*b)));
+    let default = bounds.iter().map(|[a, b]| 0.0_f64.clamp(a.min(*b), a.max(*b)));
     let default: Vec<f64> = default.collect();
     for (place, configuration) in named.configurations.iter().enumerate() {
         let found = &configuration.configuration;

@@ -25,10 +25,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
     let module = context.module(kind)?;
     let [hulls, _, _, pieces, _, _] = max_distances(context.document(kind)?)?;
-    for (list, meshes) in [
-        (hulls, ModuleKind::ConvexHullMeshes),
-        (pieces, ModuleKind::ConvexDecompositionMeshes),
-    ] {
+    for (list, meshes) in
+        [(hulls, ModuleKind::ConvexHullMeshes), (pieces, ModuleKind::ConvexDecompositionMeshes)]
+    {
         for (link, piece, value) in list.entries() {
             let part = Part::of_shape(list.kind, link, piece);
             if !judged(context, findings, part, &[]) {

@@ -20,10 +20,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (link, piece, volume) in list.entries() {
             if let Some((field, expected, actual)) = fault(&volume) {
                 let pointer = format!("{}/{field}", list.pointer(link, piece));
-                let message = format!(
-                    "this cannot enclose a shape of {}",
-                    context.link_label(link)
-                );
+                let message =
+                    format!("this cannot enclose a shape of {}", context.link_label(link));
                 let finding = Finding::of(module, pointer, message);
                 findings.report(finding.expected(expected).actual(actual));
             }
@@ -42,11 +40,7 @@ fn fault(volume: &Volume) -> Option<(String, &'static str, String)> {
         Volume::Box { half_extents, .. } => {
             let mut axes = half_extents.iter().enumerate();
             if let Some((axis, half)) = axes.find(|(_, half)| **half < 0.0) {
-                return Some((
-                    format!("half_extents/{axis}"),
-                    "0 or more",
-                    half.to_string(),
-                ));
+                return Some((format!("half_extents/{axis}"), "0 or more", half.to_string()));
             }
             let expected = "at least one of three more than 0";
             let fault = || ("half_extents".to_owned(), expected, "[0, 0, 0]".to_owned());

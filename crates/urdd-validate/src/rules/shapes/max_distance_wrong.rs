@@ -28,14 +28,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
     let document = context.document(kind)?;
     let distances = max_distances(document)?;
-    let [
-        full_hulls,
-        full_box_values,
-        full_sphere_values,
-        pieces,
-        box_values,
-        sphere_values,
-    ] = &distances;
+    let [full_hulls, full_box_values, full_sphere_values, pieces, box_values, sphere_values] =
+        &distances;
     let volumes = approximations(context.document(ModuleKind::LinkShapesApproximations)?)?;
     let [full_boxes, full_spheres, boxes, spheres] = &volumes;
     let module = context.module(kind)?;
@@ -76,10 +70,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
     }
     // Hulls and pieces are inside their boxes and spheres.
-    for (values, around) in [
-        (full_hulls, [full_boxes, full_spheres]),
-        (pieces, [boxes, spheres]),
-    ] {
+    for (values, around) in [(full_hulls, [full_boxes, full_spheres]), (pieces, [boxes, spheres])] {
         for (link, piece, value) in values.entries() {
             let volumes = around.map(|list| entry(list, link, piece));
             let reaches = volumes.iter().flatten().map(Volume::reach);

@@ -27,10 +27,7 @@ pub fn report(
             let (meshes, solids) = (enclosure.kind.meshes(), context.solids());
             let content = solids.content(meshes, enclosure.link, enclosure.piece)?;
             let size = match enclosure.volume {
-                Volume::Box {
-                    half_extents: [x, y, z],
-                    ..
-                } => [x, y, z, 0.0],
+                Volume::Box { half_extents: [x, y, z], .. } => [x, y, z, 0.0],
                 Volume::Sphere { radius, .. } => [0.0, 0.0, 0.0, radius],
             };
             let key = (content, size.map(f64::to_bits));

@@ -28,11 +28,7 @@ fn ratio(enclosure: &Enclosure) -> Option<f64> {
         return None;
     };
     // A box around a flat hull has no thickness.
-    let thick = |half: [f64; 3]| {
-        half.map(|h| h + enclosure.tolerance)
-            .iter()
-            .product::<f64>()
-    };
+    let thick = |half: [f64; 3]| half.map(|h| h + enclosure.tolerance).iter().product::<f64>();
     // Most boxes are not too large, which is found quickly.
     let may_be = |hull: &ConvexHull| {
         let enough = 8.0 * thick(half_extents) / NEEDLESSLY_LARGE_BOX;

@@ -46,9 +46,7 @@ fn ratio(enclosure: &Enclosure) -> Option<f64> {
 /// smallest enclosing ball).
 fn exceeds(points: &[[f64; 3]], radius: f64) -> bool {
     const STEPS: usize = 32;
-    let mut mean = points
-        .first()
-        .map_or_else(Vector3::zeros, |p| Vector3::from(*p));
+    let mut mean = points.first().map_or_else(Vector3::zeros, |p| Vector3::from(*p));
     let mut variance = 0.0;
     for _ in 0..STEPS {
         let away = |p: &[f64; 3]| (Vector3::from(*p) - mean).norm_squared();

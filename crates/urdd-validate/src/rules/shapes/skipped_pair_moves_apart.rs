@@ -47,10 +47,7 @@ const WORK: u64 = 100_000_000;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // Without simple skips, the other module contains those that no edit is about, among others.
-    let modules = [
-        ModuleKind::LinkShapesSimpleSkips,
-        ModuleKind::LinkShapesSkips,
-    ];
+    let modules = [ModuleKind::LinkShapesSimpleSkips, ModuleKind::LinkShapesSkips];
     let (_, module, document) = context.documents(&modules).next()?;
     let shapes = context.shapes()?;
     let edited = edited(context, document).ok_or(SkipReason::EditsNotRecorded);
@@ -98,10 +95,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             let apart = CONTACT + tolerances.pair(i, j);
             let met = distances.iter().position(|distance| *distance <= CONTACT);
-            let farthest = distances
-                .iter()
-                .enumerate()
-                .max_by(|a, b| a.1.total_cmp(b.1));
+            let farthest = distances.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
             let farthest = farthest.filter(|(_, distance)| **distance > apart);
             if let Some((met, (parted, most))) = met.zip(farthest) {
                 fold.add(|| {

@@ -49,11 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if group(i) == group(j) && !pair.is_constant(tolerance) {
                 continue;
             }
-            let three = [
-                (pair.mean, right.mean),
-                (pair.min, right.min),
-                (pair.max, right.max),
-            ];
+            let three = [(pair.mean, right.mean), (pair.min, right.min), (pair.max, right.max)];
             let mut keyed = one.keys.into_iter().zip(three);
             let differs = |(actual, expected): (f64, f64)| (actual - expected).abs() > tolerance;
             let Some((key, (actual, expected))) = keyed.find(|(_, pair)| differs(*pair)) else {

@@ -51,10 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             );
             Finding::at(&file, pointer, message)
                 .expected("three positive principal moments")
-                .actual(format!(
-                    "link `{}`: every moment is 0 or missing",
-                    link.name
-                ))
+                .actual(format!("link `{}`: every moment is 0 or missing", link.name))
                 .report(findings);
         }
     }

@@ -78,9 +78,7 @@ fn found(link: &Link) -> String {
 }
 
 fn mass(link: &Link) -> f64 {
-    link.inertial
-        .and_then(|inertial| inertial.mass)
-        .unwrap_or(0.0)
+    link.inertial.and_then(|inertial| inertial.mass).unwrap_or(0.0)
 }
 
 /// What is wrong with the mass of a link alone, and what is expected.

@@ -37,10 +37,7 @@ mod tests {
     fn agrees_with_numpy() {
         // numpy.linalg.eigvalsh([[4, -.5, .3], [-.5, 5, .2], [.3, .2, 6]])
         let expected = [3.737_516_65, 5.201_588_51, 6.060_894_84];
-        for (moment, expected) in principal([4.0, -0.5, 0.3, 5.0, 0.2, 6.0])
-            .iter()
-            .zip(expected)
-        {
+        for (moment, expected) in principal([4.0, -0.5, 0.3, 5.0, 0.2, 6.0]).iter().zip(expected) {
             assert!((moment - expected).abs() < 1e-8, "{moment} {expected}");
         }
     }

@@ -21,10 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let reading = context.urdf_text()?;
     let lines = LineIndex::new(&carried.text);
     for again in &reading.repeated {
-        let (start, end) = (
-            lines.position(again.range.start),
-            lines.position(again.range.end),
-        );
+        let (start, end) = (lines.position(again.range.start), lines.position(again.range.end));
         let message = format!(
             "a second `<{}>` in a `<{}>`: only the first counts; remove one of them",
             again.element, again.parent

@@ -66,9 +66,7 @@ pub(super) fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
         if closes {
             // Starts are ascending, but a walk may enter a circle anywhere.
             let mut circle = vec![at];
-            while let Some(then) = circle
-                .last()
-                .and_then(|last| next.get(*last).copied().flatten())
+            while let Some(then) = circle.last().and_then(|last| next.get(*last).copied().flatten())
                 && then != at
             {
                 circle.push(then);
@@ -93,16 +91,7 @@ mod tests {
         assert_eq!(circles(&[None, Some(0), Some(1), Some(0)]), none);
         assert_eq!(circles(&[Some(0)]), [[0]]);
         assert_eq!(
-            circles(&[
-                Some(2),
-                None,
-                Some(3),
-                Some(2),
-                Some(6),
-                Some(4),
-                Some(5),
-                Some(9)
-            ]),
+            circles(&[Some(2), None, Some(3), Some(2), Some(6), Some(4), Some(5), Some(9)]),
             [vec![2, 3], vec![4, 6, 5]]
         );
     }

@@ -18,9 +18,8 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let file = context.robot_file()?;
-    let children: HashSet<usize> = (robot.joints.iter())
-        .filter_map(|joint| robot.link(&joint.child))
-        .collect();
+    let children: HashSet<usize> =
+        (robot.joints.iter()).filter_map(|joint| robot.link(&joint.child)).collect();
     let links = robot.links.iter().enumerate();
     let roots = links.filter(|(index, _)| !children.contains(index));
     let roots: Vec<&str> = roots.map(|(_, link)| link.name.as_str()).collect();

@@ -49,20 +49,11 @@ mod tests {
 
     #[test]
     fn each_value_belongs_to_one_part() {
-        for pointer in [
-            "/links",
-            "/joints",
-            "/links/3/name",
-            "/version",
-            "/joints/1/mimic/offset",
-        ] {
+        for pointer in ["/links", "/joints", "/links/3/name", "/version", "/joints/1/mimic/offset"]
+        {
             assert_eq!(Part::of(pointer), Part::Joints, "{pointer}");
         }
-        for pointer in [
-            "/materials",
-            "/materials/0/name",
-            "/links/3/visual/0/material",
-        ] {
+        for pointer in ["/materials", "/materials/0/name", "/links/3/visual/0/material"] {
             assert_eq!(Part::of(pointer), Part::Materials, "{pointer}");
         }
         for pointer in [
@@ -78,18 +69,10 @@ mod tests {
 
     #[test]
     fn an_origin_is_one_place() {
-        for pointer in [
-            "/links/3/collision/0/origin",
-            "/links/3/collision/0/origin/xyz/2",
-        ] {
+        for pointer in ["/links/3/collision/0/origin", "/links/3/collision/0/origin/xyz/2"] {
             assert_eq!(element_part(pointer), Some("/links/3/collision/0/origin"));
         }
-        for pointer in [
-            "/links/3/inertial/origin/xyz",
-            "/joints/3/origin",
-            "/links",
-            "",
-        ] {
+        for pointer in ["/links/3/inertial/origin/xyz", "/joints/3/origin", "/links", ""] {
             assert_eq!(element_part(pointer), None, "{pointer}");
         }
     }

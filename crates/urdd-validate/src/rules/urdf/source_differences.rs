@@ -45,9 +45,7 @@ pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> 
         }
         let line = reading
             .position(&lines, &found.source)
-            .map_or(String::new(), |place| {
-                format!(" ({}, line {})", carried.path, place.line)
-            });
+            .map_or(String::new(), |place| format!(" ({}, line {})", carried.path, place.line));
         let mut finding = Finding::of(module, found.pointer, words)
             .expected(format!("{}{line}", excerpt(&found.expected)))
             .actual(excerpt(&found.actual));
@@ -90,13 +88,7 @@ fn lost(reading: &Reading, source: &str) -> String {
 
 fn message(difference: &Difference) -> String {
     match (difference, &difference.expected, &difference.actual) {
-        (
-            Difference {
-                list: Some(how), ..
-            },
-            _,
-            _,
-        ) => {
+        (Difference { list: Some(how), .. }, _, _) => {
             format!("the list is not the URDF's ({how}); write the module again from the URDF")
         }
         (_, Value::Null, _) => "the URDF has no value here: write null, not a default".to_owned(),
@@ -112,9 +104,7 @@ mod tests {
 
     #[test]
     fn zeros_and_nulls_say_nothing() {
-        assert!(is_nothing(
-            &json!({"xyz": [0.0, -0.0], "rpy": null, "name": ""})
-        ));
+        assert!(is_nothing(&json!({"xyz": [0.0, -0.0], "rpy": null, "name": ""})));
         assert!(!is_nothing(&json!({"xyz": [0.0, 1e-9]})));
     }
 }

@@ -15,11 +15,8 @@ declare_rule! {
 }
 
 /// Faults that end the reading: what the YAML then lacks follows from them.
-const UNREAD: &[TextFaultKind] = &[
-    TextFaultKind::YamlSyntax,
-    TextFaultKind::YamlNotUtf8,
-    TextFaultKind::YamlTooDeep,
-];
+const UNREAD: &[TextFaultKind] =
+    &[TextFaultKind::YamlSyntax, TextFaultKind::YamlNotUtf8, TextFaultKind::YamlTooDeep];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings)
