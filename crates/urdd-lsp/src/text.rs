@@ -73,15 +73,17 @@ pub struct Text {
     text: String,
     starts: Vec<usize>,
     encoding: Encoding,
-    /// Units before each block of the text: a whole file may be one line.
-    before_block: OnceLock<Vec<usize>>,
+    /// Units before each block of the text, and scalar values: a whole file may be one line.
+    units: OnceLock<Vec<usize>>,
+    scalars: OnceLock<Vec<usize>>,
 }
 
 impl Text {
     /// A text as an editor sent it.
     pub fn new(text: String, encoding: Encoding) -> Self {
         let starts = std::iter::once(0).chain(line_starts(&text, 0));
-        Text { starts: starts.collect(), text, encoding, before_block: OnceLock::new() }
+        let starts = starts.collect();
+        Text { starts, text, encoding, units: OnceLock::new(), scalars: OnceLock::new() }
     }
 
     /// All of it.
@@ -108,16 +110,8 @@ impl Text {
         let Some(&start) = self.starts.get(line) else {
             return self.text.len();
         };
-        let content = self.line(line);
-        let mut left = position.character as usize;
-        for (at, c) in content.char_indices() {
-            let units = self.encoding.units(c);
-            if left < units {
-                return start + at;
-            }
-            left -= units;
-        }
-        start + content.len()
+        let end = start + self.line(line).len();
+        self.behind(start..end, position.character as usize, self.encoding)
     }
 
     /// The editor's position of a byte offset. Offsets inside of a character, or beyond the text, give what is before.
@@ -132,22 +126,48 @@ impl Text {
         let offset = offset.min(start + self.line(line).len());
         Position {
             line: count(line),
-            character: count(self.units_before(offset) - self.units_before(start)),
+            character: count(
+                self.units_before(offset, self.encoding) - self.units_before(start, self.encoding),
+            ),
         }
     }
 
-    /// The units before a byte offset.
-    fn units_before(&self, offset: usize) -> usize {
-        let bytes = self.text.as_bytes();
-        let before_block = self.before_block.get_or_init(|| {
-            let blocks = bytes.chunks(BLOCK).scan(0, |before, block| {
-                *before += self.encoding.units_in(block);
+    /// The units before each block.
+    fn before_blocks(&self, encoding: Encoding) -> &[usize] {
+        let all = if encoding == self.encoding { &self.units } else { &self.scalars };
+        all.get_or_init(|| {
+            let blocks = self.text.as_bytes().chunks(BLOCK).scan(0, |before, block| {
+                *before += encoding.units_in(block);
                 Some(*before)
             });
             std::iter::once(0).chain(blocks).collect()
-        });
+        })
+    }
+
+    /// The units before a byte offset.
+    fn units_before(&self, offset: usize, encoding: Encoding) -> usize {
         let block = offset / BLOCK;
-        before_block[block] + self.encoding.units_in(&bytes[block * BLOCK..offset])
+        let rest = &self.text.as_bytes()[block * BLOCK..offset];
+        self.before_blocks(encoding)[block] + encoding.units_in(rest)
+    }
+
+    /// The byte offset behind a number of units of a part of the text, or its end. Half a character is not counted.
+    fn behind(&self, part: Range<usize>, units: usize, encoding: Encoding) -> usize {
+        let wanted = self.units_before(part.start, encoding).saturating_add(units);
+        let block = self.before_blocks(encoding).partition_point(|&before| before <= wanted) - 1;
+        // A character of UTF-8 that reaches into this block may be half counted: from where it begins.
+        let mut from = (block * BLOCK).clamp(part.start, part.end);
+        while !self.text.is_char_boundary(from) {
+            from -= 1;
+        }
+        let mut passed = self.units_before(from, encoding);
+        for (at, c) in self.text[from..part.end].char_indices() {
+            passed += encoding.units(c);
+            if passed > wanted {
+                return from + at;
+            }
+        }
+        part.end
     }
 
     /// The editor's range of a range of bytes.
@@ -163,10 +183,8 @@ impl Text {
         };
         let start = start.max(if line == 0 { self.content_start() } else { 0 });
         let end = self.starts[line] + self.line(line).len();
-        let content = self.text.get(start..end).unwrap_or_default();
         let column = (column as usize).saturating_sub(1);
-        let within = content.char_indices().nth(column);
-        start + within.map_or(content.len(), |(at, _)| at)
+        self.behind(start.min(end)..end, column, Encoding::Utf32)
     }
 
     /// The offset of the end of the line of an offset, without what ends it.
@@ -192,7 +210,7 @@ impl Text {
         let start = self.offset(range.start);
         let end = self.offset(range.end).max(start);
         self.text.replace_range(start..end, &change.text);
-        self.before_block = OnceLock::new();
+        (self.units, self.scalars) = (OnceLock::new(), OnceLock::new());
         // Lines are found anew from the line before the change, whose end may be half of `\r\n`, to behind it.
         let first = self.starts.partition_point(|&start_of| start_of < start);
         let first = first.saturating_sub(1);
@@ -262,8 +280,13 @@ mod tests {
         for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
             let mut text = Text::new(format!("\n{line}"), encoding);
             let mut units = 0;
-            for (offset, c) in line.char_indices() {
+            for (column, (offset, c)) in line.char_indices().enumerate() {
                 assert_eq!(text.position(offset + 1), at(1, units));
+                // A fifth of them, at each kind of character.
+                if column % 5 == 0 {
+                    assert_eq!(text.offset(at(1, units)), offset + 1);
+                    assert_eq!(text.reported(2, column as u32 + 1), offset + 1);
+                }
                 units += encoding.units(c) as u32;
             }
             // A change is counted too.

@@ -1,6 +1,7 @@
 //! Texts that nobody wrote on purpose.
 
 use serde_json::{Value, json};
+use testkit::trials::sample;
 
 use crate::client::{ARM, Client, position, robot_folder};
 
@@ -26,7 +27,8 @@ fn every_beginning_and_every_text_without_a_character_is_answered() {
     let mut version = 1;
     for uri in ["untitled:a", "file:///nowhere/a.xacro"] {
         client.open(uri, SMALL);
-        for (at, c) in SMALL.char_indices() {
+        // A fifth of them, and all in `.ci/run`.
+        for (at, c) in sample(SMALL.char_indices(), 5) {
             let behind = at + c.len_utf8();
             let without = format!("{}{}", &SMALL[..at], &SMALL[behind..]);
             for (text, offset) in [(&SMALL[..behind], behind), (&without, at)] {
