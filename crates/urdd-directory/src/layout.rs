@@ -17,18 +17,3 @@ pub fn is_staging(name: &str) -> bool {
     };
     name.starts_with(STAGING_PREFIX) || of_0_1_0().unwrap_or(false)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn staging_folders_are_known_by_name() {
-        for name in [".urdd-0123456789abcdef", ".ur5.urdd-4711-0", ".a.urdd-1-2.urdd-3-4"] {
-            assert!(is_staging(name), "{name}");
-        }
-        for name in ["ur5", ".ur5", "ur5.urdd-1-2", ".ur5.urdd-1", ".ur5.urdd-a-b", ".git"] {
-            assert!(!is_staging(name), "{name}");
-        }
-    }
-}

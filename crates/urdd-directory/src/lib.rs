@@ -31,7 +31,7 @@ pub mod root;
 pub mod schema_files;
 pub mod source;
 pub mod staging;
-mod string_text;
+pub mod string_text;
 pub mod take;
 pub mod target_lock;
 pub mod text_fault;

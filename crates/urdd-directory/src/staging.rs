@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 #[path = "staging_inside.rs"]
-mod inside;
+#[doc(hidden)]
+pub mod inside;
 
 use super::target_lock::{LockError, TargetLock, beside};
 use crate::cancellation::Cancellation;

@@ -3,7 +3,8 @@
 mod archive;
 mod disk;
 mod memory;
-mod tree;
+#[doc(hidden)]
+pub mod tree;
 mod zip_list;
 
 use std::fmt;

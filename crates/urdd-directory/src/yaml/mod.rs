@@ -8,7 +8,7 @@ mod open;
 pub mod scalar;
 mod tabs;
 mod tag;
-mod transcript;
+pub mod transcript;
 
 use std::fmt;
 
