@@ -19,7 +19,7 @@ pub fn unit(k: u64, i: u64) -> f64 {
 }
 
 /// Output `k * 2^32 + i` of SplitMix64 with seed 0, counted from 0.
-fn bits(k: u64, i: u64) -> u64 {
+pub fn bits(k: u64, i: u64) -> u64 {
     let count = (k << 32).wrapping_add(i).wrapping_add(1);
     let mut z = count.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -157,26 +157,4 @@ impl ConfigurationSpace {
 
 fn between([lower, upper]: [f64; 2], u: f64) -> f64 {
     lower * (1.0 - u) + upper * u
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The first outputs of SplitMix64 with seed 0, as published with the generator.
-    const PUBLISHED: [u64; 3] =
-        [0xE220_A839_7B1D_CDAF, 0x6E78_9E6A_A1B9_65F4, 0x06C4_5D18_8009_454F];
-
-    #[test]
-    fn is_splitmix64() {
-        for (i, published) in (0..).zip(PUBLISHED) {
-            assert_eq!(bits(0, i), published);
-        }
-    }
-
-    #[test]
-    fn sample_k_goes_on_where_the_generator_is_after_k_times_2_to_the_32() {
-        assert_eq!(bits(3, 5), bits(0, (3 << 32) + 5));
-        assert_eq!(bits(1 << 32, 5), bits(0, 5), "wraps at 64 bits");
-    }
 }

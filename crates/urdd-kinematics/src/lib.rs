@@ -6,7 +6,8 @@
 //! configurations that the specification defines. [`inverse`] computes a configuration from a pose.
 
 mod branch;
-mod configurations;
+#[doc(hidden)]
+pub mod configurations;
 mod error;
 mod forward;
 pub mod inverse;

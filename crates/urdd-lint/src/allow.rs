@@ -98,7 +98,7 @@ fn allows(document: &Document) -> Vec<Allow> {
 }
 
 /// The codes that a comment allows; `None` if it is another comment.
-fn codes_of(text: &str) -> Option<Vec<&str>> {
+pub fn codes_of(text: &str) -> Option<Vec<&str>> {
     let listed = text.trim().strip_prefix("urdd:")?.trim_start().strip_prefix("allow")?;
     let mut codes = Vec::new();
     let mut rest = listed.strip_prefix(char::is_whitespace)?.trim_start();
@@ -112,19 +112,5 @@ fn codes_of(text: &str) -> Option<Vec<&str>> {
             Some(next) if !code.is_empty() => rest = next.trim_start(),
             _ => return Some(codes),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn codes_stand_before_the_reason() {
-        assert_eq!(codes_of(" urdd: allow LNT001 SRC, really "), Some(vec!["LNT001"]));
-        assert_eq!(codes_of("urdd:allow LNT001 , SRC: see #3, #4"), Some(vec!["LNT001", "SRC"]));
-        assert_eq!(codes_of(" urdd: allow "), None);
-        assert_eq!(codes_of(" urdd: allowance "), None);
-        assert_eq!(codes_of(" a comment about urdd: allow LNT001 "), None);
     }
 }

@@ -4,7 +4,8 @@
 //! source. The rules are about robots, not about URDDs: they are described in docs/lint.md, and may change with every
 //! version. [`lint`] examines files, [`lint_text`] a text that an editor holds.
 
-mod allow;
+#[doc(hidden)]
+pub mod allow;
 mod baseline;
 mod bodies;
 mod consequences;
@@ -12,8 +13,10 @@ mod elements;
 mod examine;
 mod fix;
 mod geometry;
-mod hull;
-mod inertial;
+#[doc(hidden)]
+pub mod hull;
+#[doc(hidden)]
+pub mod inertial;
 mod named_file;
 mod offset;
 mod pose;
@@ -28,7 +31,8 @@ mod target;
 mod textures;
 mod unknown;
 pub mod vocabulary;
-mod written;
+#[doc(hidden)]
+pub mod written;
 
 pub use baseline::{Baseline, BaselineError, BaselineFileError, BaselineFileFault};
 pub use fix::{ChangedError, Mended, mend};

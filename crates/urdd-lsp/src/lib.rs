@@ -20,9 +20,11 @@ mod hover;
 mod includes;
 mod kept;
 mod kind;
-mod markup;
+#[doc(hidden)]
+pub mod markup;
 mod mesh_hover;
-mod options;
+#[doc(hidden)]
+pub mod options;
 mod outline;
 mod parent;
 mod pool;
@@ -32,10 +34,13 @@ mod robot;
 mod server;
 mod shown;
 mod symbols;
-mod text;
+#[doc(hidden)]
+pub mod text;
 mod transport;
-mod urdd_documents;
-mod uri;
+#[doc(hidden)]
+pub mod urdd_documents;
+#[doc(hidden)]
+pub mod uri;
 mod vocabulary;
 mod xacro;
 

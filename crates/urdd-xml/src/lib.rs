@@ -42,6 +42,3 @@ pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     };
     Document::parse_with_options(text, options).map_err(XmlError::Parser)
 }
-
-#[cfg(test)]
-mod tests;

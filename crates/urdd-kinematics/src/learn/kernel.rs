@@ -35,7 +35,7 @@ const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// The hyperbolic tangent, within 4e-16: 1 - 2 / (e^2x + 1), without a branch.
 #[inline(always)]
-pub(super) fn tanh(x: f64) -> f64 {
+pub fn tanh(x: f64) -> f64 {
     // For |x| >= 20, tanh is 1 in full precision.
     let y = 2.0 * x.clamp(-20.0, 20.0);
     let shifted = y * std::f64::consts::LOG2_E + TO_INTEGER;
@@ -70,23 +70,5 @@ pub(super) fn dense(weights: &[f64], biases: &[f64], inputs: &[Lanes], outputs: 
 pub(super) fn tanh_all(values: &mut [Lanes]) {
     for value in values.as_flattened_mut() {
         *value = tanh(*value);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tanh_is_that_of_libm() {
-        let mut worst: f64 = 0.0;
-        for i in -200_000..=200_000 {
-            let x = f64::from(i) * 1.3e-4;
-            worst = worst.max((tanh(x) - libm::tanh(x)).abs());
-        }
-        assert!(worst < 4e-16, "{worst:e}");
-        assert_eq!(tanh(f64::MAX), 1.0);
-        assert_eq!(tanh(-1e9), -1.0);
-        assert_eq!(tanh(0.0), 0.0);
     }
 }

@@ -7,6 +7,8 @@
 mod closed_forms;
 mod configurations;
 mod faults;
+mod learn_kernel;
 mod naive_kinematics;
 mod properties;
 mod rotations;
+mod split_mix;

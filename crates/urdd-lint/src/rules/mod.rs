@@ -13,7 +13,8 @@ mod color_out_of_range;
 mod continuous_with_limits;
 mod gazebo_reference_unknown;
 mod heavy_collision_mesh;
-mod inertia_beyond_geometry;
+#[doc(hidden)]
+pub mod inertia_beyond_geometry;
 mod inertia_far_below_geometry;
 mod inertial_incomplete;
 mod letter_case;

@@ -4,12 +4,17 @@
 #![allow(clippy::restriction)]
 
 mod allow;
+mod allowed_codes;
 mod baseline;
 mod cases;
 mod consequences;
 mod fix;
+mod hull;
+mod rules_inertia_beyond_geometry;
 mod severities;
 mod skips;
+mod vocabulary;
+mod written;
 
 use std::fs;
 use std::path::Path;

@@ -2,9 +2,11 @@
 //! begins.
 
 mod element;
-mod place;
+#[doc(hidden)]
+pub mod place;
 mod scan;
-mod tree;
+#[doc(hidden)]
+pub mod tree;
 
 pub use place::Place;
 pub use tree::{Markup, escaped, unescaped};

@@ -3,7 +3,8 @@
 mod check;
 mod hover;
 mod schema;
-mod yaml;
+#[doc(hidden)]
+pub mod yaml;
 
 pub use check::check;
 pub use hover::hover;

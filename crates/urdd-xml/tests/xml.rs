@@ -1,6 +1,9 @@
 //! Tests of the limits and of the error messages.
 
-use super::*;
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+use urdd_xml::*;
 
 fn attributes(count: usize) -> String {
     (0..count).map(|n| format!(" a{n}=\"=\"")).collect()

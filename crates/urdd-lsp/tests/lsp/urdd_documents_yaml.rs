@@ -1,0 +1,37 @@
+//! YAML as a value, with the place of each part.
+
+use serde_json::json;
+
+use urdd_lsp::urdd_documents::yaml::*;
+
+#[test]
+fn each_part_has_its_value_and_its_place() {
+    let text = "a: 1\nb:\n  - x\n  - {c: null, d: [2.5, \"é\"]}\n\"e/f\": {}\n";
+    let yaml = read(text).expect("YAML");
+    assert_eq!(yaml.value, json!({"a": 1, "b": ["x", {"c": null, "d": [2.5, "é"]}], "e/f": {}}));
+    for (what, pointer) in [
+        ("a", "/a"),
+        ("1", "/a"),
+        ("b:", "/b"),
+        ("x", "/b/0"),
+        ("c:", "/b/1/c"),
+        ("null", "/b/1/c"),
+        ("2.5", "/b/1/d/0"),
+        ("\"é", "/b/1/d/1"),
+        ("\"e/f", "/e~1f"),
+    ] {
+        let offset = text.find(what).unwrap();
+        assert_eq!(yaml.pointer_at(offset), Some(pointer), "{what}");
+    }
+    assert_eq!(yaml.range("/b/1/d/0").map(|range| &text[range]), Some("2.5"));
+}
+
+#[test]
+fn what_is_no_json_is_not_read() {
+    for text in ["", "a: &x 1\nb: *x", "? [1]\n: 2", "a: .nan", "a: [", "- 1\nb"] {
+        assert!(read(text).is_none(), "{text}");
+    }
+    for (end, _) in "a:\n - {b: [1, 'x']}\n - |\n  é\n".char_indices() {
+        let _ = read(&"a:\n - {b: [1, 'x']}\n - |\n  é\n"[..end]);
+    }
+}
