@@ -32,33 +32,46 @@
 mod carried;
 mod contacts;
 mod drake;
-mod element;
-mod error;
-mod format;
+#[doc(hidden)]
+pub mod element;
+#[doc(hidden)]
+pub mod error;
+#[doc(hidden)]
+pub mod format;
 mod groups;
 mod joints;
 mod meshes;
-mod mjcf;
+#[doc(hidden)]
+pub mod mjcf;
 mod moveit;
-mod names;
+#[doc(hidden)]
+pub mod names;
 mod nested;
-mod numbers;
-mod options;
+#[doc(hidden)]
+pub mod numbers;
+#[doc(hidden)]
+pub mod options;
 mod output;
-mod pairs;
+#[doc(hidden)]
+pub mod pairs;
 mod sdf;
-mod setup;
-mod simplify;
-mod spheres;
+#[doc(hidden)]
+pub mod setup;
+#[doc(hidden)]
+pub mod simplify;
+#[doc(hidden)]
+pub mod spheres;
 mod srdf;
 mod srdf_import;
-mod srdf_merge;
+#[doc(hidden)]
+pub mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
 mod urdf;
 mod urdf_elements;
-mod yaml;
+#[doc(hidden)]
+pub mod yaml;
 
 use urdd_robot::Robot;
 

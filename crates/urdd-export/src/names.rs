@@ -10,7 +10,7 @@ use urdd_format::escape;
 use urdd_xml::is_character;
 
 /// Maximum length of a link name within a file name.
-const LONGEST: usize = 80;
+pub const LONGEST: usize = 80;
 
 /// Maximum length of a YAML key on one line.
 const MAX_KEY: usize = 1024;
@@ -48,7 +48,7 @@ pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), Ex
 }
 
 /// An error if generated names duplicate each other or a name of the robot.
-pub(super) fn check_unique<'n>(
+pub fn check_unique<'n>(
     format: Format,
     what: &'static str,
     names: impl IntoIterator<Item = &'n str>,
@@ -88,7 +88,7 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
 
 const TWICE: &str = "the format needs it for a part of a joint of several DOFs too, or for a frame";
 
-fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
+pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
@@ -127,7 +127,7 @@ fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -
 
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.
 #[derive(Debug, Default)]
-pub(super) struct FileNames {
+pub struct FileNames {
     taken: HashSet<String>,
 }
 
@@ -149,40 +149,5 @@ impl FileNames {
             number += 1;
         }
         name
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_of_files_are_safe_and_differ() {
-        let mut names = FileNames::default();
-        assert_eq!(names.of("../a b"), "_.._a_b");
-        assert_eq!(names.of("Arm"), "Arm");
-        assert_eq!(names.of("arm"), "arm-2");
-        assert_eq!(names.of("arm"), "arm-3");
-        assert_eq!(names.of(""), "_");
-        assert!(names.of(&"x".repeat(500)).len() <= LONGEST);
-    }
-
-    #[test]
-    fn a_name_that_a_format_cannot_hold_is_an_error() {
-        let of = |format, what, name: &str| one(format, what, name).is_ok();
-        assert!(of(Format::Srdf, "link", "a<b>\"&'\n\t\r\u{7f}\u{85}\u{202e}"));
-        for name in ["\0", "a\u{1b}", "\u{fffe}", "\u{ffff}"] {
-            assert!(!of(Format::Srdf, "link", name));
-            assert!(of(Format::Curobo, "link", name));
-        }
-        assert!(of(Format::Curobo, "link", &"x".repeat(1022)));
-        assert!(!of(Format::Curobo, "link", &"x".repeat(1023)));
-        assert!(of(Format::Foam, "link", &"x".repeat(100_000)));
-        assert!(!of(Format::Urdf, "joint", ""));
-        assert!(of(Format::Urdf, "robot", ""));
-        assert!(!of(Format::Drake, "robot", ""));
-        assert!(!of(Format::Drake, "link", "a::b"));
-        assert!(check_unique(Format::Mjcf, "joint", ["a", "b"]).is_ok());
-        assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"]).is_err());
     }
 }

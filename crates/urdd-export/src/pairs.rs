@@ -174,7 +174,7 @@ fn mixed(seen: &[Seen]) -> Option<MixedPair> {
 }
 
 /// The reason of two links, combined from those of their shapes.
-fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipReason> {
+pub fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipReason> {
     let reasons: Vec<SkipReason> = reasons.collect::<Option<_>>()?;
     let first = [SkipReason::Always, SkipReason::Adjacent, SkipReason::Default];
     let first = first.into_iter().find(|reason| reasons.contains(reason));
@@ -184,21 +184,4 @@ fn together(reasons: impl Iterator<Item = Option<SkipReason>>) -> Option<SkipRea
         None if never() => SkipReason::Never,
         None => SkipReason::None,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use SkipReason::{Adjacent, Always, Default as Resting, Never, None as Sometimes};
-
-    #[test]
-    fn a_pair_of_links_is_what_its_shapes_make_it() {
-        let of = |reasons: &[SkipReason]| together(reasons.iter().copied().map(Some));
-        assert_eq!(of(&[Never, Never]), Some(Never));
-        assert_eq!(of(&[Never, Sometimes]), Some(Sometimes));
-        assert_eq!(of(&[Never, Resting, Sometimes]), Some(Resting));
-        assert_eq!(of(&[Adjacent, Always]), Some(Always));
-        assert_eq!(of(&[Adjacent, Adjacent]), Some(Adjacent));
-        assert_eq!(together([Some(Never), None].into_iter()), None);
-    }
 }

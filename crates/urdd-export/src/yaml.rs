@@ -7,7 +7,7 @@ use urdd_format::escape;
 
 /// A value.
 #[derive(Debug, Clone)]
-pub(super) enum Yaml {
+pub enum Yaml {
     /// A value on one line, already in YAML.
     Plain(String),
     /// Keys, already in YAML, and their values.
@@ -118,7 +118,7 @@ pub(super) fn named<'n>(names: impl IntoIterator<Item = (&'n str, Yaml)>) -> Vec
 }
 
 /// A number with a decimal point, and a sign in its exponent: without them, YAML 1.1 (PyYAML) reads a text.
-pub(super) fn real(value: f64) -> String {
+pub fn real(value: f64) -> String {
     let text = number(value);
     let (digits, exponent) = match text.split_once('e') {
         Some((digits, exponent)) if exponent.starts_with('-') => (digits, format!("e{exponent}")),
@@ -141,35 +141,4 @@ pub(super) fn quoted(name: &str) -> String {
         }
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tree_reads_back() {
-        let sphere = Yaml::map([
-            ("center", Yaml::numbers(&[0.0, 1e-9, -2.5])),
-            ("radius", Yaml::number(3.0)),
-        ]);
-        let tree = Yaml::map([
-            ("empty", Yaml::EMPTY),
-            ("none", Yaml::List(Vec::new())),
-            ("number", Yaml::number(1e-9)),
-            ("names", Yaml::texts(["a: b", "\u{202e}- c"])),
-            ("spheres", Yaml::named([("link: 1", Yaml::List(vec![sphere.clone(), sphere]))])),
-        ]);
-        assert_eq!([-0.0, 1e-9, 1e300, 2.5].map(real).join(" "), "0.0 1.0e-9 1.0e+300 2.5");
-        let text = tree.document(&["two\nlines".to_owned()]);
-        let read: serde_json::Value = serde_yaml::from_str(&text).expect("YAML");
-        let sphere = serde_json::json!({"center": [0.0, 1e-9, -2.5], "radius": 3.0});
-
-        assert_eq!(read["empty"], serde_json::json!({}));
-        assert_eq!(read["none"], serde_json::json!([]));
-        assert_eq!(read["number"], serde_json::json!(1e-9));
-        assert_eq!(read["names"], serde_json::json!(["a: b", "\u{202e}- c"]));
-        assert_eq!(read["spheres"]["link: 1"], serde_json::json!([sphere, sphere]));
-        assert!(text.starts_with("# two\\nlines\n"), "{text}");
-    }
 }

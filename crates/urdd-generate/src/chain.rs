@@ -10,7 +10,7 @@ use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation::unit_axis;
 
 /// Builds the module.
-pub(super) fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
+pub fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
     let mut links: Vec<LinkInChain> = (0..)
         .zip(&robot.links)
         .map(|(idx, link)| LinkInChain {

@@ -21,13 +21,16 @@
 pub mod batch;
 mod bounded;
 mod bounds;
-mod chain;
+#[doc(hidden)]
+pub mod chain;
 pub mod combine;
 mod composed;
-mod connections;
+#[doc(hidden)]
+pub mod connections;
 mod context;
 mod cycles;
-mod distinct;
+#[doc(hidden)]
+pub mod distinct;
 mod dof;
 mod donor;
 mod error;
@@ -37,29 +40,35 @@ mod kinematics_samples;
 mod learned;
 mod made;
 mod mesh_stages;
-mod meshes;
+#[doc(hidden)]
+pub mod meshes;
 mod metadata;
 mod modules;
 mod named;
 mod named_configurations;
 pub mod note;
-mod pose;
+#[doc(hidden)]
+pub mod pose;
 #[doc(hidden)]
 pub mod process;
 mod product;
 mod progress;
 mod robot;
 mod selection;
-mod settings;
-mod shape_documents;
+#[doc(hidden)]
+pub mod settings;
+#[doc(hidden)]
+pub mod shape_documents;
 mod shape_stages;
-mod shapes;
+#[doc(hidden)]
+pub mod shapes;
 mod size;
 mod source;
 mod source_meshes;
 mod stages;
 pub mod train;
-mod urdf;
+#[doc(hidden)]
+pub mod urdf;
 
 pub use bounded::MAX_SOURCE_BYTES;
 pub(crate) use composed::Composed;

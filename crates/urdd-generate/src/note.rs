@@ -117,10 +117,13 @@ impl fmt::Display for Note {
 
 /// A note from a reader, at a byte offset of the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Remark {
+pub struct Remark {
+    /// Its kind.
     pub kind: NoteKind,
     /// Byte offset in the text.
     pub offset: usize,
+    /// What is wrong.
     pub problem: String,
+    /// What is read instead.
     pub assumed: String,
 }

@@ -22,22 +22,22 @@ const ASSUMED_INERTIA: f64 = 1e-9;
 /// Rounding tolerance of moments, relative to the largest.
 const ROUNDING: f64 = 1e-9;
 
-const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
-const INDEFINITE: &str = "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0";
-const TRIANGLE: &str = "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)";
+pub const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
+pub const INDEFINITE: &str = "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0";
+pub const TRIANGLE: &str = "a principal moment of inertia is more than the other two together, which MuJoCo refuses; MuJoCo takes their mean about each axis (balanceinertia)";
 const NO_INERTIA: &str = "it moves, and MuJoCo refuses a moment of inertia of 0; the mass stays, and 1e-9 kg m² are assumed where it is less";
 const NO_MASS: &str =
     "it moves without mass, which MuJoCo refuses; 1e-9 kg and 1e-9 kg m² are assumed";
 
 /// The mass and inertia of a body.
 #[derive(Debug, Clone, PartialEq)]
-struct Mass {
-    mass: f64,
+pub struct Mass {
+    pub mass: f64,
     centre: [f64; 3],
     /// Principal moments of inertia, kg m².
-    moments: Vector3<f64>,
+    pub moments: Vector3<f64>,
     /// The principal axes, in the link's frame.
-    axes: Rotation3<f64>,
+    pub axes: Rotation3<f64>,
     /// xx, yy, zz, xy, xz, yz in the link's frame, if these are equivalent and MuJoCo accepts them.
     full: Option<[f64; 6]>,
 }
@@ -80,7 +80,7 @@ pub(super) fn inertials(subject: &Subject, notes: &mut Vec<Note>) -> (Vec<Option
 }
 
 /// The mass that MuJoCo uses for a link, and in `said` how it differs from the URDF.
-fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
+pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass> {
     let given = inertial.mass.unwrap_or(0.0);
     if given < 0.0 {
         *said = Some(NEGATIVE);
@@ -133,12 +133,12 @@ impl Mass {
     };
 
     /// Whether MuJoCo accepts it for a moving body.
-    fn is_enough(&self) -> bool {
+    pub fn is_enough(&self) -> bool {
         self.mass > MIN_VALUE && self.moments.min() > MIN_VALUE
     }
 
     /// Raises mass and moments to what a moving body needs.
-    fn raise(&mut self) {
+    pub fn raise(&mut self) {
         if self.mass <= MIN_VALUE {
             self.mass = ASSUMED_MASS;
         }
@@ -157,47 +157,5 @@ impl Mass {
         element
             .with("quat", numbers(&[q.w, q.i, q.j, q.k]))
             .with("diaginertia", numbers(self.moments.as_slice()))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_document::robot::Origin;
-
-    fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<&'static str>) {
-        let mut said = None;
-        let inertial = Inertial {
-            origin: Origin { rpy: [0.3, -0.2, 0.9], ..Origin::default() },
-            mass: Some(mass),
-            inertia: Some([xx, 0.0, 0.0, yy, 0.0, zz]),
-        };
-        (super::mass(&inertial, &mut said), said)
-    }
-
-    #[test]
-    fn the_mass_stays_whatever_the_inertia() {
-        for (moments, enough, note) in [
-            ([1.0, 1.0, 2.0], true, None),
-            ([1.0, 1.0, 1.5], true, None),
-            ([0.0, 0.0, 0.0], false, None),
-            ([0.0, 2.0, 2.0], false, None),
-            ([1.0, 1.0, 2.1], true, Some(TRIANGLE)),
-            ([1.0, 1.0, -1.0], false, Some(INDEFINITE)),
-        ] {
-            let (mass, said) = of(0.2, moments);
-            let mut mass = mass.expect("a mass");
-            assert_eq!((mass.mass, said), (0.2, note), "{moments:?}");
-            assert_eq!(mass.is_enough(), enough, "{moments:?}");
-            assert!((mass.axes.matrix().determinant() - 1.0).abs() < 1e-12);
-            mass.raise();
-            assert!(mass.is_enough() && mass.mass == 0.2, "{moments:?}");
-        }
-        assert_eq!(of(0.0, [0.0; 3]), (None, None));
-        assert_eq!(of(-1.0, [0.0; 3]), (None, Some(NEGATIVE)));
-        // A disc: after rounding, the largest moment does not exceed the sum of the other two.
-        let (disc, _) = of(1.0, [0.1, 0.2, 0.1 + 0.2]);
-        let moments = disc.expect("a mass").moments;
-        assert!(2.0 * moments.max() <= moments.sum());
     }
 }

@@ -11,7 +11,8 @@ mod actuators;
 mod body;
 mod frames;
 mod gains;
-mod inertia;
+#[doc(hidden)]
+pub mod inertia;
 mod joint;
 mod keyframes;
 mod scene;

@@ -9,7 +9,8 @@ mod file;
 mod guess;
 mod guesser;
 mod read;
-mod words;
+#[doc(hidden)]
+pub mod words;
 mod write;
 
 use std::collections::BTreeMap;

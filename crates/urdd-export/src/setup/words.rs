@@ -2,7 +2,7 @@
 
 /// What a name says of a part of a robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub enum Part {
     Leg,
     Arm,
     Head,
@@ -28,7 +28,7 @@ const FINGERS: &[&str] = &["thumb", "index", "middle", "ring", "pinky", "little"
 const TOOLS: &[&str] = &["tool", "tool0", "tcp", "grasp", "grasping", "ee", "eef", "tip", "flange"];
 
 /// The words of a name in lower case: `FL_hipJoint` has fl, hip and joint.
-fn words(name: &str) -> Vec<String> {
+pub fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = '_';
     for c in name.chars() {
@@ -47,7 +47,7 @@ fn words(name: &str) -> Vec<String> {
 }
 
 /// What most of the names say that say something.
-pub(super) fn part<'n>(names: impl Iterator<Item = &'n str>) -> Option<Part> {
+pub fn part<'n>(names: impl Iterator<Item = &'n str>) -> Option<Part> {
     let mut counts = [0; PARTS.len()];
     for name in names {
         let words = words(name);
@@ -61,7 +61,7 @@ pub(super) fn part<'n>(names: impl Iterator<Item = &'n str>) -> Option<Part> {
 }
 
 /// The sides that all names have in common, such as `front_left`.
-pub(super) fn side<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
+pub fn side<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     shared(names, SIDES)
 }
 
@@ -91,28 +91,11 @@ pub(super) fn is_hand(name: &str) -> bool {
 }
 
 /// Whether a name is that of a tool frame.
-pub(super) fn is_tool(name: &str) -> bool {
+pub fn is_tool(name: &str) -> bool {
     words(name).iter().any(|word| TOOLS.contains(&word.as_str()))
 }
 
 /// Whether a name is that of an inertial measurement unit.
-pub(super) fn is_imu(name: &str) -> bool {
+pub fn is_imu(name: &str) -> bool {
     words(name).iter().any(|word| word == "imu")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_say_parts_and_sides() {
-        assert_eq!(words("FL_hipJoint2"), ["fl", "hip", "joint2"]);
-        let leg = ["FL_hip_joint", "FL_thigh_joint"];
-        assert_eq!(part(leg.into_iter()), Some(Part::Leg));
-        assert_eq!(side(leg.into_iter()).as_deref(), Some("fl"));
-        assert_eq!(side(["left_a", "right_b"].into_iter()), None);
-        assert_eq!(part(["joint_1", "legion"].into_iter()), None);
-        assert!(is_tool("panda_hand_tcp") && !is_tool("stool") && !is_tool("multitool"));
-        assert!(is_imu("imu_link") && !is_imu("simulated"));
-    }
 }

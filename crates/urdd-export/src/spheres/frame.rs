@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 pub(super) use urdd_geometry::vector::{cross, dot, norm, sub};
 
 /// A point or a vector, in metres.
-pub(super) type Point = [f64; 3];
+pub type Point = [f64; 3];
 
 #[inline]
 pub(super) fn add(a: Point, b: Point) -> Point {
@@ -19,7 +19,7 @@ pub(super) fn scaled(a: Point, by: f64) -> Point {
 
 /// A pose: the columns of the rotation matrix, and the translation.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pose {
+pub struct Pose {
     columns: [Point; 3],
     shift: Point,
 }

@@ -75,7 +75,7 @@ fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
 }
 
 /// Counts results, given the minimum distances from [`gaps`].
-pub(super) fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
+pub fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
     let mut rates = SphereRates::default();
     for (sample, gap) in samples.iter().zip(gaps) {
         let touches = *gap <= 0.0;
@@ -129,7 +129,7 @@ pub(super) fn faults(
 
 /// The growth of all radii, in metres, that balances the two rates: it minimizes the larger of the upper ends of their
 /// confidence intervals, each relative to its goal.
-pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
+pub fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
     let colliding = samples.iter().filter(|sample| sample.collides()).count();
     let free = samples.len() - colliding;
     if colliding == 0 || free == 0 {
@@ -158,39 +158,4 @@ pub(super) fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         }
     }
     0.5 * best.1
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn samples(collide: &[bool]) -> Vec<Sample> {
-        let one = |collides: &bool| Sample {
-            poses: Vec::new(),
-            touching: Vec::from_iter(collides.then_some(0)),
-        };
-        collide.iter().map(one).collect()
-    }
-
-    #[test]
-    fn radii_grow_until_the_rates_are_in_balance() {
-        // Free ones from 1 mm on, collisions up to 3 mm: in between, each millimetre costs both rates equally, relative
-        // to their goals.
-        let mut collide = vec![false];
-        let mut gaps = vec![0.009];
-        for k in 0..100 {
-            collide.push(true);
-            gaps.push(-0.007 + 1e-4 * f64::from(k));
-            collide.push(false);
-            gaps.push(0.00105 + 1e-4 * f64::from(k));
-        }
-        let grown = growth(&samples(&collide), &gaps, 0.02);
-        let after: Vec<f64> = gaps.iter().map(|gap| gap - 2.0 * grown).collect();
-        let rates = rates(&samples(&collide), &after);
-        assert_eq!([rates.missed, rates.colliding, rates.free], [1, 100, 101]);
-        // From SciPy's intervals, over all thresholds.
-        assert_eq!(rates.false_contacts, 18);
-        // Without collisions, or without free configurations, there is nothing to balance.
-        assert_eq!(growth(&samples(&[false, false]), &[-0.01, 0.01], 0.02), 0.0);
-    }
 }

@@ -4,19 +4,24 @@
 //! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
 //! the fit. The counts are written with them.
 
-mod cover;
+#[doc(hidden)]
+pub mod cover;
 pub(super) mod curobo;
 mod fit;
 pub(super) mod foam;
-mod frame;
-mod judge;
+#[doc(hidden)]
+pub mod frame;
+#[doc(hidden)]
+pub mod judge;
 mod loss;
 mod measure;
 mod model;
 mod pairs;
 mod said;
-mod samples;
-mod surface;
+#[doc(hidden)]
+pub mod samples;
+#[doc(hidden)]
+pub mod surface;
 pub(super) mod urdf;
 
 use rayon::prelude::*;

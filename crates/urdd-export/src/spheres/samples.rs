@@ -22,7 +22,7 @@ pub(super) enum Region {
 
 /// A configuration.
 #[derive(Debug, Clone)]
-pub(super) struct Sample {
+pub struct Sample {
     /// The poses of the links that have shapes, in the order of [`Pairs::links`].
     pub poses: Vec<Pose>,
     /// The indices of the pairs in contact, ascending. With [`Ask::Any`], a collision lists at most one pair, which can

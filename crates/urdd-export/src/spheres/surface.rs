@@ -14,7 +14,7 @@ type Faces = Vec<(Point, f64)>;
 
 /// About `count` points, evenly distributed on the pieces of a link outside other pieces. Fewer if pieces overlap; the
 /// vertices themselves if the pieces have no area.
-pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
+pub fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
     let mut triangles: Vec<(f64, usize, [Point; 3])> = Vec::new();
     let mut area = 0.0;
     let mut faces: Vec<Faces> = Vec::new();
@@ -56,40 +56,5 @@ pub(super) fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
     match found.is_empty() {
         true => pieces.iter().flat_map(|mesh| mesh.vertices.clone()).collect(),
         false => found,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_geometry::hull::ConvexHull;
-
-    fn cube(at: f64, size: f64) -> Mesh {
-        let corner = |k: usize| [0, 1, 2].map(|axis| at + size * ((k >> axis & 1) as f64));
-        let corners: Vec<Point> = (0..8).map(corner).collect();
-        ConvexHull::new(&corners).expect("a hull").into_mesh()
-    }
-
-    #[test]
-    fn points_are_on_the_outside_of_all_pieces_together() {
-        let pieces = [cube(0.0, 1.0), cube(0.5, 1.0)];
-        let found = points(&pieces, 2000);
-        // Three of each cube's six faces have a quarter in the other cube.
-        assert!((found.len() as f64 / 2000.0 - 0.875).abs() < 0.01);
-        for p in &found {
-            let on = |low: f64, high: f64| {
-                p.iter().any(|x| (x - low).abs() < 1e-12 || (x - high).abs() < 1e-12)
-            };
-            let inside =
-                |low: f64, high: f64| p.iter().all(|x| low + 1e-6 < *x && *x < high - 1e-6);
-            assert!(on(0.0, 1.0) || on(0.5, 1.5));
-            assert!(!inside(0.0, 1.0) && !inside(0.5, 1.5));
-        }
-    }
-
-    #[test]
-    fn a_piece_without_area_has_its_vertices() {
-        let line = Mesh { vertices: vec![[0.0; 3], [1.0, 0.0, 0.0]], ..Mesh::default() };
-        assert_eq!(points(&[line], 10), vec![[0.0; 3], [1.0, 0.0, 0.0]]);
     }
 }

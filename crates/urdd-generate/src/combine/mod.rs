@@ -10,7 +10,8 @@ mod configurations;
 mod document;
 mod error;
 mod from_legacy;
-mod frozen;
+#[doc(hidden)]
+pub mod frozen;
 mod keys;
 mod legacy;
 mod meshes;

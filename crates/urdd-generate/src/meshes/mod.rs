@@ -2,13 +2,15 @@
 
 pub(crate) mod inspect;
 pub(crate) mod layout;
-pub(crate) mod names;
+#[doc(hidden)]
+pub mod names;
 pub(crate) mod original;
 pub(crate) mod package;
 pub(crate) mod plain;
 pub(crate) mod resolve;
 pub(crate) mod roots;
-mod sniff;
+#[doc(hidden)]
+pub mod sniff;
 pub(crate) mod written;
 
 pub use original::MeshCount;

@@ -6,7 +6,7 @@ use urdd_geometry::read::{Format, Scene};
 const HEAD: usize = 64 << 10;
 
 /// Whether a file is a mesh; `scene` is the result of reading it.
-pub(super) fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
+pub fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
     match scene {
         Some(scene) if scene.triangle_count() > 0 => true,
         // STL and COLLADA are recognised by markers that arbitrary text does not have.
@@ -59,12 +59,12 @@ pub(super) fn fault_of_side_file(
 }
 
 /// Whether a file is an image, by its header and pixel size.
-pub(super) fn is_image(bytes: &[u8]) -> bool {
+pub fn is_image(bytes: &[u8]) -> bool {
     imagesize::blob_size(bytes).is_ok_and(|size| size.width > 0 && size.height > 0)
 }
 
 /// Whether a file is a material library: text that declares a material or has only comments.
-pub(super) fn is_mtl(bytes: &[u8]) -> bool {
+pub fn is_mtl(bytes: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(bytes) else {
         // Material names may be in a legacy encoding.
         return !bytes.contains(&0) && declares_material(&String::from_utf8_lossy(bytes));
@@ -79,41 +79,4 @@ fn declares_material(text: &str) -> bool {
         let mut words = line.split_ascii_whitespace();
         words.next().is_some_and(|word| word.eq_ignore_ascii_case("newmtl"))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn secrets_are_no_meshes_nor_images_nor_materials() {
-        for secret in [
-            "-----BEGIN OPENSSH PRIVATE KEY-----\nb3BlbnNzaC1rZXktdjEAAAAA\n",
-            "{\"token\": \"ghp_0123\"}",
-            "solid advice: root:x:0:0:root:/root:/bin/bash\n",
-            "v 1 2\nv one two three\n",
-            "<keys><key>1</key></keys>",
-            "export TOKEN=abc\n",
-            "",
-        ] {
-            let bytes = secret.as_bytes();
-            assert!(!is_mesh(bytes, None), "{secret}");
-            assert!(!is_image(bytes), "{secret}");
-            assert_eq!(is_mtl(bytes), secret.is_empty(), "{secret}");
-        }
-        // A DER key, and random bytes.
-        for bytes in [&[0x30, 0x82, 4, 0xa4, 2, 1, 0][..], &[7, 200, 3, 0, 0, 1, 9]] {
-            assert!(!is_mesh(bytes, None) && !is_image(bytes), "{bytes:?}");
-        }
-    }
-
-    #[test]
-    fn what_is_known_by_its_mark_is() {
-        let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0";
-        assert!(is_image(png));
-        assert!(is_mtl(b"# a\nnewmtl red\nKd 1 0 0\n") && is_mtl(b"# none\n"));
-        assert!(is_mesh(b"ply\nformat ascii 1.0\n", None));
-        assert!(is_mesh(b"# made by\nv 0 0 1e-3\n", None));
-        assert!(is_mesh(b"\xef\xbb\xbf<?xml version=\"1.0\"?><COLLADA/>", None));
-    }
 }

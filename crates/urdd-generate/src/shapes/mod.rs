@@ -2,7 +2,8 @@
 
 pub(crate) mod approximations;
 pub(crate) mod max_distances;
-mod rounding;
+#[doc(hidden)]
+pub mod rounding;
 pub(crate) mod simple_skips;
 pub(crate) mod statistics;
 

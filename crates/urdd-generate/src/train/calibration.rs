@@ -16,8 +16,8 @@ struct Pair {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Level {
-    margin: f64,
+pub struct Level {
+    pub margin: f64,
     /// Expected number of missed collisions in the calibration set.
     misses: f64,
 }
@@ -37,7 +37,7 @@ struct Offer {
 /// therefore estimated from a tail: the excess of a pair's highest contacts over the next one is taken as exponentially
 /// distributed. All pairs start with a margin that misses hardly any. The margin that clears the most free
 /// configurations per miss is then lowered, until the expected misses reach the limit.
-pub(super) fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
+pub fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
     let num_pairs = labels.num_pairs;
     let count = labels.collides.len();
     let output = |k: u32, pair: usize| outputs[k as usize * num_pairs + pair];
@@ -115,7 +115,7 @@ const LEAST_ALONE: f64 = 0.1;
 const FEW: usize = 4;
 
 /// The margin levels of a pair whose contacts have these outputs, descending.
-fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
+pub fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
     if contacts.len() < FEW {
         let highest = contacts.first().copied().unwrap_or(-0.1 * clip);
         return vec![Level { margin: highest + 0.1 * clip, misses: 0.0 }];
@@ -140,43 +140,4 @@ fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
         misses *= 2.0;
     }
     levels
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Outputs of contacts with exponentially distributed excess, in closed form.
-    fn exponential(count: usize) -> Vec<f64> {
-        let value = |k: usize| -((k as f64 + 0.5) / count as f64).ln();
-        (0..count).map(value).collect()
-    }
-
-    #[test]
-    fn a_tail_is_followed_beyond_the_highest_contact() {
-        let contacts = exponential(1000);
-        let first = levels(&contacts, 1.0, 1.0)[0];
-        // So high that FIRST_MISSES of 1,000 contacts are above: ln(1000 / 0.02) = 10.8.
-        assert!((first.margin - 10.8).abs() < 1.0, "{first:?}");
-        assert!(first.margin > contacts[0]);
-    }
-
-    #[test]
-    fn margins_fall_while_few_collisions_are_missed() {
-        let contacts = exponential(1000);
-        // 200 free configurations among the highest contacts, and 10 among the others.
-        let free = (0..200).map(|k| 6.0 + 0.02 * k as f64).chain([1.0; 10]);
-        let outputs: Vec<f64> = contacts.into_iter().chain(free).collect();
-        let labels = Labels::of_one_pair(1000, 210);
-        let margin = margins(&outputs, &labels, 1.0)[0];
-        // 0.5 % of 1,000 is 5: the margin is ln(1000 / 5) = 5.3, or higher if a lower one clears no more.
-        assert!((5.0..6.0).contains(&margin), "{margin}");
-    }
-
-    #[test]
-    fn of_few_contacts_none_is_given_up() {
-        let outputs = [1.0, 0.5, 3.0];
-        let labels = Labels::of_one_pair(2, 1);
-        assert_eq!(margins(&outputs, &labels, 1.0), [1.1]);
-    }
 }

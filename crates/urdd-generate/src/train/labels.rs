@@ -9,9 +9,9 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::learn::inputs::{self, Input};
 
 /// Sampled configurations and the distances of all pairs.
-pub(super) struct Labels {
+pub struct Labels {
     pub configurations: Vec<f64>,
-    num_dofs: usize,
+    pub num_dofs: usize,
     /// One distance per pair and configuration, as a fraction of the clip distance, at most 1.
     pub distances: Vec<f32>,
     pub num_pairs: usize,
@@ -117,21 +117,6 @@ impl Labels {
     /// The distances in a configuration.
     pub fn row(&self, configuration: usize) -> &[f32] {
         &self.distances[configuration * self.num_pairs..][..self.num_pairs]
-    }
-
-    /// Labels of one pair: first the colliding configurations, then the free ones.
-    #[cfg(test)]
-    pub fn of_one_pair(colliding: usize, free: usize) -> Self {
-        let collides = (0..colliding + free).map(|k| k < colliding);
-        let collides: Vec<bool> = collides.collect();
-        let distance = |collides: &bool| if *collides { 0.0 } else { 1.0 };
-        Self {
-            configurations: Vec::new(),
-            num_dofs: 1,
-            distances: collides.iter().map(distance).collect(),
-            num_pairs: 1,
-            collides,
-        }
     }
 }
 

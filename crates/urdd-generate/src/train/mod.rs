@@ -9,11 +9,14 @@
 //! The result is identical to the bit for any number of threads.
 
 mod backward;
-mod calibration;
+#[doc(hidden)]
+pub mod calibration;
 mod evaluation;
-mod labels;
+#[doc(hidden)]
+pub mod labels;
 mod optimiser;
-mod settings;
+#[doc(hidden)]
+pub mod settings;
 mod subject;
 
 pub use self::settings::{Effort, MOST_DOFS, MOST_PAIRS};

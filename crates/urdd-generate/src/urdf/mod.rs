@@ -24,7 +24,7 @@ pub(crate) use tree::{Tree, written_axis};
 ///
 /// # Errors
 /// If the text is not a valid robot: all faults, in the order of the text.
-pub(crate) fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
+pub fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
     let document = urdd_xml::parse(text, urdd_xml::Kind::Robot)
         .map_err(|error| vec![xml::fault(&error, text)])?;
     let mut reader = reader::read(&document, file_stem);

@@ -7,7 +7,7 @@ use urdd_xml::element::Edit;
 
 /// The result of reading a URDF.
 #[derive(Debug)]
-pub(crate) struct Reading {
+pub struct Reading {
     /// The robot.
     pub robot: UrdfModule,
     /// The link tree; valid if there are no faults.

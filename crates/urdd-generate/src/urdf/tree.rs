@@ -4,7 +4,7 @@ use urdd_format::urdf::Joint;
 
 /// The kinematic tree, by link and joint indices.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct Tree {
+pub struct Tree {
     /// The root link.
     pub root: usize,
     /// For each joint, its parent link and child link.

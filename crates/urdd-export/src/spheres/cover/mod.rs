@@ -4,8 +4,10 @@
 //! two, as long as the budget allows. The result is the step whose spheres have the smallest volume of their union. The
 //! cells of a convex piece together contain all of it, so the spheres of a link cover all its pieces.
 
-mod cell;
-mod filled;
+#[doc(hidden)]
+pub mod cell;
+#[doc(hidden)]
+pub mod filled;
 
 use rayon::prelude::*;
 
@@ -125,7 +127,7 @@ fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
 }
 
 /// Cuts the cell with the most waste that can be cut. Returns whether there was one.
-fn cut(cells: &mut Vec<Cell>) -> bool {
+pub fn cut(cells: &mut Vec<Cell>) -> bool {
     let mut order: Vec<usize> = (0..cells.len()).collect();
     order.sort_by(|a, b| cells[*b].waste().total_cmp(&cells[*a].waste()));
     for idx in order {

@@ -1,0 +1,18 @@
+//! Parts of the crate, compared with closed forms and other readers.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod element;
+mod mjcf_inertia;
+mod names;
+mod numbers;
+mod pairs;
+mod setup_words;
+mod simplify;
+mod spheres_cover_cell;
+mod spheres_cover_filled;
+mod spheres_judge;
+mod spheres_surface;
+mod srdf_merge;
+mod yaml;

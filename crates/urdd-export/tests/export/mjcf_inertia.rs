@@ -1,0 +1,42 @@
+//! Masses and inertias of bodies, in their links' frames.
+
+use urdd_document::robot::Inertial;
+
+use urdd_document::robot::Origin;
+use urdd_export::mjcf::inertia::*;
+
+fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<&'static str>) {
+    let mut said = None;
+    let inertial = Inertial {
+        origin: Origin { rpy: [0.3, -0.2, 0.9], ..Origin::default() },
+        mass: Some(mass),
+        inertia: Some([xx, 0.0, 0.0, yy, 0.0, zz]),
+    };
+    (urdd_export::mjcf::inertia::mass(&inertial, &mut said), said)
+}
+
+#[test]
+fn the_mass_stays_whatever_the_inertia() {
+    for (moments, enough, note) in [
+        ([1.0, 1.0, 2.0], true, None),
+        ([1.0, 1.0, 1.5], true, None),
+        ([0.0, 0.0, 0.0], false, None),
+        ([0.0, 2.0, 2.0], false, None),
+        ([1.0, 1.0, 2.1], true, Some(TRIANGLE)),
+        ([1.0, 1.0, -1.0], false, Some(INDEFINITE)),
+    ] {
+        let (mass, said) = of(0.2, moments);
+        let mut mass = mass.expect("a mass");
+        assert_eq!((mass.mass, said), (0.2, note), "{moments:?}");
+        assert_eq!(mass.is_enough(), enough, "{moments:?}");
+        assert!((mass.axes.matrix().determinant() - 1.0).abs() < 1e-12);
+        mass.raise();
+        assert!(mass.is_enough() && mass.mass == 0.2, "{moments:?}");
+    }
+    assert_eq!(of(0.0, [0.0; 3]), (None, None));
+    assert_eq!(of(-1.0, [0.0; 3]), (None, Some(NEGATIVE)));
+    // A disc: after rounding, the largest moment does not exceed the sum of the other two.
+    let (disc, _) = of(1.0, [0.1, 0.2, 0.1 + 0.2]);
+    let moments = disc.expect("a mass").moments;
+    assert!(2.0 * moments.max() <= moments.sum());
+}

@@ -1,0 +1,35 @@
+//! Names that formats can represent, and file names.
+
+use urdd_export::format::Format;
+
+use urdd_export::names::*;
+
+#[test]
+fn names_of_files_are_safe_and_differ() {
+    let mut names = FileNames::default();
+    assert_eq!(names.of("../a b"), "_.._a_b");
+    assert_eq!(names.of("Arm"), "Arm");
+    assert_eq!(names.of("arm"), "arm-2");
+    assert_eq!(names.of("arm"), "arm-3");
+    assert_eq!(names.of(""), "_");
+    assert!(names.of(&"x".repeat(500)).len() <= LONGEST);
+}
+
+#[test]
+fn a_name_that_a_format_cannot_hold_is_an_error() {
+    let of = |format, what, name: &str| one(format, what, name).is_ok();
+    assert!(of(Format::Srdf, "link", "a<b>\"&'\n\t\r\u{7f}\u{85}\u{202e}"));
+    for name in ["\0", "a\u{1b}", "\u{fffe}", "\u{ffff}"] {
+        assert!(!of(Format::Srdf, "link", name));
+        assert!(of(Format::Curobo, "link", name));
+    }
+    assert!(of(Format::Curobo, "link", &"x".repeat(1022)));
+    assert!(!of(Format::Curobo, "link", &"x".repeat(1023)));
+    assert!(of(Format::Foam, "link", &"x".repeat(100_000)));
+    assert!(!of(Format::Urdf, "joint", ""));
+    assert!(of(Format::Urdf, "robot", ""));
+    assert!(!of(Format::Drake, "robot", ""));
+    assert!(!of(Format::Drake, "link", "a::b"));
+    assert!(check_unique(Format::Mjcf, "joint", ["a", "b"]).is_ok());
+    assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"]).is_err());
+}

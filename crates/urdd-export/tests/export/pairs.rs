@@ -1,0 +1,17 @@
+//! Pairs of links that need no collision check.
+
+use urdd_format::link_shapes_simple_skips::SkipReason;
+
+use SkipReason::{Adjacent, Always, Default as Resting, Never, None as Sometimes};
+use urdd_export::pairs::*;
+
+#[test]
+fn a_pair_of_links_is_what_its_shapes_make_it() {
+    let of = |reasons: &[SkipReason]| together(reasons.iter().copied().map(Some));
+    assert_eq!(of(&[Never, Never]), Some(Never));
+    assert_eq!(of(&[Never, Sometimes]), Some(Sometimes));
+    assert_eq!(of(&[Never, Resting, Sometimes]), Some(Resting));
+    assert_eq!(of(&[Adjacent, Always]), Some(Always));
+    assert_eq!(of(&[Adjacent, Adjacent]), Some(Adjacent));
+    assert_eq!(together([Some(Never), None].into_iter()), None);
+}

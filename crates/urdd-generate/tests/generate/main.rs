@@ -1,0 +1,14 @@
+//! Parts of the crate, compared with closed forms and other readers.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod combine_frozen;
+mod connections;
+mod distinct;
+mod meshes_names;
+mod meshes_sniff;
+mod pose;
+mod shape_documents;
+mod shapes_rounding;
+mod train_calibration;
