@@ -3,12 +3,12 @@
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::error::Note;
-use super::numbers::rpy;
 use super::subject::Subject;
 use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
+use urdd_kinematics::rotation::to_rpy;
 use urdd_kinematics::rotation::{planar_basis, unit_axis};
 
 const STANDS: &str =
@@ -114,7 +114,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
         joint_type: JointType::Fixed,
         origin: Some(Origin {
             xyz: Some(pose.translation.vector.into()),
-            rpy: Some(rpy(pose.rotation.to_rotation_matrix().matrix())),
+            rpy: Some(to_rpy(pose.rotation.to_rotation_matrix().matrix())),
             quat_xyzw: None,
         }),
         axis: None,
@@ -131,7 +131,7 @@ fn standing(joint: Joint, view: &View, position: f64) -> Joint {
 pub(super) fn without_quaternion(origin: &Origin, view: &ViewOrigin, counts: bool) -> Origin {
     let mut plain = Origin { quat_xyzw: None, ..origin.clone() };
     if counts && origin.quat_xyzw.is_some() {
-        plain.rpy = Some(rpy(&view.rotation()));
+        plain.rpy = Some(to_rpy(&view.rotation()));
     }
     plain
 }

@@ -48,8 +48,6 @@ mod moveit;
 pub mod names;
 mod nested;
 #[doc(hidden)]
-pub mod numbers;
-#[doc(hidden)]
 pub mod options;
 mod output;
 #[doc(hidden)]

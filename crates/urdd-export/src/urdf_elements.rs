@@ -6,14 +6,18 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::numbers::{HALF_THICKNESS, number, numbers, rpy};
 use super::output::Files;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
+use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::Kind;
+use urdd_xml::number::{number, numbers};
+
+/// Half the thickness of a flat box for programs that reject flat boxes, in metres.
+pub(super) const HALF_THICKNESS: f64 = 1e-6;
 
 /// The form of collision geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -191,7 +195,7 @@ fn placed(pose: &Isometry3<f64>) -> Element {
     let rotation = pose.rotation.to_rotation_matrix();
     Element::new("origin")
         .with("xyz", numbers(pose.translation.vector.as_slice()))
-        .with("rpy", numbers(&rpy(rotation.matrix())))
+        .with("rpy", numbers(&to_rpy(rotation.matrix())))
 }
 
 /// A joint element; `tag` and `kind` are the program's names of the element and the joint type.

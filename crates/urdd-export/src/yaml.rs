@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::numbers::number;
 use urdd_format::escape;
+use urdd_xml::number::number;
 
 /// A value.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Unit, UnitQuaternion, Vector3};
 
 /// Distance from the z axis below which the arc from z to a planar joint's axis has no direction, given the precision
 /// of numbers in URDFs.
@@ -20,6 +20,18 @@ pub fn unit_axis(axis: [f64; 3]) -> Option<Unit<Vector3<f64>>> {
 /// The rotation of fixed-axis roll, pitch, yaw, as in URDF: `Rz(yaw) * Ry(pitch) * Rx(roll)`.
 pub fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
+}
+
+/// Fixed-axis roll, pitch, yaw of a rotation, in rad, without negative zeros: accurate to rounding, even with a pitch near
+/// ±π/2.
+pub fn to_rpy(rotation: &Matrix3<f64>) -> [f64; 3] {
+    let r = |row: usize, column: usize| rotation[(row, column)];
+    let pitch = (-r(2, 0)).atan2(r(0, 0).hypot(r(1, 0)));
+    let yaw = r(1, 0).atan2(r(0, 0));
+    // Of the rotation without yaw: with a pitch near ±π/2, only roll and yaw together are determined.
+    let (sin, cos) = yaw.sin_cos();
+    let roll = (sin * r(0, 2) - cos * r(1, 2)).atan2(cos * r(1, 1) - sin * r(0, 1));
+    [roll, pitch, yaw].map(|angle| angle + 0.0)
 }
 
 /// The canonical one of a rotation's two quaternions: its first non-zero component, in the order w, x, y, z, is

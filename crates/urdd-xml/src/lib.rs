@@ -1,6 +1,6 @@
 //! Internal to urdd; no stability promise.
 //!
-//! Parses untrusted XML. This crate does not know the URDD format.
+//! Parses untrusted XML, and writes numbers as it has them. This crate does not know the URDD format.
 //!
 //! Before parsing, this crate limits what a small file can use to exhaust time or memory: nesting depth, elements,
 //! attributes, prefixes and entity declarations. `roxmltree` compares each attribute of an element with the others, and
@@ -12,6 +12,7 @@ pub mod element;
 mod error;
 mod limits;
 mod markup;
+pub mod number;
 mod strict;
 mod words;
 

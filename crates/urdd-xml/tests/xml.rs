@@ -198,3 +198,11 @@ fn faults_that_the_parser_does_not_see_are_faults() {
         assert_eq!(result(text), Ok(()), "{text}");
     }
 }
+
+#[test]
+fn numbers_are_short_and_mean_the_same() {
+    assert_eq!(number::numbers(&[1.0, -0.0, 0.1, 1e-9, 1e300]), "1 0 0.1 1e-9 1e300");
+    for value in [std::f64::consts::PI, 1.0 / 3.0, 5e-324, -1e22] {
+        assert_eq!(number::number(value).parse::<f64>(), Ok(value));
+    }
+}

@@ -7,12 +7,13 @@ use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
-use super::super::numbers::{HALF_THICKNESS, number, numbers};
 use super::super::subject::Subject;
+use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint};
 use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_robot::{LinkShape, ShapeKind, Solid};
+use urdd_xml::number::{number, numbers};
 
 /// The name of the free joint of a floating base.
 pub(super) const FLOATING_BASE: &str = "floating_base";

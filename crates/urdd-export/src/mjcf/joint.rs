@@ -3,9 +3,9 @@
 use super::super::element::Element;
 use super::super::error::Note;
 use super::super::joints::{Moves, parts};
-use super::super::numbers::{number, numbers};
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
+use urdd_xml::number::{number, numbers};
 
 const CROSSED: &str =
     "its lower limit is not below its upper one, which MuJoCo refuses; it has no range";

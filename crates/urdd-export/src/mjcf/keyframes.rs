@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::names::check_names;
-use super::super::numbers::numbers;
 use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
 use super::scene::Stand;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::from_rotation_vector;
+use urdd_xml::number::numbers;
 
 /// The name of the keyframe of a robot whose URDD names none.
 const DEFAULT: &str = "default";

@@ -20,11 +20,11 @@ mod scene;
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::names::check_unique;
-use super::numbers::{number, numbers};
 use super::output::Export;
 use super::subject::Subject;
 use body::{Bodies, FLOATING_BASE, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
+use urdd_xml::number::{number, numbers};
 
 const SEVERAL: &str =
     "it mimics a joint of several DOFs, which MuJoCo cannot express; it moves freely";

@@ -4,10 +4,10 @@ use nalgebra::{Isometry3, Point3};
 
 use super::super::element::Element;
 use super::super::error::ExportError;
-use super::super::numbers::{number, numbers};
 use super::super::output::Files;
 use super::super::subject::Subject;
 use urdd_robot::{LinkShape, Solid};
+use urdd_xml::number::{number, numbers};
 
 /// Where the robot stands.
 pub(super) struct Stand {

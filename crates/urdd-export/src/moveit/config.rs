@@ -4,10 +4,10 @@ use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::groups::joints_of;
 use super::super::names::FileNames;
-use super::super::numbers::number;
 use super::super::setup::{Members, Setup};
 use super::super::subject::Subject;
 use urdd_format::named_configurations::NamedConfiguration;
+use urdd_xml::number::number;
 
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {

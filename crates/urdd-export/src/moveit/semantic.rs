@@ -3,10 +3,10 @@
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::names::check_names;
-use super::super::numbers::number;
 use super::super::setup::Members;
 use super::super::srdf;
 use super::config::Config;
+use urdd_xml::number::number;
 
 const NO_GROUPS: &str =
     "MoveIt plans for groups, and there are none: write some in the file of `urdd export init`";

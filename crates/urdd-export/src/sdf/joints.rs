@@ -5,11 +5,12 @@ use nalgebra::Vector3;
 use super::super::element::Element;
 use super::super::error::Note;
 use super::super::joints::{Moves, joints as resolved, parts as simple_joints};
-use super::super::numbers::{number, numbers, rpy};
 use super::super::subject::Subject;
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
+use urdd_kinematics::rotation::to_rpy;
 use urdd_kinematics::rotation::unit_axis;
+use urdd_xml::number::{number, numbers};
 
 /// The joint that fixes the root link to the world.
 pub(super) const WORLD: &str = "world_fixed";
@@ -90,7 +91,7 @@ fn pose(joint: &Joint, view: &View) -> [f64; 6] {
         Some(origin) if joint.joint_type != view.joint_type => {
             (origin.xyz.unwrap_or_default(), origin.rpy.unwrap_or_default())
         }
-        _ => (view.origin.xyz, rpy(&view.origin.rotation())),
+        _ => (view.origin.xyz, to_rpy(&view.origin.rotation())),
     };
     let ([x, y, z], [roll, pitch, yaw]) = (xyz, rpy);
     [x, y, z, roll, pitch, yaw]

@@ -5,12 +5,14 @@ use nalgebra::{Isometry3, Matrix3};
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
-use super::super::numbers::{HALF_THICKNESS, number, numbers, rpy};
 use super::super::output::Files;
 use super::super::subject::Subject;
+use super::super::urdf_elements::HALF_THICKNESS;
 use super::joints::Joints;
 use urdd_document::robot::Inertial;
+use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
+use urdd_xml::number::{number, numbers};
 
 /// Mass and moments of inertia of links without them, kg and kg m².
 const LEAST: f64 = 1e-6;
@@ -96,7 +98,7 @@ fn empty(name: &str, joint: Option<&str>) -> Element {
 
 /// The mass properties, and whether the moments of inertia had to be changed.
 fn inertial(of: &Inertial) -> (Element, bool) {
-    let [roll, pitch, yaw] = rpy(&of.origin.rotation());
+    let [roll, pitch, yaw] = to_rpy(&of.origin.rotation());
     let [x, y, z] = of.origin.xyz;
     let pose = numbers(&[x, y, z, roll, pitch, yaw]);
     let mass = of.mass.unwrap_or(0.0);
@@ -169,6 +171,6 @@ fn collision(
 fn placed(pose: &Isometry3<f64>) -> Element {
     let rotation = pose.rotation.to_rotation_matrix();
     let mut values = pose.translation.vector.as_slice().to_vec();
-    values.extend(rpy(rotation.matrix()));
+    values.extend(to_rpy(rotation.matrix()));
     Element::new("pose").containing(&numbers(&values))
 }

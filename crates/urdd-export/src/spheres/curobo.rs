@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use nalgebra::Point3;
 
 use super::super::error::{ExportError, Note};
-use super::super::numbers::number;
 use super::super::output::Export;
 use super::super::setup::Setup;
 use super::super::subject::Subject;
@@ -15,6 +14,7 @@ use super::super::yaml::{Yaml, entries};
 use super::model::Sphere;
 use super::{Model, said};
 use urdd_format::named_configurations::NamedConfiguration;
+use urdd_xml::number::number;
 
 const BUFFERS: &str = "Buffers are added to radii: `collision_sphere_buffer` for obstacles, `self_collision_buffer` of a link for self-collision. What is measured holds for 0.";
 

@@ -6,7 +6,6 @@
 mod element;
 mod mjcf_inertia;
 mod names;
-mod numbers;
 mod pairs;
 mod setup_words;
 mod simplify;

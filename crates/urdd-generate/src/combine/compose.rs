@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::error::CombineError;
-use super::frozen::{numbers, origin_text};
+use super::frozen::origin_text;
 use super::names::escaped;
 use super::part::Loaded;
 use super::recipe::{JointDescription, Part, Recipe, Word};
@@ -13,6 +13,7 @@ use super::rewrite::Rewritten;
 use super::trim::Trim;
 use crate::has_quaternions;
 use urdd_format::urdf::Material;
+use urdd_xml::number::numbers;
 
 /// A loaded part and the selection of what is kept of it.
 pub(super) struct Taken<'a> {

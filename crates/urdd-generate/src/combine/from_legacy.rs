@@ -17,7 +17,7 @@ use urdd_format::legacy::creator::{Action, AddChain, CreatorModule};
 use urdd_format::legacy::urdf;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{JointType, Limit};
-use urdd_kinematics::rotation::canonical;
+use urdd_kinematics::rotation::{canonical, to_rpy};
 
 /// The name of the world link in the published robots.
 const WORLD: &str = "combined_robot_world";
@@ -225,7 +225,7 @@ impl Reader<'_> {
         let rotation = nalgebra::Quaternion::new(w, x, y, z);
         let rotation = nalgebra::UnitQuaternion::try_new(rotation, 0.0);
         let rotation = rotation.map(|rotation| canonical(&rotation)).unwrap_or_default();
-        let rpy = super::frozen::roll_pitch_yaw(&rotation);
+        let rpy = to_rpy(rotation.to_rotation_matrix().matrix());
         let xyz = chain.base_offset.translation;
         let joint = JointDescription::fixed(format!("connection_joint_{idx}"), xyz, rpy);
         let link = Word::new("world");

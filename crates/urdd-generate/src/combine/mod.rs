@@ -10,8 +10,7 @@ mod configurations;
 mod document;
 mod error;
 mod from_legacy;
-#[doc(hidden)]
-pub mod frozen;
+mod frozen;
 mod keys;
 mod legacy;
 mod meshes;

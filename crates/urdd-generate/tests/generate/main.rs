@@ -3,7 +3,6 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
-mod combine_frozen;
 mod connections;
 mod distinct;
 mod meshes_names;

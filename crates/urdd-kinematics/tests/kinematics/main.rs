@@ -10,5 +10,6 @@ mod faults;
 mod learn_kernel;
 mod naive_kinematics;
 mod properties;
+mod roll_pitch_yaw;
 mod rotations;
 mod split_mix;
