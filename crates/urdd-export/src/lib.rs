@@ -29,6 +29,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Hidden modules are public for `tests/`.
 mod carried;
 mod contacts;
 mod drake;

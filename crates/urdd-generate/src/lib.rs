@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Hidden modules are public for `tests/`.
 pub mod batch;
 mod bounded;
 mod bounds;

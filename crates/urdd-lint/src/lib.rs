@@ -4,6 +4,7 @@
 //! source. The rules are about robots, not about URDDs: they are described in docs/lint.md, and may change with every
 //! version. [`lint`] examines files, [`lint_text`] a text that an editor holds.
 
+// Hidden modules are public for `tests/`.
 #[doc(hidden)]
 pub mod allow;
 mod baseline;

@@ -8,6 +8,7 @@
 //! large mesh delays no key stroke. Names and places come from the text as it is, half typed or not (`markup`); poses
 //! and meshes from the last version that described a robot (`robot`).
 
+// Hidden modules are public for `tests/`.
 mod analysis;
 mod capabilities;
 mod code_actions;

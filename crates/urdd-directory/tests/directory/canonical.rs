@@ -1,9 +1,6 @@
 //! The canonical form of a document, as JSON and as YAML.
 
-use serde_json::Value;
-
-use serde_json::json;
-
+use serde_json::{Value, json};
 use urdd_directory::canonical::*;
 
 fn sample() -> Value {

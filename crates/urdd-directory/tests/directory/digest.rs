@@ -1,8 +1,7 @@
 //! Sizes and hashes of files, and comparison with stated values, in bounded memory.
 
-use urdd_directory::root::Root;
-
 use urdd_directory::digest::*;
+use urdd_directory::root::Root;
 
 fn sha256(bytes: &[u8]) -> String {
     hashes(&mut &bytes[..], false).unwrap().plain

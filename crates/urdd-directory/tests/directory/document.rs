@@ -1,11 +1,9 @@
 //! A document to be written: in memory as a whole, or serialised row by row to save memory.
 
-use serde_json::Value;
 use std::sync::Arc;
+
+use serde_json::{Value, json};
 use urdd_directory::canonical;
-
-use serde_json::json;
-
 use urdd_directory::document::*;
 
 #[test]

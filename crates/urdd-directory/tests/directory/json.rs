@@ -1,10 +1,9 @@
 //! Reads untrusted JSON, and reports every fault of the text with its position.
 
 use serde_json::Value;
+use urdd_directory::json::*;
 use urdd_directory::limits::DEPTH_LIMIT;
 use urdd_directory::text_fault::{TextFault, TextFaultKind};
-
-use urdd_directory::json::*;
 
 fn only_fault(bytes: &[u8]) -> TextFault {
     let error = read(bytes).expect_err("unreadable");

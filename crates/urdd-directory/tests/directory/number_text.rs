@@ -1,7 +1,6 @@
 //! The canonical form of numbers, for JSON and YAML.
 
 use serde_json::Number;
-
 use urdd_directory::number_text::*;
 
 #[test]

@@ -2,7 +2,6 @@
 
 use urdd_directory::limits::MAX_FOLDER_DEPTH;
 use urdd_directory::read_error::ReadError;
-
 use urdd_directory::source::tree::*;
 
 fn tree(paths: &[&str]) -> Result<Tree<()>, String> {

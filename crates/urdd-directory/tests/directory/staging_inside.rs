@@ -1,9 +1,8 @@
 //! Replaces the contents of a folder but keeps the folder itself, because it is in use as a current folder.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-
-use std::collections::BTreeMap;
 
 use urdd_directory::staging::inside::*;
 

@@ -1,4 +1,4 @@
-//! The canonical form of strings. [`super::canonical`] specifies it.
+//! The canonical form of strings. `canonical` specifies it.
 
 use urdd_directory::string_text::*;
 

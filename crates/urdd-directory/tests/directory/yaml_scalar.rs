@@ -1,9 +1,6 @@
 //! How YAML 1.1 and YAML 1.2 readers interpret a plain scalar.
 
-use serde_json::Value;
-
-use serde_json::json;
-
+use serde_json::{Value, json};
 use urdd_directory::yaml::scalar::*;
 
 #[test]

@@ -1,10 +1,8 @@
 //! Checks whether YAML mirrors a JSON text in bounded memory: a matrix is read one row at a time.
 
-use urdd_directory::canonical;
-
-use urdd_directory::json;
 use urdd_directory::limits::DEPTH_LIMIT;
 use urdd_directory::yaml::transcript::*;
+use urdd_directory::{canonical, json};
 
 const TEXTS: [&str; 7] = [
     r#"{"a": 1}"#,

@@ -1,7 +1,7 @@
 //! What exports need and a URDD does not say: planning groups, end effectors, tool frames, the kind of base, gains.
 //!
-//! It is guessed from the structure of the robot ([`guess`]), written for a person to change ([`write`](mod@write)), and
-//! read from `NAME.export.toml` beside the URDD `NAME` ([`read`]). Every name in it is checked when it is read.
+//! It is guessed from the structure of the robot (`guess`), written for a person to change (`write`), and
+//! read from `NAME.export.toml` beside the URDD `NAME` (`read`). Every name in it is checked when it is read.
 
 mod chains;
 mod error;

@@ -74,7 +74,7 @@ fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
     each.filter(|(number, _)| !ignored[*number]).collect()
 }
 
-/// Counts results, given the minimum distances from [`gaps`].
+/// Counts results, given the minimum distances from `gaps`.
 pub fn rates(samples: &[Sample], gaps: &[f64]) -> SphereRates {
     let mut rates = SphereRates::default();
     for (sample, gap) in samples.iter().zip(gaps) {

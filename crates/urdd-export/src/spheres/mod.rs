@@ -1,6 +1,6 @@
 //! Sphere approximations of links, and the pairs of links that a planner ignores with them.
 //!
-//! [`fit`](mod@fit) fits spheres that give the same collision results as the exact shapes; [`cover`] covers each link
+//! `fit` fits spheres that give the same collision results as the exact shapes; [`cover`] covers each link
 //! completely. In both cases [`judge`] evaluates the written spheres and pairs in configurations that were not used for
 //! the fit. The counts are written with them.
 

@@ -23,9 +23,9 @@ pub(super) enum Region {
 /// A configuration.
 #[derive(Debug, Clone)]
 pub struct Sample {
-    /// The poses of the links that have shapes, in the order of [`Pairs::links`].
+    /// The poses of the links that have shapes, in the order of `Pairs::links`.
     pub poses: Vec<Pose>,
-    /// The indices of the pairs in contact, ascending. With [`Ask::Any`], a collision lists at most one pair, which can
+    /// The indices of the pairs in contact, ascending. With `Ask::Any`, a collision lists at most one pair, which can
     /// be any of them.
     pub touching: Vec<u32>,
 }

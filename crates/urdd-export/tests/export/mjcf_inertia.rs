@@ -1,8 +1,6 @@
 //! Masses and inertias of bodies, in their links' frames.
 
-use urdd_document::robot::Inertial;
-
-use urdd_document::robot::Origin;
+use urdd_document::robot::{Inertial, Origin};
 use urdd_export::mjcf::inertia::*;
 
 fn of(mass: f64, [xx, yy, zz]: [f64; 3]) -> (Option<Mass>, Option<&'static str>) {

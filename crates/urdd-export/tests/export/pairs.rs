@@ -1,9 +1,8 @@
 //! Pairs of links that need no collision check.
 
-use urdd_format::link_shapes_simple_skips::SkipReason;
-
 use SkipReason::{Adjacent, Always, Default as Resting, Never, None as Sometimes};
 use urdd_export::pairs::*;
+use urdd_format::link_shapes_simple_skips::SkipReason;
 
 #[test]
 fn a_pair_of_links_is_what_its_shapes_make_it() {

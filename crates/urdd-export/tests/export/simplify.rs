@@ -2,9 +2,8 @@
 
 use urdd_export::error::Note;
 use urdd_export::options::Detail;
-use urdd_geometry::Mesh;
-
 use urdd_export::simplify::*;
+use urdd_geometry::Mesh;
 
 /// A sphere as a grid of `n` by `2 n` quads, with vertices of its own for each triangle, as an STL has them.
 fn sphere(radius: f64, n: u32) -> Mesh {

@@ -1,7 +1,6 @@
 //! A cell of a link: convex parts, and their smallest enclosing sphere.
 
 use nalgebra::Vector3;
-
 use urdd_export::spheres::cover::cell::*;
 
 fn box_of(size: [f64; 3]) -> Vec<[f64; 3]> {

@@ -1,9 +1,8 @@
 //! Points on the surface of a link, the target of its spheres' surface.
 
 use urdd_export::spheres::frame::Point;
-use urdd_geometry::Mesh;
-
 use urdd_export::spheres::surface::*;
+use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 
 fn cube(at: f64, size: f64) -> Mesh {

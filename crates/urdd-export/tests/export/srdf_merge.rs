@@ -1,7 +1,6 @@
 //! Merges into an existing SRDF: replaces the pairs of links that programs wrote, and leaves every other byte
 
 use roxmltree::Document;
-
 use urdd_export::srdf_merge::*;
 
 const NEW: &str = "<robot name=\"r\">\n  <disable_collisions link1=\"a\" link2=\"b\" reason=\"Never\"/>\n</robot>\n";

@@ -1,11 +1,10 @@
 //! Processes identical meshes once. Robots often use one mesh on many links: the legs of a quadruped, the fingers of a
 
-use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_geometry::Mesh;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use urdd_directory::cancellation::{Cancellation, Cancelled};
 use urdd_generate::distinct::*;
+use urdd_geometry::Mesh;
 use urdd_geometry::primitives::cuboid;
 
 #[test]

@@ -1,8 +1,8 @@
 //! Origins of a URDF as poses: SPEC 5.4 and 6.1.9.
 
-use urdd_format::urdf::Origin;
-
 use std::f64::consts::FRAC_1_SQRT_2;
+
+use urdd_format::urdf::Origin;
 use urdd_generate::pose::*;
 
 fn rotation(origin: &Origin, version: &str) -> [f64; 4] {

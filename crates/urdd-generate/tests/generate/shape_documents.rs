@@ -1,17 +1,17 @@
 //! The documents of modules with matrices over shapes, written row by row: for a thousand links they have millions of
 
-use serde::Serialize;
 use std::sync::Arc;
+
+use serde::Serialize;
+use urdd_directory::canonical;
 use urdd_directory::document::Document;
+use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule as StatisticsModule,
 };
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkipsModule;
-use urdd_format::link_shapes_skips::LinkShapesSkipsModule as SkipsModule;
-
-use urdd_directory::canonical;
-use urdd_format::index::{Count, LinkIdx, PieceIdx};
 use urdd_format::link_shapes_simple_skips::{SkipReason, SkipReasons};
+use urdd_format::link_shapes_skips::LinkShapesSkipsModule as SkipsModule;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::shapes::PieceShape;
 use urdd_generate::shape_documents::*;

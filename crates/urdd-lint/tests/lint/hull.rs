@@ -1,7 +1,6 @@
 //! Convex hulls with what rules ask of them.
 
 use nalgebra::Vector3;
-
 use urdd_lint::hull::*;
 
 fn cuboid(low: [f64; 3], high: [f64; 3]) -> Hull {

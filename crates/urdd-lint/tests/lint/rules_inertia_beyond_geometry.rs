@@ -1,9 +1,7 @@
-//! rules_inertia_beyond_geometry
+//! The largest radii of gyration that a geometry permits.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use urdd_lint::inertial::Inertial;
-
-use nalgebra::Matrix3;
 use urdd_lint::rules::inertia_beyond_geometry::*;
 
 #[test]

@@ -1,7 +1,6 @@
 //! A document's text, and positions in it as editors count them.
 
 use lsp_types::{Position, TextDocumentContentChangeEvent};
-
 use urdd_lsp::text::*;
 
 fn at(line: u32, character: u32) -> Position {

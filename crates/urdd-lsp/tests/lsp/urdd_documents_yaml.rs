@@ -1,7 +1,6 @@
 //! YAML as a value, with the place of each part.
 
 use serde_json::json;
-
 use urdd_lsp::urdd_documents::yaml::*;
 
 #[test]
