@@ -6,11 +6,11 @@ use super::memory::bytes;
 use urdd_format::report::Place;
 
 /// Approximate memory limit for the places of a run, in bytes, and the lower limit for each URDD.
-const KEPT_OF_RUN: usize = 256 << 20;
-const LEAST_OF_URDD: usize = 256 << 10;
+pub const KEPT_OF_RUN: usize = 256 << 20;
+pub const LEAST_OF_URDD: usize = 256 << 10;
 
 /// Memory limit for the places of each URDD of a run, in bytes.
-pub(super) fn of_each(urdds: usize) -> usize {
+pub fn of_each(urdds: usize) -> usize {
     (KEPT_OF_RUN / urdds.max(1)).max(LEAST_OF_URDD)
 }
 
@@ -20,7 +20,7 @@ const FINDING: usize = 256;
 
 /// Drops places beyond `most` bytes. Keeps the worst places of each finding and at least one finding of each rule.
 /// Counts include what is dropped.
-pub(super) fn trim(checks: &mut [Check], most: usize) {
+pub fn trim(checks: &mut [Check], most: usize) {
     let mut left = most;
     for check in checks {
         let mut kept = 0;
@@ -45,39 +45,5 @@ pub(super) fn trim(checks: &mut [Check], most: usize) {
         if let Some(last) = check.findings.last_mut() {
             last.count += cut;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::Outcome;
-    use crate::finding::Finding;
-    use crate::rules;
-
-    #[test]
-    fn what_is_cut_stays_in_the_counts() {
-        let flood = |rule: &&'static crate::rule::Rule| {
-            let finding = |k: usize| {
-                let mut finding = Finding::at("a.json", format!("/{k}"), "wrong").count(1001);
-                finding.more = vec![Place::default(); 1000];
-                finding
-            };
-            let findings = (0..100).map(finding).collect();
-            Check::new(&rule.description, Outcome::Failed, findings)
-        };
-        // `rules::all` would have every rule compiled once more.
-        let mut checks: Vec<Check> = rules::dof::rules().iter().take(5).map(flood).collect();
-        const BYTES: usize = 1 << 20;
-        trim(&mut checks, BYTES);
-        let all = || checks.iter().flat_map(|check| &check.findings);
-        assert_eq!(all().map(|finding| finding.count).sum::<usize>(), 5 * 100 * 1001);
-        let places = all().flat_map(|finding| &finding.more);
-        let bytes: usize = places.map(super::bytes).sum();
-        assert!((BYTES / 2..=BYTES).contains(&bytes), "{bytes}");
-        assert!(checks.iter().all(|check| !check.findings.is_empty()));
-        // However many URDDs there are, each keeps something.
-        assert_eq!(of_each(1), KEPT_OF_RUN);
-        assert_eq!(of_each(1_000_000), LEAST_OF_URDD);
     }
 }

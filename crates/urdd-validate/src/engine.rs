@@ -50,11 +50,8 @@ pub struct Check {
 }
 
 impl Check {
-    pub(super) fn new(
-        rule: &'static Description,
-        outcome: Outcome,
-        findings: Vec<Finding>,
-    ) -> Self {
+    /// What a rule found.
+    pub fn new(rule: &'static Description, outcome: Outcome, findings: Vec<Finding>) -> Self {
         Check {
             rule,
             severity: rule.severity,

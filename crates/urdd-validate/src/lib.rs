@@ -19,13 +19,15 @@
 
 #[doc(hidden)]
 pub mod bare_urdf;
-mod bound;
+#[doc(hidden)]
+pub mod bound;
 pub mod code;
 #[doc(hidden)]
 pub mod consequence;
 #[doc(hidden)]
 pub mod context;
-mod distances;
+#[doc(hidden)]
+pub mod distances;
 #[doc(hidden)]
 pub mod effect;
 pub mod engine;
@@ -33,12 +35,14 @@ mod examined;
 mod find_errors;
 #[doc(hidden)]
 pub mod finding;
-mod fold;
+#[doc(hidden)]
+pub mod fold;
 #[doc(hidden)]
 pub mod learned;
 mod locate;
 mod memo;
-mod memory;
+#[doc(hidden)]
+pub mod memory;
 mod model_verified;
 mod names;
 mod needs;
@@ -53,7 +57,8 @@ pub mod report;
 pub mod rule;
 #[doc(hidden)]
 pub mod rules;
-mod scope;
+#[doc(hidden)]
+pub mod scope;
 pub mod selection;
 pub mod settings;
 pub mod settings_file;
@@ -61,14 +66,16 @@ pub mod settings_file;
 pub mod skip;
 #[doc(hidden)]
 pub mod solids;
-mod tolerance;
+#[doc(hidden)]
+pub mod tolerance;
 mod two_robots;
 mod unverified;
 #[doc(hidden)]
 pub mod urdf_text;
 #[doc(hidden)]
 pub mod views;
-mod worst;
+#[doc(hidden)]
+pub mod worst;
 
 pub use examined::Examined;
 pub use find_errors::find_errors;
@@ -261,17 +268,4 @@ pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Ru
         ..report::blank(Kind::Urdd, name)
     };
     Examined { report, checks }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_crash_outside_of_any_rule_is_said_of_its_urdd() {
-        let examined = caught(Kind::Urdd, "a", || panic!("at index {}", 7));
-        assert_eq!(examined.report.verdict, Verdict::Incomplete);
-        let reason = examined.report.reason.expect("a reason");
-        assert!(reason.starts_with("the program crashed: at index 7;"));
-    }
 }

@@ -9,7 +9,7 @@ const FIX: usize = 56;
 const EDIT: usize = 64;
 
 /// Approximate memory of a place, in bytes.
-pub(super) fn bytes(place: &Place) -> usize {
+pub fn bytes(place: &Place) -> usize {
     let texts = [
         &place.file,
         &place.pointer,

@@ -1,4 +1,4 @@
-//! Merges into an existing SRDF: replaces the pairs of links that programs wrote, and leaves every other byte
+//! An SRDF of a person's, with new pairs of links: every other byte stays.
 
 use roxmltree::Document;
 use urdd_export::srdf_merge::*;

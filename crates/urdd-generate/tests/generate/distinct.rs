@@ -1,4 +1,4 @@
-//! Processes identical meshes once. Robots often use one mesh on many links: the legs of a quadruped, the fingers of a
+//! Identical meshes are processed once.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,4 +1,4 @@
-//! The documents of modules with matrices over shapes, written row by row: for a thousand links they have millions of
+//! Documents with matrices over shapes, written row by row.
 
 use std::sync::Arc;
 

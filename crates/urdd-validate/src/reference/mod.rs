@@ -2,7 +2,8 @@
 //! multiplied by nalgebra). Shares nothing with the modules or with `urdd_kinematics`, which it verifies. Nothing
 //! recurses, because a chain may be as long as the file.
 
-mod motion;
+#[doc(hidden)]
+pub mod motion;
 
 use std::collections::HashMap;
 

@@ -1,6 +1,7 @@
 //! The report of the format: the engine fills it, and one file per format renders it.
 
-mod causes;
+#[doc(hidden)]
+pub mod causes;
 mod fill;
 pub mod github;
 pub mod human;
@@ -10,7 +11,8 @@ pub mod junit;
 pub mod place;
 pub mod sarif;
 pub mod style;
-mod summary;
+#[doc(hidden)]
+pub mod summary;
 mod unverified;
 mod words;
 

@@ -14,7 +14,7 @@ use urdd_format::escape::line as safe;
 use urdd_format::report::{Consequence, Report, Severity, Status, Urdd, Verdict};
 
 /// The column of a family of rules in the table. Most families have their own.
-fn column(family: &str) -> &str {
+pub fn column(family: &str) -> &str {
     match family {
         "JSN" | "YML" | "SCH" | "EXT" => "TXT",
         "CMP" => "URD",
@@ -25,7 +25,7 @@ fn column(family: &str) -> &str {
 }
 
 /// The columns of all rules, in the order of their codes.
-fn columns() -> Vec<&'static str> {
+pub fn columns() -> Vec<&'static str> {
     let mut seen = BTreeSet::new();
     let columns = Code::ALL.iter().map(|code| column(code.family()));
     columns.filter(|column| seen.insert(*column)).collect()
@@ -284,21 +284,5 @@ fn short(number: usize) -> String {
         0..1_000 => number.to_string(),
         1_000..1_000_000 => format!("{}k", number / 1_000),
         _ => format!("{}M", number / 1_000_000),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_family_of_rules_has_one_column() {
-        let columns = columns();
-        for code in Code::ALL {
-            let own = column(code.family());
-            let times = columns.iter().filter(|column| **column == own).count();
-            assert_eq!(times, 1, "{code}");
-        }
-        assert_eq!(columns[..3], ["DIR", "TXT", "URD"]);
     }
 }

@@ -13,7 +13,8 @@ pub mod learned;
 pub mod legacy;
 pub mod meshes;
 pub mod named_configurations;
-mod prelude;
+#[doc(hidden)]
+pub mod prelude;
 pub mod schema;
 pub mod shapes;
 pub mod source;

@@ -20,30 +20,3 @@ pub fn are_apart(expected: &Mesh, found: &Mesh, tolerance: f64) -> bool {
     // With two such corners, none of the three is merged with another, and the triangle counts.
     thick.take(TRIANGLES).any(|corners| corners.iter().filter(is_alone).count() >= 2)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_geometry::primitives::cuboid;
-    use urdd_geometry::surface::{Likeness, difference};
-
-    #[test]
-    fn only_different_surfaces_are_apart() {
-        const TOLERANCE: f64 = 1e-6;
-        let mesh = cuboid([1.0, 2.0, 3.0]);
-        let moved = |by: f64| {
-            let mut moved = mesh.clone();
-            moved.vertices.iter_mut().for_each(|p| p[0] += by);
-            moved
-        };
-        assert!(!are_apart(&mesh, &mesh, TOLERANCE));
-        assert!(!are_apart(&mesh, &moved(0.9 * TOLERANCE), TOLERANCE));
-        assert!(are_apart(&mesh, &moved(1.1 * TOLERANCE), TOLERANCE));
-        // Points between the corners of two meshes connect them.
-        let mut chained = moved(1.8 * TOLERANCE);
-        chained.vertices.extend(moved(0.9 * TOLERANCE).vertices);
-        let difference = difference(&mesh, &chained, TOLERANCE, Likeness::SameSurface);
-        assert_eq!(difference, None);
-        assert!(!are_apart(&mesh, &chained, TOLERANCE));
-    }
-}

@@ -3,8 +3,10 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
-mod apart;
-mod cut;
+#[doc(hidden)]
+pub mod apart;
+#[doc(hidden)]
+pub mod cut;
 pub mod dents;
 pub mod derived;
 pub mod difference;

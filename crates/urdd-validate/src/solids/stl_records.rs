@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use crate::tolerance::{STL_NORMAL, mesh_resolution};
 use urdd_geometry::surface::is_thin;
 
-const HEADER: usize = 84;
-const RECORD: usize = 50;
+pub const HEADER: usize = 84;
+pub const RECORD: usize = 50;
 
 /// The fault of the normals or the unused bytes of a binary STL, for its first faulty triangle. The corners are assumed
 /// sound.
@@ -42,27 +42,4 @@ pub fn fault(stl: &[u8]) -> Option<String> {
             )
         })
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_geometry::primitives::sphere;
-    use urdd_geometry::read::Part;
-    use urdd_geometry::write::stl;
-
-    #[test]
-    fn normals_are_those_of_the_corners_or_zero() {
-        let sound = stl(&[Part::from(sphere(0.3))]).expect("a mesh");
-        assert_eq!(fault(&sound), None);
-        let mut zero = sound.clone();
-        zero[HEADER..HEADER + 12].fill(0);
-        assert_eq!(fault(&zero), None);
-        let mut turned = sound.clone();
-        turned[HEADER + 3 * RECORD + 3] ^= 0x80;
-        assert!(fault(&turned).is_some_and(|told| told.contains("triangle 3")));
-        let mut spare = sound;
-        spare[HEADER + 49] = 1;
-        assert!(fault(&spare).is_some());
-    }
 }

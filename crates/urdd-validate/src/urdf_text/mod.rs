@@ -7,7 +7,8 @@ pub mod compare;
 mod joint;
 mod legacy;
 mod link;
-mod numbers;
+#[doc(hidden)]
+pub mod numbers;
 mod problem;
 mod reader;
 mod reading;

@@ -12,15 +12,3 @@ pub fn repeated<'a>(
         (first != index).then_some((index, first, name))
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::repeated;
-
-    #[test]
-    fn case_makes_another_name() {
-        let names = ["a", "A", "", "a", "", "a"];
-        let found: Vec<_> = repeated(names.into_iter()).collect();
-        assert_eq!(found, [(3, 0, "a"), (4, 2, ""), (5, 0, "a")]);
-    }
-}

@@ -6,7 +6,8 @@ mod bounds_columns_differ;
 mod limited_flag_wrong;
 pub(super) mod limits;
 mod speed_or_effort_differs;
-mod unlimited_bounds_wrong;
+#[doc(hidden)]
+pub mod unlimited_bounds_wrong;
 
 use crate::rule::rules;
 use limits::{LEGACY_WIDENING, columns_agree, dofs, limited_dofs};

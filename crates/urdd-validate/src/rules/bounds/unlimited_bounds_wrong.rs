@@ -78,18 +78,6 @@ fn legacy_copy(pair: [f64; 2], joint: &Joint) -> bool {
 }
 
 /// Whether bounds leave no range, or only the one that legacy modules added.
-fn is_frozen([lower, upper]: [f64; 2]) -> bool {
+pub fn is_frozen([lower, upper]: [f64; 2]) -> bool {
     (upper - lower).abs() <= LEGACY_WIDENING + NUMBER_ABSOLUTE
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_frozen;
-
-    #[test]
-    fn what_legacy_modules_added_is_no_range() {
-        assert!(is_frozen([0.0, 1e-7]));
-        assert!(is_frozen([3.0, 3.0 + 1e-7]));
-        assert!(!is_frozen([0.0, 1e-6]));
-    }
 }

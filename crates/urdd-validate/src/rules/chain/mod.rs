@@ -12,7 +12,8 @@ mod joint_origin_differs;
 mod joint_type_differs;
 mod list;
 mod parent_wrong;
-mod quaternion_not_canonical;
+#[doc(hidden)]
+pub mod quaternion_not_canonical;
 mod root_wrong;
 
 use crate::rule::rules;

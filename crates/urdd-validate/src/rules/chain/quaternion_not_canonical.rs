@@ -46,21 +46,7 @@ fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> b
 }
 
 /// Whether the first non-zero number is negative.
-fn is_negative(quaternion: &[f64]) -> bool {
+pub fn is_negative(quaternion: &[f64]) -> bool {
     let mut numbers = quaternion.iter();
     numbers.find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_negative;
-
-    #[test]
-    fn w_counts_first_and_zeros_do_not() {
-        assert!(!is_negative(&[0.5, -0.5, -0.5, -0.5]));
-        assert!(is_negative(&[-0.5, 0.5, 0.5, 0.5]));
-        assert!(is_negative(&[-0.0, 0.0, -1.0, 0.0]));
-        assert!(!is_negative(&[-0.0, 1.0, 0.0, 0.0]));
-        assert!(is_negative(&[-1e-17, 1.0, 0.0, 0.0]));
-    }
 }

@@ -7,10 +7,12 @@
 mod common_ancestor_wrong;
 mod connection_table_size;
 mod descendant_path_wrong;
-mod explicit_paths_missing;
+#[doc(hidden)]
+pub mod explicit_paths_missing;
 mod link_to_link_path_wrong;
 mod root_path_wrong;
-mod walk;
+#[doc(hidden)]
+pub mod walk;
 
 use crate::rule::rules;
 

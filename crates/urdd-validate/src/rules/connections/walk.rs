@@ -36,20 +36,20 @@ pub(super) fn report_pairs<T>(
 }
 
 /// Rows of the table of lowest common ancestors, each computed in time proportional to its length.
-pub(super) struct Ancestors<'a> {
+pub struct Ancestors<'a> {
     tree: &'a Tree,
     above: Vec<bool>,
     row: Vec<usize>,
 }
 
 impl<'a> Ancestors<'a> {
-    pub(super) fn new(tree: &'a Tree) -> Self {
+    pub fn new(tree: &'a Tree) -> Self {
         let links = tree.parent_link.len();
         Ancestors { tree, above: vec![false; links], row: vec![tree.root; links] }
     }
 
     /// The lowest common ancestor of `link` with every link.
-    pub(super) fn row(&mut self, link: usize) -> &[usize] {
+    pub fn row(&mut self, link: usize) -> &[usize] {
         self.above.fill(false);
         let mut next = Some(link);
         while let Some(above) = next {
@@ -69,11 +69,7 @@ impl<'a> Ancestors<'a> {
 
 /// The first difference of a path from the tree's path from link `from` up to link `top` and down to link `to`: pointer
 /// below the path, expected and actual value.
-pub(super) fn path_fault(
-    tree: &Tree,
-    [from, top, to]: [usize; 3],
-    path: &LinkPath,
-) -> Option<Fault> {
+pub fn path_fault(tree: &Tree, [from, top, to]: [usize; 3], path: &LinkPath) -> Option<Fault> {
     let up = tree.depth[from] - tree.depth[top];
     let down = tree.depth[to] - tree.depth[top];
     let length = up + down;
@@ -106,7 +102,7 @@ pub(super) fn path_fault(
 }
 
 /// A number of `links` or `joints`, in words.
-fn count(number: usize, what: &str) -> String {
+pub fn count(number: usize, what: &str) -> String {
     match number {
         1 => format!("1 {}", what.trim_end_matches('s')),
         _ => format!("{number} {what}"),
@@ -114,87 +110,12 @@ fn count(number: usize, what: &str) -> String {
 }
 
 /// A path for messages: all links if they are few, otherwise the first and last, and their number.
-pub(super) fn show_path(links: &[usize]) -> String {
+pub fn show_path(links: &[usize]) -> String {
     const SHOWN: usize = 8;
     match links {
         [first, second, .., last] if links.len() > SHOWN => {
             format!("[{first}, {second}, ..., {last}] ({} links)", links.len())
         }
         _ => format!("{links:?}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use urdd_format::index::{JointIdx, LinkIdx};
-
-    /// 3 is the root; 3-2-0 by joints 1 and 0; 2-1 by joint 2; 3-4 by joint 3.
-    fn tree() -> Tree {
-        Tree {
-            root: 3,
-            parent_joint: vec![Some(0), Some(2), Some(1), None, Some(3)],
-            parent_link: vec![Some(2), Some(2), Some(3), None, Some(3)],
-            child_joints: vec![vec![], vec![], vec![0, 2], vec![1, 3], vec![]],
-            joint_links: vec![(2, 0), (3, 2), (2, 1), (3, 4)],
-            depth: vec![2, 2, 1, 0, 1],
-            order: vec![3, 2, 4, 0, 1],
-        }
-    }
-
-    fn path(links: &[u32], joints: &[u32]) -> LinkPath {
-        LinkPath {
-            links: links.iter().copied().map(LinkIdx).collect(),
-            joints: joints.iter().copied().map(JointIdx).collect(),
-        }
-    }
-
-    #[test]
-    fn paths_and_counts_in_words() {
-        assert_eq!(count(1, "links"), "1 link");
-        assert_eq!(count(0, "joints"), "0 joints");
-        assert_eq!(show_path(&[1]), "[1]");
-        assert_eq!(show_path(&[]), "[]");
-        assert_eq!(show_path(&[0, 1]), "[0, 1]");
-        let long: Vec<usize> = (3..20).collect();
-        assert_eq!(show_path(&long), "[3, 4, ..., 19] (17 links)");
-    }
-
-    #[test]
-    fn ancestors_of_every_pair() {
-        let tree = tree();
-        let mut ancestors = Ancestors::new(&tree);
-        assert_eq!(ancestors.row(0), [0, 2, 2, 3, 3]);
-        assert_eq!(ancestors.row(1), [2, 1, 2, 3, 3]);
-        assert_eq!(ancestors.row(2), [2, 2, 2, 3, 3]);
-        assert_eq!(ancestors.row(3), [3, 3, 3, 3, 3]);
-        assert_eq!(ancestors.row(4), [3, 3, 3, 3, 4]);
-    }
-
-    #[test]
-    fn a_path_is_followed_up_and_down() {
-        let tree = tree();
-        let at = |ends, links: &[u32], joints: &[u32]| {
-            path_fault(&tree, ends, &path(links, joints)).map(|(place, ..)| place)
-        };
-        let far = [0, 3, 4];
-        assert_eq!(at(far, &[0, 2, 3, 4], &[0, 1, 3]), None);
-        assert_eq!(at([4, 3, 0], &[4, 3, 2, 0], &[3, 1, 0]), None);
-        assert_eq!(at([1, 1, 1], &[1], &[]), None);
-        assert_eq!(at([1, 1, 1], &[0], &[]).as_deref(), Some("/links/0"));
-        assert_eq!(at(far, &[0, 2, 3], &[0, 1, 3]).as_deref(), Some("/links"));
-        assert_eq!(at(far, &[0, 2, 3, 4], &[0, 1]).as_deref(), Some("/joints"));
-        for place in 0..4 {
-            let mut links = [0, 2, 3, 4];
-            links[place] = 1;
-            let found = at(far, &links, &[0, 1, 3]);
-            assert_eq!(found, Some(format!("/links/{place}")));
-        }
-        for place in 0..3 {
-            let mut joints = [0, 1, 3];
-            joints[place] = 2;
-            let found = at(far, &[0, 2, 3, 4], &joints);
-            assert_eq!(found, Some(format!("/joints/{place}")));
-        }
     }
 }

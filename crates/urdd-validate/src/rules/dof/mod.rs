@@ -1,7 +1,9 @@
 //! DOF: `dof_module`.
 
-mod dof_count_differs;
-mod dof_mappings_disagree;
+#[doc(hidden)]
+pub mod dof_count_differs;
+#[doc(hidden)]
+pub mod dof_mappings_disagree;
 mod dof_misdescribed;
 mod dofs_out_of_order;
 mod joint_dof_count_wrong;

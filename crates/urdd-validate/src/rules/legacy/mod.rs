@@ -1,6 +1,7 @@
 //! LEG: conventions of URDDs that were published before version 1.
 
-mod adjusted_mappings_wrong;
+#[doc(hidden)]
+pub mod adjusted_mappings_wrong;
 mod folder_name_differs;
 mod locked_bound_widened;
 mod mesh_file_shared_alike;

@@ -10,7 +10,8 @@ mod hull_not_convex;
 mod hull_vertex_off_mesh;
 mod link_without_mesh;
 mod mesh_file_missing;
-mod mesh_file_name;
+#[doc(hidden)]
+pub mod mesh_file_name;
 mod mesh_file_shared;
 mod mesh_format_mismatch;
 mod mesh_formats_differ;
@@ -23,7 +24,8 @@ mod modules;
 mod original_misdescribed;
 mod outreach;
 mod piece_barely_leaves_hull;
-mod piece_count_mismatch;
+#[doc(hidden)]
+pub mod piece_count_mismatch;
 mod piece_leaves_hull;
 mod piece_not_convex;
 mod pieces_leave_surface;

@@ -66,7 +66,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// The most frequent number; of several, the first.
-fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
+pub fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
     let mut seen: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
     for (place, number) in numbers.enumerate() {
         seen.entry(number).or_insert((0, place)).0 += 1;
@@ -74,17 +74,4 @@ fn most_common(numbers: impl Iterator<Item = usize>) -> usize {
     let best =
         seen.into_iter().max_by_key(|(_, (times, place))| (*times, std::cmp::Reverse(*place)));
     best.map_or(0, |(number, _)| number)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::most_common;
-
-    #[test]
-    fn the_number_that_comes_most_often_and_first() {
-        assert_eq!(most_common([3, 2, 2].into_iter()), 2);
-        assert_eq!(most_common([3, 2, 2, 3].into_iter()), 3);
-        assert_eq!(most_common([7].into_iter()), 7);
-        assert_eq!(most_common(std::iter::empty()), 0);
-    }
 }

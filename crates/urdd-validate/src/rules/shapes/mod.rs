@@ -10,7 +10,8 @@ mod matrix_size;
 mod max_distance_wrong;
 mod needlessly_large;
 mod needlessly_large_box;
-mod needlessly_large_sphere;
+#[doc(hidden)]
+pub mod needlessly_large_sphere;
 mod negative_distance;
 mod no_samples;
 mod piece_matrix_missing;

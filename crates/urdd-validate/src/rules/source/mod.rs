@@ -1,13 +1,17 @@
 //! SRC: unusual robots, whose URDD may still be correct.
 
 mod crossed_limits;
-mod inertia_breaks_triangle;
-mod inertia_not_positive_definite;
+#[doc(hidden)]
+pub mod inertia_breaks_triangle;
+#[doc(hidden)]
+pub mod inertia_not_positive_definite;
 mod links;
 mod mass_not_positive;
 mod mesh_not_carried;
-mod mimic_leaves_limits;
-mod moments;
+#[doc(hidden)]
+pub mod mimic_leaves_limits;
+#[doc(hidden)]
+pub mod moments;
 mod no_effort_and_no_speed;
 mod no_limits;
 mod repeated_element;

@@ -46,7 +46,7 @@ fn parents(robot: &Robot) -> Vec<Option<usize>> {
 }
 
 /// The circles of a map, each starting at its lowest member.
-pub(super) fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+pub fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     // The walk that first reached each member.
     let mut walk_of: Vec<Option<usize>> = vec![None; next.len()];
     let mut circles = Vec::new();
@@ -78,21 +78,4 @@ pub(super) fn circles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
         }
     }
     circles
-}
-
-#[cfg(test)]
-mod tests {
-    use super::circles;
-
-    #[test]
-    fn finds_each_circle_once() {
-        let none: Vec<Vec<usize>> = Vec::new();
-        assert_eq!(circles(&[]), none);
-        assert_eq!(circles(&[None, Some(0), Some(1), Some(0)]), none);
-        assert_eq!(circles(&[Some(0)]), [[0]]);
-        assert_eq!(
-            circles(&[Some(2), None, Some(3), Some(2), Some(6), Some(4), Some(5), Some(9)]),
-            [vec![2, 3], vec![4, 6, 5]]
-        );
-    }
 }

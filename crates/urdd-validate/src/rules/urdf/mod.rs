@@ -1,6 +1,7 @@
 //! URD: `urdf_module` against the carried URDF, and as a tree.
 
-mod cycle;
+#[doc(hidden)]
+pub mod cycle;
 mod duplicate_joint_name;
 mod duplicate_link_name;
 mod joints_not_the_urdfs;
@@ -9,14 +10,17 @@ mod materials_not_the_urdfs;
 mod mimic_circle;
 mod mimic_of_many_dofs;
 mod not_one_root;
-mod parts;
+#[doc(hidden)]
+pub mod parts;
 mod repeated_names;
-mod source_differences;
+#[doc(hidden)]
+pub mod source_differences;
 mod two_parents;
 mod unknown_link;
 mod unknown_mimic_driver;
 mod unreadable_urdf;
-mod zero_axis;
+#[doc(hidden)]
+pub mod zero_axis;
 
 use crate::rule::rules;
 

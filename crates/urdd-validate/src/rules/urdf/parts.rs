@@ -2,7 +2,7 @@
 
 /// The parts of a robot; one rule compares each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub enum Part {
     /// The set of links and joints, and everything that affects kinematics: URD001.
     Joints,
     /// Materials: URD014.
@@ -13,7 +13,7 @@ pub(super) enum Part {
 
 impl Part {
     /// The part to which the value at a JSON Pointer of `urdf_module` belongs.
-    pub(super) fn of(pointer: &str) -> Part {
+    pub fn of(pointer: &str) -> Part {
         let parts: Vec<&str> = pointer.split('/').skip(1).collect();
         match parts.as_slice() {
             // Whether a quaternion counts depends on the version.
@@ -32,7 +32,7 @@ impl Part {
 
 /// The origin or material of a visual or collision element that contains a JSON Pointer's value. Differences within it
 /// are one finding.
-pub(super) fn element_part(pointer: &str) -> Option<&str> {
+pub fn element_part(pointer: &str) -> Option<&str> {
     let mut ends = pointer.match_indices('/').map(|(at, _)| at).skip(1);
     // /links/3/visual/0/origin/xyz/2
     let mut parts = pointer.split('/').skip(1);
@@ -41,39 +41,4 @@ pub(super) fn element_part(pointer: &str) -> Option<&str> {
         && matches!(parts.nth(1), Some("origin" | "material"));
     let end = ends.nth(4).unwrap_or(pointer.len());
     is_shape.then(|| &pointer[..end])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Part, element_part};
-
-    #[test]
-    fn each_value_belongs_to_one_part() {
-        for pointer in ["/links", "/joints", "/links/3/name", "/version", "/joints/1/mimic/offset"]
-        {
-            assert_eq!(Part::of(pointer), Part::Joints, "{pointer}");
-        }
-        for pointer in ["/materials", "/materials/0/name", "/links/3/visual/0/material"] {
-            assert_eq!(Part::of(pointer), Part::Materials, "{pointer}");
-        }
-        for pointer in [
-            "/name",
-            "/links/3/visual/0/name",
-            "/links/3/visual/0/origin/xyz/0",
-            "/joints/1/dynamics",
-            "",
-        ] {
-            assert_eq!(Part::of(pointer), Part::Rest, "{pointer}");
-        }
-    }
-
-    #[test]
-    fn an_origin_is_one_place() {
-        for pointer in ["/links/3/collision/0/origin", "/links/3/collision/0/origin/xyz/2"] {
-            assert_eq!(element_part(pointer), Some("/links/3/collision/0/origin"));
-        }
-        for pointer in ["/links/3/inertial/origin/xyz", "/joints/3/origin", "/links", ""] {
-            assert_eq!(element_part(pointer), None, "{pointer}");
-        }
-    }
 }

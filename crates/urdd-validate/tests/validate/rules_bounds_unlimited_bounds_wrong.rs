@@ -1,0 +1,10 @@
+//! The rule `bounds::unlimited_bounds_wrong`.
+
+use urdd_validate::rules::bounds::unlimited_bounds_wrong::is_frozen;
+
+#[test]
+fn what_legacy_modules_added_is_no_range() {
+    assert!(is_frozen([0.0, 1e-7]));
+    assert!(is_frozen([3.0, 3.0 + 1e-7]));
+    assert!(!is_frozen([0.0, 1e-6]));
+}

@@ -1,0 +1,13 @@
+//! The rule `meshes::mesh_file_name`.
+
+use urdd_validate::rules::meshes::mesh_file_name::slug;
+
+#[test]
+fn names_become_slugs() {
+    assert_eq!(slug("base_link-2"), "base_link-2");
+    assert_eq!(slug("arm/forearm äö.x"), "arm_forearm_x");
+    assert_eq!(slug("_/_"), "___");
+    assert_eq!(slug("//"), "_");
+    assert_eq!(slug(""), "link");
+    assert_eq!(slug(&"x".repeat(80)).len(), 64);
+}

@@ -1,0 +1,11 @@
+//! The rule `source::inertia_breaks_triangle`.
+
+use urdd_validate::rules::source::inertia_breaks_triangle::*;
+use urdd_validate::tolerance::INERTIA_TRIANGLE;
+
+#[test]
+fn a_flat_plate_is_a_body() {
+    assert!(excess([0.3, 0.7, 1.0]) <= INERTIA_TRIANGLE);
+    assert!(excess([0.3, 0.699_999_8, 1.0]) <= INERTIA_TRIANGLE);
+    assert!(excess([0.3, 0.699_998, 1.0]) > INERTIA_TRIANGLE);
+}

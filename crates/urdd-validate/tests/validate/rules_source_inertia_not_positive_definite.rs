@@ -1,0 +1,13 @@
+//! The rule `source::inertia_not_positive_definite`.
+
+use urdd_validate::rules::source::inertia_not_positive_definite::positive;
+use urdd_validate::rules::source::moments::principal;
+
+#[test]
+fn thin_is_not_singular() {
+    // A steel rod of 1 m, 0.1 mm thick.
+    assert!(positive(principal([0.083, 0.0, 0.0, 0.083, 0.0, 1.25e-9])));
+    assert!(!positive(principal([0.083, 0.0, 0.0, 0.083, 0.0, 0.0])));
+    assert!(!positive(principal([1.0, 1.0, 0.0, 1.0, 0.0, 1.0])));
+    assert!(!positive(principal([-1.0, 0.0, 0.0, -1.0, 0.0, -1.0])));
+}
