@@ -8,8 +8,7 @@ use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
-use urdd_kinematics::rotation::to_rpy;
-use urdd_kinematics::rotation::{planar_basis, unit_axis};
+use urdd_kinematics::rotation::{planar_basis, to_rpy, unit_axis};
 
 const STANDS: &str =
     "it mimics a fixed joint and never moves; it is exported as a fixed joint at its offset";

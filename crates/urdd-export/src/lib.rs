@@ -35,10 +35,8 @@ mod contacts;
 mod drake;
 #[doc(hidden)]
 pub mod element;
-#[doc(hidden)]
-pub mod error;
-#[doc(hidden)]
-pub mod format;
+mod error;
+mod format;
 mod groups;
 mod joints;
 mod meshes;
@@ -48,8 +46,7 @@ mod moveit;
 #[doc(hidden)]
 pub mod names;
 mod nested;
-#[doc(hidden)]
-pub mod options;
+mod options;
 mod output;
 #[doc(hidden)]
 pub mod pairs;
@@ -62,8 +59,7 @@ pub mod simplify;
 pub mod spheres;
 mod srdf;
 mod srdf_import;
-#[doc(hidden)]
-pub mod srdf_merge;
+mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;

@@ -10,7 +10,7 @@ use thiserror::Error;
 use urdd_xml::Kind;
 
 /// The element that is replaced.
-pub const DISABLED: &str = "disable_collisions";
+const DISABLED: &str = "disable_collisions";
 
 /// The reasons that MoveIt's Setup Assistant and this program write. A pair with another reason, such as `User` or a
 /// sentence, belongs to the user.
@@ -140,7 +140,10 @@ pub(super) fn parse_of<'t>(text: &'t str, robot: &str) -> Result<Document<'t>, S
     }
 }
 
-pub fn elements<'a>(robot: Node<'a, 'a>, name: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+pub(super) fn elements<'a>(
+    robot: Node<'a, 'a>,
+    name: &'a str,
+) -> impl Iterator<Item = Node<'a, 'a>> {
     robot.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 

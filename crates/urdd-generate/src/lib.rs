@@ -56,8 +56,7 @@ mod product;
 mod progress;
 mod robot;
 mod selection;
-#[doc(hidden)]
-pub mod settings;
+mod settings;
 #[doc(hidden)]
 pub mod shape_documents;
 mod shape_stages;

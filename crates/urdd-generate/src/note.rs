@@ -116,6 +116,7 @@ impl fmt::Display for Note {
 }
 
 /// A note from a reader, at a byte offset of the text.
+#[doc(hidden)]
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
     /// Its kind.

@@ -133,7 +133,7 @@ impl Text {
         }
     }
 
-    /// The units before each block.
+    /// The units of the text's encoding, or the scalar values, before each block.
     fn before_blocks(&self, encoding: Encoding) -> &[usize] {
         let all = if encoding == self.encoding { &self.units } else { &self.scalars };
         all.get_or_init(|| {

@@ -51,6 +51,7 @@ pub struct Check {
 
 impl Check {
     /// What a rule found.
+    #[doc(hidden)]
     pub fn new(rule: &'static Description, outcome: Outcome, findings: Vec<Finding>) -> Self {
         Check {
             rule,

@@ -8,8 +8,7 @@ use super::super::joints::{Moves, joints as resolved, parts as simple_joints};
 use super::super::subject::Subject;
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
-use urdd_kinematics::rotation::to_rpy;
-use urdd_kinematics::rotation::unit_axis;
+use urdd_kinematics::rotation::{to_rpy, unit_axis};
 use urdd_xml::number::{number, numbers};
 
 /// The joint that fixes the root link to the world.

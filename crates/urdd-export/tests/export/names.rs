@@ -1,6 +1,6 @@
 //! Names that formats can represent, and file names.
 
-use urdd_export::format::Format;
+use urdd_export::Format;
 use urdd_export::names::*;
 
 #[test]

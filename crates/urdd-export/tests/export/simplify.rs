@@ -1,8 +1,7 @@
 //! Visual geometry with fewer triangles, by meshoptimizer's edge collapses. The deviation is measured on both surfaces.
 
-use urdd_export::error::Note;
-use urdd_export::options::Detail;
-use urdd_export::simplify::*;
+use urdd_export::simplify::simplify_all;
+use urdd_export::{Detail, Note};
 use urdd_geometry::Mesh;
 
 /// A sphere as a grid of `n` by `2 n` quads, with vertices of its own for each triangle, as an STL has them.

@@ -15,8 +15,7 @@ mod evaluation;
 #[doc(hidden)]
 pub mod labels;
 mod optimiser;
-#[doc(hidden)]
-pub mod settings;
+mod settings;
 mod subject;
 
 pub use self::settings::{Effort, MOST_DOFS, MOST_PAIRS};

@@ -65,7 +65,7 @@ pub(super) const MISSES: f64 = 0.005;
 /// Maximum number of a pair's contacts with the highest outputs that form its tail.
 pub(super) const TAIL: usize = 10;
 /// Expected misses of a pair at its first margin; each further level doubles them.
-pub const FIRST_MISSES: f64 = 0.02;
+pub(super) const FIRST_MISSES: f64 = 0.02;
 /// Maximum number of margins to try per pair.
 pub(super) const LEVELS: usize = 14;
 

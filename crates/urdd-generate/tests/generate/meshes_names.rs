@@ -1,8 +1,8 @@
 //! File names of derived meshes: SPEC 7.3.
 
 use urdd_format::registry::ModuleKind;
+use urdd_generate::MeshFormats;
 use urdd_generate::meshes::names::*;
-use urdd_generate::settings::MeshFormats;
 
 #[test]
 fn slugs_are_ascii_and_short() {

@@ -10,6 +10,4 @@ mod faults;
 mod learn_kernel;
 mod naive_kinematics;
 mod properties;
-mod roll_pitch_yaw;
 mod rotations;
-mod split_mix;

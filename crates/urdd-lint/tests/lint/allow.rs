@@ -2,6 +2,7 @@
 
 use super::{SLIDE, codes, linted, written};
 use urdd_lint::LintSettings;
+use urdd_lint::allow::codes_of;
 
 /// The codes found where `comment` replaces what is at `at`, and the codes that are allowed in vain.
 fn found(at: &str, with: &str) -> (Vec<String>, Vec<(Option<String>, String)>) {
@@ -39,4 +40,13 @@ fn a_comment_elsewhere_allows_nothing_and_is_named() {
         assert_eq!(codes, ["LNT012"]);
         assert_eq!(stale, [(Some(code.to_owned()), format!("slide.urdf:{line}"))]);
     }
+}
+
+#[test]
+fn codes_stand_before_the_reason() {
+    assert_eq!(codes_of(" urdd: allow LNT001 SRC, really "), Some(vec!["LNT001"]));
+    assert_eq!(codes_of("urdd:allow LNT001 , SRC: see #3, #4"), Some(vec!["LNT001", "SRC"]));
+    assert_eq!(codes_of(" urdd: allow "), None);
+    assert_eq!(codes_of(" urdd: allowance "), None);
+    assert_eq!(codes_of(" a comment about urdd: allow LNT001 "), None);
 }

@@ -4,7 +4,6 @@
 #![allow(clippy::restriction)]
 
 mod allow;
-mod allowed_codes;
 mod baseline;
 mod cases;
 mod consequences;

@@ -45,6 +45,7 @@ pub fn file_in(place: &str, file: Option<&str>) -> String {
 }
 
 /// A path as seen from the current folder, with `/`. None if it is outside.
+#[doc(hidden)]
 pub fn relative(path: &Path, current: &Path) -> Option<String> {
     let whole = plain(&current.join(path));
     let inside = whole.strip_prefix(plain(current)).ok()?;

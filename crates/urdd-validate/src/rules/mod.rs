@@ -13,8 +13,7 @@ pub mod learned;
 pub mod legacy;
 pub mod meshes;
 pub mod named_configurations;
-#[doc(hidden)]
-pub mod prelude;
+mod prelude;
 pub mod schema;
 pub mod shapes;
 pub mod source;
