@@ -17,7 +17,7 @@ use urdd_generate::{
 };
 
 use crate::errors::of_generate;
-use crate::work::{self, Teller};
+use crate::work::{self, Step, Teller};
 
 /// The options of `urdd.generate`, which checks their types.
 #[derive(FromPyObject)]
@@ -134,17 +134,14 @@ pub fn skipped_reason(word: &str) -> Result<SkippedReason, String> {
     })
 }
 
-/// The start of a module, or a finished step: its name, the number of finished modules, and their total.
-type Begun = (String, usize, usize);
-
 /// Reports the progress of a job.
-struct Told<'a, T> {
-    teller: &'a Teller<T, Begun>,
+struct Told<'a> {
+    teller: &'a Teller,
     /// The module that began last, and the total number of modules.
     last: Mutex<Option<(ModuleKind, usize)>>,
 }
 
-impl<T: Send> Progress for Told<'_, T> {
+impl Progress for Told<'_> {
     fn module(&self, kind: ModuleKind, done: usize, total: usize) {
         // The first module of the next URDD, in a combination of several.
         if done == 0 {
@@ -161,7 +158,7 @@ impl<T: Send> Progress for Told<'_, T> {
     }
 }
 
-impl<T> Told<'_, T> {
+impl Told<'_> {
     /// Reports that all modules are finished.
     fn end(&self) {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
@@ -179,8 +176,8 @@ pub fn with_progress<T: Send, E: Send>(
     make: impl FnOnce(&Settings, &dyn Progress) -> Result<T, E> + Send,
 ) -> PyResult<Result<T, E>> {
     let mut settings = options.settings().map_err(PyValueError::new_err)?;
-    let hear = |begun: Begun| match &progress {
-        Some(progress) => progress.call1(begun).map(drop),
+    let hear = |step: Step| match &progress {
+        Some(progress) => progress.call1(step).map(drop),
         None => Ok(()),
     };
     work::run_and_tell(py, hear, move |cancellation, teller| {

@@ -16,32 +16,50 @@ use crate::threads::pool;
 /// Polling interval for Ctrl-C.
 const PAUSE: Duration = Duration::from_millis(20);
 
-enum Word<T, M> {
-    Told(M),
-    Done(Result<T, Box<dyn Any + Send>>),
+/// The start of a module, or a finished step: its name, the number of finished modules, and their total.
+pub type Step = (String, usize, usize);
+
+enum Word {
+    Told(Step),
+    Done(std::thread::Result<()>),
 }
 
 /// The channel on which work reports its progress.
-pub struct Teller<T, M>(Sender<Word<T, M>>);
+pub struct Teller(Sender<Word>);
 
-impl<T, M> Teller<T, M> {
-    pub fn tell(&self, message: M) {
+impl Teller {
+    pub fn tell(&self, step: Step) {
         // The receiver may no longer exist.
-        let _ = self.0.send(Word::Told(message));
+        let _ = self.0.send(Word::Told(step));
     }
 }
 
 /// Runs a job. Ctrl-C cancels it, and is raised after it has stopped.
 pub fn run<T: Send>(py: Python<'_>, job: impl FnOnce(&Cancellation) -> T + Send) -> PyResult<T> {
-    run_and_tell(py, |(): ()| Ok(()), move |cancellation, _| job(cancellation))
+    run_and_tell(py, |_| Ok(()), move |cancellation, _| job(cancellation))
 }
 
-/// Like [`run`]; calls `hear` on the caller's thread with the job's messages. An error of `hear` cancels the job too.
-pub fn run_and_tell<T: Send, M: Send>(
+/// Like [`run`]; calls `hear` on the caller's thread with the job's steps. An error of `hear` cancels the job too.
+pub fn run_and_tell<T: Send>(
     py: Python<'_>,
-    mut hear: impl FnMut(M) -> PyResult<()>,
-    job: impl FnOnce(&Cancellation, &Teller<T, M>) -> T + Send,
+    mut hear: impl FnMut(Step) -> PyResult<()>,
+    job: impl FnOnce(&Cancellation, &Teller) -> T + Send,
 ) -> PyResult<T> {
+    let (mut job, mut answer) = (Some(job), None);
+    supervise(py, &mut hear, &mut |cancellation, teller| {
+        answer = job.take().map(|job| job(cancellation, teller));
+    })?;
+    answer.ok_or_else(no_answer)
+}
+
+/// A job whose answer is kept by itself, so that this is compiled once.
+type Job<'a> = &'a mut (dyn FnMut(&Cancellation, &Teller) + Send);
+
+fn supervise(
+    py: Python<'_>,
+    hear: &mut dyn FnMut(Step) -> PyResult<()>,
+    job: Job<'_>,
+) -> PyResult<()> {
     let cancellation = Cancellation::default();
     let (sender, receiver) = channel();
     let own = cancellation.clone();
@@ -58,13 +76,11 @@ pub fn run_and_tell<T: Send, M: Send>(
         loop {
             let word = py.detach(|| next(&receiver));
             let heard = match word {
-                Ok(Word::Done(Ok(value))) => return stopped.map_or(Ok(value), Err),
+                Ok(Word::Done(Ok(()))) => return stopped.map_or(Ok(()), Err),
                 Ok(Word::Done(Err(panic))) => return Err(crash(&*panic)),
-                Ok(Word::Told(message)) if stopped.is_none() => hear(message),
+                Ok(Word::Told(step)) if stopped.is_none() => hear(step),
                 Ok(Word::Told(_)) | Err(RecvTimeoutError::Timeout) => Ok(()),
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(PyRuntimeError::new_err("the work ended without an answer"));
-                }
+                Err(RecvTimeoutError::Disconnected) => return Err(no_answer()),
             };
             if let Err(error) = heard.and_then(|()| py.check_signals()) {
                 cancellation.cancel();
@@ -74,7 +90,11 @@ pub fn run_and_tell<T: Send, M: Send>(
     })
 }
 
-fn next<W>(receiver: &Mutex<Receiver<W>>) -> Result<W, RecvTimeoutError> {
+fn no_answer() -> PyErr {
+    PyRuntimeError::new_err("the work ended without an answer")
+}
+
+fn next(receiver: &Mutex<Receiver<Word>>) -> Result<Word, RecvTimeoutError> {
     let receiver = receiver.lock().unwrap_or_else(PoisonError::into_inner);
     receiver.recv_timeout(PAUSE)
 }
