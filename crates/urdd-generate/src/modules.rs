@@ -7,11 +7,12 @@ use super::context::Context;
 use super::donor::Donor;
 use super::error::GenerateError;
 use super::inputs;
-use super::made::{Digests, Made};
+use super::made::{Digests, Made, MadeFile};
 use super::metadata::{self, Entry, MODULE_VERSION};
 use super::note::Note;
 use super::product::{Load, Product};
 use super::settings::Settings;
+use urdd_directory::document::Document;
 use urdd_directory::root::Root;
 use urdd_directory::writer::Writer;
 use urdd_format::registry::ModuleKind;
@@ -24,6 +25,13 @@ pub struct MadeModule {
     pub kind: ModuleKind,
     /// Whether it was kept from the replaced URDD because none of its inputs changed.
     pub kept: bool,
+}
+
+/// A module whose stage runs.
+struct Begun {
+    kind: ModuleKind,
+    /// Digest of its inputs, if it can be kept later.
+    inputs: Option<String>,
 }
 
 /// The modules so far.
@@ -72,6 +80,16 @@ impl<'a> Modules<'a> {
         kind: ModuleKind,
         stage: impl FnOnce(&Digests) -> Result<Made<T>, GenerateError>,
     ) -> Result<Option<T>, GenerateError> {
+        let Some(begun) = self.begin(kind)? else {
+            return Ok(None);
+        };
+        let Made { document, files, notes, product } = stage(&self.digests)?;
+        self.end(begun, document, files, notes)?;
+        Ok(Some(product))
+    }
+
+    /// Begins a module. `None` if it is not selected, or is kept.
+    fn begin(&mut self, kind: ModuleKind) -> Result<Option<Begun>, GenerateError> {
         if !self.selected.contains(&kind) {
             return Ok(None);
         }
@@ -92,17 +110,26 @@ impl<'a> Modules<'a> {
             self.enter(kind, files.to_vec(), inputs, true);
             return Ok(None);
         }
-        let made = stage(&self.digests)?;
-        if let Some(document) = made.document {
+        Ok(Some(Begun { kind, inputs }))
+    }
+
+    /// Writes what the stage of a module made.
+    fn end(
+        &mut self,
+        Begun { kind, inputs }: Begun,
+        document: Option<Document>,
+        files: Vec<MadeFile>,
+        notes: Vec<Note>,
+    ) -> Result<(), GenerateError> {
+        if let Some(document) = document {
             let mut written = self.writer.module(kind, MODULE_VERSION, &document)?;
-            for file in made.files {
+            for file in files {
                 written.push(self.writer.file(&file.path, &file.bytes)?);
             }
             self.enter(kind, written, inputs, false);
         }
-        self.notes.extend(made.notes);
-        check_assumptions(&self.notes, self.context.settings)?;
-        Ok(Some(made.product))
+        self.notes.extend(notes);
+        check_assumptions(&self.notes, self.context.settings)
     }
 
     /// As [`Modules::add`], for a product that `load` can read from the files of a kept module.

@@ -25,5 +25,5 @@ pub(super) fn bytes(root: &Root, path: &str) -> Result<Vec<u8>, PartFault> {
 /// The value of a JSON document; `path` names it in faults.
 pub(super) fn parsed<T: DeserializeOwned>(bytes: &[u8], path: &str) -> Result<T, PartFault> {
     let value = json::read(bytes).map_err(|error| PartFault::unreadable(path, error))?;
-    serde_json::from_value(value.value).map_err(|error| PartFault::unreadable(path, error))
+    T::deserialize(&value.value).map_err(|error| PartFault::unreadable(path, error))
 }

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -139,8 +140,8 @@ fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, Part
             PartFault::unreadable(&path, error)
         };
         Ok(Skips {
-            reasons: serde_json::from_value(of("skipped_reasons")).map_err(wrong)?,
-            edits: serde_json::from_value(of("edits")).map_err(wrong)?,
+            reasons: Vec::deserialize(&of("skipped_reasons")).map_err(wrong)?,
+            edits: Vec::deserialize(&of("edits")).map_err(wrong)?,
         })
     });
     let named: Option<(NamedConfigurationsModule, _)> =

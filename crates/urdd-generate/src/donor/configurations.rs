@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::Donor;
@@ -57,10 +58,9 @@ fn parse(document: &Value) -> Result<Vec<ConfigurationEdit>, Fault> {
             move |error: serde_json::Error| (pointer, EditsFault::Configuration(error.to_string()))
         };
         let (pointer, name) = read("name")?;
-        let name: ConfigurationName = serde_json::from_value(name).map_err(wrong(pointer))?;
+        let name = ConfigurationName::deserialize(&name).map_err(wrong(pointer))?;
         let (pointer, positions) = read("positions")?;
-        let positions: Vec<DofPosition> =
-            serde_json::from_value(positions).map_err(wrong(pointer))?;
+        let positions: Vec<DofPosition> = Vec::deserialize(&positions).map_err(wrong(pointer))?;
         Ok(ConfigurationEdit { name, positions })
     });
     edits.collect()

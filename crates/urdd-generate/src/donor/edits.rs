@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::Donor;
@@ -121,7 +122,7 @@ fn parse(document: &Value) -> Result<Decisions, Fault> {
     let skipped_reasons = match document.get(SKIPPED_REASONS) {
         // An early draft of the format had edits but no choice of reasons.
         None => SkippedReason::USUAL.to_vec(),
-        Some(reasons) => serde_json::from_value(reasons.clone()).map_err(|error| {
+        Some(reasons) => Vec::deserialize(reasons).map_err(|error| {
             let words = format!("{SKIPPED_REASONS}: {error}");
             (format!("/{SKIPPED_REASONS}"), EditsFault::Edit(words))
         })?,
@@ -140,8 +141,7 @@ fn parse(document: &Value) -> Result<Decisions, Fault> {
             let words = format!("`{key}` is null");
             return Err((format!("{pointer}/{key}"), EditsFault::Edit(words)));
         }
-        serde_json::from_value::<SkipEdit>(edit.clone())
-            .map_err(|error| (pointer, EditsFault::Edit(error.to_string())))
+        SkipEdit::deserialize(edit).map_err(|error| (pointer, EditsFault::Edit(error.to_string())))
     });
     Ok(Decisions {
         skipped_reasons,

@@ -21,6 +21,7 @@ pub(super) mod others;
 
 use std::path::Path;
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -47,7 +48,7 @@ impl Donor {
     pub fn open(root: Root) -> Option<Self> {
         let bytes = root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES).ok()?;
         let value = json::read(&bytes).ok()?.value;
-        let metadata = serde_json::from_value(value.clone()).ok()?;
+        let metadata = RootMetadata::deserialize(&value).ok()?;
         Some(Donor { root, metadata, value })
     }
 
@@ -106,5 +107,6 @@ pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Re
     let path = format!("{}/module.json", kind.folder());
     let bytes = root.read(&path, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| error.to_string())?;
-    serde_json::from_slice(&bytes).map_err(|error| error.to_string())
+    let value = json::read(&bytes).map_err(|error| error.to_string())?.value;
+    T::deserialize(&value).map_err(|error| error.to_string())
 }
