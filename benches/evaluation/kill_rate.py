@@ -35,7 +35,7 @@ def main() -> None:
         made = [
             generated(urdd, urdf, Path(folder) / urdf.stem, "--package", f"urdd_robots={urdf.parent}") for urdf in robots
         ]
-        command = ["cargo", "run", "--release", "--locked", "--quiet", "--bin", "urdd-kill-rate", "--"]
+        command = ["cargo", "run", "--release", "--locked", "--quiet", "--package", "urdd-kill-rate", "--"]
         text = printed([*command, *options, "--format", "json", "--min-rate", "0", *made])
     modules: dict[str, Counter[str]] = {}
     for one in (module for robot in json.loads(text)["urdds"] for module in robot["modules"]):

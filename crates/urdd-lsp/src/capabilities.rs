@@ -1,11 +1,12 @@
 //! What the server can do, and what the editor can.
 
 use lsp_types::{
-    ClientCapabilities, CodeActionKind, CodeActionOptions, CompletionOptions,
-    HoverProviderCapability, InitializeResult, OneOf, SaveOptions, ServerCapabilities, ServerInfo,
+    CodeActionKind, CodeActionOptions, CompletionOptions, HoverProviderCapability,
+    InitializeResult, OneOf, SaveOptions, ServerCapabilities, ServerInfo,
     TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions,
     TextDocumentSyncSaveOptions,
 };
+use serde_json::Value;
 
 use crate::code_actions::FIX_ALL;
 use crate::text::Encoding;
@@ -29,30 +30,18 @@ pub struct Client {
 }
 
 impl Client {
-    /// What an editor says of itself.
-    pub fn new(capabilities: &ClientCapabilities) -> Self {
-        let general = capabilities.general.as_ref();
-        let offered = general.and_then(|general| general.position_encodings.as_deref());
-        let text = capabilities.text_document.as_ref();
-        let symbols = text.and_then(|text| text.document_symbol.as_ref());
-        let published = text.and_then(|text| text.publish_diagnostics.as_ref());
-        let actions = text.and_then(|text| text.code_action.as_ref());
-        let workspace = capabilities.workspace.as_ref();
-        let edits = workspace.and_then(|workspace| workspace.workspace_edit.as_ref());
+    /// What an editor says of itself in the `capabilities` of its first message.
+    pub fn new(capabilities: &Value) -> Self {
+        let at = |pointer: &str| capabilities.pointer(pointer);
+        let has = |pointer: &str| at(pointer).and_then(Value::as_bool).unwrap_or_default();
         Client {
-            encoding: Encoding::choose(offered),
-            nested_symbols: symbols
-                .and_then(|symbols| symbols.hierarchical_document_symbol_support)
-                .unwrap_or_default(),
-            related_places: published
-                .and_then(|published| published.related_information)
-                .unwrap_or_default(),
-            versioned_edits: edits.and_then(|edits| edits.document_changes).unwrap_or_default(),
-            code_actions: actions
-                .is_some_and(|actions| actions.code_action_literal_support.is_some()),
-            configuration: workspace
-                .and_then(|workspace| workspace.configuration)
-                .unwrap_or_default(),
+            encoding: Encoding::choose(at("/general/positionEncodings")),
+            nested_symbols: has("/textDocument/documentSymbol/hierarchicalDocumentSymbolSupport"),
+            related_places: has("/textDocument/publishDiagnostics/relatedInformation"),
+            versioned_edits: has("/workspace/workspaceEdit/documentChanges"),
+            code_actions: at("/textDocument/codeAction/codeActionLiteralSupport")
+                .is_some_and(Value::is_object),
+            configuration: has("/workspace/configuration"),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use lsp_types::{Position, PositionEncodingKind, TextDocumentContentChangeEvent};
+use serde_json::Value;
 
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
@@ -21,14 +22,14 @@ pub enum Encoding {
 
 impl Encoding {
     /// The first of the editor's encodings that is known here: the editor lists the one that it prefers first.
-    pub fn choose(offered: Option<&[PositionEncodingKind]>) -> Self {
-        let known = |kind: &PositionEncodingKind| match kind.as_str() {
+    pub fn choose(offered: Option<&Value>) -> Self {
+        let known = |kind: &Value| match kind.as_str()? {
             "utf-8" => Some(Encoding::Utf8),
             "utf-16" => Some(Encoding::Utf16),
             "utf-32" => Some(Encoding::Utf32),
             _ => None,
         };
-        let mut offered = offered.unwrap_or_default().iter();
+        let mut offered = offered.and_then(Value::as_array).into_iter().flatten();
         offered.find_map(known).unwrap_or_default()
     }
 

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use crossbeam_channel::{Receiver, Sender};
 use lsp_server::{ErrorCode, Message, Response};
-use lsp_types::InitializeParams;
 use serde_json::Value;
 
 use super::ended::Ended;
@@ -44,33 +43,34 @@ pub fn initialize(sender: &Sender<Message>, messages: &Receiver<Message>) -> Res
             refuse(ErrorCode::ServerNotInitialized, message);
             continue;
         }
-        let params: InitializeParams = match serde_json::from_value(request.params.clone()) {
-            Ok(params) => params,
-            Err(error) => {
-                refuse(ErrorCode::InvalidParams, error.to_string());
-                continue;
-            }
-        };
-        let begun = begun(&params, &request.params);
+        if !request.params["capabilities"].is_object() {
+            let message = "the parameters of `initialize` have no object `capabilities`".to_owned();
+            refuse(ErrorCode::InvalidParams, message);
+            continue;
+        }
+        let begun = begun(&request.params);
         let response = Response::new_ok(request.id, initialize_result(&begun.client));
         let _ = sender.send(response.into());
         return Ok(begun);
     }
 }
 
-fn begun(params: &InitializeParams, raw: &Value) -> Begun {
-    let folders = params.workspace_folders.iter().flatten();
-    let mut roots = folders.filter_map(|folder| uri::path(folder.uri.as_str()));
+/// Only what is used is read: what else an editor says may have any form.
+fn begun(params: &Value) -> Begun {
+    let folders = params["workspaceFolders"].as_array();
+    let mut roots =
+        folders.into_iter().flatten().filter_map(|folder| uri::path(folder["uri"].as_str()?));
     // Older editors name one folder.
-    let root = roots.next().or_else(|| uri::path(raw["rootUri"].as_str()?));
+    let root = roots.next().or_else(|| uri::path(params["rootUri"].as_str()?));
     let mut options = Options::default();
-    if let Some(value) = &params.initialization_options {
+    if let Some(value) = params.get("initializationOptions") {
         options.update(value, root.as_deref());
     }
+    let parent = params["processId"].as_u64().and_then(|id| u32::try_from(id).ok());
     Begun {
-        client: Client::new(&params.capabilities),
+        client: Client::new(&params["capabilities"]),
         options,
         root,
-        parent: params.process_id.and_then(Process::find),
+        parent: parent.and_then(Process::find),
     }
 }

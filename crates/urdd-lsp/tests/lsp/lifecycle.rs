@@ -37,6 +37,15 @@ fn the_first_request_is_initialize() {
     }
     let answer = client.request("initialize", json!({"capabilities": {}}));
     assert_eq!(answer["capabilities"]["positionEncoding"], "utf-16");
+    // What an editor says in a form of its own is not for this server.
+    let odd = json!({
+        "processId": "me",
+        "workspaceFolders": {"uri": 3},
+        "capabilities": {"general": {"positionEncodings": [3, "utf-32"]}, "textDocument": 5, "workspace": []},
+    });
+    let answer = Client::connected().request("initialize", odd);
+    assert_eq!(answer["capabilities"]["positionEncoding"], "utf-32");
+    assert_eq!(answer["capabilities"]["hoverProvider"], true);
     assert_eq!(answer["serverInfo"]["name"], "urdd");
 }
 
