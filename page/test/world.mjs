@@ -108,7 +108,12 @@ export async function browser() {
     "--disable-sync",
   ];
   const args = ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", ...quiet];
-  return chromium.launch({ executablePath, args });
+  const start = () => chromium.launch({ executablePath, args });
+  // Chromium crashed in one of some thousand starts, before any page. Whether it starts is not what the tests try.
+  return start().catch((error) => {
+    console.error(`the browser did not start, and is started again: ${error}`);
+    return start();
+  });
 }
 
 /** The page as it was built last, where URDD_DIST names its folder: the program need not be built again for it. */
