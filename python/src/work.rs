@@ -52,9 +52,10 @@ pub fn run_and_tell<T: Send>(
     answer.ok_or_else(no_answer)
 }
 
-/// A job whose answer is kept by itself, so that this is compiled once.
+/// A job that keeps its own answer.
 type Job<'a> = &'a mut (dyn FnMut(&Cancellation, &Teller) + Send);
 
+/// Waits for a job on the thread pool. Without a type of answer, it is compiled once and not for each.
 fn supervise(
     py: Python<'_>,
     hear: &mut dyn FnMut(Step) -> PyResult<()>,

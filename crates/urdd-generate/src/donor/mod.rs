@@ -107,6 +107,7 @@ pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Re
     let path = format!("{}/module.json", kind.folder());
     let bytes = root.read(&path, MAX_DOCUMENT_BYTES);
     let bytes = bytes.map_err(|error| error.to_string())?;
-    let value = json::read(&bytes).map_err(|error| error.to_string())?.value;
-    T::deserialize(&value).map_err(|error| error.to_string())
+    // From the text, without a tree of values: some documents grow with the square of the number of links.
+    let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string())?;
+    serde_json::from_str(text).map_err(|error| error.to_string())
 }
