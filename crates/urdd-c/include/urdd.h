@@ -71,7 +71,7 @@ typedef enum urdd_verdict {
     URDD_VERDICT_UNKNOWN = 0,
     // It is reached within the tolerances.
     URDD_VERDICT_REACHED = 1,
-    // Every configuration that was found to reach it was refused by `free_of`.
+    // Every configuration that was found to reach it was refused by `free_of` or `free_of_world`.
     URDD_VERDICT_REFUSED = 2,
     // None within the bounds was found, but one beyond them.
     URDD_VERDICT_LIMITS = 3,
@@ -114,33 +114,39 @@ typedef struct urdd_link_pair {
     size_t links[2];
 } urdd_link_pair;
 
-// Tolerances and limits of inverse kinematics. `urdd_inverse_settings_default` sets them.
+// Tolerances and limits of inverse kinematics. Begin with `urdd_inverse_settings_default`: settings full of zeros are
+// refused, as they allow no iteration.
 typedef struct urdd_inverse_settings {
-    // Position tolerance, metres.
+    // Position tolerance, metres; 0 or more.
     double position_tolerance;
-    // Rotation tolerance, radians.
+    // Rotation tolerance, radians; 0 or more.
     double rotation_tolerance;
-    // Maximum number of iterations per descent.
+    // Maximum number of iterations per descent; at least 1.
     size_t iterations;
     // Maximum number of descents from random configurations after the first one.
     size_t restarts;
     // Seed of the random configurations. The search is deterministic.
     uint64_t seed;
-    // Bounds in place of those of bounds_module, rad or m: a lower and an upper value for each DOF; or null.
+    // Bounds in place of those of bounds_module, rad or m: a lower and an upper value for each DOF, limited or not; or
+    // null.
     const double *bounds;
-    // Number of values at `bounds`: dofs x 2, or 0.
+    // Number of values at `bounds`: dofs x 2; 0 for null.
     size_t bounds_length;
     // Indices of DOFs that keep the value that they have in the start; or null.
     const size_t *locked;
     // Number of indices at `locked`.
     size_t locked_length;
-    // A configuration that the solution should be near, rad or m: every descent is used, and the nearest solution counts;
-    // or null.
+    // A configuration that the solution should be near, rad or m; or null. Restarts go on until several in a row bring
+    // no nearer solution, and the nearest counts.
     const double *posture;
-    // Number of values at `posture`: dofs, or 0.
+    // Number of values at `posture`: dofs; 0 for null.
     size_t posture_length;
     // Shapes that must not touch one another in a solution, which is searched until one is free; or null.
     const struct urdd_proximity *free_of;
+    // A robot among obstacles that it must not touch in a solution; or null.
+    const struct urdd_world_proximity *free_of_world;
+    // The distance that a solution keeps from the obstacles of `free_of_world`, metres; 0 or more.
+    double margin;
     // Whether to find out why a target is not reached, which takes as long as the search.
     bool explain;
 } urdd_inverse_settings;
@@ -315,21 +321,27 @@ enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_mo
 struct urdd_text urdd_error_message(void);
 
 // Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
-// locked, no posture, no shapes, no explanation.
+// locked, no posture, no shapes, no obstacles, no margin, no explanation.
 //
 // Contract:
 // `out` is null or has room for settings.
 enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
 
 // Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
-// start, then from random configurations. Checks for collisions where `free_of` is set.
+// start, then from random configurations. Checks for collisions where `free_of` or `free_of_world` is set.
 //
-// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
-// target is not reached, the nearest configuration is written, and its solution says so.
+// Without `bounds`, a DOF that is not limited may also move as far from its start as its bounds are from 0: an angle
+// half a turn either way, so that a joint that follows a path does not jump by a turn. Of values a whole turn apart
+// that are within the bounds, the nearest to the posture, or to the start, is written.
 //
-// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
-// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one
+// for each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where
+// a target is not reached, the nearest configuration is written, and its solution says so.
+//
+// Errors: `OUT_OF_RANGE` for a link or a locked DOF; `LENGTH`, also for a posture or bounds without their length;
+// `VALUE` for NaN or infinity, a matrix that is not a rotation and a translation, a tolerance, weight or margin below
+// 0, weights that leave nothing to reach, crossed bounds, or 0 iterations; `POINTER` also if an output overlaps
+// anything else that is given; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 //
 // Contract:
 // `handle` is null or open; the arrays have their lengths.
@@ -906,13 +918,23 @@ enum urdd_status urdd_skips_places(const struct urdd_skips *handle, struct urdd_
 enum urdd_status urdd_skips_is_skipped(const struct urdd_skips *handle, size_t i, size_t j, bool *out);
 
 // Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
-// rotations.
+// rotations. Those of other DOFs that are not limited are a range to sample from, [-pi, pi] or [-1, 1], which the DOF
+// may leave: `urdd_robot_dof_is_limited` says which.
 //
 // Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 //
 // Contract:
 // `handle` is null or open; there is room for `length` values at `bounds`.
 enum urdd_status urdd_robot_bounds(const struct urdd_robot *handle, double *bounds, size_t length);
+
+// Writes for each DOF whether the source limits it: false for continuous, planar, floating and spherical joints.
+// `limited` has room for `dofs` values.
+//
+// Errors: as `urdd_robot_bounds`.
+//
+// Contract:
+// `handle` is null or open; there is room for `dofs` values at `limited`.
+enum urdd_status urdd_robot_dof_is_limited(const struct urdd_robot *handle, bool *limited, size_t dofs);
 
 // Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
 //

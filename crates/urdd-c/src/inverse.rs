@@ -1,16 +1,18 @@
 //! Inverse kinematics.
 
-use std::ptr;
+use std::{mem, ptr};
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::pose;
 use urdd_robot::{InverseSettings, RobotError, Target as RobotTarget, fill};
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::at;
-use crate::memory::{Plain, check, exact_room, put, values};
+use crate::handle::{Handle, at};
+use crate::memory::{Plain, Span, check, exact_room, put, values};
 use crate::proximity::Proximity;
 use crate::robot::Robot;
+use crate::workspace::with_workspace;
+use crate::world::WorldProximity;
 
 /// A target of inverse kinematics, in the root link's frame.
 #[repr(C)]
@@ -30,35 +32,41 @@ pub struct Target {
     pub weights: [f64; 6],
 }
 
-/// Tolerances and limits of inverse kinematics. `urdd_inverse_settings_default` sets them.
+/// Tolerances and limits of inverse kinematics. Begin with `urdd_inverse_settings_default`: settings full of zeros are
+/// refused, as they allow no iteration.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct Settings {
-    /// Position tolerance, metres.
+    /// Position tolerance, metres; 0 or more.
     pub position_tolerance: f64,
-    /// Rotation tolerance, radians.
+    /// Rotation tolerance, radians; 0 or more.
     pub rotation_tolerance: f64,
-    /// Maximum number of iterations per descent.
+    /// Maximum number of iterations per descent; at least 1.
     pub iterations: usize,
     /// Maximum number of descents from random configurations after the first one.
     pub restarts: usize,
     /// Seed of the random configurations. The search is deterministic.
     pub seed: u64,
-    /// Bounds in place of those of bounds_module, rad or m: a lower and an upper value for each DOF; or null.
+    /// Bounds in place of those of bounds_module, rad or m: a lower and an upper value for each DOF, limited or not; or
+    /// null.
     pub bounds: *const f64,
-    /// Number of values at `bounds`: dofs x 2, or 0.
+    /// Number of values at `bounds`: dofs x 2; 0 for null.
     pub bounds_length: usize,
     /// Indices of DOFs that keep the value that they have in the start; or null.
     pub locked: *const usize,
     /// Number of indices at `locked`.
     pub locked_length: usize,
-    /// A configuration that the solution should be near, rad or m: every descent is used, and the nearest solution counts;
-    /// or null.
+    /// A configuration that the solution should be near, rad or m; or null. Restarts go on until several in a row bring
+    /// no nearer solution, and the nearest counts.
     pub posture: *const f64,
-    /// Number of values at `posture`: dofs, or 0.
+    /// Number of values at `posture`: dofs; 0 for null.
     pub posture_length: usize,
     /// Shapes that must not touch one another in a solution, which is searched until one is free; or null.
     pub free_of: *const Proximity,
+    /// A robot among obstacles that it must not touch in a solution; or null.
+    pub free_of_world: *const WorldProximity,
+    /// The distance that a solution keeps from the obstacles of `free_of_world`, metres; 0 or more.
+    pub margin: f64,
     /// Whether to find out why a target is not reached, which takes as long as the search.
     pub explain: bool,
 }
@@ -72,7 +80,7 @@ pub enum Verdict {
     Unknown = 0,
     /// It is reached within the tolerances.
     Reached = 1,
-    /// Every configuration that was found to reach it was refused by `free_of`.
+    /// Every configuration that was found to reach it was refused by `free_of` or `free_of_world`.
     Refused = 2,
     /// None within the bounds was found, but one beyond them.
     Limits = 3,
@@ -117,7 +125,7 @@ unsafe impl Plain for Solution {}
 unsafe impl Plain for Target {}
 
 /// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
-/// locked, no posture, no shapes, no explanation.
+/// locked, no posture, no shapes, no obstacles, no margin, no explanation.
 ///
 /// # Safety
 /// `out` is null or has room for settings.
@@ -142,64 +150,136 @@ pub unsafe extern "C" fn urdd_inverse_settings_default(out: *mut Settings) -> St
                 posture: ptr::null(),
                 posture_length: 0,
                 free_of: ptr::null(),
+                free_of_world: ptr::null(),
+                margin: 0.0,
                 explain: false,
             },
         )
     })
 }
 
-/// The settings, and the shapes that a solution must be free of.
+/// What a solution must be free of.
+#[derive(Clone, Copy, Default)]
+struct FreeOf<'a> {
+    itself: Option<&'a Proximity>,
+    world: Option<&'a WorldProximity>,
+    margin: f64,
+}
+
+impl FreeOf<'_> {
+    fn is_free(self, q: &[f64]) -> bool {
+        let free = |touches: Result<bool, RobotError>| touches == Ok(false);
+        with_workspace(|workspace| {
+            let itself = self.itself;
+            itself.is_none_or(|shapes| free(shapes.0.in_collision_with(q, workspace)))
+                && self.world.is_none_or(|world| {
+                    free(world.queries.is_within_with(q, self.margin, workspace))
+                })
+        })
+    }
+
+    /// Whether the shapes are those of a robot with as many DOFs, and the margin is one.
+    fn check(self, dofs: usize) -> Result<(), Failure> {
+        let itself = self.itself.map(|shapes| ("free_of", shapes.0.num_dofs()));
+        let world = self.world.map(|world| ("free_of_world", world.dofs));
+        for (what, found) in itself.into_iter().chain(world).filter(|(_, found)| *found != dofs) {
+            let message = format!("`{what}` is of a robot with {found} DOFs: expected {dofs}");
+            return Err(Failure::new(Status::Length, message));
+        }
+        match self.margin >= 0.0 && self.margin.is_finite() {
+            true => Ok(()),
+            false => Err(Failure::new(Status::Value, "`margin` is not finite, or below 0 m")),
+        }
+    }
+}
+
+/// The settings, what a solution must be free of, and where their arrays are.
 ///
 /// # Safety
-/// `settings` is null or one that can be read, with its arrays and handle.
+/// `settings` is null or one that can be read, with its arrays and handles.
 unsafe fn settings<'a>(
     settings: *const Settings,
-) -> Result<(InverseSettings, Option<&'a Proximity>), Failure> {
+    dofs: usize,
+) -> Result<(InverseSettings, FreeOf<'a>, Vec<Span>), Failure> {
     if settings.is_null() {
         let explain = false;
         let settings = InverseSettings { explain, ..InverseSettings::default() };
-        return Ok((settings, None));
+        return Ok((settings, FreeOf::default(), Vec::new()));
     }
     check("settings", settings)?;
+    let at_settings = Span::of("settings", settings, 1)?;
     // SAFETY: guaranteed by the caller.
     unsafe {
         let settings = settings.read();
-        let bounds = values("bounds", settings.bounds, settings.bounds_length)?;
-        let (pairs, rest) = bounds.as_chunks::<2>();
-        if !rest.is_empty() {
-            let message = format!("`bounds` has {} values: expected two a DOF", bounds.len());
+        let array = |what, data: *const f64, length, expected| {
+            let expected = if data.is_null() { 0 } else { expected };
+            if length != expected {
+                let message = format!("`{what}_length` is {length}: expected {expected}");
+                return Err(Failure::new(Status::Length, message));
+            }
+            Ok((!data.is_null()).then_some(values(what, data, length)?))
+        };
+        let bounds = array("bounds", settings.bounds, settings.bounds_length, 2 * dofs)?;
+        let posture = array("posture", settings.posture, settings.posture_length, dofs)?;
+        let locked = values("locked", settings.locked, settings.locked_length)?;
+        if locked.len() > dofs {
+            let message = format!("`locked_length` is {}: there are {dofs} DOFs", locked.len());
             return Err(Failure::new(Status::Length, message));
         }
-        let locked = values("locked", settings.locked, settings.locked_length)?;
-        let posture = values("posture", settings.posture, settings.posture_length)?;
-        let free_of = match settings.free_of.is_null() {
-            true => None,
-            false => Some(at(settings.free_of)?),
+        let free_of = FreeOf {
+            itself: optional(settings.free_of)?,
+            world: optional(settings.free_of_world)?,
+            margin: settings.margin,
         };
+        free_of.check(dofs)?;
+        let spans = vec![
+            at_settings,
+            Span::of("bounds", settings.bounds, settings.bounds_length)?,
+            Span::of("locked", settings.locked, settings.locked_length)?,
+            Span::of("posture", settings.posture, settings.posture_length)?,
+        ];
         let settings = InverseSettings {
             position_tolerance: settings.position_tolerance,
             rotation_tolerance: settings.rotation_tolerance,
             iterations: settings.iterations,
             restarts: settings.restarts,
             seed: settings.seed,
-            bounds: (!pairs.is_empty()).then(|| pairs.to_vec()),
+            bounds: bounds.map(|bounds| bounds.as_chunks().0.to_vec()),
             locked: locked.to_vec(),
-            posture: (!posture.is_empty()).then(|| posture.to_vec()),
+            posture: posture.map(<[f64]>::to_vec),
             explain: settings.explain,
         };
-        Ok((settings, free_of))
+        Ok((settings, free_of, spans))
+    }
+}
+
+/// A handle, unless it is null.
+///
+/// # Safety
+/// `handle` is null or open.
+unsafe fn optional<'a, T: Handle>(handle: *const T) -> Result<Option<&'a T>, Failure> {
+    match handle.is_null() {
+        true => Ok(None),
+        // SAFETY: guaranteed by the caller.
+        false => Ok(Some(unsafe { at(handle) }?)),
     }
 }
 
 /// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
-/// start, then from random configurations. Checks for collisions where `free_of` is set.
+/// start, then from random configurations. Checks for collisions where `free_of` or `free_of_world` is set.
 ///
-/// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one for
-/// each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where a
-/// target is not reached, the nearest configuration is written, and its solution says so.
+/// Without `bounds`, a DOF that is not limited may also move as far from its start as its bounds are from 0: an angle
+/// half a turn either way, so that a joint that follows a path does not jump by a turn. Of values a whole turn apart
+/// that are within the bounds, the nearest to the posture, or to the start, is written.
 ///
-/// Errors: `OUT_OF_RANGE` for a link; `LENGTH`; `VALUE` for NaN or infinity, or a matrix that is not a rotation and a
-/// translation; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
+/// There are `count` targets. `starts` has `starts_rows` rows of `dofs` values, rad or m: one for all targets or one
+/// for each. `settings` may be null. `configurations` has room for count x dofs values, `solutions` for `count`. Where
+/// a target is not reached, the nearest configuration is written, and its solution says so.
+///
+/// Errors: `OUT_OF_RANGE` for a link or a locked DOF; `LENGTH`, also for a posture or bounds without their length;
+/// `VALUE` for NaN or infinity, a matrix that is not a rotation and a translation, a tolerance, weight or margin below
+/// 0, weights that leave nothing to reach, crossed bounds, or 0 iterations; `POINTER` also if an output overlaps
+/// anything else that is given; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 ///
 /// # Safety
 /// `handle` is null or open; the arrays have their lengths.
@@ -218,43 +298,45 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
-        let targets = targets_of(targets, count)?;
+        let targets = values("targets", targets, count)?;
         let q = robot.rows("starts", starts, (starts_rows, dofs))?;
         if starts_rows != 1 && starts_rows != count {
             let message = format!("`starts` has {starts_rows} rows: expected 1 or {count}");
             return Err(Failure::new(Status::Length, message));
         }
-        let (settings, free_of) = self::settings(settings)?;
-        if let Some(shapes) = free_of
-            && shapes.0.num_dofs() != dofs
-        {
-            let message = format!(
-                "`free_of` is of a robot with {} DOFs: expected {dofs}",
-                shapes.0.num_dofs()
-            );
-            return Err(Failure::new(Status::Length, message));
-        }
-        let is_free =
-            |q: &[f64]| free_of.is_none_or(|shapes| shapes.0.in_collision(q) == Ok(false));
+        let (settings, free_of, mut inputs) = self::settings(settings, dofs)?;
         let length = count.saturating_mul(dofs);
-        let inputs = [q.values];
-        let out = exact_room("configurations", configurations, length, (count, dofs), &inputs)?;
-        let found = exact_room("solutions", solutions, count, (count, 1), &inputs)?;
+        inputs.push(Span::of("targets", targets.as_ptr(), count)?);
+        inputs.push(Span::of("starts", starts, q.values.len())?);
+        let rows = Span::of("configurations", configurations, length)?;
+        let each = Span::of("solutions", solutions, count)?;
+        inputs.iter().try_for_each(|input| rows.apart(*input).and(each.apart(*input)))?;
+        rows.apart(each)?;
+        for (k, target) in targets.iter().enumerate() {
+            target_of(k, target)?;
+        }
+        let mut out = exact_room("configurations", configurations, length, (count, dofs), &[])?;
+        let found = exact_room("solutions", solutions, count, (count, 1), &[])?;
         let on = Cancellation::default();
-        let mut all: Vec<(Vec<f64>, Solution)> = vec![Default::default(); count];
-        fill(
-            &mut all,
-            1,
-            1,
-            || (),
-            |(), k, out| {
-                let start = q.row(if starts_rows == 1 { 0 } else { k });
-                let target = &targets[k];
-                let inverse = robot
-                    .robot
-                    .inverse_kinematics_where(target, start, &settings, &is_free, &on)?;
+        let mut outputs: Vec<(&mut [f64], &mut Solution)> = Vec::new();
+        let memory = |_| RobotError::Memory { count, width: dofs };
+        outputs.try_reserve_exact(count).map_err(memory)?;
+        for solution in found {
+            let (row, rest) = mem::take(&mut out).split_at_mut(dofs);
+            out = rest;
+            outputs.push((row, solution));
+        }
+        let solve = |(): &mut (), k: usize, out: &mut [(&mut [f64], &mut Solution)]| {
+            let start = q.row(if starts_rows == 1 { 0 } else { k });
+            let target = target_of(k, &targets[k])?;
+            let accepts = |q: &[f64]| free_of.is_free(q);
+            let robot = &robot.robot;
+            let inverse =
+                robot.inverse_kinematics_where(&target, start, &settings, &accepts, &on)?;
+            for (row, solution) in out {
                 let nearest = inverse.nearest();
-                let solution = Solution {
+                row.copy_from_slice(&nearest.configuration);
+                **solution = Solution {
                     position_error: nearest.position_error,
                     rotation_error: nearest.rotation_error,
                     restarts: nearest.restarts,
@@ -262,41 +344,27 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
                     is_reached: inverse.is_reached(),
                     verdict: nearest.verdict.into(),
                 };
-                out[0] = (nearest.configuration.clone(), solution);
-                Ok::<(), RobotError>(())
-            },
-        )?;
-        for (k, (configuration, solution)) in all.into_iter().enumerate() {
-            out[k * dofs..(k + 1) * dofs].copy_from_slice(&configuration);
-            found[k] = solution;
-        }
-        Ok(())
+            }
+            Ok(())
+        };
+        fill(&mut outputs, 1, 1, || (), solve)
     })
 }
 
-/// # Safety
-/// There are `count` targets at `targets`.
-unsafe fn targets_of(targets: *const Target, count: usize) -> Result<Vec<RobotTarget>, Failure> {
-    // SAFETY: guaranteed by the caller.
-    let targets = unsafe { values("targets", targets, count) }?;
-    let target = |(k, target): (usize, &Target)| {
-        let [_, _, _, x, _, _, _, y, _, _, _, z, ..] = target.pose;
-        let made = match target.is_position {
-            true => RobotTarget::position(target.link, [x, y, z]),
-            false => {
-                let pose = pose(&target.pose).ok_or_else(|| {
-                    let message =
-                        format!("the pose of target {k} is not a rotation and a translation");
-                    Failure::new(Status::Value, message)
-                })?;
-                RobotTarget::pose(target.link, pose)
-            }
-        };
-        let made = match target.weights == [0.0; 6] {
-            true => made,
-            false => made.weighted(target.weights),
-        };
-        Ok(made.of_point(target.point))
+/// Target number `k`.
+fn target_of(k: usize, target: &Target) -> Result<RobotTarget, Failure> {
+    let [_, _, _, x, _, _, _, y, _, _, _, z, ..] = target.pose;
+    let made = match (target.is_position, pose(&target.pose)) {
+        (true, _) => RobotTarget::position(target.link, [x, y, z]),
+        (false, Some(pose)) => RobotTarget::pose(target.link, pose),
+        (false, None) => {
+            let message = format!("the pose of target {k} is not a rotation and a translation");
+            return Err(Failure::new(Status::Value, message));
+        }
     };
-    targets.iter().enumerate().map(target).collect()
+    let made = match target.weights == [0.0; 6] {
+        true => made,
+        false => made.weighted(target.weights),
+    };
+    Ok(made.of_point(target.point))
 }

@@ -41,7 +41,7 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    fn of<T>(what: &'static str, data: *const T, length: usize) -> Result<Self, Failure> {
+    pub fn of<T>(what: &'static str, data: *const T, length: usize) -> Result<Self, Failure> {
         let longest = isize::MAX as usize / size_of::<T>().max(1);
         if length > longest {
             let message = format!("`{what}` has {length} values, which is more than any memory");
@@ -57,7 +57,7 @@ impl Span {
         Ok(Span { what, address: data.addr(), bytes: length * size_of::<T>() })
     }
 
-    fn apart(self, other: Span) -> Result<(), Failure> {
+    pub fn apart(self, other: Span) -> Result<(), Failure> {
         let (a, b) = (self, other);
         let overlap = a.bytes > 0
             && b.bytes > 0

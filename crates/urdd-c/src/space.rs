@@ -11,7 +11,8 @@ use crate::robot::Robot;
 const BLOCK: usize = 64;
 
 /// Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
-/// rotations.
+/// rotations. Those of other DOFs that are not limited are a range to sample from, [-pi, pi] or [-1, 1], which the DOF
+/// may leave: `urdd_robot_dof_is_limited` says which.
 ///
 /// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 ///
@@ -28,6 +29,27 @@ pub unsafe extern "C" fn urdd_robot_bounds(
         let known = at(handle)?.robot.configurations()?.bounds();
         let out = exact_room("bounds", bounds, length, (known.len(), 2), &[])?;
         out.copy_from_slice(known.as_flattened());
+        Ok(())
+    })
+}
+
+/// Writes for each DOF whether the source limits it: false for continuous, planar, floating and spherical joints.
+/// `limited` has room for `dofs` values.
+///
+/// Errors: as `urdd_robot_bounds`.
+///
+/// # Safety
+/// `handle` is null or open; there is room for `dofs` values at `limited`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_dof_is_limited(
+    handle: *const Robot,
+    limited: *mut bool,
+    dofs: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let known = at(handle)?.robot.configurations()?.dof_is_limited();
+        exact_room("limited", limited, dofs, (1, known.len()), &[])?.copy_from_slice(known);
         Ok(())
     })
 }

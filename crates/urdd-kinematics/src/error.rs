@@ -143,7 +143,10 @@ pub enum ConfigurationError {
 
 impl ConfigurationError {
     /// Checks that a configuration has `expected` values, all finite.
-    pub(crate) fn check(configuration: &[f64], expected: usize) -> Result<(), Self> {
+    ///
+    /// # Errors
+    /// [`ConfigurationError::Length`], [`ConfigurationError::NotFinite`].
+    pub fn check(configuration: &[f64], expected: usize) -> Result<(), Self> {
         let found = configuration.len();
         if found != expected {
             return Err(Self::Length { expected, found });

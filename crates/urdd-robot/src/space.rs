@@ -4,6 +4,7 @@ use super::error::RobotError;
 use urdd_document::consumer;
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+use urdd_format::urdf::JointType;
 use urdd_kinematics::ConfigurationSpace;
 
 /// The configurations of a robot. Each is a list with one value for each DOF, rad or m.
@@ -11,6 +12,7 @@ use urdd_kinematics::ConfigurationSpace;
 pub struct Configurations {
     space: ConfigurationSpace,
     bounds: Vec<[f64; 2]>,
+    is_limited: Vec<bool>,
 }
 
 impl Configurations {
@@ -18,9 +20,22 @@ impl Configurations {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
         let bounds = part.bounds().ok_or(RobotError::Missing(ModuleKind::Bounds))?;
         let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)?;
+        let is_limited = match bounds.v1 {
+            Some(v1) if v1.dof_limited.len() == bounds.bounds.len() => v1.dof_limited.clone(),
+            // Of a legacy URDD, the joint's type says so.
+            _ => {
+                let joint_of = &modules.dof.dof_idx_to_joint_idx_mapping;
+                let limited = |k: usize| {
+                    let joint = modules.chain.joints_in_chain.get(joint_of.get(k)?.get())?;
+                    Some(matches!(joint.joint_type, JointType::Revolute | JointType::Prismatic))
+                };
+                (0..bounds.bounds.len()).map(|k| limited(k) == Some(true)).collect()
+            }
+        };
         // A producer may write the two bounds in either order.
         let sorted = |[a, b]: [f64; 2]| [a.min(b), a.max(b)];
-        Ok(Self { space, bounds: bounds.bounds.iter().copied().map(sorted).collect() })
+        let bounds = bounds.bounds.iter().copied().map(sorted).collect();
+        Ok(Self { space, bounds, is_limited })
     }
 
     pub(super) fn space(&self) -> &ConfigurationSpace {
@@ -32,9 +47,16 @@ impl Configurations {
         self.bounds.len()
     }
 
-    /// The lower and the upper bound of each DOF. The bounds of a rotation vector include all rotations.
+    /// The lower and the upper bound of each DOF. The bounds of a rotation vector include all rotations. Those of other
+    /// DOFs that are [not limited](Configurations::dof_is_limited) are a range to sample from, [-pi, pi] or [-1, 1],
+    /// which the DOF may leave.
     pub fn bounds(&self) -> &[[f64; 2]] {
         &self.bounds
+    }
+
+    /// For each DOF, whether the source limits it: false for continuous, planar, floating and spherical joints.
+    pub fn dof_is_limited(&self) -> &[bool] {
+        &self.is_limited
     }
 
     /// The default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0 if 0 is out of bounds.

@@ -38,7 +38,8 @@ fn a_planar_arm_as_the_textbook_has_it() {
             assert!((q[1] - elbow).abs() < 1e-4, "{q:?}, {elbow}");
             let off = (q[0] - (angle - behind)).rem_euclid(std::f64::consts::TAU);
             assert!(off.min(std::f64::consts::TAU - off) < 1e-4, "{q:?}");
-            assert!(q[0].abs() <= std::f64::consts::PI);
+            // The shoulder is not limited: half a turn from its start.
+            assert!((q[0] - 3.0).abs() <= std::f64::consts::PI);
             // The lid does not move the tip.
             assert_eq!(q[2], 0.4);
         }
@@ -123,7 +124,12 @@ fn every_pose_of_every_robot_is_found_again() {
                     assert_eq!(found, ask(&robot, target, &start), "the same answer again");
                     let found = found.reached().unwrap_or_else(|| panic!("{name}, {link}, {k}"));
                     let q = &found.configuration;
-                    assert!(space.is_within_bounds(q), "{name}, {link}, {k}: {q:?}");
+                    let within = |dof: usize| match space.dof_is_limited()[dof] {
+                        true => (space.bounds()[dof][0]..=space.bounds()[dof][1]).contains(&q[dof]),
+                        // A rotation vector can be turned by a whole turn.
+                        false => (q[dof] - start[dof]).abs() <= std::f64::consts::TAU,
+                    };
+                    assert!((0..q.len()).all(within), "{name}, {link}, {k}: {q:?}");
                     let there = robot.link_poses(q).unwrap()[link];
                     let of_point = Target::position(link, place).of_point(point) == target;
                     let off = (there * Point3::from(point) - pose * Point3::from(point)).norm();
@@ -167,8 +173,145 @@ fn questions_that_are_none() {
     // Numbers at the end of the range: no answer, and no panic.
     let far = Target::position(3, [1e308, -1e308, 1e308]);
     assert!(!ask(far, &[0.0; 3], &settings).unwrap().is_reached());
-    let none = InverseSettings { restarts: 0, iterations: 0, ..settings };
+    let none = InverseSettings { restarts: 0, iterations: 1, ..settings };
     assert!(!ask(Target::position(3, [0.1, 0.2, 0.0]), &[0.0; 3], &none).unwrap().is_reached());
+}
+
+#[test]
+fn settings_that_make_no_sense_are_refused() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let there = Target::position(3, [0.5, 0.3, 0.0]);
+    type Change = fn(&mut InverseSettings);
+    let changes: [(Change, &str); 8] = [
+        (|s| s.position_tolerance = f64::NAN, "a tolerance"),
+        (|s| s.position_tolerance = -1.0, "a tolerance"),
+        (|s| s.rotation_tolerance = f64::NAN, "a tolerance"),
+        (|s| s.rotation_tolerance = -1e-300, "a tolerance"),
+        (|s| s.iterations = 0, "`iterations` is 0"),
+        (|s| s.bounds = Some(vec![[0.0, 1.0], [2.0, 1.0], [0.0, 1.0]]), "a lower bound is above"),
+        (|s| s.bounds = Some(vec![[0.0, f64::NAN]; 3]), "a bound is not finite"),
+        (|s| s.bounds = Some(Vec::new()), "one pair for each DOF"),
+    ];
+    for (change, words) in changes {
+        let mut settings = InverseSettings::default();
+        change(&mut settings);
+        let found = robot.inverse_kinematics(&there, &[0.0; 3], &settings);
+        let Err(RobotError::Target(said)) = found else {
+            panic!("{settings:?}: {found:?}");
+        };
+        assert!(said.contains(words), "{said}");
+    }
+    for posture in [vec![0.0; 2], vec![f64::NAN; 3], vec![0.0, f64::INFINITY, 0.0]] {
+        let settings = InverseSettings { posture: Some(posture), ..InverseSettings::default() };
+        let found = robot.inverse_kinematics(&there, &[0.0; 3], &settings);
+        assert!(matches!(found, Err(RobotError::Configuration(_))), "{found:?}");
+    }
+    // Nothing is left to reach: a position's weights of the rotation do not count.
+    for weights in [[0.0; 6], [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]] {
+        let settings = InverseSettings::default();
+        let found = robot.inverse_kinematics(&there.weighted(weights), &[0.0; 3], &settings);
+        assert!(matches!(found, Err(RobotError::Target(_))), "{found:?}");
+    }
+}
+
+/// The tip goes three times around the base, each way: its angle grows with it.
+#[test]
+fn a_continuous_joint_follows_without_a_jump() {
+    let (_folder, path) = made_of(PLANAR);
+    let robot = Robot::open(path).unwrap();
+    let space = robot.configurations().unwrap();
+    assert_eq!(space.dof_is_limited(), [false, true, true]);
+    let tip = robot.link("tip").unwrap();
+    for posture in [None, Some(())] {
+        for way in [1.0, -1.0] {
+            let mut q = vec![0.0, 1.0, 0.0];
+            let begin = robot.link_poses(&q).unwrap()[tip];
+            for k in 1..=600 {
+                let angle = way * f64::from(k) * std::f64::consts::TAU / 200.0;
+                let pose = UnitQuaternion::from_euler_angles(0.0, 0.0, angle) * begin;
+                // A posture is where it was: the nearest solution is the next.
+                let posture = posture.map(|()| q.clone());
+                let settings = InverseSettings { posture, ..InverseSettings::default() };
+                let found = robot.inverse_kinematics(&Target::pose(tip, pose), &q, &settings);
+                q = found.unwrap().reached().expect("reached").configuration;
+                assert!((q[0] - angle).abs() < 1e-4 && (q[1] - 1.0).abs() < 1e-4, "{q:?}");
+            }
+        }
+    }
+    // What is not reached does not jump either.
+    let far = Target::position(tip, [-9.0, -0.1, 0.0]);
+    let q = ask(&robot, far, &[3.1, 0.1, 0.0]).nearest().configuration.clone();
+    assert!((q[0] - 3.15).abs() < 0.1, "{q:?}");
+    // Given bounds bind it.
+    let bounds = Some(vec![[-3.1, 3.1], [0.0, 2.5], [-1.0, 1.0]]);
+    let settings = InverseSettings { bounds, ..InverseSettings::default() };
+    let there = robot.link_poses(&[3.2, 1.0, 0.0]).unwrap()[tip];
+    let found = robot.inverse_kinematics(&Target::pose(tip, there), &[2.9, 1.0, 0.0], &settings);
+    let q = found.unwrap().reached().expect("reached").configuration;
+    assert!((q[0] - (3.2 - std::f64::consts::TAU)).abs() < 1e-5, "{q:?}");
+}
+
+/// A base that drives and turns, and a body that turns every way.
+#[test]
+fn what_is_not_limited_follows_from_where_it_is() {
+    let (_folder, path) = made_of(
+        r#"<robot name="r"><link name="floor"/><link name="base"/><link name="body"/>
+        <joint name="drive" type="planar"><parent link="floor"/><child link="base"/><axis xyz="0 0 1"/></joint>
+        <joint name="ball" type="floating"><parent link="base"/><child link="body"/></joint></robot>"#,
+    );
+    let robot = Robot::open(path).unwrap();
+    let base = robot.link("base").unwrap();
+    let body = robot.link("body").unwrap();
+    assert_eq!(robot.configurations().unwrap().dof_is_limited(), [false; 9]);
+    let mut q = vec![5.0, -7.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0];
+    for k in 0..100 {
+        q[0] += 0.01;
+        let turned = f64::from(k).mul_add(0.02, 3.0);
+        let (mut wanted, was) = (q.clone(), q.clone());
+        (wanted[2], wanted[8]) = (turned, turned);
+        let poses = robot.link_poses(&wanted).unwrap();
+        q = ask(&robot, Target::pose(base, poses[base]), &q).reached().unwrap().configuration;
+        assert!((q[0] - wanted[0]).abs() < 1e-5 && (q[2] - turned).abs() < 1e-5, "{q:?}");
+        // With the base locked, the rotation vector alone turns: beyond half a turn.
+        let settings = InverseSettings { locked: vec![0, 1, 2], ..InverseSettings::default() };
+        let found = robot.inverse_kinematics(&Target::pose(body, poses[body]), &q, &settings);
+        q = found.unwrap().reached().expect("reached").configuration;
+        assert!((q[8] - turned).abs() < 1e-5, "{q:?} {was:?}");
+    }
+    // Components of a rotation vector can be locked.
+    let settings = InverseSettings { locked: (0..9).collect(), ..InverseSettings::default() };
+    let found = robot.inverse_kinematics(&Target::position(body, [0.0; 3]), &q, &settings);
+    assert_eq!(found.unwrap().nearest().configuration, q);
+}
+
+/// Within bounds of two turns either way, the value is the one nearest to the start, or to the posture.
+#[test]
+fn of_values_a_turn_apart_the_nearest_counts() {
+    let (_folder, path) = made_of(
+        r#"<robot name="r"><link name="base"/><link name="arm"/><joint name="turn" type="revolute">
+        <parent link="base"/><child link="arm"/><axis xyz="0 0 1"/>
+        <limit lower="-6.2" upper="8" effort="1" velocity="1"/></joint></robot>"#,
+    );
+    let robot = Robot::open(path).unwrap();
+    let target = Target::rotation(1, UnitQuaternion::from_euler_angles(0.0, 0.0, 3.5));
+    let low = 3.5 - std::f64::consts::TAU;
+    for (start, posture, expected) in [
+        (0.1, None, low),
+        (1.0, None, 3.5),
+        (-6.0, None, low),
+        (7.9, None, 3.5),
+        (0.1, Some(6.0), 3.5),
+        (6.0, Some(0.1), low),
+        (6.0, Some(-30.0), low),
+        (0.1, Some(30.0), 3.5),
+    ] {
+        let posture = posture.map(|at| vec![at]);
+        let settings = InverseSettings { posture, ..InverseSettings::default() };
+        let found = robot.inverse_kinematics(&target, &[start], &settings).unwrap();
+        let q = found.reached().expect("reached").configuration;
+        assert!((q[0] - expected).abs() < 1e-5, "{start} {settings:?} {q:?}");
+    }
 }
 
 /// Why a target is not reached, where geometry says it: the tip is at 0.2 m to 0.8 m from the base without bounds, and from
@@ -309,7 +452,10 @@ fn the_solution_nearest_to_a_posture() {
             InverseSettings { posture: Some(posture.to_vec()), ..InverseSettings::default() };
         let target = Target::position(last, [x, y, 0.0]).of_point([0.2, 0.0, 0.0]);
         let found = robot.inverse_kinematics(&target, &[0.1; 3], &settings).unwrap();
-        let found = found.reached().expect("reached").configuration;
+        let found = found.reached().expect("reached");
+        // It does not take all 100 restarts.
+        assert!(found.restarts < 60, "{found:?}");
+        let found = found.configuration;
         let within = all(x, y).filter(|q| q.iter().all(|value| value.abs() <= 3.0));
         let least = within.map(|q| distance(&q, &posture)).fold(f64::INFINITY, f64::min);
         let own = distance(&found, &posture);

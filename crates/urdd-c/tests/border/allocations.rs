@@ -9,6 +9,8 @@ use urdd_c::*;
 
 thread_local! {
     static COUNT: Cell<usize> = const { Cell::new(0) };
+    /// This thread gets no more bytes at once.
+    static MOST: Cell<usize> = const { Cell::new(usize::MAX) };
 }
 
 struct Counting;
@@ -17,6 +19,9 @@ struct Counting;
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+        if MOST.try_with(Cell::get).is_ok_and(|most| layout.size() > most) {
+            return null_mut();
+        }
         // SAFETY: guaranteed by the caller.
         unsafe { System.alloc(layout) }
     }
@@ -71,5 +76,34 @@ fn a_control_loop_does_not_allocate() {
         ok(urdd_proximity_free(made));
         ok(urdd_obstacle_free(ball));
         ok(urdd_world_proximity_free(world));
+    }
+}
+
+#[test]
+fn too_little_memory_for_many_targets_is_a_status() {
+    let urdf = testkit::repository().join("conformance/robots/welding_arm.urdf");
+    let (_guard, folder) = testkit::robots::made(&urdf);
+    let path = CString::new(folder.to_str().expect("UTF-8")).expect("no zero byte");
+    let mut robot = null_mut();
+    let count = 400_000;
+    let target =
+        Target { link: 8, pose: [0.0; 16], point: [0.0; 3], is_position: true, weights: [0.0; 6] };
+    let targets = vec![target; count];
+    let (mut found, mut solutions) = (vec![0.0; 6 * count], vec![Solution::default(); count]);
+    // SAFETY: as the header says.
+    unsafe {
+        assert_eq!(urdd_robot_open(path.as_ptr(), &mut robot), Status::Ok);
+        let mut ask = |count: usize| {
+            let (found, solutions) = (found.as_mut_ptr(), solutions.as_mut_ptr());
+            let (at, start) = (targets.as_ptr(), [0.0; 6]);
+            let start = start.as_ptr();
+            urdd_robot_inverse_kinematics(robot, at, count, start, 1, 6, null(), found, solutions)
+        };
+        assert_eq!(ask(1), Status::Ok);
+        MOST.set(1 << 20);
+        let (one, many) = (ask(1), ask(count));
+        MOST.set(usize::MAX);
+        assert_eq!((one, many), (Status::Ok, Status::Memory));
+        assert_eq!(urdd_robot_free(robot), Status::Ok);
     }
 }

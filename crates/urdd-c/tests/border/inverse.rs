@@ -189,3 +189,209 @@ fn inverse_kinematics_reaches_a_pose_a_point_and_says_when_it_does_not() {
         ok(urdd_robot_free(handle));
     }
 }
+
+/// The welding arm, a target where it was, and what is asked of it.
+struct Asked {
+    robot: *mut Robot,
+    target: Target,
+    settings: Settings,
+    start: [f64; 6],
+}
+
+impl Asked {
+    fn new(q: &[f64]) -> Self {
+        let (robot, arm) = (open(), arm());
+        let link = arm.link("torch").unwrap();
+        let pose = arm.link_poses(q).unwrap()[link].to_homogeneous().transpose();
+        let pose = pose.as_slice().try_into().unwrap();
+        let (point, weights) = ([0.0; 3], [0.0; 6]);
+        let target = Target { link, pose, point, is_position: false, weights };
+        // SAFETY: zeros are settings.
+        let mut settings = unsafe { std::mem::zeroed() };
+        // SAFETY: as the header says.
+        ok(unsafe { urdd_inverse_settings_default(&mut settings) });
+        Asked { robot, target, settings, start: [0.1, 0.2, -0.4, 0.3, 0.5, 0.6] }
+    }
+
+    fn ask(&self) -> (Status, [f64; 6], Verdict) {
+        let (mut found, mut solution) = ([0.0; 6], Solution::default());
+        // SAFETY: as the header says.
+        let status = unsafe {
+            let (robot, target, start) = (self.robot, &raw const self.target, self.start.as_ptr());
+            let (found, solution) = (found.as_mut_ptr(), &raw mut solution);
+            let settings = &raw const self.settings;
+            urdd_robot_inverse_kinematics(robot, target, 1, start, 1, 6, settings, found, solution)
+        };
+        (status, found, solution.verdict)
+    }
+}
+
+impl Drop for Asked {
+    fn drop(&mut self) {
+        // SAFETY: as the header says.
+        ok(unsafe { urdd_robot_free(self.robot) });
+    }
+}
+
+#[test]
+fn solutions_are_free_of_obstacles_too() {
+    let space = arm();
+    let space = space.configurations().unwrap();
+    let (mut proximity, mut world) = (null_mut(), null_mut());
+    let mut asked = Asked::new(&space.zero());
+    let (margin, mut verdicts) = (0.02, Vec::new());
+    // SAFETY: as the header says.
+    unsafe {
+        ok(urdd_robot_proximity(asked.robot, c"pieces".as_ptr(), &raw mut proximity));
+        let mut balls = [null_mut(); 2];
+        for (ball, x) in balls.iter_mut().zip([0.45, -0.45]) {
+            let centre = [x, 0.1, 0.5];
+            ok(urdd_obstacle_sphere(c"ball".as_ptr(), centre.as_ptr(), 0.2, ball));
+        }
+        let balls = balls.map(|ball| ball.cast_const());
+        ok(urdd_proximity_world_proximity(proximity, balls.as_ptr(), 2, &raw mut world));
+        let mut plain_in_collision = 0;
+        for k in 0..30 {
+            asked.target = Asked::new(&space.random(k)).target;
+            let margin_of = |q: &[f64; 6]| {
+                let (mut distance, mut touches) = (0.0, false);
+                let at = q.as_ptr();
+                ok(urdd_world_proximity_min_distance(world, at, 1, 6, &raw mut distance));
+                ok(urdd_proximity_in_collision(proximity, at, 1, 6, &raw mut touches));
+                if touches { 0.0 } else { distance }
+            };
+            (asked.settings.free_of, asked.settings.free_of_world) = (null(), null());
+            plain_in_collision += usize::from(margin_of(&asked.ask().1) <= margin);
+            (asked.settings.free_of, asked.settings.free_of_world) = (proximity, world);
+            asked.settings.margin = margin;
+            let (status, q, verdict) = asked.ask();
+            ok(status);
+            assert_eq!(verdict == Reached, margin_of(&q) > margin, "{k} {verdict:?}");
+            verdicts.push(verdict);
+        }
+        assert!(plain_in_collision > 5, "{plain_in_collision}");
+        assert!(verdicts.contains(&Refused) && verdicts.contains(&Reached), "{verdicts:?}");
+        for margin in [f64::NAN, -0.1, f64::INFINITY] {
+            asked.settings.margin = margin;
+            fails(asked.ask().0, Status::Value, "`margin`");
+        }
+        ok(urdd_world_proximity_free(world));
+        ok(urdd_proximity_free(proximity));
+        for ball in balls {
+            ok(urdd_obstacle_free(ball.cast_mut()));
+        }
+    }
+}
+
+#[test]
+fn settings_that_make_no_sense_are_refused() {
+    let q = samples(1);
+    type Change = fn(&mut Asked);
+    let changes: [(Change, Status, &str); 15] = [
+        // SAFETY: zeros are settings.
+        (|a| a.settings = unsafe { std::mem::zeroed() }, Status::Value, "`iterations` is 0"),
+        (|a| a.settings.position_tolerance = f64::NAN, Status::Value, "a tolerance"),
+        (|a| a.settings.position_tolerance = -1.0, Status::Value, "a tolerance"),
+        (|a| a.settings.rotation_tolerance = f64::NAN, Status::Value, "a tolerance"),
+        (|a| a.settings.rotation_tolerance = -1.0, Status::Value, "a tolerance"),
+        (|a| a.target.weights[3] = f64::NAN, Status::Value, "a weight"),
+        (|a| a.target.weights[3] = -1.0, Status::Value, "a weight"),
+        (|a| a.target.point[1] = f64::NAN, Status::Value, "not finite"),
+        (|a| a.settings.posture = a.start.as_ptr(), Status::Length, "`posture_length` is 0"),
+        (|a| a.settings.posture_length = 6, Status::Length, "`posture_length` is 6"),
+        (|a| a.settings.bounds = a.start.as_ptr(), Status::Length, "`bounds_length` is 0"),
+        (|a| a.settings.bounds_length = 12, Status::Length, "`bounds_length` is 12"),
+        (|a| a.settings.locked_length = 1, Status::Pointer, "`locked` is null"),
+        (
+            |a| {
+                (a.settings.locked, a.settings.locked_length) = (SEVEN.as_ptr(), 7);
+            },
+            Status::Length,
+            "`locked_length` is 7",
+        ),
+        (
+            |a| {
+                (a.settings.bounds, a.settings.bounds_length) = (CROSSED.as_ptr(), 12);
+            },
+            Status::Value,
+            "above its upper",
+        ),
+    ];
+    for (change, status, words) in changes {
+        let mut asked = Box::new(Asked::new(&q));
+        ok(asked.ask().0);
+        change(&mut asked);
+        fails(asked.ask().0, status, words);
+    }
+}
+
+const SEVEN: [usize; 7] = [0; 7];
+const CROSSED: [f64; 12] = [-1.0, 1.0, -1.0, 1.0, 0.5, -0.5, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0];
+
+/// No output may be where an input or the other output is.
+#[test]
+fn arrays_that_overlap_are_refused() {
+    let q = samples(1);
+    let mut asked = Box::new(Asked::new(&q));
+    let mut values = [0.1; 64];
+    let locked = [5_usize; 6];
+    let (at, mut solution) = (values.as_mut_ptr(), Solution::default());
+    let bounds: [f64; 12] = std::array::from_fn(|k| if k % 2 == 0 { -3.0 } else { 3.0 });
+    values[32..44].copy_from_slice(&bounds);
+    // SAFETY: as the header says; all are within their arrays.
+    unsafe {
+        asked.settings.locked = locked.as_ptr();
+        asked.settings.locked_length = 1;
+        (asked.settings.posture, asked.settings.posture_length) = (at.add(16), 6);
+        (asked.settings.bounds, asked.settings.bounds_length) = (at.add(32), 12);
+        let (target, settings) = (&raw mut asked.target, &raw mut asked.settings);
+        let ask = |found: *mut f64, solution: *mut Solution| {
+            let robot = (*(&raw const asked)).robot;
+            urdd_robot_inverse_kinematics(robot, target, 1, at, 1, 6, settings, found, solution)
+        };
+        ok(ask(at.add(48), &raw mut solution));
+        for (found, words) in [
+            (at.add(5), "`configurations` and `starts`"),
+            (at.add(20), "`configurations` and `posture`"),
+            (at.add(27), "`configurations` and `bounds`"),
+            (target.cast::<f64>().add(2), "`configurations` and `targets`"),
+            (settings.cast(), "`configurations` and `settings`"),
+            (locked.as_ptr().cast_mut().cast(), "`configurations` and `locked`"),
+            ((&raw mut solution).cast(), "`configurations` and `solutions`"),
+        ] {
+            fails(ask(found, &raw mut solution), Status::Pointer, words);
+        }
+        for (solution, words) in [
+            (at.add(3).cast(), "`solutions` and `starts`"),
+            (at.add(18).cast(), "`solutions` and `posture`"),
+            (at.add(40).cast(), "`solutions` and `bounds`"),
+            (target.cast(), "`solutions` and `targets`"),
+        ] {
+            fails(ask(at.add(48), solution), Status::Pointer, words);
+        }
+    }
+}
+
+#[test]
+fn a_continuous_joint_follows_without_a_jump_and_says_that_it_is_not_limited() {
+    let mut limited = [false; 6];
+    let mut asked = Asked::new(&[0.0; 6]);
+    // SAFETY: as the header says.
+    unsafe {
+        ok(urdd_robot_dof_is_limited(asked.robot, limited.as_mut_ptr(), 6));
+        let short = urdd_robot_dof_is_limited(asked.robot, limited.as_mut_ptr(), 5);
+        fails(short, Status::Length, "`limited`");
+    }
+    // As in conformance/robots/welding_arm.urdf: axis_6 is continuous.
+    assert_eq!(limited, [true, true, true, true, true, false]);
+    asked.start[5] = 3.0;
+    for k in 0..100 {
+        let mut wanted = [0.1, 0.2, -0.4, 0.3, 0.5, 3.0];
+        wanted[5] += 0.05 * f64::from(k);
+        asked.target = Asked::new(&wanted).target;
+        let (status, q, _) = asked.ask();
+        ok(status);
+        assert!((q[5] - wanted[5]).abs() < 1e-4, "{q:?}");
+        asked.start = q;
+    }
+}

@@ -20,9 +20,10 @@ const DAMPING: [f64; 2] = [0.1, 1e-3];
 /// Consecutive rejected steps before a descent gives up.
 const REFUSED: usize = 8;
 
-/// A solution is as near to a posture as it gets when this part of the way there does not bring it nearer by this fraction.
+/// A solution is as near to a posture as it gets when this part of the way there does not bring it nearer by this
+/// fraction.
 const SMALLEST_PART: f64 = 0.01;
-const LEAST_GAIN: f64 = 1e-6;
+pub(super) const LEAST_GAIN: f64 = 1e-6;
 
 /// The result of a descent.
 #[derive(Clone)]
@@ -39,6 +40,8 @@ pub(super) struct Descent<'a> {
     path: &'a Path<'a>,
     goal: &'a Goal,
     settings: &'a InverseSettings,
+    /// The configuration that decides between values whole turns apart.
+    near: &'a [f64],
     /// The length, in metres, that weighs as much as a radian.
     length: f64,
     /// Iterations so far.
@@ -56,12 +59,18 @@ struct Left {
 }
 
 impl<'a> Descent<'a> {
-    pub fn new(path: &'a Path<'a>, goal: &'a Goal, settings: &'a InverseSettings) -> Self {
+    pub fn new(
+        path: &'a Path<'a>,
+        goal: &'a Goal,
+        settings: &'a InverseSettings,
+        near: &'a [f64],
+    ) -> Self {
         let reach = path.reach();
         Self {
             path,
             goal,
             settings,
+            near,
             length: if reach > 1e-6 { 0.3 * reach } else { 1.0 },
             iterations: 0,
             place: Place::default(),
@@ -100,6 +109,7 @@ impl<'a> Descent<'a> {
             left = after;
             q.copy_from_slice(&next);
         }
+        self.path.settle(&mut q, self.near);
         Found {
             reached: self.is_reached(&left),
             configuration: q,
@@ -181,6 +191,11 @@ impl<'a> Descent<'a> {
                 *change -= column.dot(&needed);
             }
             let before = away(q);
+            if free.iter().map(|change| change * change).sum::<f64>()
+                <= LEAST_GAIN * before * before
+            {
+                return found;
+            }
             let mut next = q.clone();
             for (dof, change) in path.dofs.iter().zip(&free) {
                 next[*dof] += part * change;

@@ -41,24 +41,26 @@ impl Goal {
 /// Tolerances and limits of [`ForwardKinematics::reach`](crate::ForwardKinematics::reach).
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSettings {
-    /// Position tolerance, metres; default 1e-6.
+    /// Position tolerance, metres, 0 or more; default 1e-6.
     pub position_tolerance: f64,
-    /// Rotation tolerance, radians; default 1e-6.
+    /// Rotation tolerance, radians, 0 or more; default 1e-6.
     pub rotation_tolerance: f64,
-    /// Maximum number of iterations per descent; default 100.
+    /// Maximum number of iterations per descent, at least 1; default 100.
     pub iterations: usize,
     /// Maximum number of descents from random configurations after the first one; default 100.
     pub restarts: usize,
-    /// Restart 1, 2, ... uses [`ConfigurationSpace::sampled`](crate::ConfigurationSpace::sampled) with the sum of `seed` and the restart's number. So the
-    /// search is deterministic.
+    /// Restart 1, 2, ... uses [`ConfigurationSpace::sampled`](crate::ConfigurationSpace::sampled) with the sum of
+    /// `seed` and the restart's number. So the search is deterministic.
     pub seed: u64,
-    /// Bounds of each DOF, in place of those of `bounds_module`: for an unlimited base, which otherwise stays within
-    /// one metre, or to restrict the robot further.
+    /// Bounds of each DOF, limited or not, in place of those of `bounds_module`, lower bound first: for an unlimited
+    /// base, which otherwise stays within one metre of its start, or to restrict the robot further.
     pub bounds: Option<Vec<[f64; 2]>>,
     /// DOFs that keep the value that they have in the start configuration.
     pub locked: Vec<usize>,
-    /// A configuration that the solution should be near: every descent is used, each solution is moved toward the posture
-    /// as far as the goal allows, and the nearest one counts, by the Euclidean distance of the DOFs that move the link.
+    /// A configuration that the solution should be near. Descents begin at the start, at the posture, then at random
+    /// between the posture and anywhere, until 12 restarts in a row bring no nearer solution. Each solution is moved
+    /// toward the posture as far as the goal allows, and the nearest one counts, by the Euclidean distance of the DOFs
+    /// that move the link. This is a search: a nearer solution can be missed.
     pub posture: Option<Vec<f64>>,
     /// Whether to find out why a goal is not reached, which takes as long as the search; default true.
     pub explain: bool,

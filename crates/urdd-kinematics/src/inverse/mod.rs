@@ -10,11 +10,18 @@ mod path;
 
 pub use goal::{Goal, InverseSettings};
 
-use self::descent::{Descent, Found};
+use self::descent::{Descent, Found, LEAST_GAIN};
 use self::path::Path;
 use super::configurations::ConfigurationSpace;
 use super::error::ConfigurationError;
 use super::forward::ForwardKinematics;
+
+/// With a posture, restarts begin these parts of the way from it to a random configuration, in turn: most solutions
+/// near it are found from near it.
+const PARTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// With a posture, the search ends after this many restarts in a row that brought no nearer solution.
+const IN_VAIN: usize = 12;
 
 /// The result of [`ForwardKinematics::reach`].
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +35,9 @@ pub enum Inverse {
 /// A configuration and its errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseSolution {
-    /// One value per DOF, rad or m, within bounds. DOFs that do not move the link keep their start values.
+    /// One value per DOF, rad or m, within bounds. DOFs that do not move the link keep their start values. Of values a
+    /// whole turn apart that are within the bounds, it has the nearest to the posture, or to the start without a
+    /// posture; rotation vectors too, which may then be longer than a half turn.
     pub configuration: Vec<f64>,
     /// Distance of the point from the goal, metres.
     pub position_error: f64,
@@ -51,11 +60,11 @@ pub enum Verdict {
     Refused,
     /// None within the bounds was found, but one beyond them.
     Limits,
-    /// None was found, within the bounds or beyond them: as a rule, the goal is farther than the robot reaches, or turned
-    /// in a way that its joints cannot turn. This is a search, not a proof.
+    /// None was found, within the bounds or beyond them: as a rule, the goal is farther than the robot reaches, or
+    /// turned in a way that its joints cannot turn. This is a search, not a proof.
     OutOfReach,
-    /// None within the bounds was found; why was not searched for, as [`InverseSettings::explain`] is false, or the search
-    /// was stopped.
+    /// None within the bounds was found; why was not searched for, as [`InverseSettings::explain`] is false, or the
+    /// search was stopped.
     Unknown,
 }
 
@@ -95,7 +104,8 @@ impl ForwardKinematics {
     ///
     /// Values of `start` out of bounds are first moved into bounds: angles that move the link by whole turns if
     /// possible, others to the nearest bound. DOFs that do not move the link, and locked ones, then keep their value.
-    /// The bounds of rotation vectors are ignored. A goal for a link that does not exist is not reached.
+    /// The bounds of rotation vectors are ignored, unless lower and upper are equal. A goal for a link that does not
+    /// exist is not reached.
     ///
     /// # Errors
     /// If `start` or the posture has the wrong length, or a value that is not finite.
@@ -111,6 +121,7 @@ impl ForwardKinematics {
         if let Some(posture) = &settings.posture {
             self.check(posture)?;
         }
+        let near = settings.posture.as_deref().unwrap_or(start);
         let mut bounds = space.bounds().to_vec();
         for dof in &settings.locked {
             if let Some(bounds) = bounds.get_mut(*dof) {
@@ -123,7 +134,7 @@ impl ForwardKinematics {
             space,
             settings,
             conditions,
-            descent: Descent::new(&path, goal, settings),
+            descent: Descent::new(&path, goal, settings, near),
             restarts: 0,
             refused: None,
         };
@@ -137,7 +148,7 @@ impl ForwardKinematics {
             _ => {
                 let wide = path.unlimited(&bounds, path.reach() + best.position_error);
                 let path = Path::new(self, goal, &wide);
-                let mut descent = Descent::new(&path, goal, settings);
+                let mut descent = Descent::new(&path, goal, settings, near);
                 let others = space.with_bounds(&wide).into_iter().flat_map(|space| {
                     let seeds =
                         (1..=settings.restarts as u64).map(|k| settings.seed.wrapping_add(k));
@@ -192,13 +203,29 @@ impl Search<'_> {
             true => 0,
             false => self.settings.restarts,
         };
-        let wants_all = self.settings.posture.is_some();
-        while (wants_all || !best.reached) && self.restarts < most && !(self.conditions.stops)() {
-            self.restarts += 1;
-            let seed = self.settings.seed.wrapping_add(self.restarts as u64);
-            let found = self.from(self.path.restarted(first, &self.space.sampled(seed)));
+        let posture = self.settings.posture.as_deref();
+        if let Some(posture) = posture {
+            let found = self.from(self.path.restarted(first, posture));
             if self.is_better(&found, &best) {
                 best = found;
+            }
+        }
+        let mut in_vain = 0;
+        while !(best.reached && (posture.is_none() || in_vain >= IN_VAIN))
+            && self.restarts < most
+            && !(self.conditions.stops)()
+        {
+            self.restarts += 1;
+            let seed = self.settings.seed.wrapping_add(self.restarts as u64);
+            let mut other = self.space.sampled(seed);
+            for (value, near) in other.iter_mut().zip(posture.into_iter().flatten()) {
+                *value = near + PARTS[self.restarts % PARTS.len()] * (*value - near);
+            }
+            let found = self.from(self.path.restarted(first, &other));
+            in_vain += usize::from(best.reached);
+            if self.is_better(&found, &best) {
+                best = found;
+                in_vain = 0;
             }
         }
         best
@@ -208,7 +235,8 @@ impl Search<'_> {
         match (found.reached, best.reached, &self.settings.posture) {
             (true, true, Some(posture)) => {
                 let [found, best] = [found, best].map(|one| &one.configuration);
-                self.path.distance(found, posture) < self.path.distance(best, posture)
+                let [found, best] = [found, best].map(|one| self.path.distance(one, posture));
+                found < best * (1.0 - LEAST_GAIN)
             }
             (true, _, _) => true,
             (false, reached, _) => !reached && found.cost < best.cost,

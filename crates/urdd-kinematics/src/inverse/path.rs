@@ -42,7 +42,7 @@ impl<'a> Path<'a> {
     pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
         let branch = kinematics.branch(goal.link);
         let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
-        let mut uses: Vec<Vec<Kind>> = vec![Vec::new(); kinematics.num_dofs()];
+        let mut uses: Vec<Option<Kind>> = vec![None; kinematics.num_dofs()];
         let mut vectors = Vec::new();
         for step in &branch.steps {
             match &step.motion {
@@ -79,20 +79,18 @@ impl<'a> Path<'a> {
             kinds: Vec::new(),
             vectors,
         };
-        for (dof, uses) in uses.iter().enumerate() {
-            let kind = match uses.as_slice() {
-                [] => continue,
-                [kind] => *kind,
-                // A DOF that drives several joints does not repeat with whole turns.
-                _ => Kind::Bounded,
-            };
+        for (dof, kind) in uses.iter().enumerate() {
             let [lower, upper] = path.bounds[dof];
-            if kind == Kind::Free || lower < upper {
+            if let Some(kind) = kind
+                && lower < upper
+            {
                 path.place[dof] = Some(path.dofs.len());
                 path.dofs.push(dof);
-                path.kinds.push(kind);
+                path.kinds.push(*kind);
             }
         }
+        // A rotation vector with a locked component has no equivalents.
+        path.vectors.retain(|dofs| dofs.iter().all(|dof| path.place[*dof].is_some()));
         path
     }
 
@@ -134,11 +132,10 @@ impl<'a> Path<'a> {
 
     /// Moves each value that is out of bounds by whole turns if possible, otherwise to the nearest bound.
     pub fn confine(&self, configuration: &mut [f64]) {
-        let free: Vec<usize> = self.vectors.iter().flatten().copied().collect();
         for (dof, value) in configuration.iter_mut().enumerate() {
-            if !free.contains(&dof) {
-                let turning = self.place[dof].is_some_and(|k| self.kinds[k] == Kind::Turning);
-                *value = within(*value, self.bounds[dof], turning);
+            let kind = self.place[dof].map(|k| self.kinds[k]);
+            if kind != Some(Kind::Free) {
+                *value = within(*value, self.bounds[dof], kind == Some(Kind::Turning));
             }
         }
         self.wrap(configuration);
@@ -146,13 +143,33 @@ impl<'a> Path<'a> {
 
     /// Replaces each rotation vector by the equivalent one of at most a half turn.
     pub fn wrap(&self, configuration: &mut [f64]) {
+        self.turn_vectors(configuration, |_| Vector3::zeros());
+    }
+
+    /// Replaces angles that repeat with whole turns, and rotation vectors, by the equivalents that are nearest to those
+    /// of another configuration: angles within their bounds.
+    pub fn settle(&self, configuration: &mut [f64], near: &[f64]) {
+        for (k, dof) in self.dofs.iter().enumerate() {
+            if self.kinds[k] == Kind::Turning {
+                let ([lower, upper], value) = (self.bounds(k), configuration[*dof]);
+                let turns = |to: f64| (to - value) / TAU;
+                let nearest = whole(turns(near[*dof]));
+                let nearest = nearest.max(turns(lower).ceil()).min(turns(upper).floor());
+                configuration[*dof] = (value + TAU * nearest).max(lower).min(upper);
+            }
+        }
+        self.turn_vectors(configuration, |dofs| Vector3::from(dofs.map(|dof| near[dof])));
+    }
+
+    /// Replaces each rotation vector by the equivalent one along its axis that is nearest to another.
+    fn turn_vectors(&self, configuration: &mut [f64], near: impl Fn([usize; 3]) -> Vector3<f64>) {
         for dofs in &self.vectors {
             let vector = Vector3::from(dofs.map(|dof| configuration[dof]));
             let angle = vector.norm();
-            if angle > PI {
-                let less = angle - TAU * (angle / TAU).round();
-                for (dof, component) in dofs.iter().zip(vector.iter()) {
-                    configuration[*dof] = component * (less / angle);
+            let turns = whole((vector.dot(&near(*dofs)) / angle - angle) / TAU);
+            if turns.is_finite() && turns != 0.0 {
+                for dof in dofs {
+                    configuration[*dof] *= (angle + TAU * turns) / angle;
                 }
             }
         }
@@ -186,9 +203,15 @@ impl<'a> Path<'a> {
     }
 }
 
-fn uses_of(uses: &mut [Vec<Kind>], dof: Option<usize>, kind: Kind) {
+/// The nearest whole number of turns; 0 for a half turn either way.
+fn whole(turns: f64) -> f64 {
+    if turns.abs() <= 0.5 { 0.0 } else { turns.round() }
+}
+
+fn uses_of(uses: &mut [Option<Kind>], dof: Option<usize>, kind: Kind) {
     if let Some(dof) = dof {
-        uses[dof].push(kind);
+        // A DOF that drives several joints does not repeat with whole turns.
+        uses[dof] = Some(uses[dof].map_or(kind, |_| Kind::Bounded));
     }
 }
 
