@@ -67,7 +67,7 @@ fn add(parent: &Path, module: &str) -> Result<String, String> {
     let files = files(module, joints);
     let folder = add_module(&root, module, VERSION, &[ModuleKind::Urdf], &files);
     let folder = told(&folder.map_err(|error| told(&error))?.display());
-    let parent = told(&parent.display());
+    let parent = escape::shell(&parent.display().to_string());
     Ok(format!(
         "wrote {folder}, and listed it in {ROOT_METADATA}\nnext: say in schema.json what it is about, write module.json and module.yaml; then `urdd rehash {parent}` and `urdd validate {parent}`\n"
     ))

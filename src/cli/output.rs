@@ -71,20 +71,21 @@ pub fn error(message: &str) {
     let _ = writeln!(io::stderr().lock(), "urdd: {message}");
 }
 
-/// Makes lines inert for terminals and for GitHub Actions runners, which treat any line that begins with `::` or `##[`
-/// as a command.
+/// Makes lines inert for terminals and for GitHub Actions runners, which take a line that begins with `::` for a command,
+/// and what follows `##[` anywhere. The latter's escape is one of JSON too, which is printed here.
 fn inert(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for line in escape::lines(text).split_inclusive('\n') {
+    let text = escape::lines(text).replace("##[", "#\\u0023[");
+    for line in text.split_inclusive('\n') {
         let start = line.len() - line.trim_start().len();
         let (margin, rest) = line.split_at(start);
         out.push_str(margin);
-        match rest.starts_with("::") || rest.starts_with("##[") {
-            true => {
-                out.push_str(if rest.starts_with(':') { "\\u{3a}" } else { "\\u{23}" });
-                out.push_str(&rest[1..]);
+        match rest.strip_prefix(':').filter(|rest| rest.starts_with(':')) {
+            Some(rest) => {
+                out.push_str("\\u{3a}");
+                out.push_str(rest);
             }
-            false => out.push_str(rest),
+            None => out.push_str(rest),
         }
     }
     out

@@ -9,6 +9,7 @@ use super::new_extension::{self, NewExtensionArguments};
 use super::output;
 use urdd_directory::schema_files::{self, SchemaFault};
 use urdd_format::bundle;
+use urdd_format::escape;
 use urdd_format::registry::Profile;
 use urdd_format::schema::{self, Subject, Variant};
 
@@ -133,7 +134,10 @@ fn report(faults: &[SchemaFault], folder: &Path) -> String {
         text.push_str(&format!("{fault}\n"));
     }
     if faults.iter().any(SchemaFault::is_mended_by_export) {
-        text.push_str(&format!("repair: urdd schema export {}\n", folder.display()));
+        text.push_str(&format!(
+            "repair: urdd schema export {}\n",
+            escape::shell(&folder.display().to_string())
+        ));
     }
     text
 }

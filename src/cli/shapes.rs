@@ -49,7 +49,8 @@ pub fn open(path: &Path) -> Result<Robot, String> {
         if path.ends_with(".urdf") {
             let shown = escape::line(&path);
             return Err(format!(
-                "{shown}: this is a URDF; generate a URDD from it first: urdd generate {shown} -o DIR"
+                "{shown}: this is a URDF; generate a URDD from it first: urdd generate {} -o DIR",
+                escape::shell(&path)
             ));
         }
         return Err(foreign::advice(&DiscoverError::NotAFolder { path }));

@@ -37,6 +37,7 @@ mod security_doc;
 mod snapshots;
 mod spec_agrees;
 mod support_is_sound;
+mod texts;
 mod typescript;
 mod vectors;
 mod view;

@@ -21,7 +21,7 @@ fn urdd(folder: &Path, arguments: &[&str]) -> Output {
 }
 
 /// Whether a terminal would act upon a character, or show nothing: by Unicode's own lists, not by the code under test.
-fn acts(c: char) -> bool {
+pub(crate) fn acts(c: char) -> bool {
     matches!(c,
         '\0'..='\u{9}' | '\u{b}'..='\u{1f}' | '\u{7f}'..='\u{9f}' | '\u{ad}' | '\u{61c}'
         | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'

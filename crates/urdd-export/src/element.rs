@@ -2,6 +2,9 @@
 
 use quick_xml::escape::escape;
 
+use super::template::without_jinja;
+use urdd_format::escape::is_hidden;
+
 /// An element.
 #[derive(Debug, Clone, Default)]
 pub struct Element {
@@ -63,6 +66,31 @@ impl Element {
         self.children.is_empty()
     }
 
+    /// Rewrites all texts, and raw XML where that gives any. Returns how many raw elements are left out.
+    pub(super) fn rewrite(
+        &mut self,
+        text: &dyn Fn(&str) -> String,
+        raw: &dyn Fn(&str) -> Option<String>,
+    ) -> usize {
+        self.attributes.iter_mut().for_each(|(_, value)| *value = text(value));
+        let mut left_out = 0;
+        self.children.retain_mut(|child| {
+            match child {
+                Child::Element(element) => left_out += element.rewrite(text, raw),
+                Child::Text(own) => *own = text(own),
+                Child::Raw(own) => match raw(own) {
+                    Some(new) => *own = new,
+                    None => {
+                        left_out += 1;
+                        return false;
+                    }
+                },
+            }
+            true
+        });
+        left_out
+    }
+
     /// Serializes a document with this root element, after the comments.
     pub fn document(&self, comments: &[String]) -> String {
         let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
@@ -103,7 +131,7 @@ impl Element {
 /// without characters that XML excludes. These are escaped, as in `\u{2d}`.
 pub fn comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for c in urdd_format::escape::line(text).chars() {
+    for c in without_jinja(&urdd_format::escape::line(text), "\\u{7b}").chars() {
         match (c, safe.ends_with('-')) {
             ('-', true) => safe += "\\u{2d}",
             (c, _) => safe.push(c),
@@ -113,9 +141,15 @@ pub fn comment(text: &str) -> String {
     format!("<!-- {safe} -->\n")
 }
 
-/// Escapes characters, in content or as the value of an attribute. Tabs and line breaks become character references, since XML readers replace them
-/// with spaces otherwise.
-fn escaped(value: &str) -> String {
-    let text = escape(value).replace('\t', "&#9;");
-    text.replace('\n', "&#10;").replace('\r', "&#13;")
+/// Escapes characters, in content or as the value of an attribute. Tabs, line breaks and what a terminal would act upon
+/// become character references; XML readers replace the first two with spaces otherwise.
+pub(super) fn escaped(value: &str) -> String {
+    let mut text = String::with_capacity(value.len());
+    for c in escape(value).chars() {
+        match is_hidden(c) {
+            true => text += &format!("&#{};", u32::from(c)),
+            false => text.push(c),
+        }
+    }
+    without_jinja(&text, "&#123;")
 }

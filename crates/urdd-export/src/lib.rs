@@ -63,6 +63,7 @@ mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
+mod template;
 mod urdf;
 mod urdf_elements;
 #[doc(hidden)]

@@ -6,14 +6,14 @@ use super::error::ExportError;
 use super::format::Format;
 use urdd_document::robot::Robot;
 use urdd_document::tree::Tree;
-use urdd_format::escape;
 use urdd_xml::is_character;
 
 /// Maximum length of a link name within a file name.
 pub const LONGEST: usize = 80;
 
-/// Maximum length of a YAML key on one line.
-const MAX_KEY: usize = 1024;
+/// The settings beside which MoveIt's file of planners names groups.
+const OMPL: [&str; 4] =
+    ["planning_plugins", "request_adapters", "response_adapters", "planner_configs"];
 
 /// An error if the format cannot represent a name of the robot, a link or a joint.
 pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), ExportError> {
@@ -55,6 +55,12 @@ pub fn check_unique<'n>(
 ) -> Result<(), ExportError> {
     let mut seen = HashSet::new();
     match names.into_iter().find(|name| !seen.insert(*name)) {
+        Some(name) if format == Format::Sdf => Err(error(
+            format,
+            what,
+            name,
+            "another one has it: in SDF, the links, joints and frames of a model share their names",
+        )),
         Some(name) => Err(error(format, what, name, TWICE)),
         None => Ok(()),
     }
@@ -86,14 +92,23 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
     }
 }
 
-const TWICE: &str = "the format needs it for a part of a joint of several DOFs too, or for a frame";
+const TWICE: &str = "the format needs it for a part of a joint of several DOFs too";
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
-        Format::Moveit if name.contains("${") || name.contains("$(") => {
+        Format::Moveit if ["${", "$(", "$$"].iter().any(|begin| name.contains(begin)) => {
             "MoveIt reads files by xacro, which would evaluate it"
+        }
+        Format::Moveit if name.contains(['\t', '\n', '\r']) => {
+            "MoveIt reads files by xacro, which writes a tab or a line break as a space"
+        }
+        Format::Moveit if name.starts_with('-') => {
+            "the launch file gives names to programs, which take it for an option"
+        }
+        Format::Moveit if what == "group" && OMPL.contains(&name) => {
+            "MoveIt's file of planners has a setting of that name"
         }
         Format::Sdf if name.contains("::") => {
             "SDF reads the part before `::` as the name of a model"
@@ -106,7 +121,6 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
         Format::Drake if what == "link" && name.contains("::") => {
             "Drake reads the part before `::` as the name of a model"
         }
-        Format::Curobo if is_long_key(name) => "a key of YAML has at most 1,024 characters",
         _ if is_xml && !name.chars().all(is_character) => {
             "it has characters that XML does not allow"
         }
@@ -115,14 +129,16 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
     Err(error(format, what, name, reason))
 }
 
-/// Whether a name, quoted and escaped, is too long for a YAML key (YAML 1.2.2, 7.4.2).
-fn is_long_key(name: &str) -> bool {
-    let quoted = serde_json::Value::from(name).to_string();
-    escape::json(&quoted).chars().count() > MAX_KEY
-}
-
 fn error(format: Format, what: &'static str, name: &str, reason: &'static str) -> ExportError {
     ExportError::Name { format, what, name: name.to_owned(), reason }
+}
+
+/// Whether Windows has a device of that name, whatever its extension.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
+    let numbered = ["com", "lpt"].iter().find_map(|port| stem.strip_prefix(port));
+    matches!(stem.as_str(), "con" | "prn" | "aux" | "nul")
+        || numbered.is_some_and(|number| matches!(number.as_bytes(), [b'0'..=b'9']))
 }
 
 /// Derives file names from link names: letters, digits, `.`, `-` and `_`, unique regardless of case.
@@ -139,7 +155,7 @@ impl FileNames {
             _ => '_',
         };
         let mut base: String = wanted.chars().map(kept).take(LONGEST).collect();
-        if base.is_empty() || base.starts_with('.') {
+        if base.is_empty() || base.starts_with(['.', '-']) || is_device(&base) {
             base.insert(0, '_');
         }
         let mut name = base.clone();

@@ -1,6 +1,7 @@
 //! The elements of a URDF: links with the URDD's shapes, and joints.
 
 use nalgebra::Isometry3;
+use roxmltree::Node;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
@@ -13,8 +14,8 @@ use urdd_document::robot::Inertial as InertialView;
 use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
 use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
-use urdd_xml::Kind;
 use urdd_xml::number::{number, numbers};
+use urdd_xml::{Kind, is_character};
 
 /// Half the thickness of a flat box for programs that reject flat boxes, in metres.
 pub(super) const HALF_THICKNESS: f64 = 1e-6;
@@ -30,9 +31,10 @@ pub(super) enum Geometry {
 
 /// The empty `robot` element.
 pub(super) fn empty_robot(subject: &Subject) -> Element {
-    Element::new("robot")
-        .with("name", subject.urdf.name.as_str())
-        .with_some("version", subject.urdf.version.as_deref())
+    // A URDF cannot have other characters, an edited module can.
+    let version = subject.urdf.version.as_deref();
+    let version = version.filter(|version| version.chars().all(is_character));
+    Element::new("robot").with("name", subject.urdf.name.as_str()).with_some("version", version)
 }
 
 /// The links with these shapes, in link order, and the files that they reference.
@@ -76,14 +78,23 @@ pub(super) fn links(
 pub(super) fn push_unknown(element: &mut Element, texts: &[String], known: &[&str]) -> usize {
     let mut lost = 0;
     for text in texts {
-        match urdd_xml::parse(text, Kind::Other) {
-            Ok(document) if !known.contains(&document.root_element().tag_name().name()) => {
+        match urdd_xml::parse(text, Kind::Other).and_then(|_| urdd_xml::parse(text, Kind::Robot)) {
+            Ok(document)
+                if !known.contains(&document.root_element().tag_name().name())
+                    && document.descendants().all(has_namespaces) =>
+            {
                 element.push_raw(&text[document.root_element().range()]);
             }
             _ => lost += 1,
         }
     }
     lost
+}
+
+/// Whether the namespaces of an element are written as URIs. expat and libxml2 refuse a file with others.
+fn has_namespaces(node: Node) -> bool {
+    let is_of_uri = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#[]@!&'()*+,;=%".contains(c);
+    node.namespaces().all(|namespace| namespace.uri().chars().all(is_of_uri))
 }
 
 /// The elements that URDF defines in `robot`, `link` and `joint`.

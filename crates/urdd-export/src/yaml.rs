@@ -2,8 +2,12 @@
 
 use std::fmt::Write;
 
+use super::template::without_jinja;
 use urdd_format::escape;
 use urdd_xml::number::number;
+
+/// Maximum length of a key that is followed by `:`. Readers take 1,024 characters.
+const MAX_KEY: usize = 1000;
 
 /// A value.
 #[derive(Debug, Clone)]
@@ -57,7 +61,8 @@ impl Yaml {
     pub fn document(&self, comments: &[String]) -> String {
         let mut text = String::new();
         for comment in comments {
-            let _ = writeln!(text, "# {}", escape::line(comment));
+            let comment = without_jinja(&escape::line(comment), "\\u{7b}");
+            let _ = writeln!(text, "# {comment}");
         }
         self.write(&mut text, 0, true);
         text
@@ -81,7 +86,11 @@ impl Yaml {
                     text.push('\n');
                 }
                 for (key, value) in entries {
-                    let _ = write!(text, "{margin}{key}:");
+                    // A longer key says where it begins (YAML 1.2.2, 7.4.2 and 8.2.2).
+                    match key.chars().count() > MAX_KEY {
+                        true => _ = write!(text, "{margin}? {key}\n{margin}:"),
+                        false => _ = write!(text, "{margin}{key}:"),
+                    }
                     value.write(text, depth + 1, false);
                 }
             }
@@ -140,5 +149,5 @@ pub(super) fn quoted(name: &str) -> String {
             false => text.push(c),
         }
     }
-    text
+    without_jinja(&text, "\\u007b")
 }

@@ -60,6 +60,16 @@ pub fn quoted(name: &str) -> String {
     format!("\"{}\"", line(&name))
 }
 
+/// Quotes a path or a name for a command line that a message suggests: in single quotes, unless every shell takes it for
+/// one word.
+pub fn shell(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_./:@%+,-".contains(c);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => line(word).into_owned(),
+        false => format!("'{}'", line(word).replace('\'', "'\\''")),
+    }
+}
+
 fn escape(c: char, out: &mut String) {
     match c {
         '\n' => out.push_str("\\n"),

@@ -214,8 +214,12 @@ fn names_of_groups_come_out_as_they_went_in() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
     for (name, is_held) in [
-        ("-->\"/><evil a='", true),
-        ("a: b #\t\u{202e}", true),
+        ("a-->\"/><evil a='", true),
+        ("a: b #\u{202e}", true),
+        ("{{x}}{%{#", true),
+        ("a\tb", false),
+        ("--ros-args", false),
+        ("$$", false),
         ("\u{1b}[2J", false),
         ("\u{fffe}", false),
         ("${x}", false),
@@ -295,5 +299,32 @@ fn what_does_not_belong_to_the_robot_is_refused() {
     for format in Format::ALL {
         let error = export(&robot, *format, &options).expect_err("another robot's");
         assert!(matches!(error, ExportError::OtherSetup { .. }), "{error}");
+    }
+}
+
+/// In a file that names what is ours beside what is the robot's, the robot's name is left to it, or refused.
+#[test]
+fn names_of_our_own_are_not_the_robots() {
+    let (_folder, path) = made_of(&URDF.replace("name=\"a\"", "name=\"virtual_joint\""));
+    let robot = Robot::open(path).expect("a robot");
+    let made = export(&robot, Format::Moveit, &Options::default()).expect("an export");
+    let srdf = Document::parse(&made.text).expect("well-formed");
+    let ours = srdf.descendants().find(|node| node.has_tag_name("virtual_joint"));
+    assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_"));
+    let setup = |group: &str| {
+        let text =
+            format!("robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"virtual_joint\"]\n");
+        let setup = Setup::from_toml(&text, "x", &robot).expect("read");
+        Options { setup: Some(setup), ..Options::default() }
+    };
+    let made = export(&robot, Format::Moveit, &setup("arm")).expect("an export");
+    let planning = yaml(files(&made)["config/ompl_planning.yaml"]);
+    for (key, value) in planning.as_object().expect("a map") {
+        let is_group = value.get("default_planner_config").is_some();
+        assert_eq!(is_group, key == "arm");
+        if !is_group {
+            let error = export(&robot, Format::Moveit, &setup(key)).expect_err(key);
+            assert!(matches!(error, ExportError::Name { what: "group", .. }), "{error}");
+        }
     }
 }

@@ -85,7 +85,7 @@ fn read(format: Format, text: &str) -> Names {
 }
 
 /// By two parsers: either alone would miss some faults.
-fn parsed(text: &str) -> Document<'_> {
+pub(crate) fn parsed(text: &str) -> Document<'_> {
     let mut reader = quick_xml::Reader::from_str(text);
     reader.config_mut().check_comments = true;
     loop {
@@ -161,14 +161,14 @@ fn may_refuse(format: Format, name: &str) -> bool {
     let unheld =
         |c: char| (c < ' ' && !"\t\n\r".contains(c)) || ['\u{fffe}', '\u{ffff}'].contains(&c);
     match format {
-        // A key of YAML has at most 1,024 characters.
-        Format::Curobo if name.len() > 1_000 => true,
         Format::Curobo | Format::Foam => name.is_empty(),
         Format::Drake if name.contains("::") => true,
         Format::Drake | Format::Mjcf | Format::Sdf if name == "world" => true,
         // Names in text are trimmed by readers of SDF; xacro evaluates some in MoveIt.
         Format::Sdf if name.contains("::") || name.trim() != name => true,
         Format::Moveit if name.contains("${") || name.contains("$(") => true,
+        // It also prints white space as a space; and what begins with `-` is an option of a program.
+        Format::Moveit if name.contains(['\t', '\n', '\r']) || name.starts_with('-') => true,
         _ => name.is_empty() || name.contains(unheld),
     }
 }

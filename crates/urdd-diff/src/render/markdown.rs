@@ -46,7 +46,8 @@ fn line(spans: &[Span]) -> String {
 
 /// A code span: its fence is longer than any run of backticks in the text.
 fn code(text: &str) -> String {
-    let text = escape::line(text);
+    // A runner of GitHub Actions takes what follows for a command, anywhere in a line.
+    let text = escape::line(text).replace("##[", "#\\u0023[");
     let mut starts = text.char_indices().map(|(at, _)| at);
     let end = starts.find(|at| *at > MAX_VALUE_BYTES);
     let (text, rest) = text.split_at(end.unwrap_or(text.len()));

@@ -7,8 +7,9 @@ mod controllers;
 mod package;
 mod planning;
 mod semantic;
+mod xacro;
 
-use super::error::ExportError;
+use super::error::{ExportError, Note};
 use super::output::Export;
 use super::subject::Subject;
 use super::urdf;
@@ -22,6 +23,10 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let (mut robot, meshes) = urdf::robot(subject, shapes, &mut notes)?;
     if !config.has_hardware() {
         robot.push(config.hardware());
+    }
+    match xacro::escape(&mut robot) {
+        0 => {}
+        count => notes.push(Note::Macros(count)),
     }
     let text = semantic::srdf(&config, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.options.shapes);

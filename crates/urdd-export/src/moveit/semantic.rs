@@ -41,9 +41,13 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let root = subject.tree.root;
     if !subject.is_world(root) {
         let kind = if config.setup.floating.value { "floating" } else { "fixed" };
+        let mut name = "virtual_joint".to_owned();
+        while subject.view.joints.iter().any(|joint| joint.name == name) {
+            name.push('_');
+        }
         robot.push(
             Element::new("virtual_joint")
-                .with("name", "virtual_joint")
+                .with("name", name)
                 .with("type", kind)
                 .with("parent_frame", "world")
                 .with("child_link", subject.links[root].as_str()),

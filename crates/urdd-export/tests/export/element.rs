@@ -22,6 +22,10 @@ fn text_from_anybody_stays_inside_its_place() {
         "-\n-",
         "-\u{ad}-",
         " - - ",
+        "{{x}}",
+        "{%x%}",
+        "{#x#}",
+        "{{{#{%{",
     ];
     for text in hostile {
         let written = Element::new("robot")
@@ -36,6 +40,9 @@ fn text_from_anybody_stays_inside_its_place() {
             assert!(comment.chars().all(urdd_xml::is_character));
         }
         assert_eq!(parsed.root().children().count(), 3, "{written}");
+        for begin in ["{{", "{%", "{#"] {
+            assert!(!written.contains(begin), "{written}");
+        }
     }
     let noncharacters = comment("\u{0}\u{fffe}\u{ffff}");
     assert_eq!(noncharacters, "<!-- \\u{0}\\u{fffe}\\u{ffff} -->\n");

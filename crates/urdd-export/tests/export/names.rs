@@ -11,6 +11,12 @@ fn names_of_files_are_safe_and_differ() {
     assert_eq!(names.of("arm"), "arm-2");
     assert_eq!(names.of("arm"), "arm-3");
     assert_eq!(names.of(""), "_");
+    for device in ["con", "NUL.x", "com1", "Lpt9.a.b", "aux", "-rf", "--help"] {
+        assert_eq!(names.of(device), format!("_{device}"));
+    }
+    for plain in ["console", "com", "comx", "lpt10", "a.con", "nul_"] {
+        assert_eq!(names.of(plain), plain);
+    }
     assert!(names.of(&"x".repeat(500)).len() <= LONGEST);
 }
 
@@ -22,8 +28,14 @@ fn a_name_that_a_format_cannot_hold_is_an_error() {
         assert!(!of(Format::Srdf, "link", name));
         assert!(of(Format::Curobo, "link", name));
     }
-    assert!(of(Format::Curobo, "link", &"x".repeat(1022)));
-    assert!(!of(Format::Curobo, "link", &"x".repeat(1023)));
+    assert!(of(Format::Curobo, "link", &"x".repeat(100_000)));
+    for name in ["${x}", "$(x)", "$$", "a$$b", "a\tb", "a\nb", "a\rb", "-", "--ros-args"] {
+        assert!(!of(Format::Moveit, "link", name), "{name:?}");
+        assert!(of(Format::Urdf, "link", name), "{name:?}");
+    }
+    for name in ["$x", "a$", "{{x}}", "a-b", "$ {x}"] {
+        assert!(of(Format::Moveit, "link", name), "{name:?}");
+    }
     assert!(of(Format::Foam, "link", &"x".repeat(100_000)));
     assert!(!of(Format::Urdf, "joint", ""));
     assert!(of(Format::Urdf, "robot", ""));

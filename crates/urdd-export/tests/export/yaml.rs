@@ -14,6 +14,15 @@ fn a_tree_reads_back() {
         ("spheres", Yaml::named([("link: 1", Yaml::List(vec![sphere.clone(), sphere]))])),
     ]);
     assert_eq!([-0.0, 1e-9, 1e300, 2.5].map(real).join(" "), "0.0 1.0e-9 1.0e+300 2.5");
+    let long =
+        ["x".repeat(990), "y".repeat(998), "z".repeat(1_200), "\u{1f916}\u{202e}\"".repeat(9_000)];
+    let keys = || Yaml::named(long.iter().map(|name| (name.as_str(), Yaml::text(name))));
+    let nested = Yaml::List(vec![keys(), Yaml::named([(long[2].as_str(), keys())])]);
+    let read: serde_json::Value = serde_yaml::from_str(&nested.document(&[])).expect("YAML");
+    for name in &long {
+        assert_eq!(read[0][name], name.as_str());
+        assert_eq!(read[1][&long[2]][name], name.as_str());
+    }
     let text = tree.document(&["two\nlines".to_owned()]);
     let read: serde_json::Value = serde_yaml::from_str(&text).expect("YAML");
     let sphere = serde_json::json!({"center": [0.0, 1e-9, -2.5], "radius": 3.0});

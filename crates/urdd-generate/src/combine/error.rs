@@ -110,7 +110,7 @@ pub enum PartFault {
         "this is {}, outside of {}, the folder of the recipe; to use parts from there, add --allow-folder {}",
         escape::line(found),
         escape::line(folder),
-        escape::line(allow)
+        escape::shell(allow)
     )]
     Outside {
         /// The file or folder, with symbolic links resolved.

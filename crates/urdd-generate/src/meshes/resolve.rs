@@ -7,6 +7,7 @@ use percent_encoding::percent_decode_str;
 
 use super::package::Packages;
 use super::roots::{Place, Roots};
+use urdd_format::escape;
 
 /// Maximum number of searched places in a message.
 const MOST_TOLD: usize = 4;
@@ -196,13 +197,14 @@ impl Search<'_> {
         if folders.is_empty() {
             self.not_found.no_package.get_or_insert(package.to_owned());
         }
+        let option = format!("--package {}=FOLDER", escape::shell(package));
         let hint = match folders.is_empty() {
             true => format!(
-                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; give its folder: --package {package}=FOLDER",
+                "there is no package `{package}` at or above {}, on ROS_PACKAGE_PATH or AMENT_PREFIX_PATH; give its folder: {option}",
                 urdf_folder.display()
             ),
             false => {
-                format!("if the package is elsewhere, give its folder: --package {package}=FOLDER")
+                format!("if the package is elsewhere, give its folder: {option}")
             }
         };
         self.not_found.hint.get_or_insert(hint);

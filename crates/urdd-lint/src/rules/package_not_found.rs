@@ -3,6 +3,7 @@ use std::collections::BTreeSet;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::textures::textures;
+use urdd_format::escape;
 use urdd_validate::finding::Findings;
 
 declare_lint! {
@@ -27,7 +28,8 @@ fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {
         };
         if told.insert(package.clone()) {
             let message = format!(
-                "there is no package `{package}` at or above the URDF; say where it is: --package {package}=FOLDER"
+                "there is no package `{package}` at or above the URDF; say where it is: --package {}=FOLDER",
+                escape::shell(&package)
             );
             urdf.at_attribute(node, "filename", message).report(findings);
         }
