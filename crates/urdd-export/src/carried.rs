@@ -1,5 +1,6 @@
 //! What each format carries of a robot: the table of docs/export.md, and what was lost of one robot.
 
+use std::collections::HashSet;
 use std::fmt::Write;
 
 use super::error::Note;
@@ -35,6 +36,7 @@ const MIMIC: How = Otherwise("as equality constraints, which hold in simulation 
 const CHAIN: How = Otherwise("as a chain of joints of one DOF, and a ball joint");
 const SLIDES: How = Otherwise("as three slides and a ball joint");
 const PLANAR: How = Otherwise("as two slides and a hinge");
+const RENAMED: How = Otherwise("with `_joint` after the joint's name");
 const WHOLE: How = Otherwise("for whole links, also where the URDD checks some of their pieces");
 const SPHERES: How = Otherwise("by spheres");
 const DRAKE: How = Otherwise("for whole links, and for Drake only");
@@ -47,7 +49,7 @@ const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 
 /// SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt, SDF.
-const TABLE: [Feature; 15] = [
+const TABLE: [Feature; 16] = [
     Feature {
         name: "masses and inertias",
         count: |of| links(of, |link| link.inertial.is_some()),
@@ -108,6 +110,14 @@ const TABLE: [Feature; 15] = [
         name: "mimic joints",
         count: |of| of.mimics.by_joint.iter().flatten().count(),
         by_format: [Elsewhere, Yes, Yes, MIMIC, Elsewhere, Elsewhere, Yes, Yes, Yes],
+    },
+    Feature {
+        name: "joints with the name of a link",
+        count: |of| {
+            let links: HashSet<&String> = of.links.iter().collect();
+            joints(of, |joint| links.contains(&joint.name))
+        },
+        by_format: [Elsewhere, Yes, Yes, Yes, Yes, Elsewhere, Yes, Yes, RENAMED],
     },
     Feature {
         name: "planar joints",

@@ -116,6 +116,14 @@ pub enum Note {
         /// What is exported instead.
         what: &'static str,
     },
+    /// A joint that has another name in the file.
+    #[error("joint `{}` is called `{}`: a link has its name, or the format keeps it for itself", .joint.escape_debug(), .name.escape_debug())]
+    Renamed {
+        /// The joint.
+        joint: String,
+        /// Its name in the file.
+        name: String,
+    },
     /// Groups, end effectors and tool frames were guessed.
     #[error(
         "groups, end effectors and tool frames are guessed: `urdd export init` writes the guesses to a file, to be checked"

@@ -1,6 +1,6 @@
 //! Joints in a form that every URDF reader accepts: mimic chains resolved, rotations as roll, pitch, yaw.
 
-use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 
 use super::error::Note;
 use super::subject::Subject;
@@ -8,50 +8,12 @@ use urdd_document::mimics::Resolved;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
 use urdd_format::urdf::{Joint, JointType, Mimic, Origin};
-use urdd_kinematics::rotation::{planar_basis, to_rpy, unit_axis};
+use urdd_kinematics::rotation::{to_rpy, unit_axis};
 
 const STANDS: &str =
     "it mimics a fixed joint and never moves; it is exported as a fixed joint at its offset";
 const SEVERAL: &str =
     "it mimics a joint of several DOFs, which no program supports; it moves freely";
-
-/// How a part of a joint moves.
-pub(super) enum Moves {
-    /// Along an axis in the joint's frame.
-    Slides(Vector3<f64>),
-    /// About an axis in the joint's frame.
-    Turns(Vector3<f64>),
-    /// About its centre.
-    Ball,
-}
-
-/// The simple joints that a joint of several DOFs is a chain of, from its parent to its child, with their names: for
-/// formats that have no planar and floating joints. Empty for joints of one DOF and fixed ones.
-pub(super) fn parts(joint: &View) -> Vec<(String, Moves)> {
-    let part = |name: &str, moves: Moves| (format!("{}/{name}", joint.name), moves);
-    let ball = || (joint.name.clone(), Moves::Ball);
-    match joint.joint_type {
-        JointType::Planar => {
-            let axis = unit_axis(joint.axis).unwrap_or(Vector3::x_axis());
-            let [x, y] = planar_basis(&axis);
-            vec![
-                part("trans_x", Moves::Slides(x)),
-                part("trans_y", Moves::Slides(y)),
-                part("rot", Moves::Turns(axis.into_inner())),
-            ]
-        }
-        JointType::Floating => vec![
-            part("trans_x", Moves::Slides(Vector3::x())),
-            part("trans_y", Moves::Slides(Vector3::y())),
-            part("trans_z", Moves::Slides(Vector3::z())),
-            ball(),
-        ],
-        JointType::Spherical => vec![ball()],
-        JointType::Fixed | JointType::Revolute | JointType::Continuous | JointType::Prismatic => {
-            Vec::new()
-        }
-    }
-}
 
 /// The joints of the robot, in URDF order.
 pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {

@@ -38,6 +38,8 @@ pub mod element;
 mod error;
 mod format;
 mod groups;
+#[doc(hidden)]
+pub mod inertia;
 mod joints;
 mod meshes;
 #[doc(hidden)]
@@ -50,6 +52,8 @@ mod options;
 mod output;
 #[doc(hidden)]
 pub mod pairs;
+#[doc(hidden)]
+pub mod parts;
 mod sdf;
 #[doc(hidden)]
 pub mod setup;

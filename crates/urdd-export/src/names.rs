@@ -55,12 +55,6 @@ pub fn check_unique<'n>(
 ) -> Result<(), ExportError> {
     let mut seen = HashSet::new();
     match names.into_iter().find(|name| !seen.insert(*name)) {
-        Some(name) if format == Format::Sdf => Err(error(
-            format,
-            what,
-            name,
-            "another one has it: in SDF, the links, joints and frames of a model share their names",
-        )),
         Some(name) => Err(error(format, what, name, TWICE)),
         None => Ok(()),
     }
@@ -92,7 +86,7 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
     }
 }
 
-const TWICE: &str = "the format needs it for a part of a joint of several DOFs too";
+const TWICE: &str = "Drake gives it to the frame of a joint";
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
@@ -113,6 +107,7 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
         Format::Sdf if name.contains("::") => {
             "SDF reads the part before `::` as the name of a model"
         }
+        Format::Sdf if what == "robot" && name == "world" => "SDF keeps it for itself",
         Format::Sdf if name.starts_with("__") && name.ends_with("__") => {
             "SDF keeps such names for itself"
         }

@@ -60,6 +60,17 @@ impl Structure {
         self.view.joints[joint].num_dofs() > 0 && self.mimics.by_joint[joint].is_none()
     }
 
+    /// The position at which equal limits hold a joint of one DOF that follows no other.
+    pub fn locked_at(&self, joint: usize) -> Option<f64> {
+        let limits = self.view.joints[joint].position_limits().filter(|_| self.moves(joint));
+        limits.filter(|(lower, upper)| lower == upper).map(|(lower, _)| lower)
+    }
+
+    /// Whether an actuator of a simulation drives a joint.
+    pub fn is_actuated(&self, joint: usize) -> bool {
+        self.is_driven(joint) && self.locked_at(joint).is_none()
+    }
+
     /// A link and those that are fixed to it, further from the root.
     pub fn fixed_to(&self, link: usize) -> Vec<usize> {
         let mut links = vec![link];

@@ -11,6 +11,7 @@ use super::format::Format;
 use super::names;
 use super::options::Options;
 use super::pairs::{LinkPair, pairs};
+use super::parts::JointNames;
 use super::setup::Setup;
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
@@ -32,6 +33,7 @@ pub(super) struct Subject<'a> {
     pub options: &'a Options,
     pub urdf: UrdfModule,
     pub structure: Structure,
+    pub names: JointNames,
     /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty for formats without pairs.
@@ -61,7 +63,8 @@ impl<'a> Subject<'a> {
             Format::Mjcf => pairs(robot, options)?,
             _ => link_pairs(robot, options)?,
         };
-        Ok(Subject { robot, format, options, urdf, structure, links, pairs, lost: None })
+        let names = JointNames::new(format, &structure);
+        Ok(Subject { robot, format, options, urdf, structure, names, links, pairs, lost: None })
     }
 
     /// The shapes of a kind for each link, in link order.

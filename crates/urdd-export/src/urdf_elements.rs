@@ -5,6 +5,7 @@ use roxmltree::Node;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::inertia::held;
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::output::Files;
@@ -127,7 +128,9 @@ fn element_of_inertial(inertial: &Inertial, view: &InertialView, quaternions: bo
         element.push(element_of_origin(&plain));
     }
     // Most programs reject an element without one of these. Missing values are 0 (SPEC 6.1.8).
-    let [ixx, ixy, ixz, iyy, iyz, izz] = view.inertia.unwrap_or_default().map(number);
+    let inertia = view.inertia.unwrap_or_default();
+    let inertia = held(inertia, false).unwrap_or(inertia);
+    let [ixx, ixy, ixz, iyy, iyz, izz] = inertia.map(number);
     element.push(Element::new("mass").with("value", number(view.mass.unwrap_or(0.0))));
     element.push(
         Element::new("inertia")

@@ -381,7 +381,7 @@ fn names_that_collide_stay_apart() {
 }
 
 #[test]
-fn a_name_that_a_part_of_a_joint_needs_is_refused() {
+fn a_part_of_a_joint_gives_way_to_a_name() {
     let urdf = |other: &str| {
         format!(
             "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>\
@@ -392,9 +392,18 @@ fn a_name_that_a_part_of_a_joint_needs_is_refused() {
     let (_folder, path) = made_of(&urdf("j/trans_x"));
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
-        let error = export(&robot, format, &Options::default()).expect_err("a name");
-        assert!(matches!(&error, ExportError::Name { name, .. } if name == "j/trans_x"), "{error}");
+        let made = export(&robot, format, &Options::default()).expect("an export");
+        let joints = of_tag(&made.text, "joint", "name");
+        assert!(joints.contains("j/trans_x") && joints.contains("j/trans_x_2"), "{joints:?}");
     }
+    // Drake's own name of a frame.
+    let (_folder, path) = made_of(
+        "<robot name='r'><link name='a'/><link name='j_parent'/>\
+         <joint name='j' type='continuous'><parent link='a'/><child link='j_parent'/></joint></robot>",
+    );
+    let robot = Robot::open(path).expect("a robot");
+    let error = export(&robot, Format::Drake, &Options::default()).expect_err("a name");
+    assert!(matches!(&error, ExportError::Name { name, .. } if name == "j_parent"), "{error}");
     let (_folder, path) = made_of(&urdf("k"));
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {

@@ -8,6 +8,7 @@ use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::joints::joints as resolved;
 use super::super::names::check_unique;
+use super::super::parts::Moves;
 use super::super::subject::Subject;
 use super::super::urdf_elements::{element_of_joint, type_name};
 use urdd_document::robot::{Joint as View, Origin as ViewOrigin};
@@ -46,13 +47,13 @@ pub(super) fn joints<'a>(
     let mut made =
         DrakeJoints { links: Vec::new(), elements: Vec::new(), driven: Driven::default() };
     let mut names = Vec::new();
-    let sources = subject.urdf.joints.iter().zip(&subject.view.joints);
-    for (mut joint, (source, view)) in resolved(subject, notes).into_iter().zip(sources) {
+    let sources = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.names.parts);
+    for (mut joint, ((source, view), parts)) in resolved(subject, notes).into_iter().zip(sources) {
         clean(&mut joint, view, notes);
         let parts = match joint.joint_type {
             JointType::Floating if !is_free(subject, view) => {
                 notes.push(Note::joint(&joint.name, FLOATING));
-                let parts = parts(&joint);
+                let parts = chain(&joint, parts);
                 let between = parts.iter().take(parts.len() - 1);
                 made.links.extend(between.map(|part| part.child.link.clone()));
                 parts
@@ -76,7 +77,6 @@ pub(super) fn joints<'a>(
             JointType::Planar | JointType::Spherical | JointType::Floating => {}
         }
     }
-    check_unique(subject.format, "joint", names.iter().map(String::as_str))?;
     // Each link has a frame, and each joint adds one.
     let frames: Vec<String> = names.iter().map(|name| format!("{name}_parent")).collect();
     let links = subject.links.iter().chain(&made.links).chain(&frames);
@@ -124,23 +124,23 @@ fn clean(joint: &mut Joint, view: &View, notes: &mut Vec<Note>) {
     }
 }
 
-/// Splits a floating joint into parts, from its parent to its child.
-fn parts(joint: &Joint) -> Vec<Joint> {
-    let between = ["trans_x", "trans_y", "trans_z"].map(|part| format!("{}/{part}", joint.name));
+/// Splits a floating joint into its parts, from its parent to its child.
+fn chain(joint: &Joint, parts: &[(String, Moves)]) -> Vec<Joint> {
     let mut parent = joint.parent.clone();
     let mut origin = joint.origin.clone();
-    let mut parts = Vec::new();
-    for (k, name) in between.into_iter().enumerate() {
+    let mut chain = Vec::new();
+    for (name, moves) in parts {
+        let Moves::Slides(axis) = moves else {
+            continue;
+        };
         let child = LinkName { link: name.clone() };
-        let mut axis = [0.0; 3];
-        axis[k] = 1.0;
-        parts.push(Joint {
-            name,
+        chain.push(Joint {
+            name: name.clone(),
             joint_type: JointType::Prismatic,
             origin: origin.take(),
             parent: std::mem::replace(&mut parent, child.clone()),
             child,
-            axis: Some(Axis { xyz: Some(axis) }),
+            axis: Some(Axis { xyz: Some((*axis).into()) }),
             limit: None,
             dynamics: None,
             safety_controller: None,
@@ -148,6 +148,6 @@ fn parts(joint: &Joint) -> Vec<Joint> {
             ..joint.clone()
         });
     }
-    parts.push(Joint { joint_type: JointType::Spherical, origin: None, parent, ..joint.clone() });
-    parts
+    chain.push(Joint { joint_type: JointType::Spherical, origin: None, parent, ..joint.clone() });
+    chain
 }

@@ -11,10 +11,13 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::output::Export;
+use super::parts::Taken;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
 };
+
+const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let urdf = &subject.urdf;
@@ -35,16 +38,19 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }
-    let mut taken = transmissions::taken(&urdf.unknown_elements, &joints.driven, &mut notes);
-    lost += push_unknown(&mut robot, &taken.texts, IN_ROBOT);
-    for transmission in taken.others(subject) {
+    let mut kept = transmissions::kept(&urdf.unknown_elements, &joints.driven, &mut notes);
+    lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
+    for transmission in kept.others(subject) {
         robot.push(transmission);
     }
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
-    for group in groups(subject) {
+    for group in groups(subject, &mut Taken::default()) {
         robot.push(group);
+    }
+    if subject.disabled().any(|pair| pair.links.iter().any(|link| subject.is_world(*link))) {
+        notes.push(Note::Robot(WORLD));
     }
     notes.extend(subject.notes());
     let what =
@@ -55,25 +61,31 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
 }
 
 /// One collision filter group for each link in a pair. It ignores the groups of its partners with a higher index. SDF has
-/// names as text, URDF as attributes.
-pub(super) fn groups(subject: &Subject) -> Vec<Element> {
+/// names as text, URDF as attributes. In SDF, they share the names of links and joints.
+pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
     let mut partners: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for pair in subject.disabled() {
         let [a, b] = pair.links;
+        // The world has no group: it belongs to no model.
+        if subject.is_world(a) || subject.is_world(b) {
+            continue;
+        }
         partners.entry(a).or_default().push(b);
         partners.entry(b).or_default();
     }
-    let name = |link: usize| format!("link_{link}");
+    let names: BTreeMap<usize, String> =
+        partners.keys().map(|link| (*link, taken.free(format!("link_{link}")))).collect();
     let saying = |tag: &'static str, key: &'static str, name: &str| match subject.format {
         Format::Sdf => Element::new(tag).containing(name),
         _ => Element::new(tag).with(key, name),
     };
     let group = |(link, ignored): (usize, Vec<usize>)| {
         let member = saying("drake:member", "link", &subject.links[link]);
-        let mut group = Element::new("drake:collision_filter_group").with("name", name(link));
+        let mut group =
+            Element::new("drake:collision_filter_group").with("name", names[&link].as_str());
         group.push(member);
         for other in ignored {
-            group.push(saying("drake:ignored_collision_filter_group", "name", &name(other)));
+            group.push(saying("drake:ignored_collision_filter_group", "name", &names[&other]));
         }
         group
     };

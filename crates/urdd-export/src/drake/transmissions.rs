@@ -6,19 +6,21 @@ use roxmltree::Node;
 
 use super::super::element::Element;
 use super::super::error::Note;
+use super::super::parts::Taken;
 use super::super::subject::Subject;
 use super::joints::Driven;
 use urdd_xml::Kind;
 
 /// Elements directly under `robot`, without those that Drake rejects.
-pub(super) struct Taken {
+pub(super) struct Kept {
     pub texts: Vec<String>,
-    /// The joints that have an actuator, and the names of the actuators.
+    /// The joints that have an actuator, and the names of the actuators and of all transmissions.
     actuated: HashSet<String>,
-    actuators: HashSet<String>,
+    actuators: Taken,
+    transmissions: Taken,
 }
 
-impl Taken {
+impl Kept {
     /// Transmissions of the joints that have none: each is driven directly. A joint without effort is not.
     pub fn others(&mut self, subject: &Subject) -> Vec<Element> {
         let mut others = Vec::new();
@@ -27,14 +29,11 @@ impl Taken {
             if is_weak || !subject.is_driven(index) || self.actuated.contains(&joint.name) {
                 continue;
             }
-            let numbered = (2..).map(|number| format!("{}_{number}", joint.name));
-            let mut names = [joint.name.clone()].into_iter().chain(numbered);
-            let Some(name) = names.find(|name| self.actuators.insert(name.clone())) else {
-                continue;
-            };
+            let name = self.actuators.free(joint.name.clone());
+            let transmission = self.transmissions.free(format!("{name}_transmission"));
             others.push(
                 Element::new("transmission")
-                    .with("name", format!("{name}_transmission"))
+                    .with("name", transmission)
                     .holding(
                         Element::new("type")
                             .containing("transmission_interface/SimpleTransmission"),
@@ -47,15 +46,17 @@ impl Taken {
     }
 }
 
-pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Taken {
-    let [mut actuators, mut actuated] = [HashSet::new(), HashSet::new()];
-    let mut is_taken = |text: &String| {
+pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> Kept {
+    let [mut actuators, mut actuated, mut transmissions] =
+        [HashSet::new(), HashSet::new(), HashSet::new()];
+    let mut is_kept = |text: &String| {
         let Ok(document) = urdd_xml::parse(text, Kind::Other) else {
             return true;
         };
         let root = document.root_element();
         let (element, reason) = match root.tag_name().name() {
             "transmission" => {
+                transmissions.extend(root.attribute("name").map(str::to_owned));
                 let refused = refused(root, driven, &mut actuators, &mut actuated);
                 ("transmission", refused)
             }
@@ -66,8 +67,10 @@ pub(super) fn taken(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) ->
         notes.extend(reason.map(|reason| Note::Element { element, reason }));
         reason.is_none()
     };
-    let texts = texts.iter().filter(|text| is_taken(text)).cloned();
-    Taken { texts: texts.collect(), actuated, actuators }
+    let texts = texts.iter().filter(|text| is_kept(text)).cloned();
+    let texts = texts.collect();
+    let [actuators, transmissions] = [&actuators, &transmissions].map(Taken::new);
+    Kept { texts, actuated, actuators, transmissions }
 }
 
 /// Why Drake rejects a transmission.

@@ -9,17 +9,15 @@ use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
-use super::{frames, inertia, joint};
+use super::{frames, inertia, joint, surface};
 use urdd_geometry::Mesh;
-use urdd_geometry::hull::ConvexHull;
 use urdd_robot::{LinkShape, ShapeKind, Solid};
 use urdd_xml::number::{number, numbers};
 
 /// The name of the free joint of a floating base.
-pub(super) const FLOATING_BASE: &str = "floating_base";
+const FLOATING_BASE: &str = "floating_base";
 
-/// Smaller volumes are treated as flat, well above MuJoCo's mjMINVAL of 1e-15 m³.
-const SMALLEST_VOLUME: f64 = 1e-13;
+const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it is left out";
 
 /// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
@@ -33,6 +31,8 @@ pub(super) struct Bodies<'a> {
     /// Paths that already have an asset.
     named: HashSet<String>,
     inertials: Vec<Option<Element>>,
+    /// Links with visual geometry that is left out.
+    invisible: Vec<String>,
     /// Whether moments of inertia violate the triangle inequality.
     pub balanced: bool,
     pub notes: Vec<Note>,
@@ -61,6 +61,7 @@ impl<'a> Bodies<'a> {
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
+            invisible: Vec::new(),
             balanced,
             notes,
         })
@@ -85,6 +86,11 @@ impl<'a> Bodies<'a> {
                 }
             }
             elements[link] = Some(element);
+        }
+        if !self.invisible.is_empty() {
+            self.invisible.dedup();
+            let links = std::mem::take(&mut self.invisible);
+            self.notes.push(Note::Links { links, what: INVISIBLE });
         }
         Ok(match elements[root].take() {
             Some(element) if self.subject.is_world(root) => element,
@@ -114,9 +120,7 @@ impl<'a> Bodies<'a> {
         let subject = self.subject;
         let mut joints = Vec::new();
         if let Some(joint) = subject.tree.parent_joint[link] {
-            let (view, source) = (&subject.view.joints[joint], &subject.urdf.joints[joint]);
-            let armature = subject.options.gains(joint).armature;
-            joints = joint::joints(view, source, armature, &mut self.notes);
+            joints = joint::joints(subject, joint, &mut self.notes);
         }
         if let Some(inertial) = self.inertials[link].take()
             && !self.subject.is_world(link)
@@ -124,7 +128,8 @@ impl<'a> Bodies<'a> {
             element.push(inertial);
         }
         if link == subject.tree.root && subject.has_free_base() {
-            element.push(Element::new("freejoint").with("name", FLOATING_BASE));
+            let name = subject.names.taken.clone().free(FLOATING_BASE.to_owned());
+            element.push(Element::new("freejoint").with("name", name));
         }
         for joint in joints {
             element.push(joint);
@@ -132,7 +137,11 @@ impl<'a> Bodies<'a> {
         if let Some(site) = frames::site(subject, link) {
             element.push(site);
         }
-        for (look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
+        for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
+            if !surface::complete(&mut look.mesh) {
+                self.invisible.push(subject.links[link].clone());
+                continue;
+            }
             let what = format!("visual_{place}");
             let asset = self.asset(link, &what, look.mesh, MeshFormat::Obj)?;
             let geom = Element::new("geom")
@@ -153,7 +162,7 @@ impl<'a> Bodies<'a> {
         let name = geom_name(&self.subject.links[link], shape.piece);
         let geom = Element::new("geom").with("name", name).with("class", "collision");
         Ok(match shape.solid {
-            Solid::Mesh(mesh) if is_flat(&mesh) => {
+            Solid::Mesh(mesh) if surface::is_flat(&mesh) => {
                 let found = self
                     .boxes
                     .iter()
@@ -169,7 +178,11 @@ impl<'a> Bodies<'a> {
             }
             Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.piece);
-                let asset = self.asset(link, &what, mesh, MeshFormat::Stl)?;
+                let format = match surface::fits_stl(&mesh) {
+                    true => MeshFormat::Stl,
+                    false => MeshFormat::Obj,
+                };
+                let asset = self.asset(link, &what, mesh, format)?;
                 geom.with("type", "mesh").with("mesh", asset)
             }
             Solid::Box { pose, half_extents } => cuboid(geom, &pose, half_extents),
@@ -220,9 +233,4 @@ fn placed(element: Element, pose: &Isometry3<f64>) -> Element {
     let position = pose.translation.vector;
     let q = pose.rotation.quaternion();
     element.with("pos", numbers(position.as_slice())).with("quat", numbers(&[q.w, q.i, q.j, q.k]))
-}
-
-fn is_flat(mesh: &Mesh) -> bool {
-    let hull = ConvexHull::new(&mesh.vertices);
-    hull.map_or(true, |hull| hull.is_flat() || hull.mesh().signed_volume() < SMALLEST_VOLUME)
 }

@@ -11,14 +11,14 @@ use urdd_kinematics::rotation::unit_axis;
 /// Number of sampled configurations (SPEC 9.3) in which inertias are computed, besides the default one.
 const SAMPLES: u64 = 32;
 
-/// For each joint of one DOF that is not a mimic, the inertia about or along its axis: the diagonal entry of the mass
+/// For each joint that an actuator drives, the inertia about or along its axis: the diagonal entry of the mass
 /// matrix, kg m² or kg, the greatest over the default configuration and [`SAMPLES`] others. Joints that follow it count
 /// with the square of their factor. The other joints do not move.
 pub(super) fn inertias(subject: &Subject) -> Result<Vec<Option<f64>>, ExportError> {
     let space = subject.robot.configurations()?;
     let joints = 0..subject.view.joints.len();
     let mut most: Vec<Option<f64>> =
-        joints.map(|joint| subject.is_driven(joint).then_some(0.0)).collect();
+        joints.map(|joint| subject.is_actuated(joint).then_some(0.0)).collect();
     let configurations = (0..SAMPLES).map(|k| space.random(k));
     for configuration in [space.zero()].into_iter().chain(configurations) {
         let poses = subject.robot.link_poses(&configuration)?;

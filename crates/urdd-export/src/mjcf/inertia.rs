@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use super::super::element::Element;
 use super::super::error::Note;
+use super::super::inertia::ROUNDING;
 use super::super::subject::Subject;
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_document::robot::Inertial;
@@ -19,8 +20,8 @@ const MIN_VALUE: f64 = 1e-15;
 const ASSUMED_MASS: f64 = 1e-9;
 /// Assumed moment of inertia of a moving body that needs one, kg m².
 const ASSUMED_INERTIA: f64 = 1e-9;
-/// Rounding tolerance of moments, relative to the largest.
-const ROUNDING: f64 = 1e-9;
+/// The least moment for which MuJoCo finds principal axes by itself: it neglects products of inertia below it.
+const LEAST_FULL: f64 = 1e-12;
 
 pub const NEGATIVE: &str = "its mass is negative, which MuJoCo takes for 0; so it is here";
 pub const INDEFINITE: &str = "its inertia has a negative principal moment, which MuJoCo refuses; the mass stays, and the inertia is 0";
@@ -98,18 +99,18 @@ pub fn mass(inertial: &Inertial, said: &mut Option<&'static str>) -> Option<Mass
         *said = Some(INDEFINITE);
         moments.fill(0.0);
     }
-    let mut is_full = moments.min() > MIN_VALUE;
     moments.apply(|moment| *moment = moment.max(0.0));
-    let others = moments.sum() - moments.max();
     let largest = moments.imax();
-    if moments.max() > others {
+    // As MuJoCo computes it.
+    let others = moments[(largest + 1) % 3] + moments[(largest + 2) % 3];
+    let room = others - moments[largest];
+    if room < -ROUNDING * most {
+        *said = Some(TRIANGLE);
+    } else if room < 0.0 {
         // For a thin plate, the two are equal up to rounding.
-        match moments.max() <= others * (1.0 + ROUNDING) {
-            true => moments[largest] = others,
-            false => *said = Some(TRIANGLE),
-        }
-        is_full = false;
+        moments[largest] = others;
     }
+    let is_full = moments.min() > LEAST_FULL && room > ROUNDING * most;
     let mass = given.max(0.0);
     (mass > 0.0 || moments.max() > 0.0).then(|| Mass {
         mass,

@@ -2,54 +2,53 @@
 
 use super::super::element::Element;
 use super::super::error::Note;
-use super::super::joints::{Moves, parts};
+use super::super::parts::Moves;
+use super::super::subject::Subject;
 use urdd_document::robot::Joint;
 use urdd_format::urdf::{Joint as Source, JointType};
 use urdd_xml::number::{number, numbers};
 
+const LOCKED: &str = "its limits are equal, which MuJoCo refuses; an equality constraint holds it there, and it has no actuator";
+
 const CROSSED: &str =
     "its lower limit is not below its upper one, which MuJoCo refuses; it has no range";
 
-/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them. `armature` is the
-/// inertia of the motor of a joint of one DOF, kg m² or kg.
-pub(super) fn joints(
-    joint: &Joint,
-    source: &Source,
-    armature: Option<f64>,
-    notes: &mut Vec<Note>,
-) -> Vec<Element> {
+/// The MJCF joints that together represent a URDF joint, in the order in which MuJoCo applies them.
+pub(super) fn joints(subject: &Subject, index: usize, notes: &mut Vec<Note>) -> Vec<Element> {
+    let (joint, source) = (&subject.view.joints[index], &subject.urdf.joints[index]);
     let of_one = |kind, notes| {
-        let element = of_one(joint, source, kind, notes);
+        // The inertia of the motor, kg m² or kg.
+        let armature = subject.options.gains(index).armature;
+        let is_locked = subject.locked_at(index).is_some();
+        let element = of_one(joint, source, is_locked, kind, notes);
         vec![element.with_some("armature", armature.map(number))]
     };
     match joint.joint_type {
         JointType::Revolute | JointType::Continuous => of_one("hinge", notes),
         JointType::Prismatic => of_one("slide", notes),
-        _ => parts(joint).into_iter().map(of_part).collect(),
+        _ => subject.names.parts[index].iter().map(of_part).collect(),
     }
 }
 
-/// The names of the MJCF joints that represent a URDF joint.
-pub(super) fn names(joint: &Joint) -> Vec<String> {
-    match joint.num_dofs() {
-        1 => vec![joint.name.clone()],
-        _ => parts(joint).into_iter().map(|(name, _)| name).collect(),
-    }
-}
-
-fn of_part((name, moves): (String, Moves)) -> Element {
-    let (kind, axis) = match &moves {
+fn of_part((name, moves): &(String, Moves)) -> Element {
+    let (kind, axis) = match moves {
         Moves::Slides(axis) => ("slide", Some(axis)),
         Moves::Turns(axis) => ("hinge", Some(axis)),
         Moves::Ball => ("ball", None),
     };
     Element::new("joint")
-        .with("name", name)
+        .with("name", name.as_str())
         .with("type", kind)
         .with_some("axis", axis.map(|axis| numbers(axis.as_slice())))
 }
 
-fn of_one(joint: &Joint, source: &Source, kind: &'static str, notes: &mut Vec<Note>) -> Element {
+fn of_one(
+    joint: &Joint,
+    source: &Source,
+    is_locked: bool,
+    kind: &'static str,
+    notes: &mut Vec<Note>,
+) -> Element {
     let mut element = Element::new("joint")
         .with("name", joint.name.as_str())
         .with("type", kind)
@@ -58,6 +57,7 @@ fn of_one(joint: &Joint, source: &Source, kind: &'static str, notes: &mut Vec<No
         Some((lower, upper)) if lower < upper => {
             element = element.with("range", numbers(&[lower, upper]));
         }
+        Some(_) if is_locked => notes.push(Note::joint(&joint.name, LOCKED)),
         Some(_) => notes.push(Note::joint(&joint.name, CROSSED)),
         None => {}
     }

@@ -15,15 +15,19 @@ use urdd_xml::number::numbers;
 /// The name of the keyframe of a robot whose URDD names none.
 const DEFAULT: &str = "default";
 
-/// A keyframe for each named configuration. Without one, actuators and a free base get the default configuration, which
-/// differs from MuJoCo's zeros where 0 is out of bounds.
+/// A keyframe for each named configuration. Without one, actuators, a free base and a locked joint get the default configuration,
+/// which differs from MuJoCo's zeros where 0 is out of bounds.
 pub(super) fn keyframes(subject: &Subject, stand: &Stand) -> Result<Element, ExportError> {
     let mut keyframes = Element::new("keyframe");
     let named = subject.robot.named_configurations()?;
     let names = named.iter().map(|named| named.name.as_str());
     check_names(subject.format, "configuration", names)?;
     let mjcf = &subject.options.mjcf;
-    if named.is_empty() && (mjcf.actuators.is_some() || subject.has_free_base()) {
+    let is_away = |joint| subject.locked_at(joint).is_some_and(|position| position != 0.0);
+    let is_needed = mjcf.actuators.is_some()
+        || subject.has_free_base()
+        || (0..subject.view.joints.len()).any(is_away);
+    if named.is_empty() && is_needed {
         let zero = subject.robot.configurations()?.zero();
         keyframes.push(keyframe(subject, DEFAULT, &zero, stand.base_height)?);
     }
@@ -92,7 +96,7 @@ fn keyframe(
     }
     // Actuators are in the order of joints.
     for (index, joint) in subject.view.joints.iter().enumerate() {
-        if subject.is_driven(index) {
+        if subject.is_actuated(index) {
             controls.push(value(&joint.name));
         }
     }

@@ -16,13 +16,14 @@ pub mod inertia;
 mod joint;
 mod keyframes;
 mod scene;
+#[doc(hidden)]
+pub mod surface;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
-use super::names::check_unique;
 use super::output::Export;
 use super::subject::Subject;
-use body::{Bodies, FLOATING_BASE, geom_name};
+use body::{Bodies, geom_name};
 use urdd_document::rigid_groups::RigidGroups;
 use urdd_xml::number::{number, numbers};
 
@@ -82,7 +83,6 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if !keyframes.is_empty() {
         root.push(keyframes);
     }
-    check_joints(subject)?;
     let mut files = bodies.files.into_files();
     files.extend(scene::scene(subject, &stand)?);
     let text = root.document(&subject.comments(what, &notes)?);
@@ -133,19 +133,17 @@ fn contact(subject: &Subject) -> Element {
     contact
 }
 
-/// Joints with several DOFs become several joints, whose names can collide with others.
-fn check_joints(subject: &Subject) -> Result<(), ExportError> {
-    let names = subject.view.joints.iter().flat_map(joint::names);
-    let base = subject.has_free_base().then(|| FLOATING_BASE.to_owned());
-    let names: Vec<String> = names.chain(base).collect();
-    check_unique(subject.format, "joint", names.iter().map(String::as_str))
-}
-
-/// Mimic joints: `position = offset + multiplier * position of the driver`.
+/// Mimic joints: `position = offset + multiplier * position of the driver`; and locked joints.
 fn equality(subject: &Subject, notes: &mut Vec<Note>) -> Element {
     let mut equality = Element::new("equality");
-    for (joint, mimic) in subject.view.joints.iter().zip(&subject.mimics.by_joint) {
-        let Some(mimic) = mimic else {
+    for (index, joint) in subject.view.joints.iter().enumerate() {
+        if let Some(position) = subject.locked_at(index) {
+            let coefficients = numbers(&[position, 0.0, 0.0, 0.0, 0.0]);
+            let held = Element::new("joint").with("joint1", joint.name.as_str());
+            // Stiffer than a mimic: an arm sags by less than 1e-4 rad.
+            equality.push(held.with("polycoef", coefficients).with("solimp", "0.999 0.999 0.001"));
+        }
+        let Some(mimic) = &subject.mimics.by_joint[index] else {
             continue;
         };
         let driver = &subject.view.joints[mimic.driver];

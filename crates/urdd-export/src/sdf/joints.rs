@@ -1,18 +1,18 @@
 //! Joints: each as SDF's, or as a chain of them.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector3;
 
 use super::super::element::Element;
 use super::super::error::Note;
-use super::super::joints::{Moves, joints as resolved, parts as simple_joints};
+use super::super::joints::joints as resolved;
+use super::super::parts::{Moves, Taken};
 use super::super::subject::Subject;
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};
 use urdd_xml::number::{number, numbers};
-
-/// The joint that fixes the root link to the world.
-pub(super) const WORLD: &str = "world_fixed";
 
 const CHAIN: &str =
     "it has several DOFs; it is a chain of simple joints with light links between them";
@@ -23,7 +23,8 @@ const AXIS: &str = "its axis is zero, which SDF refuses; it is fixed";
 #[derive(Default)]
 pub(super) struct Joints {
     pub elements: Vec<Element>,
-    pub names: Vec<String>,
+    /// All names of the model so far.
+    pub taken: Taken,
     /// For each joint of the robot, the joint of SDF that moves its child.
     pub last_parts: Vec<String>,
     /// The links between the parts of a joint, each with the joint of SDF that moves it.
@@ -32,9 +33,22 @@ pub(super) struct Joints {
 }
 
 pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
-    let mut made = Joints::default();
-    for (joint, view) in resolved(subject, notes).iter().zip(&subject.view.joints) {
-        let parts = parts(joint, view);
+    let names = &subject.names;
+    let mut made = Joints { taken: names.taken.clone(), ..Joints::default() };
+    let by_name: HashMap<&str, &String> =
+        subject.view.joints.iter().map(|joint| joint.name.as_str()).zip(&names.joints).collect();
+    let each = resolved(subject, notes).into_iter().zip(&subject.view.joints).enumerate();
+    for (index, (mut joint, view)) in each {
+        if let Some(mimic) = &mut joint.mimic
+            && let Some(driver) = by_name.get(mimic.joint.as_str())
+        {
+            mimic.joint.clone_from(driver);
+        }
+        let own = &names.joints[index];
+        if *own != view.name {
+            notes.push(Note::Renamed { joint: view.name.clone(), name: own.clone() });
+        }
+        let parts = parts(&joint, view, own, &names.parts[index]);
         if parts.len() > 1 {
             notes.push(Note::joint(&view.name, CHAIN));
         }
@@ -43,12 +57,12 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
         for (place, part) in parts.into_iter().enumerate() {
             let child = match place == last {
                 true => view.child.clone(),
-                false => part.name.clone() + "_link",
+                false => made.taken.free(format!("{}_link", part.name)),
             };
             let mut element =
                 Element::new("joint").with("name", part.name.as_str()).with("type", part.kind);
             let pose = match place {
-                0 => numbers(&pose(joint, view)),
+                0 => numbers(&pose(&joint, view)),
                 _ => "0 0 0 0 0 0".to_owned(),
             };
             // SDF's own `world` is outside of the model.
@@ -62,7 +76,7 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
                 let mut axis = Element::new("axis")
                     .holding(Element::new("xyz").containing(&numbers(axis.as_slice())));
                 if part.is_own {
-                    fill(&mut axis, joint, view, notes, &mut made.has_mimics);
+                    fill(&mut axis, &joint, view, notes, &mut made.has_mimics);
                 }
                 element.push(axis);
             }
@@ -71,7 +85,6 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
                 true => made.last_parts.push(part.name.clone()),
                 false => made.links.push((child.clone(), part.name.clone())),
             }
-            made.names.push(part.name);
             parent = child;
         }
         if joint.joint_type != JointType::Fixed
@@ -105,23 +118,23 @@ struct Part {
 }
 
 /// The joints of SDF that together are a joint, from its parent to its child; at least one.
-fn parts(joint: &Joint, view: &View) -> Vec<Part> {
+fn parts(joint: &Joint, view: &View, own: &str, chain: &[(String, Moves)]) -> Vec<Part> {
     let simple = |kind: &'static str, axis: Option<Vector3<f64>>| {
         vec![Part {
-            name: view.name.clone(),
+            name: own.to_owned(),
             kind: if axis.is_some() { kind } else { "fixed" },
             axis,
             is_own: true,
         }]
     };
     let axis = unit_axis(view.axis).map(|axis| axis.into_inner());
-    let of_several = |(name, moves): (String, Moves)| {
-        let (kind, axis) = match moves {
+    let of_several = |(name, moves): &(String, Moves)| {
+        let (kind, axis) = match *moves {
             Moves::Slides(axis) => ("prismatic", Some(axis)),
             Moves::Turns(axis) => ("continuous", Some(axis)),
             Moves::Ball => ("ball", None),
         };
-        Part { name, kind, axis, is_own: false }
+        Part { name: name.clone(), kind, axis, is_own: false }
     };
     match joint.joint_type {
         JointType::Fixed => simple("fixed", None),
@@ -129,7 +142,7 @@ fn parts(joint: &Joint, view: &View) -> Vec<Part> {
         JointType::Continuous => simple("continuous", axis),
         JointType::Prismatic => simple("prismatic", axis),
         JointType::Spherical | JointType::Floating | JointType::Planar => {
-            simple_joints(view).into_iter().map(of_several).collect()
+            chain.iter().map(of_several).collect()
         }
     }
 }

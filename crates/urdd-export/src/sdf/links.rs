@@ -1,9 +1,10 @@
 //! Links: mass, visuals and collisions.
 
-use nalgebra::{Isometry3, Matrix3};
+use nalgebra::Isometry3;
 
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
+use super::super::inertia::held;
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::output::Files;
 use super::super::subject::Subject;
@@ -102,17 +103,12 @@ fn inertial(of: &Inertial) -> (Element, bool) {
     let [x, y, z] = of.origin.xyz;
     let pose = numbers(&[x, y, z, roll, pitch, yaw]);
     let mass = of.mass.unwrap_or(0.0);
-    let [xx, xy, xz, yy, yz, zz] = of.inertia.unwrap_or_default();
-    let mut moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
-    moments.as_mut_slice().sort_by(f64::total_cmp);
-    let is_possible = moments[0] > 0.0 && moments[0] + moments[1] >= moments[2];
-    let mean = (xx + yy + zz) / 3.0;
-    let tensor = match is_possible {
-        true => [xx, xy, xz, yy, yz, zz],
-        false if mean > 0.0 => [mean, 0.0, 0.0, mean, 0.0, mean],
-        false => [LEAST, 0.0, 0.0, LEAST, 0.0, LEAST],
-    };
-    (self::tensor(&pose, mass, tensor), !is_possible)
+    let inertia = of.inertia.unwrap_or_default();
+    let held = held(inertia, true).filter(|[xx, _, _, yy, _, zz]| xx.min(*yy).min(*zz) > 0.0);
+    let mean = (inertia[0] + inertia[3] + inertia[5]) / 3.0;
+    let mean = if mean > 0.0 { mean } else { LEAST };
+    let tensor = held.unwrap_or([mean, 0.0, 0.0, mean, 0.0, mean]);
+    (self::tensor(&pose, mass, tensor), held.is_none())
 }
 
 fn light() -> Element {

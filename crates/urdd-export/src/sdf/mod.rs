@@ -10,7 +10,6 @@ mod links;
 use super::drake;
 use super::element::Element;
 use super::error::{ExportError, Note};
-use super::names::check_unique;
 use super::output::Export;
 use super::subject::Subject;
 
@@ -22,7 +21,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut model = Element::new("model").with("name", model_name(subject));
     let root = subject.tree.root;
     let is_world = subject.is_world(root);
-    let joints = joints::joints(subject, &mut notes);
+    let mut joints = joints::joints(subject, &mut notes);
     let (links, files) = links::links(subject, &joints, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
@@ -31,24 +30,17 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
             model.push(element);
         }
     }
-    let between = joints.links.iter().map(|(name, _)| name);
-    let names = between.chain(&joints.names).map(String::as_str);
-    let names = names.chain(subject.links.iter().map(String::as_str));
-    let has_mimics = joints.has_mimics;
-    // Links and joints are frames of the model: all have names of their own.
     if !is_world && !subject.options.floating() {
-        let world = Element::new("joint").with("name", joints::WORLD).with("type", "fixed");
+        let name = joints.taken.free("world_fixed".to_owned());
+        let world = Element::new("joint").with("name", name).with("type", "fixed");
         let parent = Element::new("parent").containing("world");
         let child = Element::new("child").containing(&subject.links[root]);
         model.push(world.holding(parent).holding(child));
-        check_unique(subject.format, "frame", names.chain([joints::WORLD]))?;
-    } else {
-        check_unique(subject.format, "frame", names)?;
     }
     for element in joints.elements {
         model.push(element);
     }
-    for group in drake::groups(subject) {
+    for group in drake::groups(subject, &mut joints.taken) {
         model.push(group);
     }
     if subject.disabled().next().is_some() {
@@ -56,7 +48,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     }
     notes.extend(subject.notes());
     // Mimics came with 1.11, which libsdformat 14 (Gazebo Harmonic) and Drake read.
-    let version = if has_mimics { "1.11" } else { "1.9" };
+    let version = if joints.has_mimics { "1.11" } else { "1.9" };
     let sdf = Element::new("sdf")
         .with("version", version)
         .with("xmlns:drake", "http://drake.mit.edu")

@@ -8,6 +8,7 @@ use nalgebra::Point3;
 
 use super::super::error::{ExportError, Note};
 use super::super::output::Export;
+use super::super::parts::Taken;
 use super::super::setup::Setup;
 use super::super::subject::Subject;
 use super::super::yaml::{Yaml, entries};
@@ -144,7 +145,10 @@ impl Arm {
                 continue;
             }
             // Without chosen locks, what does not move the end effector is locked.
-            if moved.contains(&joint) || (moved.is_empty() && setup.curobo.ee_link.is_none()) {
+            let is_free = subject.locked_at(joint).is_none();
+            if is_free
+                && (moved.contains(&joint) || (moved.is_empty() && setup.curobo.ee_link.is_none()))
+            {
                 arm.active.push(joint);
                 arm.retract.push(position(joint));
             } else {
@@ -191,7 +195,7 @@ impl Arm {
         if !self.locked.is_empty() {
             let locked: Vec<String> = self.locked.iter().map(joint).collect();
             said.push(format!(
-                "Locked, since they do not move `{}` or were chosen: {}.",
+                "Locked, since they do not move `{}`, have equal limits or were chosen: {}.",
                 subject.links[self.ee],
                 locked.join(", ")
             ));
@@ -201,14 +205,17 @@ impl Arm {
 
     fn kinematics(&self, subject: &Subject, urdf: &str) -> Vec<(String, Yaml)> {
         let null = || Yaml::plain("null");
+        let [mut links, mut joints] = [&subject.links, &subject.names.joints].map(Taken::new);
+        let object = links.free("attached_object".to_owned());
+        let attach = joints.free("attach_joint".to_owned());
         let joint = |joint: &usize| subject.view.joints[*joint].name.as_str();
         let locked = self.locked.iter().map(|(of, at)| (joint(of), Yaml::number(*at)));
         let attached = Yaml::map([
             ("parent_link_name", Yaml::text(&subject.links[self.ee])),
-            ("link_name", Yaml::text("attached_object")),
+            ("link_name", Yaml::text(&object)),
             ("fixed_transform", Yaml::numbers(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0])),
             ("joint_type", Yaml::text("FIXED")),
-            ("joint_name", Yaml::text("attach_joint")),
+            ("joint_name", Yaml::text(&attach)),
         ]);
         entries([
             ("usd_path", null()),
@@ -222,8 +229,8 @@ impl Arm {
             ("ee_link", Yaml::text(&subject.links[self.ee])),
             ("link_names", null()),
             ("lock_joints", if self.locked.is_empty() { null() } else { Yaml::named(locked) }),
-            ("extra_links", Yaml::map([("attached_object", attached)])),
-            ("extra_collision_spheres", Yaml::map([("attached_object", Yaml::plain("4"))])),
+            ("extra_links", Yaml::named([(object.as_str(), attached)])),
+            ("extra_collision_spheres", Yaml::named([(object.as_str(), Yaml::plain("4"))])),
             ("use_global_cumul", Yaml::plain("true")),
             ("mesh_link_names", null()),
         ])

@@ -4,7 +4,12 @@
 #![allow(clippy::restriction)]
 
 mod element;
+mod inertia;
+mod invented_names;
+mod locked;
+mod made;
 mod mjcf_inertia;
+mod mjcf_surface;
 mod names;
 mod pairs;
 mod setup_words;

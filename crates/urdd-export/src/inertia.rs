@@ -1,0 +1,37 @@
+//! Moments of inertia that hold the triangle inequality in the digits that are written: a principal moment is at most the
+//! sum of the other two. For a thin plate or a rod the two are equal, and rounding may break it.
+
+use nalgebra::Matrix3;
+
+/// What is rounding, relative to the largest principal moment.
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// How precisely readers find the principal moments of an inertia with products, relative to the largest: Gazebo's, by
+/// trigonometry, to 1e-8.
+const FOUND: f64 = 1e-7;
+
+/// An inertia (xx, xy, xz, yy, yz, zz, kg m²) that readers accept, whichever way they compute principal moments: where the
+/// inequality or the sign of a moment is a matter of rounding, 2e-7 of the largest moment are added about each axis.
+/// `None` for one that no body has. Moments of 0 stay, unless `positive` is asked for.
+pub fn held(inertia: [f64; 6], positive: bool) -> Option<[f64; 6]> {
+    let [xx, xy, xz, yy, yz, zz] = inertia;
+    let moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues();
+    let most = moments.amax();
+    let least = moments.min();
+    let room = moments.sum() - 2.0 * moments.max();
+    if least.min(room) < -ROUNDING * most {
+        return None;
+    }
+    let is_diagonal = [xy, xz, yz] == [0.0; 3];
+    // As readers of a diagonal inertia compute it.
+    let is_exact = xx + yy >= zz && yy + zz >= xx && zz + xx >= yy && xx.min(yy).min(zz) >= 0.0;
+    let is_right = match is_diagonal {
+        true => is_exact && !(positive && least <= 0.0),
+        false => least.min(room) >= FOUND * most,
+    };
+    if is_right {
+        return Some(inertia);
+    }
+    let more = 2.0 * FOUND * most;
+    Some([xx + more, xy, xz, yy + more, yz, zz + more])
+}
