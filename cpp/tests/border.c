@@ -1,9 +1,10 @@
 /* The header is C, and every function answers a call with nothing right in it. Run under valgrind by .ci/cpp. */
 
-#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <urdd.h>
 
 #undef NDEBUG
@@ -37,6 +38,8 @@ static void nulls(void) {
         urdd_robot_dof_unit(NULL, many, NULL),
         urdd_robot_link(NULL, NULL, NULL),
         urdd_robot_dof(NULL, NULL, NULL),
+        urdd_robot_joint(NULL, NULL, NULL),
+        urdd_robot_dofs_between(NULL, many, many, NULL, many, NULL),
         urdd_robot_bounds(NULL, NULL, many),
         urdd_robot_zero(NULL, NULL, many),
         urdd_robot_middle(NULL, NULL, many),
@@ -108,8 +111,56 @@ static void nulls(void) {
     ok(urdd_report_free(NULL));
 }
 
+/* A batch of a robot that is read here: as many as collide. */
+static size_t colliding(const char *path) {
+    enum { ROWS = 300 };
+    urdd_robot *robot = NULL;
+    urdd_proximity *proximity = NULL;
+    urdd_report *report = NULL;
+    size_t dofs = 0, found = 0;
+    bool touches[ROWS];
+    ok(urdd_robot_open(path, &robot));
+    ok(urdd_robot_sizes(robot, NULL, NULL, &dofs));
+    double *q = malloc(ROWS * dofs * sizeof *q);
+    assert(q != NULL);
+    ok(urdd_robot_random(robot, 0, q, ROWS, dofs));
+    ok(urdd_robot_proximity(robot, "pieces", &proximity));
+    ok(urdd_proximity_in_collision(proximity, q, ROWS, dofs, touches));
+    for (size_t k = 0; k < ROWS; ++k) {
+        found += touches[k];
+    }
+    ok(urdd_validate(path, NULL, &report));
+    ok(urdd_report_free(report));
+    ok(urdd_proximity_free(proximity));
+    ok(urdd_robot_free(robot));
+    free(q);
+    return found;
+}
+
+/* A child of `fork` answers, without the threads of its parent. */
+static void forked(const char *path) {
+    const size_t known = colliding(path);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(60);
+        _exit(colliding(path) == known ? 0 : 1);
+    }
+    int status = -1;
+    assert(waitpid(child, &status, 0) == child);
+    assert(status == 0);
+}
+
+/* At exit, this thread's variables may be gone. */
+static void at_exit(void) {
+    urdd_robot *robot = NULL;
+    assert(urdd_robot_open(NULL, &robot) == URDD_STATUS_POINTER);
+    assert(urdd_error_message().length > 0);
+    puts("border: answered at exit");
+}
+
 int main(int count, char **words) {
     assert(count == 2);
+    assert(atexit(at_exit) == 0);
     assert(urdd_abi_version() == URDD_ABI_VERSION);
     nulls();
 
@@ -151,6 +202,7 @@ int main(int count, char **words) {
     ok(urdd_report_json(report, &name));
     assert(name.length > 0 && name.data[0] == '{');
     ok(urdd_report_free(report));
+    forked(words[1]);
     free(q);
     free(poses);
     puts("border: ok");

@@ -11,9 +11,17 @@
 // to the caller, and nothing keeps them after the call. A `urdd_text` that a function writes lives as long as its handle.
 //
 // Threads. A handle never changes after it is made: any number of threads can use it at once. It must not be freed while
-// another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches
-// run on one pool of threads, as many as processors, or as the environment variable RAYON_NUM_THREADS says. Results do
-// not depend on their number. After `fork` without `exec`, the child must not run batches.
+// another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches,
+// and calls that read a URDD, run on one pool of threads that the first call starts: as many as processors, or as the
+// environment variable RAYON_NUM_THREADS says. Where none can be started, they run on the calling thread. Results do not
+// depend on their number.
+//
+// Fork. A child can call every function, with the handles that it has from its parent: it has no thread of the pool, and
+// runs batches on the calling thread. Fork while no other thread is in a call: what that call was reading is never ready
+// in the child. At `exit` and in destructors, functions answer too; the last error's text may be gone.
+//
+// Memory. Where there is not enough for what the caller sends or asks for (rows, targets, points, obstacles, bytes, texts),
+// the status is MEMORY. Another allocation that fails, such as for a module that is read, ends the process.
 //
 // Numbers. Metres, radians, kilograms. Poses are in the root link's frame unless stated otherwise. A configuration has one
 // value for each DOF, in the order of `urdd_robot_dof_name`; links are in the order of `urdd_robot_link_name`. Arrays are
@@ -317,7 +325,8 @@ enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_mo
                                                   bool *colliding);
 
 // The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
-// that fails.
+// that fails, or until the thread ends: at `exit`, and in destructors of the thread's own variables, it may be gone, and
+// a text says so.
 struct urdd_text urdd_error_message(void);
 
 // Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
@@ -513,6 +522,30 @@ enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof
 // Contract:
 // `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
 enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Writes the index of a joint.
+//
+// Errors: as `urdd_robot_link`.
+//
+// Contract:
+// As `urdd_robot_link`.
+enum urdd_status urdd_robot_joint(const struct urdd_robot *handle, const char *name, size_t *out);
+
+// Writes the DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
+//
+// `dofs` has room for `length` indices, of which the first `found` are written: `found` may be more than `length`, and is
+// at most the number of DOFs.
+//
+// Errors: `OUT_OF_RANGE` for a link; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` indices at `dofs`; `found` is null or has room for a number.
+enum urdd_status urdd_robot_dofs_between(const struct urdd_robot *handle,
+                                         size_t base,
+                                         size_t tip,
+                                         size_t *dofs,
+                                         size_t length,
+                                         size_t *found);
 
 // Writes the index of a DOF.
 //

@@ -1,5 +1,6 @@
 //! The learned self-collision model.
 
+use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status, run};
@@ -145,8 +146,9 @@ pub unsafe extern "C" fn urdd_collision_model_clearances(
     run(|| unsafe {
         let model = &at(handle)?.model;
         let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
-        let out = q.room(("clearances", clearances, length), model.pairs().len())?;
-        copy(&model.clearances_batch(q.values)?, out)
+        let width = model.pairs().len();
+        let out = q.room(("clearances", clearances, length), width)?;
+        write(q.values, (model.num_dofs(), width), out, |q| model.clearances_batch(q))
     })
 }
 
@@ -171,16 +173,26 @@ pub unsafe extern "C" fn urdd_collision_model_may_collide(
         let model = &at(handle)?.model;
         let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
         let out = q.room(("colliding", colliding, rows), 1)?;
-        copy(&model.may_collide_batch(q.values)?, out)
+        write(q.values, (model.num_dofs(), 1), out, |q| model.may_collide_batch(q))
     })
 }
 
-/// Copies results of a batch; a robot without DOFs has one configuration, or as many as are asked for.
-fn copy<T: Copy>(found: &[T], out: &mut [T]) -> Result<(), Failure> {
-    if found.len() == out.len() {
-        out.copy_from_slice(found);
-        return Ok(());
+/// Writes `width` results of each configuration, some configurations at a time: what a batch allocates does not grow with
+/// the caller's rows.
+fn write<T: Copy>(
+    q: &[f64],
+    (dofs, width): (usize, usize),
+    out: &mut [T],
+    ask: impl Fn(&[f64]) -> Result<Vec<T>, ConfigurationError>,
+) -> Result<(), Failure> {
+    const ROWS: usize = 512;
+    for (block, out) in out.chunks_mut(ROWS * width.max(1)).enumerate() {
+        let (first, rows) = (block * ROWS * dofs, out.len() / width);
+        let found = ask(&q[first..first + rows * dofs])?;
+        if found.len() != out.len() {
+            return Err(RobotError::Room { found: out.len(), count: found.len(), width: 1 }.into());
+        }
+        out.copy_from_slice(&found);
     }
-    let (found, count, width) = (out.len(), found.len(), 1);
-    Err(RobotError::Room { found, count, width }.into())
+    Ok(())
 }

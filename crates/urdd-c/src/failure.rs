@@ -7,7 +7,8 @@ use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 use urdd_validate::ValidateError;
 
-use crate::text::{Owned, Text};
+use crate::text::{Owned, Text, constant};
+use crate::threads::ready;
 
 /// What a function returns. After any other than `URDD_STATUS_OK`, `urdd_error_message` says what is wrong.
 #[repr(C)]
@@ -98,14 +99,21 @@ thread_local! {
 }
 
 /// The message of the last call of this thread that failed; empty before. It lives until the next call of this thread
-/// that fails.
+/// that fails, or until the thread ends: at `exit`, and in destructors of the thread's own variables, it may be gone, and
+/// a text says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn urdd_error_message() -> Text {
-    LAST.with_borrow(Owned::text)
+    let gone =
+        constant("the message is gone, because its thread is ending: only the status is left\0");
+    LAST.try_with(|last| last.borrow().text()).unwrap_or(gone)
 }
 
 /// Runs a call. Nothing unwinds out of it.
 pub(crate) fn run(act: impl FnOnce() -> Result<(), Failure>) -> Status {
+    let act = || {
+        ready();
+        act()
+    };
     let failure = match catch_unwind(AssertUnwindSafe(act)) {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(failure)) => failure,

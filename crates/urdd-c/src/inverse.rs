@@ -182,7 +182,8 @@ impl FreeOf<'_> {
     fn check(self, dofs: usize) -> Result<(), Failure> {
         let itself = self.itself.map(|shapes| ("free_of", shapes.0.num_dofs()));
         let world = self.world.map(|world| ("free_of_world", world.dofs));
-        for (what, found) in itself.into_iter().chain(world).filter(|(_, found)| *found != dofs) {
+        let other = itself.into_iter().chain(world).find(|(_, found)| *found != dofs);
+        if let Some((what, found)) = other {
             let message = format!("`{what}` is of a robot with {found} DOFs: expected {dofs}");
             return Err(Failure::new(Status::Length, message));
         }

@@ -21,6 +21,7 @@ mod rows;
 mod skips;
 mod space;
 mod text;
+mod threads;
 mod validate;
 mod workspace;
 mod world;

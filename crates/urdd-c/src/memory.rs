@@ -3,6 +3,8 @@
 use std::ffi::{CStr, c_char};
 use std::slice;
 
+use urdd_robot::has_room;
+
 use crate::failure::{Failure, Status};
 
 /// Types for which any memory full of zeros is a value.
@@ -135,6 +137,18 @@ pub(crate) unsafe fn exact_room<'a, T: Plain>(
     unsafe { room(what, data, length, inputs) }
 }
 
+/// Refuses `count` times `bytes` that there is not memory for, before an allocation that would end the process.
+pub(crate) fn enough(what: &'static str, count: usize, bytes: usize) -> Result<(), Failure> {
+    let all = count.saturating_mul(bytes);
+    match has_room(all) && Vec::<u8>::new().try_reserve_exact(all).is_ok() {
+        true => Ok(()),
+        false => {
+            let message = format!("not enough memory for `{what}`: {count} values");
+            Err(Failure::new(Status::Memory, message))
+        }
+    }
+}
+
 /// Writes one result.
 ///
 /// # Safety
@@ -162,5 +176,6 @@ pub(crate) unsafe fn read_text<'a>(
     check(what, text)?;
     // SAFETY: guaranteed by the caller.
     let bytes = unsafe { CStr::from_ptr(text) };
+    enough(what, bytes.count_bytes(), 4)?;
     bytes.to_str().map_err(|_| Failure::new(Status::Utf8, format!("`{what}` is not UTF-8")))
 }

@@ -4,7 +4,7 @@ use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::at;
-use crate::memory::{check, put, read_text};
+use crate::memory::{check, put, read_text, room};
 use crate::robot::{Names, Robot};
 use crate::text::{Owned, Text, constant};
 
@@ -127,6 +127,54 @@ pub unsafe extern "C" fn urdd_robot_link(
     run(|| unsafe {
         let name = read_text("name", name)?;
         put("out", out, at(handle)?.robot.link(name)?)
+    })
+}
+
+/// Writes the index of a joint.
+///
+/// Errors: as `urdd_robot_link`.
+///
+/// # Safety
+/// As `urdd_robot_link`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_joint(
+    handle: *const Robot,
+    name: *const c_char,
+    out: *mut usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let name = read_text("name", name)?;
+        put("out", out, at(handle)?.robot.joint(name)?)
+    })
+}
+
+/// Writes the DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
+///
+/// `dofs` has room for `length` indices, of which the first `found` are written: `found` may be more than `length`, and is
+/// at most the number of DOFs.
+///
+/// Errors: `OUT_OF_RANGE` for a link; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
+///
+/// # Safety
+/// `handle` is null or open; there is room for `length` indices at `dofs`; `found` is null or has room for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_robot_dofs_between(
+    handle: *const Robot,
+    base: usize,
+    tip: usize,
+    dofs: *mut usize,
+    length: usize,
+    found: *mut usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let known = at(handle)?.robot.dofs_between(base, tip)?;
+        let out = room("dofs", dofs, length, &[])?;
+        for (out, dof) in out.iter_mut().zip(&known) {
+            *out = *dof;
+        }
+        put("found", found, known.len())
     })
 }
 

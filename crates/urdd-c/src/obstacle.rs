@@ -8,10 +8,15 @@ use urdd_kinematics::pose_matrix::pose;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{read_text, triple, values};
+use crate::memory::{enough, read_text, triple, values};
 
 /// A body that a robot must not touch, in the root link's frame.
 pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
+
+/// Bytes that are asked for beforehand for each point of a hull, which takes 360 to 570; and for each vertex and triangle
+/// of a mesh, which takes 2,000.
+const HULL: usize = 768;
+const MESH: usize = 4096;
 
 impl Handle for Obstacle {
     const NAME: &'static str = "urdd_obstacle";
@@ -158,6 +163,7 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
     unsafe {
         named(name, out, |name| {
             let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
+            enough("points", count, HULL)?;
             Ok(urdd_robot::Obstacle::hull(name, placed(pose)?, points)?)
         })
     }
@@ -184,15 +190,16 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
     unsafe {
         named(name, out, |name| {
             let length = num_vertices.saturating_mul(3);
-            let vertices = values("vertices", vertices, length)?.as_chunks().0.to_vec();
+            let vertices = values("vertices", vertices, length)?.as_chunks().0;
             let length = num_triangles.saturating_mul(3);
             let triangles = values("triangles", triangles, length)?;
+            enough("vertices", num_vertices.saturating_add(num_triangles), MESH)?;
             if let Some(index) = triangles.iter().find(|index| **index as usize >= num_vertices) {
                 let index = *index as usize;
                 return Err(crate::names::out_of_range("vertex", index, num_vertices));
             }
             let triangles = triangles.as_chunks().0.to_vec();
-            let mesh = Mesh { vertices, triangles };
+            let mesh = Mesh { vertices: vertices.to_vec(), triangles };
             Ok(urdd_robot::Obstacle::mesh(name, placed(pose)?, &mesh)?)
         })
     }

@@ -9,7 +9,7 @@ use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{Handle, free, make};
-use crate::memory::{read_text, values};
+use crate::memory::{enough, read_text, values};
 use crate::rows::Rows;
 use crate::text::Owned;
 
@@ -118,6 +118,7 @@ pub unsafe extern "C" fn urdd_robot_of_archive(
 
 /// An archive in memory.
 pub(crate) fn archive(name: &str, bytes: &[u8]) -> Result<Archive, Failure> {
+    enough("bytes", bytes.len(), 2)?;
     Archive::new(name, bytes.to_vec()).map_err(|error| {
         let message = format!("{}: {error}", name.escape_debug());
         Failure::new(Status::Open, message)

@@ -1,6 +1,7 @@
 //! What a thread keeps from one call to the next, so that calls on one configuration do not allocate.
 
 use std::cell::RefCell;
+use std::thread::LocalKey;
 
 use nalgebra::Isometry3;
 use urdd_robot::Workspace;
@@ -12,10 +13,18 @@ thread_local! {
 
 /// Runs with this thread's poses.
 pub(crate) fn with_poses<T>(act: impl FnOnce(&mut Vec<Isometry3<f64>>) -> T) -> T {
-    POSES.with_borrow_mut(act)
+    with(&POSES, act)
 }
 
 /// Runs with this thread's workspace for distances.
 pub(crate) fn with_workspace<T>(act: impl FnOnce(&mut Workspace) -> T) -> T {
-    WORKSPACE.with_borrow_mut(act)
+    with(&WORKSPACE, act)
+}
+
+/// A thread that is ending keeps nothing any more: what it asks then starts from nothing.
+fn with<K: Default, T>(kept: &'static LocalKey<RefCell<K>>, act: impl FnOnce(&mut K) -> T) -> T {
+    let mut memory = kept.try_with(RefCell::take).unwrap_or_default();
+    let found = act(&mut memory);
+    let _ = kept.try_with(|kept| kept.replace(memory));
+    found
 }

@@ -37,6 +37,14 @@ impl Robot {
         Ok(&self.motion()?.joints)
     }
 
+    /// The index of a joint.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`], with the nearest name; and as [`Robot::link_names`].
+    pub fn joint(&self, name: &str) -> Result<usize, RobotError> {
+        index("joint", self.joint_names()?, name)
+    }
+
     /// The name of each DOF: that of its joint, with the coordinate if the joint has several DOFs.
     ///
     /// # Errors

@@ -9,9 +9,11 @@ use urdd_c::*;
 
 thread_local! {
     static COUNT: Cell<usize> = const { Cell::new(0) };
-    /// This thread gets no more bytes at once.
-    static MOST: Cell<usize> = const { Cell::new(usize::MAX) };
+    /// The bytes that this thread can still take.
+    pub static LEFT: Cell<usize> = const { Cell::new(UNLIMITED) };
 }
+
+pub const UNLIMITED: usize = usize::MAX;
 
 struct Counting;
 
@@ -19,7 +21,11 @@ struct Counting;
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let _ = COUNT.try_with(|count| count.set(count.get() + 1));
-        if MOST.try_with(Cell::get).is_ok_and(|most| layout.size() > most) {
+        let take = |left: &Cell<usize>| match left.get() {
+            UNLIMITED => true,
+            known => known.checked_sub(layout.size()).map(|rest| left.set(rest)).is_some(),
+        };
+        if !LEFT.try_with(take).unwrap_or(true) {
             return null_mut();
         }
         // SAFETY: guaranteed by the caller.
@@ -27,6 +33,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        let _ = LEFT.try_with(|left| left.set(left.get().saturating_add(layout.size())));
         // SAFETY: guaranteed by the caller.
         unsafe { System.dealloc(at, layout) }
     }
@@ -100,9 +107,9 @@ fn too_little_memory_for_many_targets_is_a_status() {
             urdd_robot_inverse_kinematics(robot, at, count, start, 1, 6, null(), found, solutions)
         };
         assert_eq!(ask(1), Status::Ok);
-        MOST.set(1 << 20);
+        LEFT.set(1 << 20);
         let (one, many) = (ask(1), ask(count));
-        MOST.set(usize::MAX);
+        LEFT.set(UNLIMITED);
         assert_eq!((one, many), (Status::Ok, Status::Memory));
         assert_eq!(urdd_robot_free(robot), Status::Ok);
     }

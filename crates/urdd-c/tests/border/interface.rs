@@ -39,8 +39,12 @@ pub fn fails(status: Status, expected: Status, words: &str) {
     assert!(said().contains(words), "{}", said());
 }
 
+pub fn arm_path() -> CString {
+    c(ARM.1.to_str().expect("UTF-8"))
+}
+
 pub fn open() -> *mut Robot {
-    let (path, mut robot) = (c(ARM.1.to_str().expect("UTF-8")), null_mut());
+    let (path, mut robot) = (arm_path(), null_mut());
     // SAFETY: as the header says.
     ok(unsafe { urdd_robot_open(path.as_ptr(), &mut robot) });
     robot
@@ -87,6 +91,23 @@ fn names_sizes_and_configurations_are_those_of_rust() {
             ok(urdd_robot_dof_unit(handle, k, &mut name));
             assert_eq!(text(name), robot.dof_units().unwrap()[k]);
         }
+        for (k, known) in robot.joint_names().unwrap().iter().enumerate() {
+            let mut index = usize::MAX;
+            ok(urdd_robot_joint(handle, c(known).as_ptr(), &mut index));
+            assert_eq!(index, k);
+        }
+        let (mut between, mut found) = ([usize::MAX; 6], 0);
+        let (from, to) = (robot.link("turret").unwrap(), robot.link("flange").unwrap());
+        let length = between.len() - 1;
+        ok(urdd_robot_dofs_between(handle, from, to, between.as_mut_ptr(), length, &mut found));
+        let known = robot.dofs_between(from, to).unwrap();
+        assert_eq!(between[..found], known);
+        assert_eq!(between[5], usize::MAX);
+        let far = urdd_robot_dofs_between(handle, 9, to, between.as_mut_ptr(), length, &mut found);
+        assert_eq!(far, Status::OutOfRange);
+        // Room for fewer than there are: their number is said.
+        ok(urdd_robot_dofs_between(handle, from, to, between.as_mut_ptr(), 1, &mut found));
+        assert_eq!((between[0], found), (known[0], known.len()));
         let mut bounds = [0.0; 12];
         ok(urdd_robot_bounds(handle, bounds.as_mut_ptr(), 12));
         let space = robot.configurations().unwrap();

@@ -4,7 +4,9 @@
 #![allow(clippy::restriction)]
 
 mod allocations;
+mod alone;
 mod calls;
 mod fuzz_findings;
 mod interface;
 mod inverse;
+mod memory;

@@ -1,0 +1,134 @@
+//! What the caller's sizes take of memory.
+
+use std::ffi::CString;
+use std::ptr::{null, null_mut};
+
+use urdd_c::*;
+
+use crate::allocations::{LEFT, UNLIMITED};
+
+/// Points on a sphere: all are corners of their hull. Triangles between them, as on a globe.
+fn globe(rings: u32) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    use std::f64::consts::{PI, TAU};
+    let around = 2 * rings;
+    let point = |k: u32| {
+        let (ring, place) = (f64::from(k / around) + 0.5, f64::from(k % around));
+        let (polar, angle) = (PI * ring / f64::from(rings), TAU * place / f64::from(around));
+        [polar.sin() * angle.cos(), polar.sin() * angle.sin(), polar.cos()]
+    };
+    let face = |k: u32| {
+        let next = k / around * around + (k + 1) % around;
+        [[k, k + around, next], [next, k + around, next + around]]
+    };
+    let points = (0..rings * around).map(point).collect();
+    (points, (0..(rings - 1) * around).flat_map(face).collect())
+}
+
+/// With less and less memory, each call answers or says that there is not enough: none ends the process.
+#[test]
+fn too_little_memory_for_what_the_caller_sends_is_a_status() {
+    // What runs on the pool runs on this thread.
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    let _one = one.expect("a pool of this thread");
+    let place = testkit::temporary::folder();
+    let folder = place.path().join("robot");
+    testkit::model::fixture().write_to(&folder);
+    let known = urdd_robot::Robot::open(&folder).expect("a robot");
+    let known = known.collision_model().expect("a model");
+    let path = CString::new(folder.to_str().expect("UTF-8")).expect("no zero byte");
+    let (mut robot, mut model) = (null_mut(), null_mut());
+    let (points, _) = globe(60);
+    let (corners, faces) = globe(12);
+    let inside: Vec<[f64; 3]> = (0..50_000u32)
+        .map(|k| [0.7548777, 0.5698403, 0.4301597].map(|step| (f64::from(k) * step).fract()))
+        .collect();
+    let bytes = vec![b'P'; 20 << 20];
+    let name = CString::new(vec![b'n'; 20 << 20]).expect("no zero byte");
+    let rows = 100_000;
+    // SAFETY: as the header says.
+    unsafe {
+        assert_eq!(urdd_robot_open(path.as_ptr(), &mut robot), Status::Ok);
+        assert_eq!(urdd_robot_collision_model(robot, &mut model), Status::Ok);
+        let (mut pairs, mut dofs, mut links) = (0, 0, 0);
+        assert_eq!(urdd_robot_sizes(robot, &mut links, null_mut(), null_mut()), Status::Ok);
+        assert_eq!(urdd_collision_model_sizes(model, &mut pairs, &mut dofs), Status::Ok);
+        let q: Vec<f64> = (0..rows * dofs).map(|k| (k as f64 * 0.618).fract()).collect();
+        let (mut clearances, mut poses) = (vec![0.0; rows * pairs], vec![0.0; rows * 16 * links]);
+        let hull = |points: &[[f64; 3]], name: &CString| {
+            let mut made = null_mut();
+            let at = points.as_ptr().cast();
+            let status = urdd_obstacle_hull(name.as_ptr(), null(), at, points.len(), &mut made);
+            urdd_obstacle_free(made);
+            status
+        };
+        let mut calls: Vec<(&str, Box<dyn FnMut() -> Status + '_>)> = vec![
+            ("a hull of corners", Box::new(|| hull(&points, &CString::default()))),
+            ("a hull of points inside", Box::new(|| hull(&inside, &CString::default()))),
+            ("a name", Box::new(|| hull(&points[..9], &name))),
+            (
+                "a mesh",
+                Box::new(|| {
+                    let mut made = null_mut();
+                    let (vertices, triangles) = (corners.as_ptr().cast(), faces.as_ptr().cast());
+                    let status = urdd_obstacle_mesh(
+                        c"m".as_ptr(),
+                        null(),
+                        vertices,
+                        corners.len(),
+                        triangles,
+                        faces.len(),
+                        &mut made,
+                    );
+                    urdd_obstacle_free(made);
+                    status
+                }),
+            ),
+            (
+                "an archive",
+                Box::new(|| {
+                    let mut made = null_mut();
+                    let (at, length) = (bytes.as_ptr(), bytes.len());
+                    match urdd_robot_of_archive(c"a".as_ptr(), at, length, &mut made) {
+                        // It is none.
+                        Status::Open => Status::Ok,
+                        status => status,
+                    }
+                }),
+            ),
+            (
+                "clearances",
+                Box::new(|| {
+                    let (at, length) = (clearances.as_mut_ptr(), clearances.len());
+                    urdd_collision_model_clearances(model, q.as_ptr(), rows, dofs, at, length)
+                }),
+            ),
+            (
+                "poses",
+                Box::new(|| {
+                    let (at, length) = (poses.as_mut_ptr(), poses.len());
+                    urdd_robot_link_poses(robot, q.as_ptr(), rows, dofs, at, length)
+                }),
+            ),
+        ];
+        for (what, call) in &mut calls {
+            assert_eq!(call(), Status::Ok, "{what}");
+            let mut smallest = usize::MAX;
+            for power in 38..62 {
+                let bytes = 1.4f64.powi(power) as usize;
+                LEFT.set(bytes);
+                let status = call();
+                LEFT.set(UNLIMITED);
+                match status {
+                    Status::Ok => smallest = smallest.min(bytes),
+                    status => assert_eq!(status, Status::Memory, "{what} with {bytes} bytes"),
+                }
+            }
+            assert!(smallest < 300 << 20, "{what}");
+        }
+        drop(calls);
+        // Blocks of rows are joined as the whole.
+        assert_eq!(clearances, known.clearances_batch(&q).expect("clearances"));
+        assert_eq!(urdd_collision_model_free(model), Status::Ok);
+        assert_eq!(urdd_robot_free(robot), Status::Ok);
+    }
+}
