@@ -33,92 +33,13 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
+from programs import Drake, Libsdformat, Mujoco, NotComparable, Pinocchio, Urdd, Yourdfpy
+
 POSE_TOLERANCE = 1e-9
 # Contact within this is a matter of binary32 meshes and of each program's own tolerance.
 BAND = 1e-5
 CONFIGURATIONS = 100
 NAMED = re.compile(r"links `(.*?)` and `(.*?)` are (disabled|checked) as a whole.*?(?:in (\d+) of (\d+) sampled)?\.? -->")
-
-
-def has_several(urdd):
-    """Whether a joint has several DOFs, which Pinocchio and yourdfpy read otherwise, or not at all."""
-    return any(joint["joint_type"] in ("Planar", "Floating", "Spherical") for joint in urdd.joints)
-
-
-def quaternion_of_vector(v):
-    """Rotation vector to quaternion w, x, y, z."""
-    angle = np.linalg.norm(v)
-    if angle == 0.0:
-        return np.array([1.0, 0.0, 0.0, 0.0])
-    return np.concatenate([[np.cos(angle / 2)], np.sin(angle / 2) * np.asarray(v) / angle])
-
-
-def matrix_of_vector(v):
-    w, x, y, z = quaternion_of_vector(v)
-    return pin.Quaternion(w, x, y, z).matrix()
-
-
-def rpy_of_matrix(r):
-    return [
-        np.arctan2(r[2, 1], r[2, 2]),
-        np.arctan2(-r[2, 0], np.hypot(r[0, 0], r[1, 0])),
-        np.arctan2(r[1, 0], r[0, 0]),
-    ]
-
-
-class Urdd:
-    def __init__(self, program, root):
-        self.program = program
-        self.root = pathlib.Path(root)
-        self.paths = {m["name"]: m["path"] for m in json.loads((self.root / "urdd.json").read_text())["modules"]}
-        self.dof = self.document("dof_module")
-        self.samples = self.document("kinematics_samples_module")["samples"]
-        self.links = self.document("urdf_module")["links"]
-        self.names = [link["name"] for link in self.links]
-        self.joints = self.document("urdf_module")["joints"]
-        self.mass = sum(((link["inertial"] or {}).get("mass") or {}).get("value", 0.0) for link in self.links)
-
-    def document(self, module):
-        return json.loads((self.root / self.paths[module] / "module.json").read_text())
-
-    def values(self, q):
-        """The values of each joint by name, by the URDD's own resolved mimics."""
-        values = {}
-        dofs, mimics = self.dof["joint_idx_to_dof_idxs_mapping"], self.dof["joint_idx_to_mimic_mapping"]
-        for joint, of_joint, mimic in zip(self.joints, dofs, mimics):
-            values[joint["name"]] = [q[dof] for dof in of_joint] or [0.0]
-            if mimic:
-                driver = 0.0 if mimic["dof_idx"] is None else q[mimic["dof_idx"]]
-                values[joint["name"]] = [mimic["multiplier"] * driver + mimic["offset"]]
-        return values
-
-    def export(self, kind, file, *more):
-        command = [self.program, "export", kind, str(self.root), "-o", str(file), "--force", *more]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if "cannot hold the name" in done.stderr:
-            raise ValueError(done.stderr)
-        assert done.returncode == 0, done.stderr
-        return file.read_text()
-
-    def collisions(self, count):
-        """Of sampled configurations the values, and the pairs of pieces in contact."""
-        command = [self.program, "check-collisions", str(self.root), "--random", str(count), "--format", "json"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        assert done.returncode in (0, 1), done.stderr
-        for line in done.stdout.splitlines():
-            said = json.loads(line)
-            pairs = {tuple(sorted(zip(pair["links"], pair["pieces"]))) for pair in said["touching"]}
-            yield said["values"], pairs
-
-
-def worst(poses, expected):
-    """The greatest difference of positions (m) and of rotation matrices."""
-    difference = 0.0
-    for (p, r), pose in zip(poses, expected):
-        w, x, y, z = pose["quaternion_wxyz"]
-        difference = max(difference, np.abs(p - np.array(pose["position"])).max())
-        difference = max(difference, np.abs(r - pin.Quaternion(w, x, y, z).matrix()).max())
-    return float(difference)
 
 
 def of_links(pairs):
@@ -136,32 +57,11 @@ def named(text):
 def by_mujoco(urdd, folder):
     file = folder / "mujoco.xml"
     text = urdd.export("mjcf", file)
-    model = mujoco.MjModel.from_xml_path(str(file))
-    data = mujoco.MjData(model)
-    links = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) for name in urdd.names]
-    links = [0 if link < 0 else link for link in links]
+    loaded = Mujoco(urdd, file)
+    model, data = loaded.model, loaded.data
     geoms = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom) for geom in range(model.ngeom)]
-
-    def place(q):
-        values = urdd.values(q)
-        for joint in range(model.njnt):
-            name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint)
-            at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
-            if kind == mujoco.mjtJoint.mjJNT_BALL:
-                data.qpos[at : at + 4] = quaternion_of_vector(values[name][-3:])
-            elif name in values:
-                data.qpos[at] = values[name][0]
-            else:
-                owner, part = name.rsplit("/", 1)
-                data.qpos[at] = values[owner][{"trans_x": 0, "trans_y": 1, "trans_z": 2, "rot": 2}[part]]
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-
-    difference = 0.0
-    for sample in urdd.samples:
-        place(sample["configuration"])
-        poses = [(data.xpos[link], data.xmat[link].reshape(3, 3)) for link in links]
-        difference = max(difference, worst(poses, sample["link_poses"]))
+    place = lambda q: loaded.place(urdd.values(q))
+    difference = urdd.difference(loaded)
     rigid = urdd_rigid(urdd)
     missed, more, seen, lasted = set(), set(), 0, []
     for q, expected in urdd.collisions(CONFIGURATIONS):
@@ -268,58 +168,26 @@ def judged(found, depth, expected, names, may_miss):
 def by_pinocchio(urdd, folder):
     file = folder / "robot.urdf"
     urdd.export("urdf", file)
-    # Pinocchio takes a mimic only where its driver comes first in its own, alphabetical, order; otherwise it reads the
-    # joint as one that moves freely, and is given the position that the URDD resolves.
-    followed = True
-    try:
-        model = pin.buildModelFromUrdf(str(file), pin.JointModelFreeFlyer(), mimic=True)
-    except ValueError as error:
-        if "parent joint of the mimic joint is not in" not in str(error):
-            raise
-        followed = False
-        model = pin.buildModelFromUrdf(str(file), pin.JointModelFreeFlyer())
-    data = model.createData()
-
-    def place(values):
-        q = pin.neutral(model)
-        for idx in range(2, model.njoints):
-            joint, value = model.joints[idx], values[model.names[idx]]
-            if joint.shortname().startswith("JointModelMimic"):
-                continue
-            if joint.nq == 1:
-                q[joint.idx_q] = value[0]
-            elif joint.nq == 4:
-                raise ValueError("a planar joint is read without its axis")
-            elif joint.nq == 2:
-                q[joint.idx_q : joint.idx_q + 2] = [np.cos(value[0]), np.sin(value[0])]
-            else:
-                w, x, y, z = quaternion_of_vector(value[3:])
-                q[joint.idx_q : joint.idx_q + 7] = [*value[:3], x, y, z, w]
-        return q
-
-    difference = 0.0
-    for sample in urdd.samples:
-        pin.framesForwardKinematics(model, data, place(urdd.values(sample["configuration"])))
-        frames = [data.oMf[model.getFrameId(name, pin.FrameType.BODY)] for name in urdd.names]
-        poses = [(frame.translation, frame.rotation) for frame in frames]
-        difference = max(difference, worst(poses, sample["link_poses"]))
+    loaded = Pinocchio(urdd, file)
+    model = loaded.model
+    difference = urdd.difference(loaded)
     total = pin.computeTotalMass(model)
     said = {
         "poses": difference,
         "mass": float(total),
-        "mimics_followed": followed,
+        "mimics_followed": loaded.followed,
         "mimics": sum("Mimic" in joint.shortname() for joint in model.joints),
         "failed": difference > POSE_TOLERANCE or abs(total - urdd.mass) > 1e-9 * max(1.0, urdd.mass),
     }
     for keep in ([], ["--keep-pairs"]):
-        said["keep" if keep else "pairs"] = pinocchio_pairs(urdd, folder, file, model, data, place, keep)
+        said["keep" if keep else "pairs"] = pinocchio_pairs(urdd, folder, file, loaded, keep)
         said["failed"] |= bool(said["keep" if keep else "pairs"]["missed"] or said["keep" if keep else "pairs"]["more"])
     return said
 
 
-def pinocchio_pairs(urdd, folder, file, model, data, place, keep):
+def pinocchio_pairs(urdd, folder, file, loaded, keep):
     text = urdd.export("srdf", folder / "robot.srdf", *keep)
-    names = named(text)
+    names, model = named(text), loaded.model
     geometry = pin.buildGeomFromUrdf(model, str(file), pin.GeometryType.COLLISION, str(folder))
     for of in geometry.geometryObjects:
         if hasattr(of.geometry, "buildConvexRepresentation"):
@@ -332,7 +200,7 @@ def pinocchio_pairs(urdd, folder, file, model, data, place, keep):
     missed, more, lost, seen = set(), set(), 0, 0
     rigid = urdd_rigid(urdd)
     for q, expected in urdd.collisions(CONFIGURATIONS // 2):
-        pin.computeCollisions(model, data, geometry, of_data, place(urdd.values(q)), False)
+        pin.computeCollisions(model, loaded.data, geometry, of_data, loaded.configuration(urdd.values(q)), False)
         found = {}
         for at, pair in enumerate(geometry.collisionPairs):
             result = of_data.collisionResults[at]
@@ -356,19 +224,7 @@ def grazes(urdd, q, pair):
 
 
 def by_yourdfpy(urdd, folder):
-    import yourdfpy
-
-    if has_several(urdd):
-        raise ValueError("joints of several DOFs stay where they are")
-    robot = yourdfpy.URDF.load(str(folder / "robot.urdf"), load_meshes=False, build_collision_scene_graph=False)
-    root = robot.base_link
-    difference = 0.0
-    for sample in urdd.samples:
-        values = urdd.values(sample["configuration"])
-        robot.update_cfg({name: values[name][0] for name in robot.actuated_joint_names})
-        poses = [robot.get_transform(name, root) for name in urdd.names]
-        poses = [(pose[:3, 3], pose[:3, :3]) for pose in poses]
-        difference = max(difference, worst(poses, sample["link_poses"]))
+    difference = urdd.difference(Yourdfpy(urdd, folder / "robot.urdf"))
     return {"poses": difference, "failed": difference > POSE_TOLERANCE}
 
 
@@ -400,53 +256,14 @@ def masses_of(urdd):
 
 
 def by_drake(urdd, folder, form="urdf"):
-    from pydrake.all import AddMultibodyPlantSceneGraph, DiagramBuilder, Parser
-
     file = folder / f"drake.{form}"
     text = urdd.export("drake" if form == "urdf" else form, file)
     names = named(text)
-    builder = DiagramBuilder()
-    plant, scene = AddMultibodyPlantSceneGraph(builder, 0.001)
-    model = Parser(plant).AddModels(str(file))[0]
-    plant.Finalize()
-    diagram = builder.Build()
-    root = diagram.CreateDefaultContext()
-    context = plant.GetMyMutableContextFromRoot(root)
-    at_root = scene.GetMyContextFromRoot(root)
-    inspector = scene.model_inspector()
-    base = next(name for name in urdd.names if all(joint["child"]["link"] != name for joint in urdd.joints))
-
-    def body(name):
-        return plant.world_body() if name == "world" else plant.GetBodyByName(name, model)
-
-    def place(values):
-        q = plant.GetPositions(context)
-
-        def put(name, of_joint):
-            joint = plant.GetJointByName(name, model)
-            start = joint.position_start()
-            q[start : start + joint.num_positions()] = of_joint[: joint.num_positions()]
-
-        for joint in urdd.joints:
-            kind, value, name = joint["joint_type"], values[joint["name"]], joint["name"]
-            if kind == "Planar" and form == "sdf":
-                for part, v in zip(("trans_x", "trans_y", "rot"), value):
-                    put(f"{name}/{part}", [v])
-            elif kind in ("Floating", "Spherical"):
-                for part, v in zip("xyz", value[:-3]):
-                    put(f"{name}/trans_{part}", [v])
-                put(name, rpy_of_matrix(matrix_of_vector(value[-3:])))
-            else:
-                put(name, value)
-        plant.SetPositions(context, q)
-
-    difference = 0.0
-    for sample in urdd.samples:
-        place(urdd.values(sample["configuration"]))
-        back = body(base).EvalPoseInWorld(context).inverse()
-        poses = [back @ body(name).EvalPoseInWorld(context) for name in urdd.names]
-        poses = [(pose.translation(), pose.rotation().matrix()) for pose in poses]
-        difference = max(difference, worst(poses, sample["link_poses"]))
+    loaded = Drake(urdd, file)
+    plant, context, model = loaded.plant, loaded.context, loaded.model
+    at_root = loaded.scene.GetMyContextFromRoot(loaded.context_of_all)
+    inspector = loaded.scene.model_inspector()
+    difference = urdd.difference(loaded)
     total = plant.CalcTotalMass(context, [model])
     kept = sum(
         link["inertial"]["mass"]["value"]
@@ -457,8 +274,8 @@ def by_drake(urdd, folder, form="urdf"):
     candidates = {tuple(sorted((name_of(a), name_of(b)))) for a, b in inspector.GetCollisionCandidates()}
     missed, more, lost, seen = set(), set(), 0, 0
     for q, expected in urdd.collisions(CONFIGURATIONS // 2):
-        place(urdd.values(q))
-        query = scene.get_query_output_port().Eval(at_root)
+        loaded.place(urdd.values(q))
+        query = loaded.scene.get_query_output_port().Eval(at_root)
         found = {}
         for pair in query.ComputePointPairPenetration():
             key = tuple(sorted((name_of(pair.id_A), name_of(pair.id_B))))
@@ -496,8 +313,8 @@ def is_adjacent(urdd, pair):
 
 def depths(urdd, folder):
     """A function of a configuration and two links: how deep MuJoCo finds their pieces in each other, m."""
-    model = mujoco.MjModel.from_xml_path(str(folder / "mujoco.xml"))
-    data = mujoco.MjData(model)
+    loaded = Mujoco(urdd, folder / "mujoco.xml")
+    model, data = loaded.model, loaded.data
     geoms = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_GEOM, geom) for geom in range(model.ngeom)]
     by_link = {}
     for geom, name in enumerate(geoms):
@@ -505,18 +322,7 @@ def depths(urdd, folder):
             by_link.setdefault(tuple_of(name)[0], []).append(geom)
 
     def depth(q, pair):
-        values = urdd.values(q)
-        for joint in range(model.njnt):
-            name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, joint)
-            at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
-            if kind == mujoco.mjtJoint.mjJNT_BALL:
-                data.qpos[at : at + 4] = quaternion_of_vector(values[name][-3:])
-            elif name in values:
-                data.qpos[at] = values[name][0]
-            else:
-                owner, part = name.rsplit("/", 1)
-                data.qpos[at] = values[owner][{"trans_x": 0, "trans_y": 1, "trans_z": 2, "rot": 2}[part]]
-        mujoco.mj_kinematics(model, data)
+        loaded.place(urdd.values(q))
         a, b = (by_link[name] for name in pair)
         return -min(mujoco.mj_geomDistance(model, data, i, j, 1.0, None) for i in a for j in b)
 
@@ -568,12 +374,12 @@ def main():
             ):
                 try:
                     said[name] = ask(urdd, folder)
-                except (ValueError, RuntimeError, KeyError) as error:
+                except (ValueError, RuntimeError, KeyError, NotComparable) as error:
                     said[name] = {"refused": str(error).splitlines()[0].replace(f"{folder}/", "")}
                 if name == "mujoco" and "refused" not in said[name]:
                     urdd.depth = depths(urdd, folder)
                 print(urdd.root.name, name, json.dumps(said[name]), flush=True)
-                failed |= said[name].get("failed", name in ("mujoco", "drake") or not has_several(urdd))
+                failed |= said[name].get("failed", name in ("mujoco", "drake") or not urdd.kinds & {"Planar", "Floating", "Spherical"})
         results["robots"][urdd.root.name] = said
     if out:
         out.write_text(json.dumps(results, indent=1) + "\n")

@@ -1,5 +1,7 @@
 // Loads an SDF with libsdformat, and prints mass and pose of each link at zero, in the model: what `peers.py` compares.
 #include <cstdio>
+#include <iomanip>
+#include <sstream>
 #include <sdf/sdf.hh>
 
 int main(int argc, char **argv) {
@@ -15,8 +17,10 @@ int main(int argc, char **argv) {
         if (!link.SemanticPose().Resolve(pose, "__model__").empty()) return 1;
         const auto &p = pose.Pos();
         const auto &q = pose.Rot();
-        std::printf("{\"link\": \"%s\", \"mass\": %.17g, \"pose\": [%.17g, %.17g, %.17g, %.17g, %.17g, %.17g, %.17g], \"collisions\": %lu}\n",
-                    link.Name().c_str(), link.Inertial().MassMatrix().Mass(), p.X(), p.Y(), p.Z(), q.W(), q.X(), q.Y(), q.Z(),
+        std::ostringstream name;
+        name << std::quoted(link.Name());
+        std::printf("{\"link\": %s, \"mass\": %.17g, \"pose\": [%.17g, %.17g, %.17g, %.17g, %.17g, %.17g, %.17g], \"collisions\": %lu}\n",
+                    name.str().c_str(), link.Inertial().MassMatrix().Mass(), p.X(), p.Y(), p.Z(), q.W(), q.X(), q.Y(), q.Z(),
                     static_cast<unsigned long>(link.CollisionCount()));
     }
     return 0;
