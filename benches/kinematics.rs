@@ -3,7 +3,7 @@
 //! `cargo bench --bench kinematics -- URDD...` prints for each URDD the median over five rounds of the mean over 10,000
 //! random configurations, in microseconds: the poses of all links, and the Jacobian of the last link by
 //! `Robot::jacobian_batch`. Then it takes 1,000 target poses, of all links in turn, in configurations that are not
-//! starting points. It prints how many `Robot::inverse_kinematics` reaches, and the time.
+//! starting points. It prints how many `Robot::inverse_kinematics` reaches, and the time; and the time with a posture.
 //!
 //! With `--json` it measures nothing: for each URDD and each of 20 configurations, it prints one line with the values,
 //! and for each link its pose (position, then quaternion x, y, z, w) and its Jacobian in column-major order.
@@ -106,6 +106,16 @@ fn inverse(robot: &Robot, with_rotation: bool) {
     println!(
         "    {reached} of {TARGETS} {what} reached, {at_once} without a restart, {each:.1} us each"
     );
+    let (mut restarts, start) = (0, Instant::now());
+    for (k, (target, from)) in (0..).zip(&questions) {
+        let posture = Some(space.random((1 << 22) + k));
+        let settings = InverseSettings { posture, ..InverseSettings::default() };
+        let found = robot.inverse_kinematics(target, from, &settings);
+        restarts += found.expect("an answer").nearest().restarts;
+    }
+    let (each, restarts) =
+        (1e6 * start.elapsed().as_secs_f64() / TARGETS as f64, restarts as f64 / TARGETS as f64);
+    println!("    {what} with a posture: {each:.1} us each, by {restarts:.1} restarts on average");
 }
 
 fn row(what: &str, mut run: impl FnMut()) {

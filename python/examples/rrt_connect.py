@@ -1,6 +1,8 @@
 """Plans a motion among obstacles by RRT-Connect, and proves it free. Prints the path as CSV.
 
 python rrt_connect.py URDD [SEED]
+
+SEED chooses the ends: a free configuration, and another pose of the last link, reached as near to it as possible.
 """
 
 import sys
@@ -35,7 +37,8 @@ def plan(robot, checks, start, goal, random, tries=20_000):
         return found
 
     trees = [([start], [None]), ([goal], [None])]
-    lower, upper = robot.bounds.T
+    lower, upper = window(robot)
+    lower, upper = np.min([lower, start, goal], axis=0), np.max([upper, start, goal], axis=0)
     for count in range(tries):
         here, there = trees[count % 2], trees[1 - count % 2]
         new = grow(*here, random.uniform(lower, upper))
@@ -43,7 +46,37 @@ def plan(robot, checks, start, goal, random, tries=20_000):
             if np.array_equal(reached, new):
                 own, other = path(*here)[::-1], path(*there)[1:]
                 return np.array(own + other)[:: 1 if count % 2 == 0 else -1]
-    raise SystemExit("no path was found")
+    raise SystemExit(
+        f"no path was found in {tries:,} tries. There may be none: try other ends (another SEED), ends that are nearer "
+        "to each other, a smaller MARGIN, or more tries."
+    )
+
+
+def window(robot):
+    """Bounds of at most one turn about their middle: joints that turn twice only search longer."""
+    lower, upper = robot.bounds.T
+    middle = (lower + upper) / 2
+    return np.maximum(lower, middle - np.pi), np.minimum(upper, middle + np.pi)
+
+
+def choose_ends(robot, checks, random):
+    """A free configuration, and one that reaches another pose of the last link: the nearest, within half a turn."""
+
+    def free(q):
+        return not any(check.is_within(q, 2 * margin) for check, margin in checks)
+
+    tip = max(robot.link_names, key=lambda link: len(robot.dofs_between(robot.root_link, link)))
+    shapes = [check for check, _ in checks]
+    lower, upper = window(robot)
+    for start, other in random.uniform(lower, upper, (2000, 2, robot.num_dofs)):
+        if free(start):
+            bounds = np.transpose([np.maximum(lower, start - np.pi), np.minimum(upper, start + np.pi)])
+            found = robot.inverse_kinematics(
+                tip, robot.link_pose(other, tip), start, posture=start, bounds=bounds, free_of=shapes, margin=2 * MARGIN
+            )
+            if found.reached and free(found.q):
+                return start, found.q
+    raise SystemExit("no two free configurations were found: move or remove obstacles, or choose a smaller MARGIN")
 
 
 def main():
@@ -54,8 +87,7 @@ def main():
     world.add_box("table", size=[2, 2, 0.1], pose=[0, 0, -0.05], ignore=base)
     world.add_sphere("ball", radius=0.15, centre=[0.45, 0.1, 0.6])
     checks = [(robot.proximity("pieces"), 2e-4), (robot.world_proximity(world), MARGIN)]
-    ends = [q for q in robot.random(2000) if not any(check.is_within(q, 2 * margin) for check, margin in checks)]
-    start, goal = (ends[place] for place in random.choice(len(ends), 2, replace=False))
+    start, goal = choose_ends(robot, checks, random)
     path = plan(robot, checks, start, goal, random)
     proved = all(np.isnan(check.blocked_edge(path[:-1], path[1:], resolution=None)).all() for check, _ in checks)
     np.savetxt(sys.stdout, path, delimiter=",", header=",".join(robot.dof_names), comments="")

@@ -42,6 +42,7 @@ struct InverseOptions<'py> {
     locked: Vec<usize>,
     posture: Option<Vec<f64>>,
     free_of: Vec<FreeOf>,
+    margin: f64,
 }
 
 /// What solutions of inverse kinematics must not touch.
@@ -52,10 +53,10 @@ enum FreeOf {
 }
 
 impl FreeOf {
-    fn is_free(&self, q: &[f64]) -> bool {
+    fn is_free(&self, q: &[f64], margin: f64) -> bool {
         let touches = match self {
             FreeOf::Itself(proximity) => proximity.get().shared().in_collision(q),
-            FreeOf::World(world) => world.get().in_collision_of(q),
+            FreeOf::World(world) => world.get().is_within_of(q, margin),
         };
         touches == Ok(false)
     }
@@ -177,6 +178,11 @@ impl Robot {
         shaped(py, bounds.as_flattened().to_vec(), [bounds.len(), 2])
     }
 
+    /// (dofs,): whether each DOF is limited.
+    fn dof_is_limited(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
+        Ok(self.names(py, |robot| robot.configurations())?.dof_is_limited().to_vec())
+    }
+
     /// One of `zero`, `middle`, `lower`, `upper`.
     fn configuration<'py>(
         &self,
@@ -285,7 +291,8 @@ impl Robot {
             explain: true,
         };
         let (robot, point, weights) = (&self.robot, options.point, options.weights);
-        let accepts = |q: &[f64]| options.free_of.iter().all(|shapes| shapes.is_free(q));
+        let (free_of, margin) = (options.free_of, options.margin);
+        let accepts = |q: &[f64]| free_of.iter().all(|shapes| shapes.is_free(q, margin));
         let write = |on: &Cancellation, k: usize, out: &mut [f64]| -> Result<(), RobotError> {
             let target = match is_pose {
                 true => Target::pose(link, unchecked_pose(&targets[16 * k..16 * k + 16])),

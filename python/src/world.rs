@@ -63,9 +63,9 @@ impl WorldProximity {
         })
     }
 
-    /// Whether the robot touches an obstacle in one configuration.
-    pub fn in_collision_of(&self, configuration: &[f64]) -> Result<bool, RobotError> {
-        self.proximity.in_collision(configuration)
+    /// Whether the robot is at most `margin` from an obstacle in one configuration, m.
+    pub fn is_within_of(&self, configuration: &[f64], margin: f64) -> Result<bool, RobotError> {
+        self.proximity.is_within(configuration, margin)
     }
 
     /// Raises `MemoryError` if there is not enough memory for this many configurations at once.

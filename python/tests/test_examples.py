@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import sysconfig
+import time
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,73 @@ def test_forward_kinematics(arm: urdd.Robot) -> None:
     assert [line.split()[0] for line in lines] == list(arm.link_names)
     poses = arm.link_poses(arm.middle)
     np.testing.assert_allclose([float(x) for x in lines[-1].split()[1:4]], poses[-1, :3, 3], atol=1e-4)
+
+
+def chain(name: str, joints: list[tuple[str, str, float, float]]) -> str:
+    """An arm of boxes along the offsets of its joints: (xyz, rpy) of each in its parent, and its limits."""
+    links, parts = ['<link name="base"/>'], []
+    offsets = [[float(x) for x in xyz.split()] for xyz, *_ in joints] + [[0, 0, 0.05]]
+    for k, (xyz, rpy, lower, upper) in enumerate(joints):
+        to = np.array(offsets[k + 1])
+        size = np.maximum(np.abs(to) - 0.02, 0.06)
+        middle = " ".join(str(x) for x in to / 2)
+        box = f'<geometry><box size="{" ".join(str(x) for x in size)}"/></geometry><origin xyz="{middle}"/>'
+        links.append(f'<link name="l{k}"><visual>{box}</visual><collision>{box}</collision></link>')
+        parent = f"l{k - 1}" if k else "base"
+        limit = f'<limit lower="{lower}" upper="{upper}" effort="1" velocity="1"/>'
+        parts.append(
+            f'<joint name="j{k}" type="revolute"><parent link="{parent}"/><child link="l{k}"/>'
+            f'<origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="0 0 1"/>{limit}</joint>'
+        )
+    return f'<robot name="{name}">{"".join(links + parts)}</robot>'
+
+
+TURN, QUARTER = 2 * np.pi, np.pi / 2
+#: Six joints that turn twice, with the lengths of a UR5; seven with those of a Panda.
+ARMS = {
+    "two_turns": [
+        ("0 0 0.089", "0 0 0", -TURN, TURN),
+        ("0 0.136 0", f"{QUARTER} 0 0", -TURN, TURN),
+        ("0.425 0 -0.12", "0 0 0", -TURN, TURN),
+        ("0.392 0 0", "0 0 0", -TURN, TURN),
+        ("0 0 0.093", f"{QUARTER} 0 0", -TURN, TURN),
+        ("0 0 0.095", f"{-QUARTER} 0 0", -TURN, TURN),
+    ],
+    "seven_joints": [
+        ("0 0 0.333", "0 0 0", -2.9, 2.9),
+        ("0 0 0", f"{-QUARTER} 0 0", -1.76, 1.76),
+        ("0 -0.316 0", f"{QUARTER} 0 0", -2.9, 2.9),
+        ("0.0825 0 0", f"{QUARTER} 0 0", -3.07, -0.07),
+        ("-0.0825 0.384 0", f"{-QUARTER} 0 0", -2.9, 2.9),
+        ("0 0 0", f"{QUARTER} 0 0", -0.02, 3.75),
+        ("0.088 0 0", f"{QUARTER} 0 0", -2.9, 2.9),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", ["welding_arm", "six_axis_arm", *ARMS])
+def test_a_planner_finds_ways_between_ends_that_a_person_would_choose(
+    name: str, urdds: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = urdds / name
+    if name in ARMS:
+        folder = tmp_path / name
+        (tmp_path / "arm.urdf").write_text(chain(name, ARMS[name]), encoding="utf-8")
+        urdd.generate(tmp_path / "arm.urdf", folder, samples=100)
+    monkeypatch.syspath_prepend(EXAMPLES)
+    import rrt_connect
+
+    robot = urdd.load(folder)
+    for seed in range(10):
+        monkeypatch.setattr(sys, "argv", ["rrt_connect.py", str(folder), str(seed)])
+        begin = time.monotonic()
+        rrt_connect.main()
+        assert time.monotonic() - begin < 30
+        out, err = capsys.readouterr()
+        path = np.loadtxt(out.splitlines(), delimiter=",", skiprows=1)
+        assert "not proved" not in err
+        assert np.isnan(robot.proximity().blocked_edge(path[:-1], path[1:], resolution=0.005)).all()
+        assert np.abs(path[-1] - path[0]).max() <= np.pi
 
 
 def test_a_planner_needs_no_other_library(arm: urdd.Robot) -> None:
@@ -75,7 +143,8 @@ def test_a_part_is_carried_from_place_to_place(arm: urdd.Robot) -> None:
     found = run("pick_and_place.py", arm.path, "torch")
     assert found.stderr.count("; free at 2 mm") == 3
     path = np.loadtxt(found.stdout.splitlines(), delimiter=",", skiprows=1)
-    assert arm.is_within_bounds(path).all()
+    limited = arm.dof_is_limited
+    np.testing.assert_array_equal(path[:, limited], arm.clamp(path)[:, limited])
     assert not arm.in_collision(path).any()
 
 

@@ -242,3 +242,59 @@ def test_inverse_kinematics_with_conditions(arm: urdd.Robot) -> None:
             arm.inverse_kinematics("torch", far, **wrong)  # type: ignore[arg-type]
     with pytest.raises(urdd.UnknownNameError):
         arm.inverse_kinematics("torch", far, locked=["nobody"])
+
+
+def test_inverse_kinematics_follows_a_joint_that_is_not_limited(arm: urdd.Robot) -> None:
+    """`axis_6` is continuous: one and a half turns, in small steps and each from the one before."""
+    np.testing.assert_array_equal(arm.dof_is_limited, arm.modules.bounds.dof_limited)
+    np.testing.assert_array_equal(arm.dof_is_limited, [True] * 5 + [False])
+    q = np.array([0.1, 0.2, -0.4, 0.3, 0.5, -1.0])
+    for angle in np.arange(-1.0, 8.0, 0.1):
+        wanted = np.array([*q[:5], angle])
+        found = arm.inverse_kinematics("torch", arm.link_pose(wanted, "torch"), q)
+        assert found.reached
+        np.testing.assert_allclose(found.q, wanted, atol=1e-4)
+        q = found.q
+    # Given bounds bind it.
+    bound = arm.inverse_kinematics("torch", arm.link_pose(q, "torch"), q, bounds=arm.bounds)
+    assert bound.reached
+    assert arm.is_within_bounds(bound.q)
+
+
+def test_inverse_kinematics_keeps_a_margin_from_obstacles(arm: urdd.Robot) -> None:
+    world = urdd.World()
+    for name, x in (("one", 0.45), ("other", -0.45)):
+        world.add_sphere(name, radius=0.2, centre=[x, 0.1, 0.5])
+    itself, around = arm.proximity(), arm.world_proximity(world)
+    targets = arm.link_pose(arm.random(30), "torch")
+    plain = arm.inverse_kinematics("torch", targets)
+    assert (around.min_distance(plain.q) <= 0.03).sum() >= 3
+    free = arm.inverse_kinematics("torch", targets, free_of=[itself, around], margin=0.03)
+    kept = (around.min_distance(free.q) > 0.03) & ~itself.in_collision(free.q)
+    np.testing.assert_array_equal(free.reached, kept)
+    assert {"reached", "refused"} <= set(free.verdict)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        *({key: value} for key in ("position_tolerance", "rotation_tolerance") for value in (np.nan, -1.0)),
+        *({"margin": value} for value in (np.nan, -0.1, np.inf)),
+        *({"weights": value} for value in ([np.nan] * 6, [0] * 6, [1, 1, 1, 1, 1, -1], [1] * 5)),
+        *({"posture": value} for value in ([], [0] * 5, [np.nan] * 6, [[0] * 6])),
+        *({"bounds": value} for value in ([[1, -1]] * 6, [[0, np.nan]] * 6, [[0, np.inf]] * 6, [[0, 1]] * 5)),
+        {"point": [0, np.inf, 0]},
+        {"start": [0] * 5},
+    ],
+    ids=str,
+)
+def test_settings_of_inverse_kinematics_that_make_no_sense(arm: urdd.Robot, wrong: dict[str, Any]) -> None:
+    with pytest.raises(urdd.ConfigurationError):
+        arm.inverse_kinematics("torch", arm.link_pose(arm.zero, "torch"), **wrong)
+
+
+def test_numbers_of_inverse_kinematics_that_are_out_of_range(arm: urdd.Robot) -> None:
+    target = arm.link_pose(arm.zero, "torch")
+    for wrong in ({"iterations": 0}, {"iterations": -1}, {"restarts": -1}, {"seed": -1}):
+        with pytest.raises(ValueError, match="must be from"):
+            arm.inverse_kinematics("torch", target, **wrong)  # type: ignore[arg-type]

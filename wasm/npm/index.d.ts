@@ -114,6 +114,12 @@ export class Robot {
       posture?: number[];
       /** The shapes that must not touch one another in the solution. */
       free_of?: ShapeKind;
+      /** Obstacles that the shapes of `free_of`, or pieces, must not touch in the solution. */
+      obstacles?: Body[];
+      /** What links carry: it counts with the shapes. */
+      attached?: (Body & { link: number })[];
+      /** The distance that the solution keeps from obstacles, metres. */
+      margin?: number;
       /** Whether to find out why a target is not reached: the verdict then is not `unknown`. */
       explain?: boolean;
     },

@@ -10,7 +10,7 @@ use urdd_document::robot::{Inertial, Limit, Origin};
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
-use urdd_robot::Robot;
+use urdd_robot::{Configurations, Robot};
 
 use crate::files::Files;
 
@@ -33,7 +33,8 @@ const READ: &[ModuleKind] = &[
 ///   mass in the link's frame, `inertia` (xx, xy, xz, yy, yz, zz; kg m²).
 /// - `joints`: `name`, `type`, `parent`, `child` (links), `origin` (of the joint in its parent's frame), `axis`,
 ///   `dofs`, `mimic` (`dof`, `multiplier`, `offset`), `limit` as in the URDF.
-/// - `dofs`: `name`, `joint`, `unit`, `bounds`. `zero` and `middle` are configurations.
+/// - `dofs`: `name`, `joint`, `unit`, `bounds`, `is_limited` (without, bounds are a range to sample from). `zero` and
+///   `middle` are configurations.
 /// - `meshes`: by kind, the meshes of each link, each with `glb` for display and `read` for the file that is cheapest
 ///   to read.
 pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
@@ -58,7 +59,6 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
         faults.push(json!({ "module": Value::Null, "reason": error.to_string() }));
     }
     let configurations = configurations.ok();
-    let bounds = configurations.map(urdd_robot::Configurations::bounds);
     Ok(json!({
         "name": part.robot().map(|robot| &robot.name),
         "folder": files.root.folder_name(),
@@ -66,9 +66,9 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
         "metadata": part.metadata_file().json.document().map(|document| &document.value),
         "links": links(&part, modules.as_ref()),
         "joints": joints(&part, modules.as_ref()),
-        "dofs": modules.as_ref().map(|modules| dofs(modules, bounds)),
-        "zero": configurations.map(urdd_robot::Configurations::zero),
-        "middle": configurations.map(urdd_robot::Configurations::middle),
+        "dofs": modules.as_ref().map(|modules| dofs(modules, configurations)),
+        "zero": configurations.map(Configurations::zero),
+        "middle": configurations.map(Configurations::middle),
         "meshes": {
             "original": original(&part),
             "plain": meshes(&part, ModuleKind::PlainMeshes),
@@ -172,14 +172,15 @@ fn joints(part: &Urdd, modules: Option<&ConsumerModules>) -> Value {
         .collect()
 }
 
-fn dofs(modules: &ConsumerModules, bounds: Option<&[[f64; 2]]>) -> Value {
+fn dofs(modules: &ConsumerModules, space: Option<&Configurations>) -> Value {
     let dofs = modules.dof.dofs.iter().enumerate();
     dofs.map(|(k, dof)| {
         json!({
             "name": dof.name,
             "joint": dof.joint_idx.get(),
             "unit": match dof.quantity { Quantity::Angle => "rad", Quantity::Length => "m" },
-            "bounds": bounds.and_then(|bounds| bounds.get(k)),
+            "bounds": space.and_then(|space| space.bounds().get(k)),
+            "is_limited": space.and_then(|space| space.dof_is_limited().get(k)),
         })
     })
     .collect()

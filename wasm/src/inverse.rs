@@ -2,8 +2,9 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use urdd_robot::{InverseSettings, Proximity, Robot, Target, Verdict};
+use urdd_robot::{InverseSettings, Proximity, Robot, RobotError, Target, Verdict, World};
 
+use crate::bodies::{Attached, Body};
 use crate::kind::Kind;
 use crate::pose::pose;
 
@@ -27,6 +28,14 @@ pub struct InverseQuestion {
     posture: Option<Vec<f64>>,
     /// The shapes that must not touch one another in the solution.
     pub free_of: Option<Kind>,
+    /// Obstacles that the shapes of `free_of`, or pieces, must not touch in the solution.
+    pub obstacles: Option<Vec<Body>>,
+    /// What links carry: it counts with the shapes.
+    #[serde(default)]
+    pub attached: Vec<Attached>,
+    /// The distance that the solution keeps from obstacles, metres.
+    #[serde(default)]
+    margin: f64,
     /// Whether to find out why a target is not reached.
     #[serde(default)]
     explain: bool,
@@ -36,8 +45,24 @@ pub struct InverseQuestion {
 }
 
 impl InverseQuestion {
-    /// `configuration`, `position_error`, `rotation_error`, `reached`, `verdict`.
-    pub fn solve(&self, robot: &Robot, free_of: Option<&Proximity>) -> Result<Value, String> {
+    /// `configuration`, `position_error`, `rotation_error`, `reached`, `verdict`. `shapes` are those of `free_of`, and
+    /// `world` has the obstacles.
+    pub fn solve(
+        &self,
+        robot: &Robot,
+        shapes: Option<&Proximity>,
+        world: &World,
+    ) -> Result<Value, String> {
+        let said = |error: RobotError| error.to_string();
+        let count = self.q.len();
+        if let Some(dof) = self.dofs.iter().flatten().find(|dof| **dof >= count) {
+            return Err(format!("DOF {dof} is out of range: there are {count}"));
+        }
+        let around =
+            shapes.map(|shapes| shapes.world_proximity(world)).transpose().map_err(said)?;
+        if let Some(around) = &around {
+            around.is_within(&self.q, self.margin).map_err(said)?;
+        }
         let target = match self.quaternion_wxyz {
             None => Target::position(self.link, self.position),
             Some(quaternion) => Target::pose(self.link, pose(self.position, quaternion)?),
@@ -54,10 +79,15 @@ impl InverseQuestion {
             None => target,
         };
         let target = target.of_point(self.point);
-        let is_free = |q: &[f64]| free_of.is_none_or(|shapes| shapes.in_collision(q) == Ok(false));
+        let itself = shapes.filter(|_| self.free_of.is_some());
+        let is_free = |q: &[f64]| {
+            itself.is_none_or(|shapes| shapes.in_collision(q) == Ok(false))
+                && (around.as_ref())
+                    .is_none_or(|world| world.is_within(q, self.margin) == Ok(false))
+        };
         let never = Default::default();
         let found = robot.inverse_kinematics_where(&target, &self.q, &settings, &is_free, &never);
-        let found = found.map_err(|error| error.to_string())?;
+        let found = found.map_err(said)?;
         let solution = found.nearest();
         Ok(json!({
             "configuration": solution.configuration,

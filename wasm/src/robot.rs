@@ -1,16 +1,18 @@
 //! Queries on a robot.
 
+use std::borrow::Cow;
+
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::{
     CollisionModel, LinkMass, LinkShape, PairDistance, Proximity, Robot, RobotError, ShapeKind,
-    Solid,
+    Solid, World,
 };
 
 use crate::about::about;
-use crate::bodies::{Obstacles, carrying};
+use crate::bodies::{Attached, Obstacles, carrying};
 use crate::collisions::{About, Among, pair};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;
@@ -199,12 +201,16 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
             Ok(json!(q))
         }
         Question::InverseKinematics(question) => {
-            let Handle { proximity, robot, .. } = handle;
-            let free_of = match question.free_of {
-                Some(kind) => Some(prepared(proximity, robot, kind)?),
-                None => None,
-            };
-            question.solve(robot, free_of)
+            let Handle { proximity, robot, obstacles, .. } = handle;
+            if question.free_of.is_none() && question.obstacles.is_none() {
+                return question.solve(robot, None, &World::default());
+            }
+            let own = prepared(proximity, robot, question.free_of.unwrap_or_default())?;
+            let carried = with_attached(own, &question.attached)?;
+            match &question.obstacles {
+                Some(bodies) => question.solve(robot, Some(&carried), obstacles.world(bodies)?),
+                None => question.solve(robot, Some(&carried), &World::default()),
+            }
         }
         Question::Sources => sources(&handle.files, &handle.robot),
         Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
@@ -286,14 +292,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
 
 fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value, String> {
     let own = prepared(&mut handle.proximity, &handle.robot, among.kind)?;
-    let carried;
-    let shapes = match &among.attached[..] {
-        [] => own,
-        attached => {
-            carried = carrying(own, attached)?;
-            &carried
-        }
-    };
+    let shapes = &*with_attached(own, &among.attached)?;
     let answer = match &among.obstacles {
         None => about.own(shapes),
         Some(bodies) => {
@@ -302,6 +301,17 @@ fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value
         }
     };
     answer.map_err(|error| error.to_string())
+}
+
+/// The shapes, with what links carry.
+fn with_attached<'a>(
+    own: &'a Proximity,
+    attached: &[Attached],
+) -> Result<Cow<'a, Proximity>, String> {
+    match attached {
+        [] => Ok(Cow::Borrowed(own)),
+        attached => carrying(own, attached).map(Cow::Owned),
+    }
 }
 
 fn pose(pose: &Isometry3<f64>) -> Value {

@@ -189,12 +189,23 @@ function reaches(urdd, handle) {
   const free = urdd.ask(handle, { ...wish, free_of: "pieces", explain: true });
   const collides = urdd.ask(handle, { ask: "collisions", about: { in_collision: { q: free.configuration } } });
   assert.ok(free.verdict === "refused" ? collides : !collides, JSON.stringify(free));
+  // Among obstacles: a solution is as far from a ball where the link is to be, or refused; one far away refuses none.
+  const ball = (x) => [{ name: "ball", position: there.position.map((at) => at + x), sphere: { radius: 0.05 } }];
+  const blocked = { ...wish, explain: true, restarts: 5, margin: 0.01 };
+  const kept = urdd.ask(handle, { ...blocked, obstacles: ball(0) });
+  const within = { is_within: { q: kept.configuration, margin: 0.01 } };
+  const touches = urdd.ask(handle, { ask: "collisions", about: within, obstacles: ball(0) });
+  assert.equal(touches, kept.verdict === "refused", JSON.stringify(kept));
+  assert.equal(urdd.ask(handle, { ...blocked, obstacles: ball(100) }).verdict, "reached");
+  assert.throws(() => urdd.ask(handle, { ...blocked, obstacles: ball(100), margin: -1 }), /margin/);
+  for (const { is_limited, bounds } of about.dofs) assert.ok(is_limited || [Math.PI, 1].includes(bounds[1]));
   // The rotation alone: the position is wherever it is.
   const turned = { position: [0, 0, 0], quaternion_wxyz: there.quaternion_wxyz, weights: [0, 0, 0, 1, 1, 1] };
   const turn = urdd.ask(handle, { ...wish, ...turned });
   assert.ok(turn.reached && turn.rotation_error < 1e-5, JSON.stringify(turn));
   assert.throws(() => urdd.ask(handle, { ...wish, position: [1, 2] }), /expected an array of length 3/);
   assert.throws(() => urdd.ask(handle, { ...wish, link: 1000 }), /./);
+  assert.throws(() => urdd.ask(handle, { ...wish, dofs: [1000] }), /DOF 1000 is out of range/);
 }
 
 /** Distances to a ball that a link carries have a closed form; gradients are held to differences, depths to what they mean. */

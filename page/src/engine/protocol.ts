@@ -49,6 +49,8 @@ export interface Dof {
   joint: number;
   unit: Unit;
   bounds: [number, number] | null;
+  /** Whether the source limits it; without, the bounds are a range to sample from, which it may leave. */
+  is_limited: boolean | null;
 }
 
 export interface MeshPaths {

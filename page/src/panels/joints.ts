@@ -191,7 +191,7 @@ export function joints(app: App): HTMLElement {
     for (const { dof, slider, entry, row } of controls) {
       const value = q[dof] ?? 0;
       const unit = robot?.dofs[dof]?.unit ?? "rad";
-      const bounds = robot?.dofs[dof]?.bounds;
+      const bounds = robot?.dofs[dof]?.is_limited === false ? null : robot?.dofs[dof]?.bounds;
       if (Number(slider.value) !== value) slider.value = String(value);
       const text = typed(value, unit);
       if (document.activeElement !== entry && entry.value !== text) entry.value = text;

@@ -49,8 +49,14 @@ class RobotKinematics(RobotDescription):
 
     @property
     def bounds(self) -> Floats:
-        """(dofs, 2): the lower and the upper bound of each DOF; always finite."""
+        """(dofs, 2): the lower and the upper bound of each DOF; always finite. Those of a DOF that is not limited
+        (:attr:`dof_is_limited`) are a range to sample from, [-pi, pi] or [-1, 1], which it may leave."""
         return self._core.bounds()
+
+    @property
+    def dof_is_limited(self) -> Bools:
+        """(dofs,): whether the source limits each DOF: false for continuous, planar, floating and spherical joints."""
+        return np.array(self._core.dof_is_limited(), dtype=np.bool_)
 
     @property
     def velocity_limits(self) -> Floats:
@@ -109,11 +115,12 @@ class RobotKinematics(RobotDescription):
         return found[0] if n is None else found
 
     def clamp(self, q: ArrayLike) -> Floats:
-        """``q`` with each value clamped to its bounds. Rotation vectors are unchanged."""
+        """``q`` with each value clamped to its bounds, those of DOFs that are not limited too. Rotation vectors are
+        unchanged."""
         return batched(q, self.dof_names, self._core.clamp)
 
     def is_within_bounds(self, q: ArrayLike) -> Bools:
-        """(...): whether each value is within its bounds."""
+        """(...): whether each value is within its bounds, which a DOF that is not limited may leave."""
         return batched(q, self.dof_names, lambda rows: (self._core.clamp(rows) == rows).all(axis=1))
 
     # Poses.
@@ -209,11 +216,18 @@ class RobotKinematics(RobotDescription):
         locked: Iterable[str] = (),
         posture: ArrayLike | None = None,
         free_of: Shapes | Iterable[Shapes] = (),
+        margin: float = 0.0,
     ) -> InverseSolution:
         """Inverse kinematics: a configuration within the bounds in which a link reaches a target.
 
         Searches by damped least squares from ``start``, then from random configurations. Supports mimic joints. The
         same arguments give the same result. Many targets run on all threads.
+
+        A DOF that is not limited (:attr:`dof_is_limited`) may also move as far from ``start``, and from ``posture``, as
+        its bounds are from 0, unless ``bounds`` are given: an angle half a turn either way, a length one metre. So a
+        continuous joint that follows a path does not jump by a turn, and its value may leave [-pi, pi]. Of values a
+        whole turn apart that are within the bounds, the result has the nearest to ``posture``, or to ``start`` without
+        one.
 
         Args:
             link: the link.
@@ -223,19 +237,28 @@ class RobotKinematics(RobotDescription):
             point: the point of the link that reaches the target position, in the link's frame, metres.
             position_tolerance: maximum distance of the point from its target, metres.
             rotation_tolerance: maximum angle of the link to its target rotation, radians.
-            iterations: maximum number of steps of each descent.
+            iterations: maximum number of steps of each descent, at least 1.
             restarts: maximum number of descents from random configurations.
             seed: selects the random configurations.
-            bounds: (dofs, 2), instead of :attr:`bounds`.
+            bounds: (dofs, 2), instead of :attr:`bounds`, for all DOFs, limited or not.
             weights: (6,), factors of the errors before they are compared with the tolerances: of the position along x,
                 y, z, then of the rotation about x, y, z, along the axes of the target pose, or of the root link's frame
                 for a position. A factor of 0 leaves a direction free: ``[0, 0, 0, 1, 1, 1]`` is a rotation alone,
                 ``[1, 1, 1, 1, 1, 0]`` leaves a tool free to turn about its own z axis.
             locked: the names of DOFs that keep their start value.
-            posture: (dofs,): the solution should be near this configuration. All ``restarts`` are used, each solution
-                is moved toward it as far as the target allows, and the nearest one counts.
+            posture: (dofs,): the solution should be near this configuration. Each solution is moved toward it as far as
+                the target allows, and the nearest one counts; the search ends when 12 restarts in a row bring no nearer
+                one.
             free_of: shapes of this robot, such as ``robot.proximity()`` and ``robot.world_proximity(world)``, that must
                 not collide: the search goes on until a solution is free.
+            margin: the distance that a solution keeps from the obstacles of ``free_of``, metres. Links may be nearer to
+                one another.
+
+        Raises:
+            ConfigurationError: for a wrong shape, a number that is not finite, or one that makes no sense: tolerances,
+                weights or a margin below 0, crossed bounds, weights that leave nothing to reach.
+            ValueError: for a number of iterations or restarts, or a seed, that is out of range.
+            UnknownNameError: for an unknown link or DOF.
         """
         targets = poses(target, "a target")
         is_pose = targets.shape[-1] == 4
@@ -253,6 +276,8 @@ class RobotKinematics(RobotDescription):
                 raise ConfigurationError(f"bounds must have the shape ({self.num_dofs}, 2), not {limits.shape}")
         if not (position_tolerance >= 0 and rotation_tolerance >= 0):
             raise ConfigurationError("tolerances must be numbers, and not negative")
+        if not 0 <= margin < np.inf:
+            raise ConfigurationError(f"margin must be finite and not negative, not {margin}")
         given: list[object] = [free_of] if isinstance(free_of, Proximity | WorldProximity) else [*free_of]
         shapes = [one for one in given if isinstance(one, Proximity | WorldProximity)]
         if len(shapes) != len(given):
@@ -263,7 +288,7 @@ class RobotKinematics(RobotDescription):
             point=three(point, "a point"),
             position_tolerance=float(position_tolerance),
             rotation_tolerance=float(rotation_tolerance),
-            iterations=whole(iterations, "iterations", 0, maxsize),
+            iterations=whole(iterations, "iterations", 1, maxsize),
             restarts=whole(restarts, "restarts", 0, maxsize),
             seed=whole(seed, "a seed", 0, 2**64 - 1),
             bounds=limits,
@@ -271,6 +296,7 @@ class RobotKinematics(RobotDescription):
             locked=[self.dof(name) for name in words(locked, "locked")],
             posture=None if posture is None else one_configuration(posture, self.dof_names)[0].tolist(),
             free_of=[one.core for one in shapes],
+            margin=float(margin),
         )
         rows = targets.reshape(-1, *((4, 4) if is_pose else (1, 3)))
         found = self._core.inverse_kinematics(self.link(link), rows, starts, options)

@@ -87,6 +87,7 @@ class InverseOptions:
     locked: list[int]
     posture: list[float] | None
     free_of: list[_urdd.Proximity | _urdd.WorldProximity]
+    margin: float
 
 
 @dataclass(frozen=True)
