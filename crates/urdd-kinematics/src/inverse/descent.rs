@@ -48,6 +48,8 @@ pub(super) struct Descent<'a> {
     pub iterations: usize,
     place: Place,
     jacobian: Vec<Vector6<f64>>,
+    /// Which columns a step may still change.
+    free: Vec<bool>,
 }
 
 /// The remaining error: metres, then radians times the length.
@@ -75,6 +77,7 @@ impl<'a> Descent<'a> {
             iterations: 0,
             place: Place::default(),
             jacobian: Vec::new(),
+            free: Vec::new(),
         }
     }
 
@@ -213,17 +216,17 @@ impl<'a> Descent<'a> {
 
     /// One step of damped least squares within bounds. A DOF that would leave its bounds is set to the bound, and the
     /// others are solved again to compensate.
-    fn step(&self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
-        let path = self.path;
-        let columns = &self.jacobian;
+    fn step(&mut self, q: &[f64], left: &Vector6<f64>, damping: f64, next: &mut [f64]) {
+        let Self { path, jacobian: columns, free, .. } = self;
         let mut left = *left;
-        let mut free = vec![true; columns.len()];
+        free.clear();
+        free.resize(columns.len(), true);
         next.copy_from_slice(q);
         let floor =
             1e-12 * columns.iter().map(|c| c.norm_squared()).sum::<f64>() + f64::MIN_POSITIVE;
         for _ in 0..=columns.len() {
             let mut matrix = Matrix6::from_diagonal_element(damping + floor);
-            for (column, _) in columns.iter().zip(&free).filter(|(_, free)| **free) {
+            for (column, _) in columns.iter().zip(&*free).filter(|(_, free)| **free) {
                 matrix.ger(1.0, column, column, 1.0);
             }
             let Some(factor) = matrix.cholesky() else {
@@ -232,7 +235,7 @@ impl<'a> Descent<'a> {
             let weights = factor.solve(&left);
             let largest = columns
                 .iter()
-                .zip(&free)
+                .zip(&*free)
                 .filter(|(_, free)| **free)
                 .map(|(column, _)| column.dot(&weights).abs())
                 .fold(0.0, f64::max);
