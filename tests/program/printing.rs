@@ -10,6 +10,7 @@ use std::process::{Command, Output, Stdio};
 use serde_json::{Value, json};
 use testkit::fixture::{Fixture, ROOT, URDF};
 use testkit::trials::trials;
+use urdd_format::escape;
 
 /// The content of a hostile name: it clears the screen, colours, reverses and hides text, and adds a line.
 const HOSTILE: &str = "a\u{1b}[2J\u{1b}[32m\u{9b}2J\u{202e}\u{2066}\u{200b}\u{feff}\u{2028}\u{85}\u{7f}\u{8}\u{e0041}\r\nFORGED pass";
@@ -380,4 +381,59 @@ fn no_report_makes_a_folder_a_urdd() {
         assert!(!root.join(name).exists());
     }
     assert_eq!(urdd(root, &["validate", "."]).status.code(), Some(0));
+}
+
+/// A command that a message suggests is one that a shell takes for what it says, whatever a file or a package is called.
+#[test]
+fn suggested_commands_are_quoted_for_a_shell() {
+    let texts: Vec<String> =
+        crate::export::texts::texts().into_iter().filter(|text| !text.contains(acts)).collect();
+    assert!(texts.len() > 40);
+    let words = texts.iter().map(|text| format!("printf '%s\\0' {}\n", escape::shell(text)));
+    let output = Command::new("sh").args(["-c", &words.collect::<String>()]).output();
+    let output = output.expect("a shell").stdout;
+    let found: Vec<&[u8]> = output.split(|byte| *byte == 0).collect();
+    assert_eq!(found.len(), texts.len() + 1);
+    for (found, text) in found.iter().zip(&texts) {
+        assert_eq!(String::from_utf8_lossy(found), *text);
+    }
+    for text in ["a", "é.urdf", "../a_b-c/d.e", "C:/x"] {
+        assert_eq!(escape::shell(text), text);
+    }
+    let folder = testkit::temporary::folder();
+    let file = "a `id` $(id) b's.urdf";
+    let robot = "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"package://$(id)/x.stl\"/></geometry></visual></link></robot>";
+    fs::write(folder.path().join(file), robot).expect("written");
+    let said = clean(folder.path(), &["export", "srdf", file, "-o", "-"]);
+    assert!(said.contains("urdd generate 'a `id` $(id) b'\\''s.urdf' -o DIR"), "{said}");
+    let said = clean(folder.path(), &["generate", file, "-o", "out"]);
+    assert!(said.contains("--package '$(id)'=FOLDER"), "{said}");
+}
+
+/// A runner of GitHub Actions takes `::` at the beginning of a line for a command, and `##[` anywhere.
+#[test]
+fn nothing_printed_is_a_workflow_command() {
+    let folder = testkit::temporary::folder();
+    let link = "<link name=\"##[error]x\"/>";
+    let robot = format!("<robot name=\"x ##[error]\">{link}{link}</robot>");
+    for file in ["::error::x.urdf", "##[group]x.urdf", "a ##[error]x.urdf"] {
+        fs::write(folder.path().join(file), &robot).expect("written");
+        for arguments in [
+            &["validate", file][..],
+            &["validate", file, "--format", "json"],
+            &["lint", file],
+            &["lint", file, "--format", "github"],
+            &["generate", file, "-o", "out"],
+            &["info", file],
+            &["diff", file, file, "--format", "markdown"],
+        ] {
+            let said = clean(folder.path(), arguments);
+            assert!(!said.contains("##["), "{arguments:?}: {said}");
+            let forged = said.lines().find(|line| line.trim_start().starts_with("::error::x"));
+            assert_eq!(forged, None, "{arguments:?}");
+            if arguments.ends_with(&["json"]) {
+                serde_json::from_str::<Value>(&said).expect("JSON");
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The hostile texts of `export/texts.json` in the places of a URDF and a URDD, through the reports: JSON, SARIF, JUnit,
 //! workflow commands of GitHub Actions, Markdown. By each format's own rules a text stays a text.
+#![cfg(unix)]
 
 use serde_json::Value;
 

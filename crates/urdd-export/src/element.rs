@@ -2,7 +2,6 @@
 
 use quick_xml::escape::escape;
 
-use super::template::without_jinja;
 use urdd_format::escape::is_hidden;
 
 /// An element.
@@ -66,60 +65,40 @@ impl Element {
         self.children.is_empty()
     }
 
-    /// Rewrites all texts, and raw XML where that gives any. Returns how many raw elements are left out.
-    pub(super) fn rewrite(
-        &mut self,
-        text: &dyn Fn(&str) -> String,
-        raw: &dyn Fn(&str) -> Option<String>,
-    ) -> usize {
-        self.attributes.iter_mut().for_each(|(_, value)| *value = text(value));
-        let mut left_out = 0;
-        self.children.retain_mut(|child| {
-            match child {
-                Child::Element(element) => left_out += element.rewrite(text, raw),
-                Child::Text(own) => *own = text(own),
-                Child::Raw(own) => match raw(own) {
-                    Some(new) => *own = new,
-                    None => {
-                        left_out += 1;
-                        return false;
-                    }
-                },
-            }
-            true
-        });
-        left_out
-    }
-
     /// Serializes a document with this root element, after the comments.
     pub fn document(&self, comments: &[String]) -> String {
+        self.document_with(comments, str::to_owned)
+    }
+
+    /// As [`Element::document`]; `of` gives what is written for a text.
+    pub(super) fn document_with(&self, comments: &[String], of: fn(&str) -> String) -> String {
         let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
         for comment in comments {
             text += &self::comment(comment);
         }
-        self.write(&mut text, 0);
+        self.write(&mut text, 0, of);
         text
     }
 
-    fn write(&self, text: &mut String, depth: usize) {
+    fn write(&self, text: &mut String, depth: usize, of: fn(&str) -> String) {
         let margin = "  ".repeat(depth);
         *text += &format!("{margin}<{}", self.name);
         for (key, value) in &self.attributes {
-            *text += &format!(" {key}=\"{}\"", escaped(value));
+            *text += &format!(" {key}=\"{}\"", escaped(&of(value)));
         }
         if self.children.is_empty() {
             *text += "/>\n";
             return;
         }
         if let [Child::Text(own)] = &self.children[..] {
-            *text += &format!(">{}</{}>\n", escaped(own), self.name);
+            *text += &format!(">{}</{}>\n", escaped(&of(own)), self.name);
             return;
         }
         *text += ">\n";
         for child in &self.children {
             match child {
-                Child::Element(element) => element.write(text, depth + 1),
-                Child::Text(own) => *text += &format!("{margin}  {}\n", escaped(own)),
+                Child::Element(element) => element.write(text, depth + 1, of),
+                Child::Text(own) => *text += &format!("{margin}  {}\n", escaped(&of(own))),
                 Child::Raw(raw) => *text += &format!("{margin}  {}\n", raw.trim()),
             }
         }
@@ -131,7 +110,7 @@ impl Element {
 /// without characters that XML excludes. These are escaped, as in `\u{2d}`.
 pub fn comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
-    for c in without_jinja(&urdd_format::escape::line(text), "\\u{7b}").chars() {
+    for c in urdd_format::escape::line(&text.replace('{', "\\u{7b}")).chars() {
         match (c, safe.ends_with('-')) {
             ('-', true) => safe += "\\u{2d}",
             (c, _) => safe.push(c),
@@ -142,14 +121,15 @@ pub fn comment(text: &str) -> String {
 }
 
 /// Escapes characters, in content or as the value of an attribute. Tabs, line breaks and what a terminal would act upon
-/// become character references; XML readers replace the first two with spaces otherwise.
+/// become character references, since XML readers replace the first two with spaces; braces too, since Jinja acts upon
+/// them, by which `launch_param_builder` renders files for MoveIt.
 pub(super) fn escaped(value: &str) -> String {
     let mut text = String::with_capacity(value.len());
     for c in escape(value).chars() {
-        match is_hidden(c) {
+        match is_hidden(c) || c == '{' {
             true => text += &format!("&#{};", u32::from(c)),
             false => text.push(c),
         }
     }
-    without_jinja(&text, "&#123;")
+    text
 }

@@ -134,14 +134,9 @@ pub enum Note {
     Robot(&'static str),
     /// Elements that URDF does not define and that cannot be copied into the file.
     #[error(
-        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, have namespaces that are not URIs, or are not well-formed on their own"
+        "{0} elements that URDF does not define are left out: they use prefixes that only the source file declares, have namespaces that are not URIs or, for MoveIt, are xacro's, or are not well-formed on their own"
     )]
     Elements(usize),
-    /// Elements that URDF does not define, and that MoveIt's reader would run.
-    #[error(
-        "{0} elements that URDF does not define are left out: MoveIt expands the file by xacro, and they have elements or attributes of xacro's namespace"
-    )]
-    Macros(usize),
     /// A transmission or a loop that the format's reader rejects.
     #[error("a `<{element}>` is left out: {reason}")]
     Element {

@@ -67,9 +67,9 @@ mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
-mod template;
 mod urdf;
 mod urdf_elements;
+mod xacro;
 #[doc(hidden)]
 pub mod yaml;
 

@@ -11,6 +11,9 @@ use urdd_xml::is_character;
 /// Maximum length of a link name within a file name.
 pub const LONGEST: usize = 80;
 
+/// What xacro evaluates, refuses, or writes as a space.
+const XACRO: [&str; 6] = ["${", "$(", "$$", "\t", "\n", "\r"];
+
 /// The settings beside which MoveIt's file of planners names groups.
 const OMPL: [&str; 4] =
     ["planning_plugins", "request_adapters", "response_adapters", "planner_configs"];
@@ -92,11 +95,8 @@ pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportE
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);
     let reason = match format {
         _ if name.is_empty() && what != "robot" => "it is empty",
-        Format::Moveit if ["${", "$(", "$$"].iter().any(|begin| name.contains(begin)) => {
-            "MoveIt reads files by xacro, which would evaluate it"
-        }
-        Format::Moveit if name.contains(['\t', '\n', '\r']) => {
-            "MoveIt reads files by xacro, which writes a tab or a line break as a space"
+        Format::Moveit if XACRO.iter().any(|part| name.contains(part)) => {
+            "MoveIt reads files by xacro, which would evaluate or change it"
         }
         Format::Moveit if name.starts_with('-') => {
             "the launch file gives names to programs, which take it for an option"

@@ -1,7 +1,10 @@
 //! URDF: the robot as in its source, with the URDD's shapes as collision geometry.
 
+use std::borrow::Cow;
+
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::format::Format;
 use super::joints::joints;
 use super::output::{Export, Files};
 use super::subject::Subject;
@@ -9,6 +12,7 @@ use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, element_of_joint, empty_robot, links, push_unknown,
     type_name,
 };
+use super::xacro;
 use urdd_robot::LinkShape;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
@@ -30,17 +34,27 @@ pub(super) fn robot(
     let (links, files) = links(subject, Geometry::Plain, shapes, notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
-        lost += push_unknown(&mut element, &link.unknown_elements, IN_LINK);
+        lost += push_unknown(&mut element, &unknown(subject, &link.unknown_elements), IN_LINK);
         robot.push(element);
     }
     for joint in joints(subject, notes) {
         let mut element = element_of_joint(&joint, "joint", &type_name(joint.joint_type));
-        lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
+        lost += push_unknown(&mut element, &unknown(subject, &joint.unknown_elements), IN_JOINT);
         robot.push(element);
     }
-    lost += push_unknown(&mut robot, &urdf.unknown_elements, IN_ROBOT);
+    lost += push_unknown(&mut robot, &unknown(subject, &urdf.unknown_elements), IN_ROBOT);
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
     Ok((robot, files))
+}
+
+/// Elements that URDF does not define, as the format needs them; empty where it cannot have one.
+fn unknown<'a>(subject: &Subject, texts: &'a [String]) -> Cow<'a, [String]> {
+    match subject.format {
+        Format::Moveit => {
+            texts.iter().map(|text| xacro::element(text).unwrap_or_default()).collect()
+        }
+        _ => Cow::Borrowed(texts),
+    }
 }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use super::template::without_jinja;
 use urdd_format::escape;
 use urdd_xml::number::number;
 
@@ -61,8 +60,8 @@ impl Yaml {
     pub fn document(&self, comments: &[String]) -> String {
         let mut text = String::new();
         for comment in comments {
-            let comment = without_jinja(&escape::line(comment), "\\u{7b}");
-            let _ = writeln!(text, "# {comment}");
+            let comment = comment.replace('{', "\\u{7b}");
+            let _ = writeln!(text, "# {}", escape::line(&comment));
         }
         self.write(&mut text, 0, true);
         text
@@ -139,15 +138,16 @@ pub fn real(value: f64) -> String {
 }
 
 /// A double-quoted string that every reader of YAML, TOML and Python decodes exactly. It is JSON's, except for
-/// characters beyond U+FFFF that are escaped: JSON uses two surrogates, which YAML does not combine.
+/// characters beyond U+FFFF that are escaped: JSON uses two surrogates, which YAML does not combine. Braces are escaped, since
+/// MoveIt renders YAML by Jinja before it reads it.
 pub(super) fn quoted(name: &str) -> String {
     let mut text = String::new();
     for c in serde_json::Value::from(name).to_string().chars() {
-        match escape::is_hidden(c) {
+        match escape::is_hidden(c) || c == '{' {
             true if c > '\u{ffff}' => _ = write!(text, "\\U{:08x}", u32::from(c)),
             true => _ = write!(text, "\\u{:04x}", u32::from(c)),
             false => text.push(c),
         }
     }
-    without_jinja(&text, "\\u007b")
+    text
 }

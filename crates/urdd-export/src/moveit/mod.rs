@@ -7,12 +7,12 @@ mod controllers;
 mod package;
 mod planning;
 mod semantic;
-mod xacro;
 
-use super::error::{ExportError, Note};
+use super::error::ExportError;
 use super::output::Export;
 use super::subject::Subject;
 use super::urdf;
+use super::xacro;
 use config::Config;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
@@ -24,15 +24,11 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     if !config.has_hardware() {
         robot.push(config.hardware());
     }
-    match xacro::escape(&mut robot) {
-        0 => {}
-        count => notes.push(Note::Macros(count)),
-    }
     let text = semantic::srdf(&config, &mut notes)?;
     let what = format!("Collision geometry: {}.", subject.options.shapes);
     let name = &config.name;
-    let mut files =
-        vec![(format!("config/{name}.urdf"), robot.document(&subject.comments(what, &notes)?))];
+    let robot = robot.document_with(&subject.comments(what, &notes)?, xacro::text);
+    let mut files = vec![(format!("config/{name}.urdf"), robot)];
     files.extend(planning::files(&config)?);
     files.extend(controllers::files(&config)?);
     files.extend(package::files(&config));

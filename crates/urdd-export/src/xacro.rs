@@ -1,20 +1,34 @@
-//! Elements that xacro gives back as they are: MoveIt's launch file expands the URDF and the SRDF by it.
+//! Texts and elements that xacro gives back as they are: MoveIt's launch file expands the URDF and the SRDF by it.
 
 use roxmltree::Node;
 use urdd_xml::Kind;
 
-use super::super::element::{Element, escaped};
-use super::super::template::for_xacro;
+use super::element::escaped;
 
-/// Escapes all texts of an element. Returns how many of the elements that URDF does not define are left out: something in
-/// them is named as xacro names its own, and xacro has no escape for names.
-pub(super) fn escape(element: &mut Element) -> usize {
-    element.rewrite(&for_xacro, &|raw| {
-        let document = urdd_xml::parse(raw, Kind::Other).ok()?;
-        let mut out = String::with_capacity(raw.len());
-        write(document.root_element(), raw, &mut out)?;
-        Some(out)
-    })
+/// Text that xacro gives back unchanged, in attributes and characters. Of several `$` before a brace, xacro drops one; it
+/// takes no others, but an expression whose value is `$`.
+pub fn text(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('$') {
+        let (before, from) = rest.split_at(at);
+        rest = from.trim_start_matches('$');
+        let count = from.len() - rest.len();
+        out += before;
+        out += &match rest.starts_with(['{', '(']) {
+            true => "$".repeat(count + 1),
+            false => "${'$'}".repeat(count - 1) + "$",
+        };
+    }
+    out + rest
+}
+
+/// An element that xacro gives back. `None` if something in it is named as xacro names its own: there is no escape for it.
+pub fn element(raw: &str) -> Option<String> {
+    let document = urdd_xml::parse(raw, Kind::Other).ok()?;
+    let mut out = String::with_capacity(raw.len());
+    write(document.root_element(), raw, &mut out)?;
+    Some(out)
 }
 
 /// Writes an element again, without comments, some of which xacro evaluates. `None` if it, or one inside, is xacro's.
@@ -23,7 +37,7 @@ fn write(node: Node, source: &str, out: &mut String) -> Option<()> {
     is_plain(name, node.tag_name().namespace())?;
     *out += &format!("<{name}");
     let mut attribute = |key: &str, value: &str| {
-        *out += &format!(" {key}=\"{}\"", escaped(&for_xacro(value)));
+        *out += &format!(" {key}=\"{}\"", escaped(&self::text(value)));
     };
     let outer = node.parent_element();
     for namespace in node.namespaces() {
@@ -58,7 +72,7 @@ fn write(node: Node, source: &str, out: &mut String) -> Option<()> {
 }
 
 fn content(text: &str) -> String {
-    escaped(&for_xacro(text)).replace("&#10;", "\n").replace("&#9;", "\t")
+    escaped(&self::text(text)).replace("&#10;", "\n").replace("&#9;", "\t")
 }
 
 /// Whether a name is not xacro's, by its prefix or by its namespace.
