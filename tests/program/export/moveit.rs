@@ -310,7 +310,7 @@ fn names_of_our_own_are_not_the_robots() {
     let made = export(&robot, Format::Moveit, &Options::default()).expect("an export");
     let srdf = Document::parse(&made.text).expect("well-formed");
     let ours = srdf.descendants().find(|node| node.has_tag_name("virtual_joint"));
-    assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_"));
+    assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_2"));
     let setup = |group: &str| {
         let text =
             format!("robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"virtual_joint\"]\n");

@@ -312,7 +312,7 @@ fn meant(robot: &str, read: fn(&str) -> Option<String>) -> Vec<String> {
                 node.tag_name().name(),
                 namespaces.map(|of| text(of.uri())).collect::<BTreeSet<_>>(),
                 attributes.collect::<BTreeSet<_>>(),
-                text(&children.collect::<String>()).trim()
+                children.map(text).collect::<String>().trim()
             )
         })
         .collect()

@@ -3,6 +3,7 @@
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::names::check_names;
+use super::super::parts::Taken;
 use super::super::setup::Members;
 use super::super::srdf;
 use super::config::Config;
@@ -41,13 +42,10 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let root = subject.tree.root;
     if !subject.is_world(root) {
         let kind = if config.setup.floating.value { "floating" } else { "fixed" };
-        let mut name = "virtual_joint".to_owned();
-        while subject.view.joints.iter().any(|joint| joint.name == name) {
-            name.push('_');
-        }
+        let mut taken = Taken::new(subject.view.joints.iter().map(|joint| &joint.name));
         robot.push(
             Element::new("virtual_joint")
-                .with("name", name)
+                .with("name", taken.free("virtual_joint".to_owned()))
                 .with("type", kind)
                 .with("parent_frame", "world")
                 .with("child_link", subject.links[root].as_str()),
