@@ -66,9 +66,10 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
         ),
         RobotError::OutOfRange { .. } => pyo3::exceptions::PyIndexError::new_err(error.to_string()),
         RobotError::Configuration(error) => of_configuration(py, error),
-        RobotError::Batch { .. } | RobotError::Target(_) | RobotError::Setting(_) => {
-            raise(py, "ConfigurationError", error, &[])
-        }
+        RobotError::Batch { .. }
+        | RobotError::Target(_)
+        | RobotError::Setting(_)
+        | RobotError::Steps { .. } => raise(py, "ConfigurationError", error, &[]),
         RobotError::Obstacle { name, .. } => {
             raise(py, "ObstacleError", error, &[("name", text(py, name))])
         }

@@ -110,9 +110,16 @@ impl Obstacle {
         made.map(Obstacle).map_err(|error| of_robot(py, &error))
     }
 
-    /// The same body, with its frame at another pose.
-    fn at(&self, py: Python<'_>, pose: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        obstacle(py, &pose, |pose| self.0.at(pose))
+    /// The same bodies, with their frames at other poses: matrices (n, 16).
+    #[staticmethod]
+    fn at(
+        py: Python<'_>,
+        obstacles: Vec<Py<Obstacle>>,
+        poses: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Vec<Self>> {
+        let both = obstacles.iter().zip(poses.as_slice()?.chunks_exact(16));
+        let moved = both.map(|(one, pose)| one.get().0.at(unchecked_pose(pose)).map(Obstacle));
+        moved.collect::<Result<_, _>>().map_err(|error| of_robot(py, &error))
     }
 
     /// Number of convex shapes that represent it.

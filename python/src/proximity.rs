@@ -94,6 +94,28 @@ impl Proximity {
         self.0.pair_names().collect()
     }
 
+    /// (pairs, 2): the body of both shapes of each pair.
+    fn pair_bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<usize>>> {
+        shaped(py, self.0.pair_bodies().flatten().collect(), [self.0.num_pairs(), 2])
+    }
+
+    /// The names of links, then of attached objects.
+    fn bodies(&self) -> Vec<&str> {
+        (0..self.0.num_bodies()).filter_map(|body| self.0.body_name(body)).collect()
+    }
+
+    /// These shapes, without pairs of bodies.
+    fn without(&self, py: Python<'_>, pairs: Vec<[String; 2]>) -> PyResult<Proximity> {
+        let with = self.0.without(pairs.iter().map(|pair| pair.each_ref().map(String::as_str)));
+        with.map(Proximity::of).map_err(|error| of_robot(py, &error))
+    }
+
+    /// These shapes, without those of these bodies.
+    fn without_bodies(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Proximity> {
+        let with = self.0.without_bodies(names.iter().map(String::as_str));
+        with.map(Proximity::of).map_err(|error| of_robot(py, &error))
+    }
+
     /// These shapes, and objects on a link, each with the names of those that may touch it.
     fn attach(
         &self,
@@ -172,6 +194,24 @@ impl Proximity {
         let settings = EdgeSettings { margin, resolution };
         self.each(py, &ends, count, |proximity, all, out| {
             proximity.blocked_edge_batch_into(&from.values, all, &settings, out)
+        })
+    }
+
+    /// (count, 2): the last part of each straight motion that is free, and the first that is blocked; NaN where it is
+    /// free.
+    fn first_contact<'py>(
+        &self,
+        py: Python<'py>,
+        starts: PyReadonlyArray2<'py, f64>,
+        ends: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+        resolution: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let shape = [ends.shape()[0], 2];
+        let from = Batch::new(&starts)?;
+        let settings = EdgeSettings { margin, resolution };
+        self.each(py, &ends, shape, |proximity, all, out| {
+            proximity.first_contact_batch_into(&from.values, all, &settings, out)
         })
     }
 

@@ -9,7 +9,7 @@ use numpy::{
 use pyo3::prelude::*;
 use urdd_robot::{EdgeSettings, ObstacleDistance, RobotError, World, fill};
 
-use crate::arrays::{Batch, answers, check_memory, zeros};
+use crate::arrays::{Batch, answers, check_memory, shaped, zeros};
 use crate::errors::of_robot;
 use crate::obstacle::{Obstacle, objects_of};
 use crate::proximity::{Overlapping, Proximity, overlapping};
@@ -97,7 +97,7 @@ impl WorldProximity {
 
     /// (pairs, 3): the link, the piece and the obstacle of each pair.
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<usize>>> {
-        let array = zeros(py, [self.proximity.pairs().count(), 3])?;
+        let array = zeros(py, [self.proximity.num_pairs(), 3])?;
         let mut guard = array.readwrite();
         let rows = guard.as_slice_mut()?.chunks_exact_mut(3);
         for (row, ([link, piece], obstacle)) in rows.zip(self.proximity.pairs()) {
@@ -105,6 +105,13 @@ impl WorldProximity {
         }
         drop(guard);
         Ok(array)
+    }
+
+    /// (pairs,): the body of each pair.
+    fn pair_bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<usize>>> {
+        let bodies: Vec<usize> = self.proximity.pair_bodies().collect();
+        let shape = [bodies.len()];
+        shaped(py, bodies, shape)
     }
 
     /// The name of the link of each pair, or of the attached object.
@@ -118,7 +125,7 @@ impl WorldProximity {
         py: Python<'py>,
         configurations: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let shape = [configurations.shape()[0], self.proximity.pairs().count()];
+        let shape = [configurations.shape()[0], self.proximity.num_pairs()];
         self.each(py, &configurations, shape, |proximity, q, out| {
             out.copy_from_slice(&proximity.distances(q)?);
             Ok(())
@@ -180,6 +187,25 @@ impl WorldProximity {
             let (start, end) = both.split_at(both.len() / 2);
             let blocked = proximity.blocked_edge(start, end, &settings)?;
             out[0] = blocked.unwrap_or(f64::NAN);
+            Ok(())
+        })
+    }
+
+    /// (count, 2): the last part of each straight motion that is free, and the first that is blocked; NaN where it is
+    /// free. A row of `edges` is the start, then the end.
+    fn first_contact<'py>(
+        &self,
+        py: Python<'py>,
+        edges: PyReadonlyArray2<'py, f64>,
+        margin: f64,
+        resolution: Option<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let shape = [edges.shape()[0], 2];
+        let settings = EdgeSettings { margin, resolution };
+        self.each(py, &edges, shape, |proximity, both, out| {
+            let (start, end) = both.split_at(both.len() / 2);
+            let contact = proximity.first_contact(start, end, &settings)?;
+            out.copy_from_slice(&contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]));
             Ok(())
         })
     }

@@ -6,6 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 import urdd
 
@@ -83,6 +84,76 @@ def test_a_moved_obstacle_is_one_that_was_made_there(arm: urdd.Robot) -> None:
     np.testing.assert_array_equal(moved.distances(q), made.distances(q))
     again: urdd.WorldProximity = pickle.loads(pickle.dumps(moved))
     np.testing.assert_array_equal(again.distances(q), made.distances(q))
+
+
+def test_many_obstacles_move_at_once(arm: urdd.Robot) -> None:
+    rng = np.random.default_rng(3)
+    q = arm.random(10, seed=2)
+    poses = np.tile(np.eye(4), (20, 1, 1))
+    poses[:, :3, :3] = np.linalg.qr(rng.normal(size=(20, 3, 3)))[0]
+    poses[:, :3, 0] *= np.linalg.det(poses[:, :3, :3])[:, np.newaxis]
+    poses[:, :3, 3] = rng.uniform(-0.8, 0.8, (20, 3))
+
+    def boxes(at: np.ndarray) -> urdd.World:
+        world = urdd.World()
+        for k in range(19):
+            world.add_box(f"box_{k}", [0.1, 0.2, 0.05], at[k])
+        world.add_sphere("ball", 0.1, at[19, :3, 3])
+        return world
+
+    made = arm.world_proximity(boxes(poses))
+    world = boxes(np.tile(np.eye(4), (20, 1, 1)))
+    before = arm.world_proximity(world)
+    moving = arm.world_proximity(world)
+    moving.move(world.names, poses)
+    np.testing.assert_array_equal(moving.distances(q), made.distances(q))
+    again: urdd.WorldProximity = pickle.loads(pickle.dumps(moving))
+    np.testing.assert_array_equal(again.distances(q), made.distances(q))
+    assert not np.array_equal(before.distances(q), made.distances(q)), "each moves for itself"
+    world.move(world.names, poses)
+    np.testing.assert_array_equal(arm.world_proximity(world).distances(q), made.distances(q))
+    # By positions, and some of them.
+    moving.move(["box_3", "ball"], np.zeros((2, 3)))
+    np.testing.assert_array_equal(moving.pair_indices, made.pair_indices)
+    kept = [k for k, pair in enumerate(moving.pairs) if pair.obstacle not in ("box_3", "ball")]
+    np.testing.assert_array_equal(moving.distances(q)[:, kept], made.distances(q)[:, kept])
+    least = moving.min_distance(q)
+    refused: list[tuple[list[str], ArrayLike, type[Exception], str]] = [
+        (["ball", "bal"], np.zeros((2, 3)), KeyError, "bal"),
+        (["ball", "box_1"], np.zeros((3, 3)), urdd.ConfigurationError, "the poses of 2 obstacles"),
+        (["box_1", "ball"], [[0.0, 0.0, 0.0], [0.0, np.inf, 0.0]], urdd.ObstacleError, "`ball`"),
+        (["box_1", "ball"], [[0.0, 0.0, 0.0], [0.0, 1e10, 0.0]], urdd.ObstacleError, "`ball`"),
+        (["box_1", "ball"], [np.eye(4), 2 * np.eye(4)], urdd.ObstacleError, "`ball`"),
+    ]
+    for names, wrong, error, words in refused:
+        with pytest.raises(error, match=words):
+            moving.move(names, wrong)
+        np.testing.assert_array_equal(moving.min_distance(q), least)
+
+
+def test_pairs_and_bodies_that_are_left_out(arm: urdd.Robot, tool: urdd.World) -> None:
+    shapes = arm.proximity().attach("torch", tool)
+    assert shapes.bodies == (*arm.link_names, "brush")
+    q = arm.random(5, seed=4)
+    for one in (shapes, shapes.without([("brush", "base")]), shapes.without_bodies(["wrist"])):
+        names = [tuple(one.bodies[body] for body in pair) for pair in one.pair_bodies]
+        assert names == [pair.links for pair in one.pairs]
+        kept = [k for k, pair in enumerate(shapes.pairs) if pair in one.pairs]
+        np.testing.assert_array_equal(one.distances(q), shapes.distances(q)[:, kept])
+        again: urdd.Proximity = pickle.loads(pickle.dumps(one))
+        assert again.pairs == one.pairs
+    without = shapes.without([("brush", "base")])
+    assert without.num_pairs < shapes.num_pairs
+    assert not any({"brush", "base"} == set(pair.links) for pair in without.pairs)
+    world = urdd.World()
+    world.add_sphere("ball", 0.1)
+    around = arm.world_proximity(world, shapes.without_bodies(["wrist"]))
+    assert {shapes.bodies[body] for body in around.pair_bodies} == {pair.link for pair in around.pairs}
+    assert "wrist" not in {pair.link for pair in around.pairs}
+    with pytest.raises(urdd.UnknownNameError, match="did you mean `base`"):
+        shapes.without([("brush", "bas")])
+    with pytest.raises(urdd.UnknownNameError, match="did you mean `base`"):
+        shapes.without_bodies(["bas"])
 
 
 def test_what_cannot_be_carried_or_moved(arm: urdd.Robot, tool: urdd.World) -> None:

@@ -52,6 +52,22 @@ def test_margins_edges_and_gradients_agree_with_distances(arm: urdd.Robot) -> No
     for start, end, part in zip(starts, ends, proved, strict=True):
         if not np.isnan(part):
             assert proximity.self_distance(start + part * (end - start)) <= 1.01e-4
+    # The first contact: free before, blocked there.
+    first = proximity.first_contact(starts, ends)
+    assert first.shape == (59, 2)
+    np.testing.assert_array_equal(np.isnan(first[:, 1]), np.isnan(sampled))
+    for start, end, (free, blocked), part in zip(starts, ends, first, sampled, strict=True):
+        if not np.isnan(part) and free > 0:
+            assert not proximity.in_collision(start + free * (end - start))
+            assert proximity.in_collision(start + blocked * (end - start))
+            assert 0 < blocked - free < 1e-3
+            assert free <= part
+            before = np.linspace(0, 0.99 * free, 30)[:, np.newaxis]
+            assert not proximity.in_collision(start + before * (end - start)).any()
+    assert proximity.first_contact(starts[0], ends[0], resolution=None).shape == (2,)
+    for resolution in (None, 0.01):
+        with pytest.raises(ValueError, match="steps: divide it"):
+            proximity.blocked_edge(arm.zero, 1e9 * np.eye(arm.num_dofs)[0], resolution=resolution)
     # One start for all ends, as numpy has it.
     np.testing.assert_array_equal(
         proximity.blocked_edge(starts[0], ends), proximity.blocked_edge(np.tile(starts[0], (59, 1)), ends)

@@ -84,6 +84,10 @@ export interface Own {
   /** `pieces` by default. */
   kind?: ShapeKind;
   attached?: (Body & { link: number })[];
+  /** Names of links and of what they carry, by pairs that are left out: MoveIt's allowed collision matrix. */
+  without?: [string, string][];
+  /** Names of links and of what they carry that are left out, among obstacles too. */
+  without_bodies?: string[];
 }
 
 /** The pairs of a shape of the robot and an obstacle. Obstacles that stay or move are not prepared again. */
@@ -142,14 +146,24 @@ export class Robot {
   ): boolean;
   /**
    * Where a straight motion is blocked, as a part of it from 0 to 1; null if it is free. Between two checked
-   * configurations no point of the robot travels farther than `resolution`, metres; without, the motion is proved free,
-   * which needs 0.1 mm more than the margin.
+   * configurations no point of the robot travels farther than `resolution`, metres, and the end and the halves come
+   * first: the answer need not be the first part that is blocked. Without, the motion is proved free, which needs 0.1 mm
+   * more than the margin.
    */
   blockedEdge(
     start: Iterable<number>,
     end: Iterable<number>,
     among?: (Own | Among) & { margin?: number; resolution?: number },
   ): number | null;
+  /**
+   * The last part of a straight motion that is known to be free (0 if the start is not), and the first that is blocked;
+   * null if it is free. Between the two no point of the robot travels farther than a thousandth of the resolution.
+   */
+  firstContact(
+    start: Iterable<number>,
+    end: Iterable<number>,
+    among?: (Own | Among) & { margin?: number; resolution?: number },
+  ): { free: number; blocked: number } | null;
   /** The nearest pairs, with the derivative of each distance for each DOF, m/rad or m/m; null where the two touch. */
   gradients(
     q: Iterable<number>,

@@ -119,6 +119,11 @@ export class Robot {
     return this.#collisions({ blocked_edge: edge }, among);
   }
 
+  firstContact(start, end, { margin, resolution, ...among } = {}) {
+    const edge = { start: [...start], end: [...end], margin, resolution };
+    return this.#collisions({ first_contact: edge }, among);
+  }
+
   gradients(q, k = 1, among = {}) {
     return this.#collisions({ gradients: { q: [...q], k } }, among);
   }

@@ -1,8 +1,10 @@
 //! Obstacles and attached objects in JSON.
 
+use std::borrow::Cow;
+
 use nalgebra::Isometry3;
 use serde::Deserialize;
-use urdd_robot::{Obstacle, Proximity, World};
+use urdd_robot::{Obstacle, Proximity, RobotError, World};
 
 use crate::pose::pose;
 
@@ -106,11 +108,22 @@ impl Obstacles {
     }
 }
 
-/// The robot's shapes, and these objects on its links.
-pub fn carrying(shapes: &Proximity, attached: &[Attached]) -> Result<Proximity, String> {
-    attached.iter().try_fold(shapes.clone(), |with, attached| {
-        let object = attached.body.obstacle()?;
-        let with = with.attach(attached.link, &object);
-        with.map_err(|error| error.to_string())
-    })
+/// The robot's shapes with these objects on its links, without the pairs and bodies of these names.
+pub fn carrying<'a>(
+    shapes: &'a Proximity,
+    attached: &[Attached],
+    without: &[[String; 2]],
+    without_bodies: &[String],
+) -> Result<Cow<'a, Proximity>, String> {
+    if attached.is_empty() && without.is_empty() && without_bodies.is_empty() {
+        return Ok(Cow::Borrowed(shapes));
+    }
+    let said = |error: RobotError| error.to_string();
+    let with = attached.iter().try_fold(shapes.clone(), |with, attached| {
+        with.attach(attached.link, &attached.body.obstacle()?).map_err(said)
+    })?;
+    let pairs = without.iter().map(|pair| pair.each_ref().map(String::as_str));
+    let with = with.without(pairs).map_err(said)?;
+    let with = with.without_bodies(without_bodies.iter().map(String::as_str));
+    with.map(Cow::Owned).map_err(said)
 }

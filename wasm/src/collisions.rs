@@ -3,7 +3,8 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{
-    EdgeSettings, ObstacleDistance, Overlap, PairDistance, Proximity, RobotError, WorldProximity,
+    EdgeSettings, FirstContact, ObstacleDistance, Overlap, PairDistance, Proximity, RobotError,
+    WorldProximity,
 };
 
 use crate::bodies::{Attached, Body};
@@ -17,6 +18,12 @@ pub struct Among {
     /// What links carry.
     #[serde(default)]
     pub attached: Vec<Attached>,
+    /// Names of links and attached objects whose pairs are left out.
+    #[serde(default)]
+    pub without: Vec<[String; 2]>,
+    /// Names of links and attached objects that are left out, among obstacles too.
+    #[serde(default)]
+    pub without_bodies: Vec<String>,
     /// The pairs of a shape of the robot and an obstacle; without, the robot's own pairs.
     pub obstacles: Option<Vec<Body>>,
 }
@@ -31,19 +38,31 @@ pub enum About {
     Nearest { q: Vec<f64>, k: usize },
     /// Whether a pair is at most `margin` apart, in metres.
     IsWithin { q: Vec<f64>, margin: f64 },
-    /// Where a straight motion is blocked, 0 to 1; null if it is free. Sampled with a `resolution` (metres of motion),
-    /// proved without.
-    BlockedEdge {
-        start: Vec<f64>,
-        end: Vec<f64>,
-        #[serde(default)]
-        margin: f64,
-        resolution: Option<f64>,
-    },
+    /// Where a straight motion is blocked, 0 to 1; null if it is free. It need not be the first such part.
+    BlockedEdge(Edge),
+    /// Where it is blocked first, and the last part before that is known to be free: `free` and `blocked`; null if it is
+    /// free.
+    FirstContact(Edge),
     /// As `nearest`, each with `gradient`: m/rad or m/m for each DOF; null where the two touch.
     Gradients { q: Vec<f64>, k: usize },
     /// The pairs that touch or overlap: `depth`, `direction` and `gradient`.
     Penetrations { q: Vec<f64> },
+}
+
+/// A straight motion: sampled with a `resolution` (metres of motion), proved without.
+#[derive(Deserialize)]
+pub struct Edge {
+    start: Vec<f64>,
+    end: Vec<f64>,
+    #[serde(default)]
+    margin: f64,
+    resolution: Option<f64>,
+}
+
+impl Edge {
+    fn settings(&self) -> EdgeSettings {
+        EdgeSettings { margin: self.margin, resolution: self.resolution }
+    }
 }
 
 impl About {
@@ -53,10 +72,11 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(pair).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge { start, end, margin, resolution } => {
-                let (margin, resolution) = (*margin, *resolution);
-                let settings = EdgeSettings { margin, resolution };
-                shapes.blocked_edge(start, end, &settings)?.into()
+            About::BlockedEdge(edge) => {
+                shapes.blocked_edge(&edge.start, &edge.end, &edge.settings())?.into()
+            }
+            About::FirstContact(edge) => {
+                contact(shapes.first_contact(&edge.start, &edge.end, &edge.settings())?)
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
@@ -72,10 +92,11 @@ impl About {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(to_obstacle).collect(),
             About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge { start, end, margin, resolution } => {
-                let (margin, resolution) = (*margin, *resolution);
-                let settings = EdgeSettings { margin, resolution };
-                shapes.blocked_edge(start, end, &settings)?.into()
+            About::BlockedEdge(edge) => {
+                shapes.blocked_edge(&edge.start, &edge.end, &edge.settings())?.into()
+            }
+            About::FirstContact(edge) => {
+                contact(shapes.first_contact(&edge.start, &edge.end, &edge.settings())?)
             }
             About::Gradients { q, k } => {
                 let found = shapes.gradients(q, *k)?.into_iter();
@@ -105,6 +126,10 @@ fn to_obstacle(pair: &ObstacleDistance) -> Value {
         "distance": pair.distance,
         "points": pair.points,
     })
+}
+
+fn contact(found: Option<FirstContact>) -> Value {
+    found.map_or(Value::Null, |found| json!({ "free": found.free, "blocked": found.blocked }))
 }
 
 fn with(mut value: Value, gradient: Option<Vec<f64>>) -> Value {

@@ -1,7 +1,5 @@
 //! Queries on a robot.
 
-use std::borrow::Cow;
-
 use nalgebra::Isometry3;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -206,7 +204,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
                 return question.solve(robot, None, &World::default());
             }
             let own = prepared(proximity, robot, question.free_of.unwrap_or_default())?;
-            let carried = with_attached(own, &question.attached)?;
+            let carried = carrying(own, &question.attached, &[], &[])?;
             match &question.obstacles {
                 Some(bodies) => question.solve(robot, Some(&carried), obstacles.world(bodies)?),
                 None => question.solve(robot, Some(&carried), &World::default()),
@@ -292,7 +290,8 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
 
 fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value, String> {
     let own = prepared(&mut handle.proximity, &handle.robot, among.kind)?;
-    let shapes = &*with_attached(own, &among.attached)?;
+    let Among { attached, without, without_bodies, .. } = among;
+    let shapes = &*carrying(own, attached, without, without_bodies)?;
     let answer = match &among.obstacles {
         None => about.own(shapes),
         Some(bodies) => {
@@ -301,17 +300,6 @@ fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value
         }
     };
     answer.map_err(|error| error.to_string())
-}
-
-/// The shapes, with what links carry.
-fn with_attached<'a>(
-    own: &'a Proximity,
-    attached: &[Attached],
-) -> Result<Cow<'a, Proximity>, String> {
-    match attached {
-        [] => Ok(Cow::Borrowed(own)),
-        attached => carrying(own, attached).map(Cow::Owned),
-    }
 }
 
 fn pose(pose: &Isometry3<f64>) -> Value {

@@ -8,9 +8,11 @@
 //
 // Ownership. A function whose last argument is a pointer to a handle makes one; after an error it is null. The caller
 // frees it with the `..._free` of its type, once. Handles are independent: they can be freed in any order. Arrays belong
-// to the caller, and nothing keeps them after the call. A `urdd_text` that a function writes lives as long as its handle.
+// to the caller, and nothing keeps them after the call. An array that is written overlaps no other argument. A `urdd_text`
+// that a function writes lives as long as its handle.
 //
-// Threads. A handle never changes after it is made: any number of threads can use it at once. It must not be freed while
+// Threads. A handle never changes after it is made: any number of threads can use it at once. One function changes it,
+// `urdd_world_proximity_move_obstacles`: no other thread uses that handle meanwhile. A handle must not be freed while
 // another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches,
 // and calls that read a URDD, run on one pool of threads that the first call starts: as many as processors, or as the
 // environment variable RAYON_NUM_THREADS says. Where none can be started, they run on the calling thread. Results do not
@@ -47,7 +49,7 @@
 typedef enum urdd_status {
     // The call succeeded.
     URDD_STATUS_OK = 0,
-    // A pointer is null or not aligned, or an output overlaps an input.
+    // A pointer is null or not aligned, or an array that is written overlaps another one.
     URDD_STATUS_POINTER = 1,
     // A handle is not open, or of another type. Only debug builds of the library check this.
     URDD_STATUS_HANDLE = 2,
@@ -193,8 +195,11 @@ typedef struct urdd_inverse_solution {
 
 // Two shapes that are checked against each other.
 typedef struct urdd_pair {
-    // The indices of their links.
+    // The indices of their links; for an attached object, of the link that carries it.
     size_t links[2];
+    // The indices of the two bodies: of the links, or, from the number of links on, of the attached objects in the order
+    // in which they were attached. `urdd_proximity_body_name` has their names.
+    size_t bodies[2];
     // The indices of the pieces of these links; 0 for hulls and their bounding volumes.
     size_t pieces[2];
 } urdd_pair;
@@ -214,9 +219,11 @@ typedef struct urdd_pair_distance {
 
 // A shape of the robot and an obstacle, their distance, and their closest points.
 typedef struct urdd_obstacle_distance {
-    // The index of the link.
+    // The index of the link; for an attached object, of the link that carries it.
     size_t link;
-    // The index of the link's piece; 0 for a hull and its bounding volumes.
+    // The index of the body: of the link, or, from the number of links on, of the attached object.
+    size_t body;
+    // The index of the link's piece; 0 for a hull and its bounding volumes. For an attached object, of its part.
     size_t piece;
     // The index of the obstacle.
     size_t obstacle;
@@ -238,6 +245,16 @@ typedef struct urdd_overlap {
     double direction[3];
 } urdd_overlap;
 
+// A shape of the robot and an obstacle that touch or overlap.
+typedef struct urdd_obstacle_overlap {
+    // The two. Their distance is 0; the points are those that touch once the obstacle has moved, before it moves.
+    struct urdd_obstacle_distance pair;
+    // The length of the least translation that separates the two, metres; 0 if they touch.
+    double depth;
+    // The unit vector, in the root link's frame, along which the obstacle would move.
+    double direction[3];
+} urdd_obstacle_overlap;
+
 // A shape: the index of its link, and of the link's piece; 0 for hulls and their bounding volumes.
 typedef struct urdd_shape_place {
     // The index of the link.
@@ -245,6 +262,18 @@ typedef struct urdd_shape_place {
     // The index of the piece.
     size_t piece;
 } urdd_shape_place;
+
+// A shape of the robot and an obstacle that are checked against each other.
+typedef struct urdd_obstacle_pair {
+    // The index of the link; for an attached object, of the link that carries it.
+    size_t link;
+    // The index of the body: of the link, or, from the number of links on, of the attached object.
+    size_t body;
+    // The index of the link's piece; 0 for a hull and its bounding volumes. For an attached object, of its part.
+    size_t piece;
+    // The index of the obstacle.
+    size_t obstacle;
+} urdd_obstacle_pair;
 
 #ifdef __cplusplus
 extern "C" {
@@ -255,6 +284,69 @@ uint32_t urdd_abi_version(void);
 
 // The version of the library, such as "1.2.0". It lives as long as the library.
 struct urdd_text urdd_version(void);
+
+// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
+// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
+//
+// In answers, an object has the index of its link in `links`, and one of its own in `bodies`; `pieces` counts its parts.
+//
+// Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
+// attached object has its name.
+//
+// Contract:
+// `handle` and `object` are null or open; `out` is null or has room for a pointer.
+enum urdd_status urdd_proximity_attach(const struct urdd_proximity *handle,
+                                       size_t link,
+                                       const struct urdd_obstacle *object,
+                                       struct urdd_proximity **out);
+
+// Makes shapes without some pairs of bodies, which are links or attached objects: MoveIt's allowed collision matrix at run
+// time, such as for two links that are always nearer than a margin. `names` has 2 x `count` names: of the first pair,
+// of the second pair and so on. Obstacles are still checked; the shapes at `handle` stay as they are.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name.
+//
+// Contract:
+// `handle` is null or open; there are 2 x `count` texts at `names`, null or with a zero byte at the end; `out` is null or
+// has room for a pointer.
+enum urdd_status urdd_proximity_without(const struct urdd_proximity *handle,
+                                        const char *const *names,
+                                        size_t count,
+                                        struct urdd_proximity **out);
+
+// Makes shapes without all that belong to `count` bodies, links or attached objects, among obstacles too. The indices of
+// the other bodies stay.
+//
+// Errors: `UNKNOWN_NAME`.
+//
+// Contract:
+// As `urdd_proximity_without`, with `count` texts.
+enum urdd_status urdd_proximity_without_bodies(const struct urdd_proximity *handle,
+                                               const char *const *names,
+                                               size_t count,
+                                               struct urdd_proximity **out);
+
+// Writes the number of bodies: of links, and of attached objects, in the order in which they were attached.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a number.
+enum urdd_status urdd_proximity_num_bodies(const struct urdd_proximity *handle, size_t *out);
+
+// Writes the index of a body, as in `bodies` of `urdd_pair`.
+//
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name.
+//
+// Contract:
+// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
+enum urdd_status urdd_proximity_body(const struct urdd_proximity *handle, const char *name, size_t *out);
+
+// Writes the name of a body.
+//
+// Errors: `OUT_OF_RANGE`.
+//
+// Contract:
+// `handle` is null or open; `out` is null or has room for a text.
+enum urdd_status urdd_proximity_body_name(const struct urdd_proximity *handle, size_t body, struct urdd_text *out);
 
 // Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
 // rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
@@ -643,6 +735,16 @@ enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
                                         const char *link,
                                         struct urdd_obstacle **out);
 
+// Makes the same body with its frame at another pose: a matrix, 16 values, row by row. Nothing is prepared again: the
+// two share their shapes. The frame of a sphere is at its centre. `urdd_world_proximity_move_obstacles` moves without a
+// new handle.
+//
+// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
+//
+// Contract:
+// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
+enum urdd_status urdd_obstacle_at(const struct urdd_obstacle *obstacle, const double *pose, struct urdd_obstacle **out);
+
 // Frees an obstacle. What was made of it stays. Null is ignored.
 //
 // Contract:
@@ -681,11 +783,12 @@ enum urdd_status urdd_world_proximity_is_within(const struct urdd_world_proximit
 //
 // `starts` and `ends` have `rows` rows of `dofs` values each, rad or m; `blocked` has room for `rows` values. `margin`
 // is the distance that must be kept, metres. With a `resolution` above 0, metres, configurations are checked between
-// which no point of the robot travels farther, the halves first. With 0, the motion is proved free by conservative
+// which no point of the robot travels farther, the end and the halves first: the answer is one that is blocked, and need
+// not be the first, which `urdd_proximity_first_contact` has. With 0, the motion is proved free by conservative
 // advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
 //
 // Errors: `LENGTH`; `VALUE` for NaN or infinity, a margin or a resolution below 0, or a motion that needs more than a
-// million configurations.
+// million configurations, or 100,000 steps of a proof.
 //
 // Contract:
 // `handle` is null or open; the arrays have their lengths.
@@ -710,6 +813,42 @@ enum urdd_status urdd_world_proximity_blocked_edge(const struct urdd_world_proxi
                                                    double margin,
                                                    double resolution,
                                                    double *blocked);
+
+// Writes where each straight motion is blocked by the robot itself first, and how far it is free.
+//
+// As `urdd_proximity_blocked_edge`; `contacts` has room for `length` values, rows x 2: the last part of the motion that is
+// known to be free (0 if the start is not), then the first that is not; both NaN where the motion is free. With a
+// resolution, configurations are checked in order, and the part between the first that is blocked and the one before is
+// halved ten times: between the two no point of the robot travels farther than a thousandth of the resolution. A contact
+// that begins and ends between two configurations can be missed. With 0, all up to the first part is proved free.
+//
+// Errors: as there.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_proximity_first_contact(const struct urdd_proximity *handle,
+                                              const double *starts,
+                                              const double *ends,
+                                              size_t rows,
+                                              size_t dofs,
+                                              double margin,
+                                              double resolution,
+                                              double *contacts,
+                                              size_t length);
+
+// As `urdd_proximity_first_contact`, for motions that obstacles block.
+//
+// Contract:
+// As there.
+enum urdd_status urdd_world_proximity_first_contact(const struct urdd_world_proximity *handle,
+                                                    const double *starts,
+                                                    const double *ends,
+                                                    size_t rows,
+                                                    size_t dofs,
+                                                    double margin,
+                                                    double resolution,
+                                                    double *contacts,
+                                                    size_t length);
 
 // Writes the `k` nearest pairs of one configuration, nearest first, and the gradients of their distances.
 //
@@ -757,29 +896,16 @@ enum urdd_status urdd_proximity_penetrations(const struct urdd_proximity *handle
                                              size_t length,
                                              size_t *found);
 
-// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
-// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
-//
-// In answers, an object has the index of its link, and `pieces` counts its parts.
-//
-// Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
-// attached object has its name.
+// As `urdd_proximity_penetrations`, for the pairs of a shape of the robot and a convex part of an obstacle.
 //
 // Contract:
-// `handle` and `object` are null or open; `out` is null or has room for a pointer.
-enum urdd_status urdd_proximity_attach(const struct urdd_proximity *handle,
-                                       size_t link,
-                                       const struct urdd_obstacle *object,
-                                       struct urdd_proximity **out);
-
-// Makes the same body with its frame at another pose: a matrix, 16 values, row by row. A mesh is not decomposed again.
-// The frame of a sphere is at its centre.
-//
-// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
-//
-// Contract:
-// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
-enum urdd_status urdd_obstacle_at(const struct urdd_obstacle *obstacle, const double *pose, struct urdd_obstacle **out);
+// As there.
+enum urdd_status urdd_world_proximity_penetrations(const struct urdd_world_proximity *handle,
+                                                   const double *configuration,
+                                                   size_t dofs,
+                                                   struct urdd_obstacle_overlap *overlaps,
+                                                   size_t length,
+                                                   size_t *found);
 
 // Prepares the shapes of a kind, without the pairs that the URDD skips. It reads the meshes.
 //
@@ -860,7 +986,8 @@ enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
 // Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-// that is written of each row: the lesser of `k` and the number of pairs.
+// that is written of each row: the lesser of `k` and the number of pairs. One row is computed on this thread, without an
+// allocation.
 //
 // Errors: `LENGTH`; `VALUE` for NaN or infinity.
 //
@@ -1100,7 +1227,8 @@ enum urdd_status urdd_world_proximity_min_distance(const struct urdd_world_proxi
 // nearest first, with their closest points.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-// that is written of each row: less than `k` if there are fewer pairs.
+// that is written of each row: less than `k` if there are fewer pairs. One row is computed on this thread, without an
+// allocation.
 //
 // Errors: `LENGTH`; `VALUE` for NaN or infinity.
 //
@@ -1113,6 +1241,58 @@ enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity 
                                               size_t k,
                                               struct urdd_obstacle_distance *nearest,
                                               size_t *found);
+
+// Writes the number of pairs that `urdd_world_proximity_distances` has, of a shape of the robot and an obstacle; the
+// number of pairs of a shape and a convex part of an obstacle, the most that `urdd_world_proximity_nearest` finds; and the
+// number of DOFs. Each of the three can be null.
+//
+// Contract:
+// `handle` is null or open; each of the three is null or has room for a number.
+enum urdd_status urdd_world_proximity_sizes(const struct urdd_world_proximity *handle,
+                                            size_t *pairs,
+                                            size_t *pairs_of_parts,
+                                            size_t *dofs);
+
+// Writes the pairs that are checked, in the order of `urdd_world_proximity_distances`.
+//
+// Errors: `LENGTH`.
+//
+// Contract:
+// `handle` is null or open; there is room for `length` pairs at `pairs`.
+enum urdd_status urdd_world_proximity_pairs(const struct urdd_world_proximity *handle,
+                                            struct urdd_obstacle_pair *pairs,
+                                            size_t length);
+
+// Writes the distance of each pair of a shape of the robot and an obstacle for each configuration, metres: 0 for pairs
+// that touch or overlap.
+//
+// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
+// in the order of `urdd_world_proximity_pairs`. One row is computed on this thread, without an allocation.
+//
+// Errors: `LENGTH`; `VALUE` for NaN or infinity.
+//
+// Contract:
+// `handle` is null or open; the arrays have their lengths.
+enum urdd_status urdd_world_proximity_distances(const struct urdd_world_proximity *handle,
+                                                const double *configurations,
+                                                size_t rows,
+                                                size_t dofs,
+                                                double *distances,
+                                                size_t length);
+
+// Moves obstacles to other poses: those from index `first` on, to `count` matrices (x 16 values, row by row). Nothing is
+// prepared again, and nothing is allocated after the first call of a thread. This is the one function that changes a
+// handle: no other thread uses it during the call. After an error, none has moved.
+//
+// Errors: `OUT_OF_RANGE` if there are fewer obstacles; `VALUE` for NaN or infinity, or a matrix that is not a rotation and
+// a translation.
+//
+// Contract:
+// `handle` is null, or open and not used elsewhere; `poses` has 16 x `count` values.
+enum urdd_status urdd_world_proximity_move_obstacles(struct urdd_world_proximity *handle,
+                                                     size_t first,
+                                                     const double *poses,
+                                                     size_t count);
 
 #ifdef __cplusplus
 }  // extern "C"

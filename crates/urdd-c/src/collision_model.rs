@@ -116,7 +116,7 @@ pub unsafe extern "C" fn urdd_collision_model_pairs(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.model.pairs();
-        let out = exact_room("pairs", pairs, length, (known.len(), 1), &[])?;
+        let out = exact_room("pairs", pairs, length, (known.len(), 1))?;
         for (out, pair) in out.iter_mut().zip(known) {
             out.links = [pair.link_a_idx.get(), pair.link_b_idx.get()];
         }

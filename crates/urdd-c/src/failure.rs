@@ -7,6 +7,7 @@ use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 use urdd_validate::ValidateError;
 
+use crate::memory::begin;
 use crate::text::{Owned, Text, constant};
 use crate::threads::ready;
 
@@ -16,7 +17,7 @@ use crate::threads::ready;
 pub enum Status {
     /// The call succeeded.
     Ok = 0,
-    /// A pointer is null or not aligned, or an output overlaps an input.
+    /// A pointer is null or not aligned, or an array that is written overlaps another one.
     Pointer = 1,
     /// A handle is not open, or of another type. Only debug builds of the library check this.
     Handle = 2,
@@ -75,6 +76,7 @@ impl From<RobotError> for Failure {
             RobotError::OutOfBounds { .. }
             | RobotError::Target(_)
             | RobotError::Setting(_)
+            | RobotError::Steps { .. }
             | RobotError::Obstacle { .. } => Status::Value,
             _ => Status::Internal,
         };
@@ -112,6 +114,7 @@ pub extern "C" fn urdd_error_message() -> Text {
 pub(crate) fn run(act: impl FnOnce() -> Result<(), Failure>) -> Status {
     let act = || {
         ready();
+        begin();
         act()
     };
     let failure = match catch_unwind(AssertUnwindSafe(act)) {

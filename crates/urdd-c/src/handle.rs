@@ -50,6 +50,16 @@ pub(crate) unsafe fn at<'a, T: Handle>(handle: *const T) -> Result<&'a T, Failur
     Ok(unsafe { &*handle })
 }
 
+/// As [`at`], to change it.
+///
+/// # Safety
+/// As there, and nobody else uses it during the call.
+pub(crate) unsafe fn at_mut<'a, T: Handle>(handle: *mut T) -> Result<&'a mut T, Failure> {
+    check(handle.cast_const())?;
+    // SAFETY: as above.
+    Ok(unsafe { &mut *handle })
+}
+
 /// Makes a handle. After an error, `out` is null.
 ///
 /// # Safety
@@ -59,7 +69,7 @@ pub(crate) unsafe fn make<T: Handle>(
     act: impl FnOnce() -> Result<T, Failure>,
 ) -> Status {
     run(|| {
-        memory::check("out", out)?;
+        memory::check_out("out", out)?;
         // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
         unsafe { out.write(std::ptr::null_mut()) };
         let made = Box::into_raw(Box::new(act()?));

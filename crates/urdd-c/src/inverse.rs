@@ -8,7 +8,7 @@ use urdd_robot::{InverseSettings, RobotError, Target as RobotTarget, fill};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at};
-use crate::memory::{Plain, Span, check, exact_room, put, values};
+use crate::memory::{Plain, check, exact_room, put, values};
 use crate::proximity::Proximity;
 use crate::robot::Robot;
 use crate::workspace::with_workspace;
@@ -194,21 +194,20 @@ impl FreeOf<'_> {
     }
 }
 
-/// The settings, what a solution must be free of, and where their arrays are.
+/// The settings, and what a solution must be free of.
 ///
 /// # Safety
 /// `settings` is null or one that can be read, with its arrays and handles.
 unsafe fn settings<'a>(
     settings: *const Settings,
     dofs: usize,
-) -> Result<(InverseSettings, FreeOf<'a>, Vec<Span>), Failure> {
+) -> Result<(InverseSettings, FreeOf<'a>), Failure> {
     if settings.is_null() {
         let explain = false;
         let settings = InverseSettings { explain, ..InverseSettings::default() };
-        return Ok((settings, FreeOf::default(), Vec::new()));
+        return Ok((settings, FreeOf::default()));
     }
     check("settings", settings)?;
-    let at_settings = Span::of("settings", settings, 1)?;
     // SAFETY: guaranteed by the caller.
     unsafe {
         let settings = settings.read();
@@ -233,12 +232,6 @@ unsafe fn settings<'a>(
             margin: settings.margin,
         };
         free_of.check(dofs)?;
-        let spans = vec![
-            at_settings,
-            Span::of("bounds", settings.bounds, settings.bounds_length)?,
-            Span::of("locked", settings.locked, settings.locked_length)?,
-            Span::of("posture", settings.posture, settings.posture_length)?,
-        ];
         let settings = InverseSettings {
             position_tolerance: settings.position_tolerance,
             rotation_tolerance: settings.rotation_tolerance,
@@ -250,7 +243,7 @@ unsafe fn settings<'a>(
             posture: posture.map(<[f64]>::to_vec),
             explain: settings.explain,
         };
-        Ok((settings, free_of, spans))
+        Ok((settings, free_of))
     }
 }
 
@@ -305,19 +298,13 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
             let message = format!("`starts` has {starts_rows} rows: expected 1 or {count}");
             return Err(Failure::new(Status::Length, message));
         }
-        let (settings, free_of, mut inputs) = self::settings(settings, dofs)?;
+        let (settings, free_of) = self::settings(settings, dofs)?;
         let length = count.saturating_mul(dofs);
-        inputs.push(Span::of("targets", targets.as_ptr(), count)?);
-        inputs.push(Span::of("starts", starts, q.values.len())?);
-        let rows = Span::of("configurations", configurations, length)?;
-        let each = Span::of("solutions", solutions, count)?;
-        inputs.iter().try_for_each(|input| rows.apart(*input).and(each.apart(*input)))?;
-        rows.apart(each)?;
         for (k, target) in targets.iter().enumerate() {
             target_of(k, target)?;
         }
-        let mut out = exact_room("configurations", configurations, length, (count, dofs), &[])?;
-        let found = exact_room("solutions", solutions, count, (count, 1), &[])?;
+        let mut out = exact_room("configurations", configurations, length, (count, dofs))?;
+        let found = exact_room("solutions", solutions, count, (count, 1))?;
         let on = Cancellation::default();
         let mut outputs: Vec<(&mut [f64], &mut Solution)> = Vec::new();
         let memory = |_| RobotError::Memory { count, width: dofs };

@@ -4,6 +4,7 @@
 //! the caller owns. A function is named as the Rust method, with `urdd_` and the type in front. The head of the header
 //! has the rules for ownership, threads and errors.
 
+mod bodies;
 mod collision_model;
 mod failure;
 mod handle;
@@ -30,6 +31,7 @@ use std::sync::LazyLock;
 
 use urdd_format::registry::PROGRAM_VERSION;
 
+pub use bodies::*;
 pub use collision_model::*;
 pub use failure::*;
 pub use inverse::*;

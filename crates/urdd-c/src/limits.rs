@@ -17,7 +17,7 @@ unsafe fn limits(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = of(&at(handle)?.robot)?;
-        exact_room("limits", limits, dofs, (1, known.len()), &[])?.copy_from_slice(&known);
+        exact_room("limits", limits, dofs, (1, known.len()))?.copy_from_slice(&known);
         Ok(())
     })
 }
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn urdd_robot_link_masses(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.link_masses()?;
-        let out = exact_room("masses", masses, length, (known.len(), 4), &[])?;
+        let out = exact_room("masses", masses, length, (known.len(), 4))?;
         for (link, out) in known.iter().zip(out.as_chunks_mut::<4>().0) {
             let [x, y, z] = link.centre;
             *out = [link.mass, x, y, z];

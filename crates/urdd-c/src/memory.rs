@@ -1,5 +1,6 @@
 //! Arrays and texts of the caller's.
 
+use std::cell::RefCell;
 use std::ffi::{CStr, c_char};
 use std::slice;
 
@@ -36,41 +37,66 @@ pub(crate) unsafe fn triple(what: &'static str, data: *const f64) -> Result<[f64
 
 /// Where an array of the caller's is.
 #[derive(Clone, Copy)]
-pub(crate) struct Span {
+struct Span {
     what: &'static str,
     address: usize,
     bytes: usize,
+    is_written: bool,
+}
+
+thread_local! {
+    /// The arrays of the call that this thread is in.
+    static ARRAYS: RefCell<Vec<Span>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Begins a call.
+pub(crate) fn begin() {
+    let _ = ARRAYS.try_with(|arrays| arrays.borrow_mut().clear());
+}
+
+/// An array of the caller's that a call reads or writes. What it writes overlaps no other one.
+fn array<T>(
+    what: &'static str,
+    data: *const T,
+    length: usize,
+    is_written: bool,
+) -> Result<(), Failure> {
+    let longest = isize::MAX as usize / size_of::<T>().max(1);
+    if length > longest {
+        let message = format!("`{what}` has {length} values, which is more than any memory");
+        return Err(Failure::new(Status::Length, message));
+    }
+    if length > 0 && data.is_null() {
+        return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
+    }
+    if length > 0 && !data.is_aligned() {
+        let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
+        return Err(Failure::new(Status::Pointer, message));
+    }
+    let new = Span { what, address: data.addr(), bytes: length * size_of::<T>(), is_written };
+    // A thread that ends has no list any more.
+    let clash = ARRAYS.try_with(|arrays| {
+        let mut arrays = arrays.borrow_mut();
+        let other = arrays.iter().find(|other| other.clashes(&new)).copied();
+        arrays.push(new);
+        other
+    });
+    let Ok(Some(other)) = clash else {
+        return Ok(());
+    };
+    let [a, b] = if other.is_written { [other.what, what] } else { [what, other.what] };
+    Err(Failure::new(Status::Pointer, format!("`{a}` and `{b}` overlap")))
 }
 
 impl Span {
-    pub fn of<T>(what: &'static str, data: *const T, length: usize) -> Result<Self, Failure> {
-        let longest = isize::MAX as usize / size_of::<T>().max(1);
-        if length > longest {
-            let message = format!("`{what}` has {length} values, which is more than any memory");
-            return Err(Failure::new(Status::Length, message));
-        }
-        if length > 0 && data.is_null() {
-            return Err(Failure::new(Status::Pointer, format!("`{what}` is null")));
-        }
-        if length > 0 && !data.is_aligned() {
-            let message = format!("`{what}` is not aligned to {} bytes", align_of::<T>());
-            return Err(Failure::new(Status::Pointer, message));
-        }
-        Ok(Span { what, address: data.addr(), bytes: length * size_of::<T>() })
-    }
-
-    pub fn apart(self, other: Span) -> Result<(), Failure> {
-        let (a, b) = (self, other);
-        let overlap = a.bytes > 0
-            && b.bytes > 0
-            && a.address < b.address.saturating_add(b.bytes)
-            && b.address < a.address.saturating_add(a.bytes);
-        match overlap {
-            false => Ok(()),
-            true => {
-                Err(Failure::new(Status::Pointer, format!("`{}` and `{}` overlap", a.what, b.what)))
-            }
-        }
+    /// Whether one of two arguments would be written over the other.
+    fn clashes(&self, other: &Span) -> bool {
+        (self.is_written || other.is_written)
+            && self.what != other.what
+            && self.bytes > 0
+            && other.bytes > 0
+            && self.address < other.address.saturating_add(other.bytes)
+            && other.address < self.address.saturating_add(self.bytes)
     }
 }
 
@@ -83,7 +109,7 @@ pub(crate) unsafe fn values<'a, T: Plain>(
     data: *const T,
     length: usize,
 ) -> Result<&'a [T], Failure> {
-    Span::of(what, data, length)?;
+    array(what, data, length, false)?;
     if length == 0 {
         return Ok(&[]);
     }
@@ -91,7 +117,7 @@ pub(crate) unsafe fn values<'a, T: Plain>(
     Ok(unsafe { slice::from_raw_parts(data, length) })
 }
 
-/// The caller's room for results, full of zeros. `apart` are arrays that it must not overlap.
+/// The caller's room for results, full of zeros.
 ///
 /// # Safety
 /// `data` is null, or there is room for `length` values at it, which nobody else uses during the call.
@@ -99,12 +125,8 @@ pub(crate) unsafe fn room<'a, T: Plain>(
     what: &'static str,
     data: *mut T,
     length: usize,
-    inputs: &[&[f64]],
 ) -> Result<&'a mut [T], Failure> {
-    let span = Span::of(what, data, length)?;
-    for input in inputs {
-        span.apart(Span::of("an input", input.as_ptr(), input.len())?)?;
-    }
+    array(what, data, length, true)?;
     if length == 0 {
         return Ok(&mut []);
     }
@@ -124,7 +146,6 @@ pub(crate) unsafe fn exact_room<'a, T: Plain>(
     data: *mut T,
     length: usize,
     (count, width): (usize, usize),
-    inputs: &[&[f64]],
 ) -> Result<&'a mut [T], Failure> {
     if count.checked_mul(width) != Some(length) {
         let message = match count {
@@ -134,7 +155,7 @@ pub(crate) unsafe fn exact_room<'a, T: Plain>(
         return Err(Failure::new(Status::Length, message));
     }
     // SAFETY: guaranteed by the caller.
-    unsafe { room(what, data, length, inputs) }
+    unsafe { room(what, data, length) }
 }
 
 /// Refuses `count` times `bytes` that there is not memory for, before an allocation that would end the process.
@@ -154,7 +175,7 @@ pub(crate) fn enough(what: &'static str, count: usize, bytes: usize) -> Result<(
 /// # Safety
 /// `out` is null, or there is room for a value at it.
 pub(crate) unsafe fn put<T>(what: &'static str, out: *mut T, value: T) -> Result<(), Failure> {
-    check(what, out)?;
+    check_out(what, out)?;
     // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
     unsafe { out.write(value) };
     Ok(())
@@ -162,7 +183,12 @@ pub(crate) unsafe fn put<T>(what: &'static str, out: *mut T, value: T) -> Result
 
 /// Whether there can be a value at a pointer: it is neither null nor misaligned.
 pub(crate) fn check<T>(what: &'static str, at: *const T) -> Result<(), Failure> {
-    Span::of(what, at, 1).map(|_| ())
+    array(what, at, 1, false)
+}
+
+/// As [`check`], for one that is written.
+pub(crate) fn check_out<T>(what: &'static str, at: *mut T) -> Result<(), Failure> {
+    array(what, at, 1, true)
 }
 
 /// A text of the caller's.

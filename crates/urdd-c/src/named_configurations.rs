@@ -62,7 +62,7 @@ pub unsafe extern "C" fn urdd_robot_named_configuration(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.named_configuration(read_text("name", name)?)?;
-        let out = exact_room("configuration", configuration, dofs, (1, known.len()), &[])?;
+        let out = exact_room("configuration", configuration, dofs, (1, known.len()))?;
         out.copy_from_slice(known);
         Ok(())
     })

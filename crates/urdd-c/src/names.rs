@@ -170,7 +170,7 @@ pub unsafe extern "C" fn urdd_robot_dofs_between(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.dofs_between(base, tip)?;
-        let out = room("dofs", dofs, length, &[])?;
+        let out = room("dofs", dofs, length)?;
         for (out, dof) in out.iter_mut().zip(&known) {
             *out = *dof;
         }

@@ -31,7 +31,10 @@ pub(crate) unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failur
         return Ok(Isometry3::identity());
     }
     // SAFETY: guaranteed by the caller.
-    let matrix = unsafe { values("pose", matrix, 16) }?;
+    pose_of(unsafe { values("pose", matrix, 16) }?)
+}
+
+pub(crate) fn pose_of(matrix: &[f64]) -> Result<Isometry3<f64>, Failure> {
     pose(matrix).ok_or_else(|| {
         let message = "the pose is not a rotation and a translation";
         Failure::new(Status::Value, message)
@@ -223,6 +226,24 @@ pub unsafe extern "C" fn urdd_obstacle_ignoring(
             Ok(Obstacle(at(obstacle)?.0.clone().ignoring(link)))
         })
     }
+}
+
+/// Makes the same body with its frame at another pose: a matrix, 16 values, row by row. Nothing is prepared again: the
+/// two share their shapes. The frame of a sphere is at its centre. `urdd_world_proximity_move_obstacles` moves without a
+/// new handle.
+///
+/// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
+///
+/// # Safety
+/// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_obstacle_at(
+    obstacle: *const Obstacle,
+    pose: *const f64,
+    out: *mut *mut Obstacle,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    unsafe { make(out, || Ok(Obstacle(at(obstacle)?.0.at(placed(pose)?)?))) }
 }
 
 /// Frees an obstacle. What was made of it stays. Null is ignored.

@@ -1,13 +1,10 @@
-//! What planners ask beside distances: margins, motions, gradients, objects that links carry.
+//! What planners ask beside distances: margins, motions, gradients, overlaps.
 
-use std::sync::Arc;
-
-use urdd_robot::{EdgeSettings, RobotError, Workspace};
+use urdd_robot::{EdgeSettings, FirstContact, Overlap as RobotOverlap, RobotError, Workspace};
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{at, make};
-use crate::memory::{Plain, put, values};
-use crate::obstacle::{Obstacle, placed};
+use crate::handle::at;
+use crate::memory::{Plain, room};
 use crate::proximity::{PairDistance, Proximity};
 use crate::rows::Rows;
 use crate::workspace::with_workspace;
@@ -26,8 +23,36 @@ pub struct Overlap {
     pub direction: [f64; 3],
 }
 
+/// A shape of the robot and an obstacle that touch or overlap.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ObstacleOverlap {
+    /// The two. Their distance is 0; the points are those that touch once the obstacle has moved, before it moves.
+    pub pair: ObstacleDistance,
+    /// The length of the least translation that separates the two, metres; 0 if they touch.
+    pub depth: f64,
+    /// The unit vector, in the root link's frame, along which the obstacle would move.
+    pub direction: [f64; 3],
+}
+
 // SAFETY: zeros are numbers.
 unsafe impl Plain for Overlap {}
+// SAFETY: zeros are numbers.
+unsafe impl Plain for ObstacleOverlap {}
+
+impl From<RobotOverlap<urdd_robot::PairDistance>> for Overlap {
+    fn from(found: RobotOverlap<urdd_robot::PairDistance>) -> Self {
+        let (depth, direction) = (found.depth, found.direction);
+        Overlap { pair: found.pair.into(), depth, direction }
+    }
+}
+
+impl From<RobotOverlap<urdd_robot::ObstacleDistance>> for ObstacleOverlap {
+    fn from(found: RobotOverlap<urdd_robot::ObstacleDistance>) -> Self {
+        let (depth, direction) = (found.depth, found.direction);
+        ObstacleOverlap { pair: found.pair.into(), depth, direction }
+    }
+}
 
 /// Writes whether any pair is at most `margin` apart, metres, for each configuration. With a margin above 0, pairs count
 /// whose links can move against each other.
@@ -88,11 +113,12 @@ pub unsafe extern "C" fn urdd_world_proximity_is_within(
 ///
 /// `starts` and `ends` have `rows` rows of `dofs` values each, rad or m; `blocked` has room for `rows` values. `margin`
 /// is the distance that must be kept, metres. With a `resolution` above 0, metres, configurations are checked between
-/// which no point of the robot travels farther, the halves first. With 0, the motion is proved free by conservative
+/// which no point of the robot travels farther, the end and the halves first: the answer is one that is blocked, and need
+/// not be the first, which `urdd_proximity_first_contact` has. With 0, the motion is proved free by conservative
 /// advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
 ///
 /// Errors: `LENGTH`; `VALUE` for NaN or infinity, a margin or a resolution below 0, or a motion that needs more than a
-/// million configurations.
+/// million configurations, or 100,000 steps of a proof.
 ///
 /// # Safety
 /// `handle` is null or open; the arrays have their lengths.
@@ -111,8 +137,9 @@ pub unsafe extern "C" fn urdd_proximity_blocked_edge(
     run(|| unsafe {
         let proximity = &at(handle)?.0;
         let shape = (rows, dofs, proximity.num_dofs());
-        edges([starts, ends], shape, blocked, |start, end, memory| {
-            proximity.blocked_edge_with(start, end, &settings(margin, resolution), memory)
+        edges([starts, ends], shape, ("blocked", blocked, rows), |start, end, memory| {
+            let settings = settings(margin, resolution);
+            Ok(part(proximity.blocked_edge_with(start, end, &settings, memory)?))
         })
     })
 }
@@ -136,9 +163,71 @@ pub unsafe extern "C" fn urdd_world_proximity_blocked_edge(
     run(|| unsafe {
         let world = at(handle)?;
         let shape = (rows, dofs, world.dofs);
-        edges([starts, ends], shape, blocked, |start, end, memory| {
+        edges([starts, ends], shape, ("blocked", blocked, rows), |start, end, memory| {
             let settings = settings(margin, resolution);
-            world.queries.blocked_edge_with(start, end, &settings, memory)
+            Ok(part(world.queries.blocked_edge_with(start, end, &settings, memory)?))
+        })
+    })
+}
+
+/// Writes where each straight motion is blocked by the robot itself first, and how far it is free.
+///
+/// As `urdd_proximity_blocked_edge`; `contacts` has room for `length` values, rows x 2: the last part of the motion that is
+/// known to be free (0 if the start is not), then the first that is not; both NaN where the motion is free. With a
+/// resolution, configurations are checked in order, and the part between the first that is blocked and the one before is
+/// halved ten times: between the two no point of the robot travels farther than a thousandth of the resolution. A contact
+/// that begins and ends between two configurations can be missed. With 0, all up to the first part is proved free.
+///
+/// Errors: as there.
+///
+/// # Safety
+/// `handle` is null or open; the arrays have their lengths.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_proximity_first_contact(
+    handle: *const Proximity,
+    starts: *const f64,
+    ends: *const f64,
+    rows: usize,
+    dofs: usize,
+    margin: f64,
+    resolution: f64,
+    contacts: *mut f64,
+    length: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let proximity = &at(handle)?.0;
+        let shape = (rows, dofs, proximity.num_dofs());
+        edges([starts, ends], shape, ("contacts", contacts, length), |start, end, memory| {
+            let settings = settings(margin, resolution);
+            Ok(parts(proximity.first_contact_with(start, end, &settings, memory)?))
+        })
+    })
+}
+
+/// As `urdd_proximity_first_contact`, for motions that obstacles block.
+///
+/// # Safety
+/// As there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn urdd_world_proximity_first_contact(
+    handle: *const WorldProximity,
+    starts: *const f64,
+    ends: *const f64,
+    rows: usize,
+    dofs: usize,
+    margin: f64,
+    resolution: f64,
+    contacts: *mut f64,
+    length: usize,
+) -> Status {
+    // SAFETY: guaranteed by the caller.
+    run(|| unsafe {
+        let world = at(handle)?;
+        let shape = (rows, dofs, world.dofs);
+        edges([starts, ends], shape, ("contacts", contacts, length), |start, end, memory| {
+            let settings = settings(margin, resolution);
+            Ok(parts(world.queries.first_contact_with(start, end, &settings, memory)?))
         })
     })
 }
@@ -148,21 +237,28 @@ fn settings(margin: f64, resolution: f64) -> EdgeSettings {
     EdgeSettings { margin, resolution }
 }
 
+fn part(blocked: Option<f64>) -> [f64; 1] {
+    [blocked.unwrap_or(f64::NAN)]
+}
+
+fn parts(contact: Option<FirstContact>) -> [f64; 2] {
+    contact.map_or([f64::NAN; 2], |contact| [contact.free, contact.blocked])
+}
+
 /// # Safety
 /// As for [`Rows::new`].
-unsafe fn edges(
+unsafe fn edges<const N: usize>(
     [starts, ends]: [*const f64; 2],
     (rows, dofs, expected): (usize, usize, usize),
-    blocked: *mut f64,
-    ask: impl Fn(&[f64], &[f64], &mut Workspace) -> Result<Option<f64>, RobotError> + Sync,
+    out: (&'static str, *mut f64, usize),
+    ask: impl Fn(&[f64], &[f64], &mut Workspace) -> Result<[f64; N], RobotError> + Sync,
 ) -> Result<(), Failure> {
     // SAFETY: guaranteed by the caller.
     unsafe {
         let from = Rows::new("starts", starts, (rows, dofs), expected)?;
         let to = Rows::new("ends", ends, (rows, dofs), expected)?;
-        from.answer_both(&to, ("blocked", blocked, rows), |start, end, out| {
-            let found = with_workspace(|memory| ask(start, end, memory))?;
-            *out = found.unwrap_or(f64::NAN);
+        from.answer_both(&to, out, N, |start, end, out| {
+            out.copy_from_slice(&with_workspace(|memory| ask(start, end, memory))?);
             Ok(())
         })
     }
@@ -191,16 +287,10 @@ pub unsafe extern "C" fn urdd_proximity_gradients(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        put("found", found, k.min(proximity.num_pairs()))?;
         let q = Rows::new("configuration", configuration, (1, dofs), proximity.num_dofs())?;
-        let pairs = q.room(("nearest", nearest, k), k)?;
-        let out =
-            q.room(("gradients", gradients, k.saturating_mul(dofs)), k.saturating_mul(dofs))?;
-        for (place, one) in proximity.gradients(q.row(0), k)?.iter().enumerate() {
-            pairs[place] = (&one.pair).into();
-            derivatives(one.gradient.as_deref(), &mut out[place * dofs..(place + 1) * dofs]);
-        }
-        Ok(())
+        gradients_of(q, (nearest, gradients, k, found), |memory, each| {
+            proximity.gradients_with(q.row(0), k, memory, each)
+        })
     })
 }
 
@@ -221,24 +311,41 @@ pub unsafe extern "C" fn urdd_world_proximity_gradients(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let world = at(handle)?;
-        put("found", found, k.min(world.queries.num_pairs_of_parts()))?;
         let q = Rows::new("configuration", configuration, (1, dofs), world.dofs)?;
-        let pairs = q.room(("nearest", nearest, k), k)?;
-        let out =
-            q.room(("gradients", gradients, k.saturating_mul(dofs)), k.saturating_mul(dofs))?;
-        for (place, one) in world.queries.gradients(q.row(0), k)?.iter().enumerate() {
-            pairs[place] = (&one.pair).into();
-            derivatives(one.gradient.as_deref(), &mut out[place * dofs..(place + 1) * dofs]);
-        }
-        Ok(())
+        gradients_of(q, (nearest, gradients, k, found), |memory, each| {
+            world.queries.gradients_with(q.row(0), k, memory, each)
+        })
     })
 }
 
-fn derivatives(gradient: Option<&[f64]>, out: &mut [f64]) {
-    match gradient {
-        Some(gradient) => out.copy_from_slice(gradient),
-        None => out.fill(f64::NAN),
-    }
+/// Writes pairs and gradients that `ask` passes on.
+///
+/// # Safety
+/// As for [`room`]: `nearest` has room for `k`, `gradients` for `k` rows.
+unsafe fn gradients_of<P, T: Plain + From<P>>(
+    q: Rows,
+    (nearest, gradients, k, found): (*mut T, *mut f64, usize, *mut usize),
+    ask: impl FnOnce(&mut Workspace, &mut dyn FnMut(P, Option<&[f64]>)) -> Result<(), RobotError>,
+) -> Result<(), Failure> {
+    let dofs = q.values.len();
+    // SAFETY: guaranteed by the caller.
+    let (pairs, out, found) = unsafe {
+        let pairs = room("nearest", nearest, k)?;
+        let out = room("gradients", gradients, k.saturating_mul(dofs))?;
+        (pairs, out, &mut room("found", found, 1)?[0])
+    };
+    with_workspace(|memory| {
+        ask(memory, &mut |pair, gradient| {
+            pairs[*found] = pair.into();
+            let out = &mut out[*found * dofs..(*found + 1) * dofs];
+            match gradient {
+                Some(gradient) => out.copy_from_slice(gradient),
+                None => out.fill(f64::NAN),
+            }
+            *found += 1;
+        })
+    })?;
+    Ok(())
 }
 
 /// Writes the pairs that touch or overlap in one configuration, with the least translation that separates them.
@@ -262,58 +369,49 @@ pub unsafe extern "C" fn urdd_proximity_penetrations(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        put("found", found, 0)?;
-        let q = values("configuration", configuration, dofs)?;
-        let rows = Rows::new("configuration", configuration, (1, dofs), proximity.num_dofs())?;
-        let out = rows.room(("overlaps", overlaps, length), length)?;
-        let all = proximity.penetrations(q)?;
-        put("found", found, all.len())?;
-        for (out, one) in out.iter_mut().zip(&all) {
-            *out = Overlap { pair: (&one.pair).into(), depth: one.depth, direction: one.direction };
-        }
-        Ok(())
+        let q = Rows::new("configuration", configuration, (1, dofs), proximity.num_dofs())?;
+        let all = proximity.penetrations(q.row(0));
+        overlaps_of(all, overlaps, length, found)
     })
 }
 
-/// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
-/// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
-///
-/// In answers, an object has the index of its link, and `pieces` counts its parts.
-///
-/// Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
-/// attached object has its name.
+/// As `urdd_proximity_penetrations`, for the pairs of a shape of the robot and a convex part of an obstacle.
 ///
 /// # Safety
-/// `handle` and `object` are null or open; `out` is null or has room for a pointer.
+/// As there.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn urdd_proximity_attach(
-    handle: *const Proximity,
-    link: usize,
-    object: *const Obstacle,
-    out: *mut *mut Proximity,
+pub unsafe extern "C" fn urdd_world_proximity_penetrations(
+    handle: *const WorldProximity,
+    configuration: *const f64,
+    dofs: usize,
+    overlaps: *mut ObstacleOverlap,
+    length: usize,
+    found: *mut usize,
 ) -> Status {
     // SAFETY: guaranteed by the caller.
-    unsafe {
-        make(out, || {
-            let with = at(handle)?.0.attach(link, &at(object)?.0)?;
-            Ok(Proximity(Arc::new(with)))
-        })
-    }
+    run(|| unsafe {
+        let world = at(handle)?;
+        let q = Rows::new("configuration", configuration, (1, dofs), world.dofs)?;
+        let all = world.queries.penetrations(q.row(0));
+        overlaps_of(all, overlaps, length, found)
+    })
 }
 
-/// Makes the same body with its frame at another pose: a matrix, 16 values, row by row. A mesh is not decomposed again.
-/// The frame of a sphere is at its centre.
-///
-/// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
-///
 /// # Safety
-/// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn urdd_obstacle_at(
-    obstacle: *const Obstacle,
-    pose: *const f64,
-    out: *mut *mut Obstacle,
-) -> Status {
+/// As for [`room`].
+unsafe fn overlaps_of<P, T: Plain + From<RobotOverlap<P>>>(
+    all: Result<Vec<RobotOverlap<P>>, RobotError>,
+    overlaps: *mut T,
+    length: usize,
+    found: *mut usize,
+) -> Result<(), Failure> {
     // SAFETY: guaranteed by the caller.
-    unsafe { make(out, || Ok(Obstacle(at(obstacle)?.0.at(placed(pose)?)?))) }
+    let (out, found) =
+        unsafe { (room("overlaps", overlaps, length)?, &mut room("found", found, 1)?[0]) };
+    let all = all?;
+    *found = all.len();
+    for (out, one) in out.iter_mut().zip(all) {
+        *out = one.into();
+    }
+    Ok(())
 }

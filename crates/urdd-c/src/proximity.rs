@@ -1,19 +1,34 @@
 //! Distances and collisions between the links of a robot.
 
 use std::ffi::c_char;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use urdd_robot::{PairDistance as RobotPair, RobotError, ShapeKind};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put, read_text};
+use crate::memory::{Plain, exact_room, put, read_text, room};
 use crate::robot::Robot;
 use crate::rows::Rows;
+use crate::text::Owned;
 use crate::workspace::with_workspace;
 
 /// The shapes of one kind of a robot, prepared for distances.
-pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>);
+pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>, OnceLock<Vec<Owned>>);
+
+impl Proximity {
+    pub(crate) fn new(proximity: urdd_robot::Proximity) -> Self {
+        Proximity(Arc::new(proximity), OnceLock::new())
+    }
+
+    /// The names of links and attached objects, for C.
+    pub(crate) fn names(&self) -> &[Owned] {
+        self.1.get_or_init(|| {
+            let names = (0..self.0.num_bodies()).filter_map(|body| self.0.body_name(body));
+            names.map(Owned::new).collect()
+        })
+    }
+}
 
 impl Handle for Proximity {
     const NAME: &'static str = "urdd_proximity";
@@ -23,8 +38,11 @@ impl Handle for Proximity {
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
-    /// The indices of their links.
+    /// The indices of their links; for an attached object, of the link that carries it.
     pub links: [usize; 2],
+    /// The indices of the two bodies: of the links, or, from the number of links on, of the attached objects in the order
+    /// in which they were attached. `urdd_proximity_body_name` has their names.
+    pub bodies: [usize; 2],
     /// The indices of the pieces of these links; 0 for hulls and their bounding volumes.
     pub pieces: [usize; 2],
 }
@@ -49,10 +67,11 @@ unsafe impl Plain for Pair {}
 // SAFETY: as above.
 unsafe impl Plain for PairDistance {}
 
-impl From<&RobotPair> for PairDistance {
-    fn from(found: &RobotPair) -> Self {
+impl From<RobotPair> for PairDistance {
+    fn from(found: RobotPair) -> Self {
+        let (links, bodies) = (found.link_idxs, found.body_idxs);
         PairDistance {
-            pair: Pair { links: found.link_idxs, pieces: found.pieces },
+            pair: Pair { links, bodies, pieces: found.pieces },
             distance: found.distance,
             relative: found.relative.unwrap_or(f64::NAN),
             points: found.points,
@@ -80,7 +99,7 @@ pub unsafe extern "C" fn urdd_robot_proximity(
         make(out, || {
             let robot = at(handle)?;
             let made = robot.robot.proximity(shape_kind(read_text("kind", kind)?)?)?;
-            Ok(Proximity(Arc::new(made)))
+            Ok(Proximity::new(made))
         })
     }
 }
@@ -142,9 +161,10 @@ pub unsafe extern "C" fn urdd_proximity_pairs(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let out = exact_room("pairs", pairs, length, (proximity.num_pairs(), 1), &[])?;
-        for (out, [a, b]) in out.iter_mut().zip(proximity.pairs()) {
-            *out = Pair { links: [a.0, b.0], pieces: [a.1, b.1] };
+        let out = exact_room("pairs", pairs, length, (proximity.num_pairs(), 1))?;
+        let known = proximity.pairs().zip(proximity.pair_bodies());
+        for (out, ([a, b], bodies)) in out.iter_mut().zip(known) {
+            *out = Pair { links: [a.0, b.0], bodies, pieces: [a.1, b.1] };
         }
         Ok(())
     })
@@ -237,7 +257,8 @@ pub unsafe extern "C" fn urdd_proximity_distances(
 /// Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-/// that is written of each row: the lesser of `k` and the number of pairs.
+/// that is written of each row: the lesser of `k` and the number of pairs. One row is computed on this thread, without an
+/// allocation.
 ///
 /// Errors: `LENGTH`; `VALUE` for NaN or infinity.
 ///
@@ -256,12 +277,13 @@ pub unsafe extern "C" fn urdd_proximity_nearest(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        put("found", found, k.min(proximity.num_pairs()))?;
         let q = proximity_rows(proximity, configurations, (rows, dofs))?;
+        let found = room("found", found, 1)?;
         q.answer(("nearest", nearest, rows.saturating_mul(k)), k, |q, out| {
-            copy(&proximity.nearest(q, k)?, out);
-            Ok(())
-        })
+            with_workspace(|memory| proximity.nearest_with(q, k, memory, write(out.iter_mut())))
+        })?;
+        found[0] = k.min(proximity.num_pairs());
+        Ok(())
     })
 }
 
@@ -288,7 +310,7 @@ pub unsafe extern "C" fn urdd_proximity_closest_points(
         let proximity = &at(handle)?.0;
         let q = proximity_rows(proximity, configurations, (rows, dofs))?;
         q.answer(("closest", closest, length), proximity.num_pairs(), |q, out| {
-            copy(&proximity.closest_points(q)?, out);
+            proximity.closest_points(q)?.into_iter().for_each(write(out.iter_mut()));
             Ok(())
         })
     })
@@ -305,8 +327,13 @@ unsafe fn proximity_rows<'a>(
     unsafe { Rows::new("configurations", data, shape, proximity.num_dofs()) }
 }
 
-fn copy(pairs: &[RobotPair], out: &mut [PairDistance]) {
-    for (out, pair) in out.iter_mut().zip(pairs) {
-        *out = pair.into();
+/// Writes one answer after another.
+pub(crate) fn write<'a, P, T: From<P> + 'a>(
+    mut out: impl Iterator<Item = &'a mut T>,
+) -> impl FnMut(P) {
+    move |found| {
+        if let Some(out) = out.next() {
+            *out = found.into();
+        }
     }
 }

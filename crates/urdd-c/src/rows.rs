@@ -56,7 +56,7 @@ impl<'a> Rows<'a> {
         width: usize,
     ) -> Result<&'o mut [T], Failure> {
         // SAFETY: guaranteed by the caller.
-        unsafe { exact_room(what, out, length, (self.count, width), &[self.values]) }
+        unsafe { exact_room(what, out, length, (self.count, width)) }
     }
 
     /// Writes `width` results of each row, as `ask` does for one. A few rows are answered on this thread.
@@ -75,21 +75,20 @@ impl<'a> Rows<'a> {
         Ok(fill(out, width, BLOCK, || (), row)?)
     }
 
-    /// Writes a result for each row of both.
+    /// Writes `width` results for each row of both.
     ///
     /// # Safety
     /// As for [`exact_room`].
     pub unsafe fn answer_both<T: Plain + Send>(
         &self,
         other: &Rows,
-        (what, out, length): (&'static str, *mut T, usize),
-        ask: impl Fn(&[f64], &[f64], &mut T) -> Result<(), RobotError> + Sync,
+        out: (&'static str, *mut T, usize),
+        width: usize,
+        ask: impl Fn(&[f64], &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
     ) -> Result<(), Failure> {
-        let inputs = [self.values, other.values];
         // SAFETY: guaranteed by the caller.
-        let out = unsafe { exact_room(what, out, length, (self.count, 1), &inputs) }?;
-        let row =
-            |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), other.row(k), &mut out[0]);
-        Ok(fill(out, 1, EDGES, || (), row)?)
+        let out = unsafe { self.room(out, width) }?;
+        let row = |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), other.row(k), out);
+        Ok(fill(out, width, EDGES, || (), row)?)
     }
 }

@@ -85,7 +85,7 @@ pub unsafe extern "C" fn urdd_skips_places(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.0.places();
-        let out = exact_room("places", places, length, (known.len(), 1), &[])?;
+        let out = exact_room("places", places, length, (known.len(), 1))?;
         for (out, (link, piece)) in out.iter_mut().zip(known) {
             *out = Place { link: *link, piece: *piece };
         }

@@ -27,7 +27,7 @@ pub unsafe extern "C" fn urdd_robot_bounds(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?.bounds();
-        let out = exact_room("bounds", bounds, length, (known.len(), 2), &[])?;
+        let out = exact_room("bounds", bounds, length, (known.len(), 2))?;
         out.copy_from_slice(known.as_flattened());
         Ok(())
     })
@@ -49,7 +49,7 @@ pub unsafe extern "C" fn urdd_robot_dof_is_limited(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?.dof_is_limited();
-        exact_room("limited", limited, dofs, (1, known.len()), &[])?.copy_from_slice(known);
+        exact_room("limited", limited, dofs, (1, known.len()))?.copy_from_slice(known);
         Ok(())
     })
 }
@@ -65,7 +65,7 @@ unsafe fn one(
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?;
-        let out = exact_room("configuration", configuration, dofs, (1, known.num_dofs()), &[])?;
+        let out = exact_room("configuration", configuration, dofs, (1, known.num_dofs()))?;
         out.copy_from_slice(&of(known));
         Ok(())
     })
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn urdd_robot_random(
         let known = at(handle)?.robot.configurations()?;
         let shape = (rows, known.num_dofs());
         let length = rows.saturating_mul(dofs);
-        let out = exact_room("configurations", configurations, length, shape, &[])?;
+        let out = exact_room("configurations", configurations, length, shape)?;
         let write = |(): &mut (), k: usize, out: &mut [f64]| {
             out.copy_from_slice(&known.random(first.wrapping_add(k as u64)));
             Ok::<(), RobotError>(())
@@ -151,7 +151,7 @@ pub unsafe extern "C" fn urdd_robot_clamp(
         let known = robot.robot.configurations()?;
         let mut values = robot.rows("configuration", configuration, (1, dofs))?.values.to_vec();
         known.clamp(&mut values);
-        room("configuration", configuration, dofs, &[])?.copy_from_slice(&values);
+        room("configuration", configuration, dofs)?.copy_from_slice(&values);
         Ok(())
     })
 }

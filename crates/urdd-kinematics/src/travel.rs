@@ -59,7 +59,7 @@ impl Travel<'_> {
             }
             let moved = self.of_link[at];
             length += moved.slide + moved.turn * distance;
-            distance += moved.reach;
+            distance = (distance + moved.reach).min(f64::MAX);
             at = step.parent;
         }
         length
@@ -78,18 +78,20 @@ impl Travel<'_> {
 }
 
 fn moved(motion: &Motion, start: &[f64], end: &[f64]) -> Moved {
-    let change = |dof: usize| (end[dof] - start[dof]).abs();
+    // Finite, so that no product is NaN.
+    let between = |from: f64, to: f64| (to - from).abs().min(f64::MAX);
+    let change = |dof: usize| between(start[dof], end[dof]);
     let most = |dof: usize| start[dof].abs().max(end[dof].abs());
-    let norm = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let norm = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>().sqrt().min(f64::MAX);
     let sum = |dofs: &[usize]| norm(&dofs.iter().map(|dof| change(*dof)).collect::<Vec<_>>());
     let far = |dofs: &[usize]| norm(&dofs.iter().map(|dof| most(*dof)).collect::<Vec<_>>());
     match motion {
         Motion::Fixed => Moved::default(),
         Motion::Turn { position, .. } => {
-            Moved { turn: (position.at(end) - position.at(start)).abs(), ..Moved::default() }
+            Moved { turn: between(position.at(start), position.at(end)), ..Moved::default() }
         }
         Motion::Slide { position, .. } => Moved {
-            slide: (position.at(end) - position.at(start)).abs(),
+            slide: between(position.at(start), position.at(end)),
             reach: position.at(start).abs().max(position.at(end).abs()),
             ..Moved::default()
         },

@@ -1,13 +1,20 @@
 //! Motions on a straight line between two configurations: sampled, or proved to be free.
 
+use super::checked::{Checked, any_within, check_margin};
 use super::error::RobotError;
 use super::proximity::{Placed, Workspace};
 use arrayvec::ArrayVec;
 use urdd_geometry::convex::across::AT_ONCE;
-use urdd_kinematics::Travel;
 
 /// The distance beyond the margin that a proof needs, m: without it, a motion that grazes would take steps without end.
 const SLACK: f64 = 1e-4;
+
+/// The most configurations that are checked between two, and the most steps of a proof.
+const MAX_SAMPLES: u64 = 1_000_000;
+const MAX_STEPS: u64 = 100_000;
+
+/// Halvings of the part in which a first contact is.
+const HALVINGS: u32 = 10;
 
 /// How a motion is checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,57 +32,150 @@ impl Default for EdgeSettings {
     }
 }
 
-/// A margin, m: finite, and not negative.
-pub(super) fn check_margin(margin: f64) -> Result<f64, RobotError> {
-    match margin.is_finite() && margin >= 0.0 {
-        true => Ok(margin),
-        false => Err(RobotError::Setting("a margin is finite, and not below 0 m")),
+/// Where a motion first comes too near, as parts of it from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstContact {
+    /// The last part that is known to be free; 0 if the start is not.
+    pub free: f64,
+    /// The first part that is not.
+    pub blocked: f64,
+}
+
+/// A motion, and the memory to check it.
+struct Motion<'a, C> {
+    checked: &'a C,
+    ends: [&'a [f64]; 2],
+    margin: f64,
+    placed: &'a mut Placed,
+    configuration: Vec<f64>,
+}
+
+/// How a motion is gone through.
+enum Course {
+    /// So many steps of one length.
+    Sampled(u64),
+    /// With bounds on how far pairs move toward each other, m.
+    Proved(Vec<f64>),
+}
+
+impl<'a, C: Checked> Motion<'a, C> {
+    fn new(
+        checked: &'a C,
+        ends: [&'a [f64]; 2],
+        settings: &EdgeSettings,
+        workspace: &'a mut Workspace,
+    ) -> Result<(Self, Course), RobotError> {
+        let margin = check_margin(settings.margin)?;
+        let travel = checked.shapes().travel(ends[0], ends[1])?;
+        let course = match settings.resolution {
+            None => Course::Proved(checked.rates(&travel)),
+            Some(resolution) if resolution.is_finite() && resolution > 0.0 => {
+                let steps = (checked.farthest(&travel) / resolution).ceil().max(1.0);
+                if steps > MAX_SAMPLES as f64 {
+                    return Err(RobotError::Steps { most: MAX_SAMPLES });
+                }
+                Course::Sampled(steps as u64)
+            }
+            Some(_) => return Err(RobotError::Setting("a resolution is finite, and above 0 m")),
+        };
+        let (placed, configuration) = (&mut workspace.placed, ends[0].to_vec());
+        Ok((Motion { checked, ends, margin, placed, configuration }, course))
+    }
+
+    fn place(&mut self, part: f64) -> Result<(), RobotError> {
+        let ends = self.ends[0].iter().zip(self.ends[1]);
+        for (now, (from, to)) in self.configuration.iter_mut().zip(ends) {
+            *now = if part == 1.0 { *to } else { from + part * (to - from) };
+        }
+        self.checked.shapes().place(&self.configuration, self.placed)
+    }
+
+    fn is_blocked(&mut self, part: f64) -> Result<bool, RobotError> {
+        self.place(part)?;
+        Ok(any_within(self.checked, self.placed, self.margin))
+    }
+
+    /// The first part that cannot be proved free.
+    fn unproved(&mut self, rates: &[f64]) -> Result<Option<FirstContact>, RobotError> {
+        // In a motion without end, a step is no part of it.
+        if rates.iter().all(|rate| rate.is_finite()) {
+            let mut contact = FirstContact { free: 0.0, blocked: 0.0 };
+            for _ in 0..MAX_STEPS {
+                self.place(contact.blocked)?;
+                let safe = least_safe_part(self.checked, self.placed, rates, self.margin);
+                if safe <= 0.0 {
+                    return Ok(Some(contact));
+                }
+                if contact.blocked + safe >= 1.0 {
+                    return Ok(None);
+                }
+                let next = contact.blocked + safe;
+                if next <= contact.blocked {
+                    break;
+                }
+                contact = FirstContact { free: contact.blocked + 0.999 * safe, blocked: next };
+            }
+        }
+        Err(RobotError::Steps { most: MAX_STEPS })
     }
 }
 
-/// Pairs that can be checked in a configuration and along a motion.
-pub(super) trait Checked {
-    /// A pair of shapes.
-    type Pair: Copy;
-    /// The pairs that can come within a margin (m) or leave it, each with its place in `rates`.
-    fn pairs(&self, margin: f64) -> impl Iterator<Item = (Self::Pair, usize)>;
-    /// A lower bound of the distance of a pair, m; not positive if it may touch.
-    fn bound(&self, placed: &Placed, pair: Self::Pair) -> f64;
-    /// The distances of some pairs, at most [`AT_ONCE`], m.
-    fn values(&self, placed: &Placed, pairs: &[Self::Pair], values: &mut [f64]);
-    /// Whether any pair touches or overlaps.
-    fn touches(&self, placed: &Placed) -> bool;
-    fn place(&self, configuration: &[f64], placed: &mut Placed) -> Result<(), RobotError>;
-    fn travel(&self, start: &[f64], end: &[f64]) -> Result<Travel<'_>, RobotError>;
-    /// Bounds on how far pairs move toward each other, m.
-    fn rates(&self, travel: &Travel) -> Vec<f64>;
-    /// The farthest that a point of a shape travels, m.
-    fn farthest(&self, travel: &Travel) -> f64;
-}
-
-/// Whether any pair is at most `margin` apart, m. Stops at the first such pairs.
-pub(super) fn any_within(checked: &impl Checked, placed: &Placed, margin: f64) -> bool {
-    if margin == 0.0 {
-        return checked.touches(placed);
-    }
-    let pairs = checked.pairs(margin).map(|(pair, _)| pair);
-    let near = pairs.filter(|pair| checked.bound(placed, *pair) <= margin);
-    let mut near = near.peekable();
-    while near.peek().is_some() {
-        let pairs: ArrayVec<_, AT_ONCE> = near.by_ref().take(AT_ONCE).collect();
-        let mut values = [f64::INFINITY; AT_ONCE];
-        checked.values(placed, &pairs, &mut values[..pairs.len()]);
-        if values.iter().any(|value| *value <= margin) {
-            return true;
+/// Where a straight motion is not free, as a part of it from 0 to 1; `None` if it is free.
+pub(super) fn blocked(
+    checked: &impl Checked,
+    ends: [&[f64]; 2],
+    settings: &EdgeSettings,
+    workspace: &mut Workspace,
+) -> Result<Option<f64>, RobotError> {
+    let (mut motion, course) = Motion::new(checked, ends, settings, workspace)?;
+    let steps = match course {
+        Course::Proved(rates) => {
+            return Ok(motion.unproved(&rates)?.map(|contact| contact.blocked));
+        }
+        Course::Sampled(steps) => steps,
+    };
+    for k in std::iter::once(steps).chain(halving(steps)) {
+        let part = k as f64 / steps as f64;
+        if motion.is_blocked(part)? {
+            return Ok(Some(part));
         }
     }
-    false
+    Ok(None)
+}
+
+/// Where a straight motion first is not free; `None` if it is free.
+pub(super) fn first_contact(
+    checked: &impl Checked,
+    ends: [&[f64]; 2],
+    settings: &EdgeSettings,
+    workspace: &mut Workspace,
+) -> Result<Option<FirstContact>, RobotError> {
+    let (mut motion, course) = Motion::new(checked, ends, settings, workspace)?;
+    let steps = match course {
+        Course::Proved(rates) => return motion.unproved(&rates),
+        Course::Sampled(steps) => steps,
+    };
+    for k in 0..=steps {
+        let at = |k: u64| k as f64 / steps as f64;
+        if motion.is_blocked(at(k))? {
+            let mut contact = FirstContact { free: at(k.saturating_sub(1)), blocked: at(k) };
+            for _ in 0..if k == 0 { 0 } else { HALVINGS } {
+                let middle = 0.5 * (contact.free + contact.blocked);
+                match motion.is_blocked(middle)? {
+                    true => contact.blocked = middle,
+                    false => contact.free = middle,
+                }
+            }
+            return Ok(Some(contact));
+        }
+    }
+    Ok(None)
 }
 
 /// The part of a motion in which no pair can come nearer than `margin` (m), at most 1.
 fn least_safe_part(checked: &impl Checked, placed: &Placed, rates: &[f64], margin: f64) -> f64 {
     let mut least = 1.0f64;
-    let mut pairs = checked.pairs(margin);
+    let mut pairs = checked.within(margin);
     loop {
         let is_needed = |(pair, rate): &(_, usize)| {
             safe_part(checked.bound(placed, *pair), rates[*rate], margin) < least
@@ -92,61 +192,6 @@ fn least_safe_part(checked: &impl Checked, placed: &Placed, rates: &[f64], margi
         }
     }
 }
-
-/// Where a straight motion is not free, as a part of it from 0 to 1; `None` if it is free.
-pub(super) fn blocked(
-    checked: &impl Checked,
-    [start, end]: [&[f64]; 2],
-    settings: &EdgeSettings,
-    workspace: &mut Workspace,
-) -> Result<Option<f64>, RobotError> {
-    let margin = check_margin(settings.margin)?;
-    let travel = checked.travel(start, end)?;
-    let placed = &mut workspace.placed;
-    let mut configuration = start.to_vec();
-    let mut place = |part: f64, placed: &mut Placed| {
-        for ((now, from), to) in configuration.iter_mut().zip(start).zip(end) {
-            *now = if part == 1.0 { *to } else { from + part * (to - from) };
-        }
-        checked.place(&configuration, placed)
-    };
-    let Some(resolution) = settings.resolution else {
-        let rates = checked.rates(&travel);
-        let mut part = 0.0;
-        loop {
-            place(part, placed)?;
-            let safe = least_safe_part(checked, placed, &rates, margin);
-            if safe <= 0.0 {
-                return Ok(Some(part));
-            }
-            if part + safe >= 1.0 {
-                return Ok(None);
-            }
-            part += safe;
-        }
-    };
-    if !(resolution.is_finite() && resolution > 0.0) {
-        return Err(RobotError::Setting("a resolution is finite, and above 0 m"));
-    }
-    let steps = (checked.farthest(&travel) / resolution).ceil().max(1.0);
-    if steps > MAX_STEPS {
-        return Err(RobotError::Setting(
-            "more than a million configurations between two: give a coarser resolution",
-        ));
-    }
-    let steps = steps as u64;
-    for k in std::iter::once(steps).chain(halving(steps)) {
-        let part = k as f64 / steps as f64;
-        place(part, placed)?;
-        if any_within(checked, placed, margin) {
-            return Ok(Some(part));
-        }
-    }
-    Ok(None)
-}
-
-/// The most configurations that are checked between two.
-const MAX_STEPS: f64 = 1e6;
 
 /// The numbers from 0 to below `count`, the halves first: what is far from the ends of a motion is blocked most often.
 fn halving(count: u64) -> impl Iterator<Item = u64> {

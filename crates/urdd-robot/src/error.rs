@@ -114,6 +114,12 @@ pub enum RobotError {
         /// Number of items.
         count: usize,
     },
+    /// A motion that is too long to be checked.
+    #[error("the motion needs more than {most} steps: divide it, or give a coarser resolution")]
+    Steps {
+        /// The most steps.
+        most: u64,
+    },
     /// A margin or a resolution that makes no sense.
     #[error("{0}")]
     Setting(&'static str),

@@ -30,6 +30,7 @@
 //! `urdf_module`.
 
 mod batch;
+mod checked;
 mod collision_model;
 mod description;
 mod edge;
@@ -46,6 +47,7 @@ mod named_configurations;
 mod names;
 mod obstacle;
 pub mod proximity;
+mod questions;
 mod robot;
 mod shapes;
 mod skip_edits;
@@ -57,7 +59,7 @@ pub mod world;
 #[doc(hidden)]
 pub use batch::fill;
 pub use description::SourceFile;
-pub use edge::EdgeSettings;
+pub use edge::{EdgeSettings, FirstContact};
 pub use error::RobotError;
 pub use inverse::Target;
 pub use kinematics::Jacobian;
@@ -67,7 +69,9 @@ pub use memory::has_room;
 pub use mesh::LinkVisual;
 pub use named_configurations::EditedConfigurations;
 pub use obstacle::{Obstacle, World};
-pub use proximity::{Cancellable, Overlap, PairDistance, PairGradient, Proximity, Workspace};
+pub use proximity::{
+    Cancellable, Gradient, Overlap, PairDistance, PairGradient, Proximity, Workspace,
+};
 pub use robot::Robot;
 pub use shapes::{LinkShape, ShapeKind, Solid};
 pub use skip_edits::EditedSkips;

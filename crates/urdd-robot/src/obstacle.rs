@@ -20,32 +20,54 @@ const SIDES: u32 = 64;
 #[derive(Debug, Clone)]
 pub struct Obstacle {
     pub(crate) name: Arc<str>,
-    pub(crate) parts: Vec<Part>,
-    /// Names of links that may touch it.
-    pub(crate) ignored: Vec<String>,
+    /// Of its frame.
+    pub(crate) pose: Isometry3<f64>,
+    pub(crate) parts: Arc<[Part]>,
+    /// Names of links and attached objects that may touch it.
+    pub(crate) ignored: Arc<Vec<String>>,
 }
 
-/// A convex shape swept by a sphere: all points within `radius` of the shape, in the root link's frame.
+/// A convex shape swept by a sphere: all points within `radius` of the shape, in the frame of its obstacle.
 #[derive(Debug, Clone)]
 pub(crate) struct Part {
     pub core: Arc<ConvexShape>,
     pub radius: f64,
-    /// The points of the shape in the frame of the obstacle.
-    own: Arc<[[f64; 3]]>,
-    /// The least and the largest coordinates of the shape, in metres, without `radius`.
+    /// The points of the shape.
+    points: Arc<[[f64; 3]]>,
+    /// The least and the largest coordinates of the points, in metres.
     bounds: [[f64; 3]; 2],
-    /// Of the shape, with `radius`.
-    pub sphere: BoundingSphere,
 }
 
 impl Part {
-    /// A lower bound of the distance of the part from a sphere, in metres; not positive if they may touch.
+    fn new(points: Arc<[[f64; 3]]>, radius: f64) -> Result<Self, ShapeError> {
+        let core = Arc::new(ConvexShape::of_points(&points)?);
+        let end = |k: usize, sign: f64| {
+            sign * points.iter().map(|p| sign * p[k]).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let bounds = [-1.0, 1.0].map(|sign| [0, 1, 2].map(|k| end(k, sign)));
+        Ok(Part { core, radius, bounds, points })
+    }
+
+    /// A lower bound of the distance of the part from a sphere in its frame, in metres; not positive if they may touch.
     pub fn bound(&self, sphere: &BoundingSphere) -> f64 {
         let [least, most] = self.bounds;
         let p = sphere.centre;
         let apart = [0, 1, 2].map(|k| (least[k] - p[k]).max(p[k] - most[k]).max(0.0));
         // Less by more than any rounding error.
         norm(apart) * (1.0 - 1e-12) - sphere.radius - self.radius
+    }
+
+    /// The shape at a pose, and a sphere around the part.
+    pub fn placed(
+        &self,
+        pose: &Isometry3<f64>,
+    ) -> Result<(ConvexShape, BoundingSphere), ShapeError> {
+        let placed = self.points.iter().map(|p| (pose * Point3::from(*p)).coords.into());
+        let placed: Vec<[f64; 3]> = placed.collect();
+        let core = ConvexShape::of_points(&placed)?;
+        let mut sphere = about(core.centre(), &placed);
+        sphere.radius += self.radius;
+        Ok((core, sphere))
     }
 }
 
@@ -66,8 +88,9 @@ impl World {
         &self.obstacles
     }
 
-    /// Adds an obstacle, or replaces the first one of its name: one that came, or [moved](Obstacle::at). The others, and
-    /// the robot's shapes, are not prepared again by [`Proximity::world_proximity`](crate::Proximity::world_proximity).
+    /// Adds an obstacle, or replaces the first one of its name: one that came, or [moved](Obstacle::at).
+    /// [`Proximity::world_proximity`](crate::Proximity::world_proximity) prepares no shape again;
+    /// [`WorldProximity::move_obstacles`](crate::WorldProximity::move_obstacles) moves without it.
     pub fn put(&mut self, obstacle: Obstacle) {
         match self.obstacles.iter_mut().find(|one| one.name == obstacle.name) {
             Some(known) => *known = obstacle,
@@ -86,8 +109,8 @@ impl Obstacle {
     /// A box: the pose of its centre and axes, and its half extents, in metres.
     ///
     /// # Errors
-    /// [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, or if a corner or point in the
-    /// root link's frame is not finite or too far away.
+    /// [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, or if a point or the pose is not
+    /// finite or farther than 1e9 m from the origin.
     pub fn cuboid(
         name: &str,
         pose: Isometry3<f64>,
@@ -96,7 +119,7 @@ impl Obstacle {
         for size in half_extents {
             check_size(name, size)?;
         }
-        Self::swept(name, &pose, &corners(half_extents), 0.0)
+        Self::swept(name, pose, &corners(half_extents), 0.0)
     }
 
     /// A sphere: its centre and radius, in metres.
@@ -104,7 +127,7 @@ impl Obstacle {
     /// # Errors
     /// As [`Obstacle::cuboid`].
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
-        Self::swept(name, &Translation3::from(centre).into(), &[[0.0; 3]], radius)
+        Self::swept(name, Translation3::from(centre).into(), &[[0.0; 3]], radius)
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
@@ -120,7 +143,7 @@ impl Obstacle {
     ) -> Result<Self, RobotError> {
         check_size(name, half_length)?;
         let ends = [-half_length, half_length].map(|z| [0.0, 0.0, z]);
-        Self::swept(name, &pose, &ends, radius)
+        Self::swept(name, pose, &ends, radius)
     }
 
     /// A cylinder along the z axis of its frame, from `-half_length` to `half_length`. It is approximated by a
@@ -143,7 +166,7 @@ impl Obstacle {
             [outer * angle.cos(), outer * angle.sin(), z]
         };
         let corners: Vec<[f64; 3]> = (0..2 * SIDES).map(corner).collect();
-        Self::swept(name, &pose, &corners, 0.0)
+        Self::swept(name, pose, &corners, 0.0)
     }
 
     /// The convex hull of points, in metres.
@@ -151,7 +174,7 @@ impl Obstacle {
     /// # Errors
     /// As [`Obstacle::cuboid`], and if there are no points.
     pub fn hull(name: &str, pose: Isometry3<f64>, points: &[[f64; 3]]) -> Result<Self, RobotError> {
-        Self::swept(name, &pose, points, 0.0)
+        Self::swept(name, pose, points, 0.0)
     }
 
     /// A mesh, decomposed into convex pieces as `urdd generate` does for links, at the same cost. Cavities remain as
@@ -166,48 +189,38 @@ impl Obstacle {
         if pieces.is_empty() {
             return Ok(whole);
         }
-        let parts = pieces.iter();
-        let parts = parts.map(|piece| part(&pose, piece.vertices.as_slice().into(), 0.0));
-        let parts: Result<Vec<Part>, ShapeError> = parts.collect();
-        whole.parts = parts.map_err(|error| fault(name, &error.to_string()))?;
+        let parts = pieces.iter().map(|piece| Part::new(piece.vertices.as_slice().into(), 0.0));
+        let parts: Result<Arc<[Part]>, ShapeError> = parts.collect();
+        whole.parts = parts.map_err(|error| fault(name, &error))?;
         Ok(whole)
     }
 
-    /// The same body with its frame at another pose, which its shapes are placed at: a mesh is not decomposed again.
-    /// The frame of a sphere is at its centre.
+    /// The same body with its frame at another pose. Nothing is prepared again: the two share their shapes. The frame of
+    /// a sphere is at its centre.
     ///
     /// # Errors
-    /// As [`Obstacle::cuboid`].
+    /// [`RobotError::Obstacle`] if the pose is not finite, or farther than 1e9 m from the origin.
     pub fn at(&self, pose: Isometry3<f64>) -> Result<Self, RobotError> {
-        let parts = self.parts.iter();
-        let parts = parts.map(|own| part(&pose, Arc::clone(&own.own), own.radius));
-        let parts: Result<Vec<Part>, ShapeError> = parts.collect();
-        Ok(Self {
-            parts: parts.map_err(|error| fault(&self.name, &error.to_string()))?,
-            ..self.clone()
-        })
+        check_pose(&self.name, &pose)?;
+        Ok(Self { pose, ..self.clone() })
+    }
+
+    /// The pose of its frame.
+    pub fn pose(&self) -> &Isometry3<f64> {
+        &self.pose
     }
 
     /// Excludes a link, or an attached object, from the tests against this obstacle, such as the base mounted on it or
     /// the gripper that holds it. [`Proximity::world_proximity`](crate::Proximity::world_proximity) rejects an unknown
     /// link.
     pub fn ignoring(mut self, link: &str) -> Self {
-        self.ignored.push(link.to_owned());
+        Arc::make_mut(&mut self.ignored).push(link.to_owned());
         self
     }
 
     /// Its name.
     pub fn name(&self) -> &str {
         &self.name
-    }
-
-    /// The links and attached objects that it ignores.
-    pub(crate) fn ignored(&self) -> &[String] {
-        &self.ignored
-    }
-
-    pub(crate) fn parts(&self) -> &[Part] {
-        &self.parts
     }
 
     /// Number of its convex parts.
@@ -217,46 +230,32 @@ impl Obstacle {
 
     fn swept(
         name: &str,
-        pose: &Isometry3<f64>,
+        pose: Isometry3<f64>,
         points: &[[f64; 3]],
         radius: f64,
     ) -> Result<Self, RobotError> {
         check_size(name, radius)?;
-        let part =
-            part(pose, points.into(), radius).map_err(|error| fault(name, &error.to_string()))?;
-        Ok(Self { name: Arc::from(name), parts: vec![part], ignored: Vec::new() })
+        check_pose(name, &pose)?;
+        let part = Part::new(points.into(), radius).map_err(|error| fault(name, &error))?;
+        Ok(Self { name: Arc::from(name), pose, parts: [part].into(), ignored: Arc::default() })
     }
-}
-
-fn part(pose: &Isometry3<f64>, own: Arc<[[f64; 3]]>, radius: f64) -> Result<Part, ShapeError> {
-    let placed = own.iter();
-    let placed = placed.map(|p| (pose * Point3::from(*p)).coords.into());
-    let placed: Vec<[f64; 3]> = placed.collect();
-    let core = ConvexShape::of_points(&placed)?;
-    // Larger by more than what placing them rounds.
-    let largest = placed.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let end = |k: usize, sign: f64| {
-        let numbers = placed.iter().map(|p| sign * p[k]);
-        sign * (numbers.fold(f64::NEG_INFINITY, f64::max) + 1e-12 * largest)
-    };
-    let mut sphere = about(core.centre(), &placed);
-    sphere.radius += radius;
-    Ok(Part {
-        bounds: [-1.0, 1.0].map(|sign| [0, 1, 2].map(|k| end(k, sign))),
-        core: Arc::new(core),
-        radius,
-        own,
-        sphere,
-    })
 }
 
 fn check_size(name: &str, size: f64) -> Result<(), RobotError> {
     match (0.0..=1e9).contains(&size) {
         true => Ok(()),
-        false => Err(fault(name, &ShapeError::Size { size }.to_string())),
+        false => Err(fault(name, &ShapeError::Size { size })),
     }
 }
 
-fn fault(name: &str, reason: &str) -> RobotError {
-    RobotError::Obstacle { name: name.to_owned(), reason: reason.to_owned() }
+pub(crate) fn check_pose(name: &str, pose: &Isometry3<f64>) -> Result<(), RobotError> {
+    let is_near = pose.translation.vector.iter().all(|x| x.abs() <= 1e9);
+    match is_near && pose.rotation.coords.iter().all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(fault(name, &ShapeError::Pose)),
+    }
+}
+
+fn fault(name: &str, reason: &ShapeError) -> RobotError {
+    RobotError::Obstacle { name: name.to_owned(), reason: reason.to_string() }
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -106,19 +106,22 @@ class World:
         triangles = np.ascontiguousarray(given, dtype=np.uint32)
         self._add(name, "mesh", (self._pose(name, pose), corners, triangles), ignore)
 
-    def move(self, name: str, pose: ArrayLike) -> None:
-        """Moves an obstacle: ``pose`` is that of its frame, which is at the centre of a sphere. Prepares this obstacle
-        anew, and no other; a mesh is not decomposed again.
+    def move(self, name: str | Sequence[str], pose: ArrayLike) -> None:
+        """Moves obstacles: one, to the ``pose`` of its frame, or several by their names, to poses (n, 4, 4) or
+        positions (n, 3). The frame of a sphere is at its centre. Nothing is prepared again.
 
         Raises:
-            KeyError: if there is no such obstacle.
+            KeyError: if there is no such obstacle. None has moved then, nor after another error.
             ObstacleError: as the other methods.
         """
-        known = self._obstacles[name]
-        placed = self._pose(name, pose)
-        _, *sizes = known.arguments
-        arguments = (three(placed[:3, 3], "centre") if known.shape == "sphere" else placed, *sizes)
-        self._obstacles[name] = _Obstacle(known.core.at(placed), known.shape, arguments, known.ignore)
+        names = [name] if isinstance(name, str) else list(name)
+        known = [self._obstacles[one] for one in names]
+        placed = self._pose(name, pose)[np.newaxis] if isinstance(name, str) else self._poses(names, pose)
+        cores = _urdd.Obstacle.at([one.core for one in known], placed.reshape(-1, 16))
+        for one, before, core, at in zip(names, known, cores, placed, strict=True):
+            _, *sizes = before.arguments
+            place = tuple(at[:3, 3].tolist()) if before.shape == "sphere" else at
+            self._obstacles[one] = _Obstacle(core, before.shape, (place, *sizes), before.ignore)
 
     def remove(self, name: str) -> None:
         """Removes an obstacle.
@@ -198,6 +201,24 @@ class World:
         found = np.eye(4)
         found[:3, 3] = given
         return found
+
+    @classmethod
+    def _poses(cls, names: list[str], given: ArrayLike) -> Floats:
+        try:
+            found = poses(given, "a pose")
+        except ConfigurationError:
+            # Says of which.
+            found = np.array([cls._pose(name, one) for name, one in zip(names, np.asarray(given), strict=False)])
+        if found.shape not in ((len(names), 4, 4), (len(names), 3)):
+            raise ConfigurationError(
+                f"the poses of {len(names)} obstacles must have the shape ({len(names)}, 4, 4) or ({len(names)}, 3), "
+                f"not {found.shape}"
+            )
+        if found.ndim == 3:
+            return np.array(found)
+        placed = np.tile(np.eye(4), (len(names), 1, 1))
+        placed[:, :3, 3] = found
+        return placed
 
     @staticmethod
     def _rows(name: str, values: ArrayLike, what: str) -> Floats:

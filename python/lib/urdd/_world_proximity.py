@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from functools import cached_property
 
@@ -44,6 +45,21 @@ class WorldProximity:
         self._core = _urdd.WorldProximity(proximity.core, world.obstacles())
         self._dof_names = proximity.dof_names
 
+    def move(self, name: str | Sequence[str], pose: ArrayLike) -> None:
+        """Moves obstacles: one, or several by their names, as :meth:`World.move`. Nothing is prepared again; the world
+        that this was made of stays as it is.
+
+        >>> import urdd
+        >>> robot = urdd.load("welding_arm")
+        >>> world = urdd.World()
+        >>> for k in range(20):
+        ...     world.add_box(f"box_{k}", size=[0.1, 0.1, 0.1], pose=[1, 0, 0.1 * k])
+        >>> proximity = robot.world_proximity(world)
+        >>> proximity.move(world.names, [[1 + 0.1 * k, 0.5, 0.2] for k in range(20)])
+        """
+        self._world.move(name, pose)
+        self._core = _urdd.WorldProximity(self._proximity.core, self._world.obstacles())
+
     @property
     def kind(self) -> ShapeKind:
         """The kind of the robot's shapes."""
@@ -58,6 +74,11 @@ class WorldProximity:
     def pair_indices(self) -> Indices:
         """(pairs, 3): the link, the piece and the obstacle of each pair."""
         return self._core.pairs()
+
+    @cached_property
+    def pair_bodies(self) -> Indices:
+        """(pairs,): the body of each pair, as in :attr:`Proximity.bodies`: a link, or an attached object."""
+        return self._core.pair_bodies()
 
     @property
     def num_pairs(self) -> int:
@@ -95,17 +116,35 @@ class WorldProximity:
         it is free. Does not check for self-collision.
 
         With a ``resolution`` (metres), configurations are checked between which no point of the robot travels farther,
-        the halves first; the answer need not be the first blocked part. With ``None``, the motion is proved free by
-        conservative advancement: it then needs 0.1 mm more than the ``margin``, and the answer is the first part where
-        it has less.
+        the end and the halves first: the answer is one that is blocked, and need not be the first, which
+        :meth:`first_contact` has. With ``None``, the motion is proved free by conservative advancement: it then needs
+        0.1 mm more than the ``margin``, and the answer is the first part where it has less.
 
         Raises:
-            ValueError: for a margin below 0, or a resolution that is not above 0 or asks for more than a million
-                configurations.
+            ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a
+                million configurations, or 100,000 steps of a proof.
         """
         starts, ends, batch = edges(start, end, self._dof_names)
         both = np.concatenate([starts, ends], axis=1)
         return scalar(self._core.blocked_edge(both, margin, resolution).reshape(batch))
+
+    def first_contact(
+        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
+    ) -> Floats:
+        """(..., 2): the last part of the straight motion from ``start`` to ``end`` that is known to be free (0 if the
+        start is not), and the first that is blocked; both NaN where the motion is free.
+
+        With a ``resolution``, configurations are checked in order, and the part between the first that is blocked and
+        the one before is halved ten times: between the two no point of the robot travels farther than a thousandth of
+        the resolution. A contact that begins and ends between two configurations can be missed. With ``None``, all up
+        to the first part is proved free.
+
+        Raises:
+            ValueError: as :meth:`blocked_edge`.
+        """
+        starts, ends, batch = edges(start, end, self._dof_names)
+        both = np.concatenate([starts, ends], axis=1)
+        return self._core.first_contact(both, margin, resolution).reshape((*batch, 2))
 
     def nearest(self, q: ArrayLike, k: int = 1) -> list[ObstacleDistance]:
         """The ``k`` nearest pairs in one configuration, with their closest points, nearest first; all pairs if there

@@ -268,3 +268,59 @@ fn carried_is_moved_along() {
         }
     }
 }
+
+/// Answers tell an object from its link, and another object on it; what is left out is not answered.
+#[test]
+fn bodies_and_pairs_that_are_left_out() {
+    let (_folder, robot, alone) = sliding();
+    let links = robot.link_names().expect("links").len();
+    let [base, link] = ["base", "box"].map(|name| robot.link(name).expect(name));
+    let with = alone.attach(link, &ball("near", -0.3)).expect("attached");
+    let with = with.attach(link, &ball("far", 0.3)).expect("attached");
+    assert_eq!(with.num_bodies(), links + 2);
+    let names = |proximity: &Proximity| -> Vec<String> {
+        let near = proximity.nearest(&[0.5], 9).expect("pairs");
+        for (one, gradient) in near.iter().zip(proximity.gradients(&[0.5], 9).expect("pairs")) {
+            assert_eq!(*one, gradient.pair);
+            assert_eq!(
+                one.body_idxs.map(|body| proximity.body_name(body)),
+                one.links.each_ref().map(|name| Some(&**name))
+            );
+            assert_eq!(one.link_idxs, [base, link]);
+        }
+        let bodies: Vec<[usize; 2]> = near.iter().map(|one| one.body_idxs).collect();
+        let mut all: Vec<[usize; 2]> = proximity.pair_bodies().collect();
+        assert_eq!(bodies.len(), all.len());
+        all.retain(|pair| !bodies.contains(pair));
+        assert!(all.is_empty());
+        near.iter().map(|one| one.links[1].to_string()).collect()
+    };
+    assert_eq!(names(&with), ["near", "box", "far"]);
+    let left = with.without([["near", "base"]]).expect("known names");
+    assert_eq!(names(&left), ["box", "far"]);
+    assert_eq!(
+        names(&left.without([["base", "box"], ["far", "far"]]).expect("known names")),
+        ["far"]
+    );
+    // Without the base nothing is left; without an object, the other keeps its index.
+    assert_eq!(with.without_bodies(["base"]).expect("known names").num_pairs(), 0);
+    let far = with.without_bodies(["near", "box"]).expect("known names");
+    assert_eq!((names(&far), far.body("far")), (vec!["far".to_owned()], Ok(links + 1)));
+    assert_eq!([far.num_shapes(), with.num_shapes()], [2, 4]);
+    // The closest points of what is left are where they were.
+    assert_eq!(far.nearest(&[0.5], 1), with.nearest(&[0.5], 3).map(|all| all[2..].to_vec()));
+    for wrong in [with.without([["base", "ner"]]), with.without_bodies(["ner"])] {
+        let Err(RobotError::Unknown { name, nearest, .. }) = wrong else { panic!("{wrong:?}") };
+        assert_eq!((&*name, nearest.as_deref()), ("ner", Some("near")));
+    }
+    // Obstacles see all that `without` leaves, and nothing of a body that is left out.
+    let post = World::new([Obstacle::sphere("post", [2.0, 0.0, 0.0], 0.5).expect("a sphere")]);
+    let seen = |shapes: &Proximity| -> Vec<usize> {
+        let world = shapes.world_proximity(&post).expect("a world");
+        let near = world.nearest(&[0.0], 9).expect("pairs");
+        assert_eq!(world.pair_bodies().count(), near.len());
+        near.iter().map(|one| one.body_idx).collect()
+    };
+    assert_eq!(seen(&left), [links + 1, link, links, base]);
+    assert_eq!(seen(&far), [links + 1, base]);
+}

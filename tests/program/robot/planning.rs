@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::{Isometry3, Point3};
 use urdd_kinematics::ForwardKinematics;
-use urdd_robot::{EdgeSettings, Obstacle, Robot, RobotError, ShapeKind, World};
+use urdd_robot::{EdgeSettings, FirstContact, Obstacle, Robot, RobotError, ShapeKind, World};
 
 use testkit::robots::{made, made_of, our_robots};
 
@@ -68,6 +68,59 @@ fn a_sliding_box_has_closed_forms() {
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &coarse), Ok(None));
     let fine = EdgeSettings { margin: 0.0, resolution: Some(0.1) };
     assert_eq!(world.blocked_edge(&[0.0], &[4.0], &fine), Ok(Some(0.5)));
+    let first = world.first_contact(&[0.0], &[4.0], &fine).expect("an answer").expect("blocked");
+    assert!(first.free <= 1.9 / 4.0 && 1.9 / 4.0 <= first.blocked, "{first:?}");
+    assert!((first.blocked - first.free) * 4.0 <= 0.1 / 1000.0, "{first:?}");
+    let first = world.first_contact(&[0.0], &[4.0], &settings);
+    let first = first.expect("an answer").expect("blocked");
+    assert!(first.free <= at && first.blocked == at && at - first.free < 1e-3, "{first:?}");
+    // From within the wall, toward it, and away from it.
+    for settings in [settings, fine] {
+        let first = |start: f64, end: f64| world.first_contact(&[start], &[end], &settings);
+        assert_eq!(first(2.0, 0.0), Ok(Some(FirstContact { free: 0.0, blocked: 0.0 })));
+        assert_eq!(first(1.0, -1.0), Ok(None));
+    }
+}
+
+/// Beside configurations in order, ten times as dense. A contact that they find and `first_contact` does not is shorter
+/// than the resolution.
+#[test]
+fn the_first_contact_is_that_of_dense_samples() {
+    let (_folder, robot) = robot_of("six_axis_arm");
+    let proximity = robot.proximity(ShapeKind::Pieces).expect("shapes");
+    let balls = [[0.5, 0.2, 0.4], [-0.3, 0.4, 0.6], [0.1, -0.5, 0.3]];
+    let world =
+        World::new(balls.map(|centre| Obstacle::sphere("ball", centre, 0.1).expect("a sphere")));
+    let world = proximity.world_proximity(&world).expect("a world");
+    let space = robot.configurations().expect("bounds");
+    let (settings, mut found, mut late) = (EdgeSettings::default(), 0, 0);
+    for k in 0..40 {
+        let (start, end) = (space.random(2 * k), space.random(2 * k + 1));
+        let at = |part: f64| -> Vec<f64> {
+            start.iter().zip(&end).map(|(from, to)| from + part * (to - from)).collect()
+        };
+        let touches = |part: f64| world.in_collision(&at(part)).expect("an answer");
+        if touches(0.0) {
+            continue;
+        }
+        let any = world.blocked_edge(&start, &end, &settings).expect("an answer");
+        let first = world.first_contact(&start, &end, &settings).expect("an answer");
+        assert_eq!(any.is_some(), first.is_some(), "{k}");
+        let Some(first) = first else { continue };
+        assert!(!touches(first.free) && touches(first.blocked), "{k} {first:?}");
+        assert!(any.is_some_and(|any| any >= first.free), "{k}");
+        late += usize::from(any > Some(first.blocked + 0.02));
+        // No point travels farther than the sum of all turns times 2 m.
+        let turns: f64 = start.iter().zip(&end).map(|(from, to)| (to - from).abs()).sum();
+        let dense = (200.0 * turns / 0.01).ceil();
+        let before = (0..).map(|step| f64::from(step) / dense);
+        let before: Vec<f64> = before.take_while(|part| *part < first.free).collect();
+        let longest = before.split(|part| !touches(*part)).map(<[f64]>::len).max();
+        let step = 0.01 / (turns * 0.05);
+        assert!(longest.unwrap_or_default() as f64 / dense <= step, "{k} {longest:?} {dense}");
+        found += 1;
+    }
+    assert!(found >= 10 && late >= 5, "{found} {late}");
 }
 
 #[test]
@@ -228,6 +281,43 @@ fn settings_that_make_no_sense_are_refused() {
     }
     assert!(matches!(edge(0.01, f64::NAN), Err(RobotError::Configuration(_))));
     assert!(proximity.blocked_edge(&[0.0, 1.0], &[0.0], &EdgeSettings::default()).is_err());
+}
+
+/// Of all types of joints: a motion that is too long for its resolution, or for a proof, ends with an error.
+#[test]
+fn motions_without_end_are_refused() {
+    for (name, lengths) in [
+        ("six_axis_arm", &[1e7, 1e18][..]),
+        ("toy_all_joints", &[1e18, 1e300, f64::MAX]),
+        ("planar_base_arm", &[1e18, f64::MAX]),
+    ] {
+        let (_folder, robot) = robot_of(name);
+        let proximity = robot.proximity(ShapeKind::Hulls).expect("shapes");
+        let beside = Obstacle::sphere("beside", [5.0, 0.0, 0.0], 0.1).expect("a sphere");
+        let world = proximity.world_proximity(&World::new([beside])).expect("a world");
+        let zero = robot.configurations().expect("bounds").zero();
+        let cases = lengths.iter().flat_map(|length| (0..zero.len()).map(move |dof| (length, dof)));
+        for (length, dof) in cases.filter(|(length, dof)| **length > 1e7 || *dof == 1) {
+            let (mut start, mut end) = (zero.clone(), zero.clone());
+            (start[dof], end[dof]) = (-length, *length);
+            for resolution in [None, Some(0.01), Some(f64::MIN_POSITIVE)] {
+                let settings = EdgeSettings { margin: 0.0, resolution };
+                let all = [
+                    proximity.blocked_edge(&start, &end, &settings),
+                    world.blocked_edge(&start, &end, &settings),
+                    world.first_contact(&start, &end, &settings).map(|one| one.map(|one| one.free)),
+                ];
+                for found in all {
+                    match (name, found) {
+                        // A slide that ends at the obstacle.
+                        (_, Ok(found)) => assert!(name != "six_axis_arm", "{length} {found:?}"),
+                        (_, Err(RobotError::Steps { .. } | RobotError::Configuration(_))) => {}
+                        (_, other) => panic!("{name} {dof} {length} {other:?}"),
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// The example finds paths between random configurations, which are free at a tenth of its resolution.

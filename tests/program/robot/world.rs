@@ -253,3 +253,88 @@ fn what_is_no_body_is_refused() {
         assert!(matches!(&error, RobotError::Obstacle { name, .. } if name == "bad"));
     }
 }
+
+/// Obstacles of every kind that are moved, by each way, are those that are made there: from points that are moved before.
+#[test]
+fn moved_obstacles_are_those_that_are_made_there() {
+    let ours = our_robots();
+    let (_, urdf) = ours.iter().find(|(name, _)| name == "welding_arm").unwrap();
+    let (_folder, path) = made(urdf);
+    let robot = Robot::open(path).unwrap();
+    let space = robot.configurations().unwrap();
+    let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
+    let far = at(900.0, -4000.0, 50.0);
+    let make = |pose: Isometry3<f64>| {
+        [
+            Obstacle::cuboid("box", pose, [0.1, 0.2, 0.05]).unwrap(),
+            Obstacle::capsule("rod", pose, 0.05, 0.2).unwrap(),
+            Obstacle::cylinder("mast", pose, 0.1, 0.3).unwrap(),
+            Obstacle::sphere("ball", pose.translation.vector.into(), 0.1).unwrap(),
+            Obstacle::mesh("cup", pose, &cup()).unwrap(),
+        ]
+    };
+    // Hulls of points that are in the root link's frame.
+    let placed = |pose: &Isometry3<f64>| {
+        let corner = |i: usize| {
+            [(1, 0.1), (2, 0.2), (4, 0.05)]
+                .map(|(bit, half)| if i & bit == 0 { -half } else { half })
+        };
+        let corners = (0..8).map(|i| (pose * nalgebra::Point3::from(corner(i))).coords.into());
+        let corners: Vec<[f64; 3]> = corners.collect();
+        Obstacle::hull("box", Isometry3::identity(), &corners).unwrap()
+    };
+    let elsewhere = World::new(make(far));
+    let mut moving = proximity.world_proximity(&elsewhere).unwrap();
+    for k in 0..20 {
+        let x = f64::from(k);
+        let turned = match k {
+            0 => UnitQuaternion::identity(),
+            _ => UnitQuaternion::from_euler_angles(x, 0.7 * x, 1.3 * x),
+        };
+        let pose = Isometry3::from_parts(Translation3::new(0.6 - 0.05 * x, 0.03 * x, 0.3), turned);
+        let here = proximity.world_proximity(&World::new(make(pose))).unwrap();
+        let mut world = elsewhere.clone();
+        for one in elsewhere.obstacles() {
+            world.put(one.at(pose).unwrap());
+        }
+        let put = proximity.world_proximity(&world).unwrap();
+        moving.move_obstacles(0, &[pose; 5]).unwrap();
+        let alone = proximity.world_proximity(&World::new([placed(&pose)])).unwrap();
+        for seed in 0..10 {
+            let q = space.random(seed);
+            let expected = here.closest_points(&q).unwrap();
+            assert_eq!(put.closest_points(&q).unwrap(), expected);
+            assert_eq!(moving.closest_points(&q).unwrap(), expected);
+            assert_eq!(moving.penetrations(&q), here.penetrations(&q));
+            let boxes = expected.iter().filter(|one| &*one.obstacle == "box");
+            for (one, other) in boxes.zip(alone.closest_points(&q).unwrap()) {
+                assert!((one.distance - other.distance).abs() < 1e-9, "{one:?} {other:?}");
+            }
+            let least = expected.iter().map(|one| one.distance).fold(f64::INFINITY, f64::min);
+            assert_eq!(moving.min_distance(&q), Ok(Some(least)));
+            assert_eq!(moving.in_collision(&q), Ok(least == 0.0));
+            for margin in [0.01, 0.1] {
+                assert_eq!(moving.is_within(&q, margin), Ok(least <= margin));
+            }
+        }
+    }
+    // One of them alone; what is refused moves none.
+    let (q, near) = (space.zero(), at(0.5, 0.0, 0.3));
+    moving.move_obstacles(0, &[far; 5]).unwrap();
+    moving.move_obstacles(3, &[near]).unwrap();
+    let before = moving.distances(&q).unwrap();
+    let moved: Vec<&str> = (moving.nearest(&q, 3).unwrap().iter())
+        .map(|one| if one.distance < 100.0 { "ball" } else { "another" })
+        .collect();
+    assert_eq!(moved, ["ball"; 3]);
+    for (first, poses) in [(0, vec![near; 6]), (5, vec![near]), (usize::MAX, vec![near; 2])] {
+        let refused = moving.move_obstacles(first, &poses);
+        assert!(matches!(refused, Err(RobotError::OutOfRange { count: 5, .. })), "{refused:?}");
+    }
+    for wrong in [at(f64::NAN, 0.0, 0.0), at(0.0, 1e10, 0.0)] {
+        let refused = moving.move_obstacles(0, &[near, wrong]);
+        assert!(matches!(refused, Err(RobotError::Obstacle { name, .. }) if name == "rod"));
+        assert!(elsewhere.obstacles()[0].at(wrong).is_err());
+    }
+    assert_eq!(moving.distances(&q).unwrap(), before);
+}

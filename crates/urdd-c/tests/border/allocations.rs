@@ -62,6 +62,15 @@ fn a_control_loop_does_not_allocate() {
         ok(urdd_proximity_sizes(made, null_mut(), &mut pairs, null_mut()));
         let (mut poses, mut jacobian) = (vec![0.0; 9 * 16], [0.0; 36]);
         let (mut distances, mut q) = (vec![0.0; pairs], [0.0; 6]);
+        let pair = Pair { links: [0; 2], bodies: [0; 2], pieces: [0; 2] };
+        let (distance, points) = (0.0, [[0.0; 3]; 2]);
+        let mut near = [PairDistance { pair, distance, relative: 0.0, points }; 5];
+        let (link, body, piece, obstacle) = (0, 0, 0, 0);
+        let none = ObstacleDistance { link, body, piece, obstacle, distance, points };
+        let (mut near_world, mut gradients, mut found) = ([none; 5], [0.0; 30], 0);
+        let mut around = 0;
+        ok(urdd_world_proximity_sizes(world, &mut around, null_mut(), null_mut()));
+        let mut around = vec![0.0; around];
         let mut before = 0;
         for k in 0..1000 {
             if k == 50 {
@@ -75,7 +84,17 @@ fn a_control_loop_does_not_allocate() {
             ok(urdd_proximity_self_distance(made, at, 1, 6, &mut d));
             ok(urdd_proximity_distances(made, at, 1, 6, distances.as_mut_ptr(), pairs));
             ok(urdd_world_proximity_in_collision(world, at, 1, 6, &mut touches));
+            let matrix = [1., 0., 0., 0.6, 0., 1., 0., d, 0., 0., 1., 0.4, 0., 0., 0., 1.];
+            ok(urdd_world_proximity_move_obstacles(world, 0, matrix.as_ptr(), 1));
             ok(urdd_world_proximity_min_distance(world, at, 1, 6, &mut d));
+            ok(urdd_world_proximity_distances(world, at, 1, 6, around.as_mut_ptr(), around.len()));
+            let near = near.as_mut_ptr();
+            ok(urdd_proximity_nearest(made, at, 1, 6, 5, near, &mut found));
+            let gradients = gradients.as_mut_ptr();
+            ok(urdd_proximity_gradients(made, at, 6, 5, near, gradients, &mut found));
+            let near = near_world.as_mut_ptr();
+            ok(urdd_world_proximity_nearest(world, at, 1, 6, 5, near, &mut found));
+            ok(urdd_world_proximity_gradients(world, at, 6, 5, near, gradients, &mut found));
         }
         assert!(before > 0);
         assert_eq!(COUNT.get() - before, 0);

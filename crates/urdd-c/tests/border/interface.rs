@@ -50,7 +50,7 @@ pub fn open() -> *mut Robot {
     robot
 }
 
-fn proximity(robot: *const Robot, kind: &str) -> *mut Proximity {
+pub fn proximity(robot: *const Robot, kind: &str) -> *mut Proximity {
     let (kind, mut made) = (c(kind), null_mut());
     // SAFETY: as the header says.
     ok(unsafe { urdd_robot_proximity(robot, kind.as_ptr(), &mut made) });
@@ -186,7 +186,7 @@ fn distances_and_collisions_are_those_of_rust() {
             ok(urdd_proximity_self_distance(made, row.as_ptr(), 1, 6, &mut d));
             assert_eq!((one, d), (colliding[k], least[k]));
         }
-        let empty = PairDistance::from(&known.nearest(&q[..6], 1).unwrap()[0]);
+        let empty = PairDistance::from(known.nearest(&q[..6], 1).unwrap().remove(0));
         let (mut near, mut found) = (vec![empty; 64 * 3], 0);
         ok(urdd_proximity_nearest(made, q.as_ptr(), 64, 6, 3, near.as_mut_ptr(), &mut found));
         assert_eq!(found, 3);
@@ -196,7 +196,9 @@ fn distances_and_collisions_are_those_of_rust() {
         for (k, row) in q.chunks(6).enumerate() {
             for (found, known) in near[3 * k..].iter().zip(known.nearest(row, 3).unwrap()) {
                 assert_eq!(found.distance, known.distance);
-                assert_eq!((found.pair.links, found.pair.pieces), (known.link_idxs, known.pieces));
+                let Pair { links, bodies, pieces } = found.pair;
+                assert_eq!((links, pieces), (known.link_idxs, known.pieces));
+                assert_eq!(bodies, known.body_idxs);
                 assert_eq!(found.points, known.points);
             }
             assert_eq!(all[pairs * k + 1].distance, distances[pairs * k + 1]);
@@ -244,6 +246,7 @@ fn obstacles_are_those_of_rust_and_outlive_their_handles() {
         }
         let empty = ObstacleDistance {
             link: 0,
+            body: 0,
             piece: 0,
             obstacle: 0,
             distance: 0.0,
@@ -486,7 +489,7 @@ fn what_planners_ask_is_what_rust_answers() {
                 );
             }
 
-            let near = PairDistance::from(&known.nearest(row, 1).expect("pairs")[0]);
+            let near = PairDistance::from(known.nearest(row, 1).expect("pairs").remove(0));
             let (mut pairs, mut gradients, mut found) = ([near; 4], vec![0.0; 4 * dofs], 0);
             ok(urdd_proximity_gradients(
                 with,
@@ -506,7 +509,7 @@ fn what_planners_ask_is_what_rust_answers() {
                     None => assert!(own.iter().all(|value| value.is_nan())),
                 }
             }
-            let nearest = ObstacleDistance::from(&around.nearest(row, 1).expect("pairs")[0]);
+            let nearest = ObstacleDistance::from(around.nearest(row, 1).expect("pairs").remove(0));
             let mut pairs = [nearest; 2];
             ok(urdd_world_proximity_gradients(
                 world,

@@ -10,3 +10,4 @@ mod fuzz_findings;
 mod interface;
 mod inverse;
 mod memory;
+mod motion;

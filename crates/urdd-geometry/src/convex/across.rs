@@ -61,10 +61,14 @@ pub fn touching(level: Level, pairs: &[PlacedPair]) -> u64 {
 pub fn witnesses(level: Level, pairs: &[PlacedPair]) -> Vec<Witness> {
     let mut found = Vec::with_capacity(pairs.len());
     for pairs in pairs.chunks(LANES) {
-        let eight = dispatch!(level, simd => eight_witnesses(simd, pairs));
-        found.extend_from_slice(&eight[..pairs.len()]);
+        found.extend_from_slice(&some_witnesses(level, pairs)[..pairs.len()]);
     }
     found
+}
+
+/// As [`witnesses`], for at least one and at most [`AT_ONCE`] pairs. Those beyond the last pair mean nothing.
+pub fn some_witnesses(level: Level, pairs: &[PlacedPair]) -> [Witness; AT_ONCE] {
+    dispatch!(level, simd => eight_witnesses(simd, pairs))
 }
 
 #[inline(always)]

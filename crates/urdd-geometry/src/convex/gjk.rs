@@ -18,7 +18,7 @@ pub const TOLERANCE: f64 = 1e-9;
 const CONTACT: f64 = 1e-10;
 
 /// Maximum number of iterations per lane; two to five are usual.
-const MAX_ROUNDS: usize = 64;
+pub(super) const MAX_ROUNDS: usize = 64;
 
 /// The range of distances whose exact values do not matter, metres: none.
 pub(crate) const EXACT: [f64; 2] = [0.0, -1.0];

@@ -3,9 +3,10 @@
 //! The descent is that of `gjk`, which records its vertices and their support points on the first shape. The nearest
 //! point is a convex combination of the last vertices; the same weights give the closest point on the first shape.
 
+use arrayvec::ArrayVec;
 use fearless_simd::{Simd, prelude::*};
 
-use super::gjk::{self, Record, TOLERANCE};
+use super::gjk::{self, MAX_ROUNDS, Record, TOLERANCE};
 use super::lanes::{LANES, Mask, Pose, Vec3};
 use super::support::Support;
 
@@ -21,7 +22,7 @@ pub struct Witness {
 /// The way of a descent.
 struct Way<S: Simd> {
     /// Each vertex of the Minkowski difference so far, and its support point on the first shape.
-    vertices: Vec<[Vec3<S>; 2]>,
+    vertices: ArrayVec<[Vec3<S>; 2], MOST>,
     /// The vertices of the nearest feature.
     feature: [Vec3<S>; 3],
     /// The fourth vertex, in the lanes of `inside`.
@@ -35,7 +36,7 @@ impl<S: Simd> Way<S> {
     fn new(simd: S) -> Self {
         let none = Vec3::splat(simd, [0.0; 3]);
         Self {
-            vertices: Vec::with_capacity(USUAL),
+            vertices: ArrayVec::new(),
             feature: [none; 3],
             last: none,
             inside: Mask::from_bitmask(simd, 0),
@@ -43,8 +44,8 @@ impl<S: Simd> Way<S> {
     }
 }
 
-/// Vertices of a usual descent.
-const USUAL: usize = 8;
+/// The most vertices of a descent: the first, and one for each round.
+const MOST: usize = MAX_ROUNDS + 1;
 
 impl<S: Simd> Record<S> for Way<S> {
     #[inline(always)]
@@ -52,7 +53,7 @@ impl<S: Simd> Record<S> for Way<S> {
         if self.vertices.is_empty() {
             self.feature = [vertex; 3];
         }
-        self.vertices.push([vertex, on_a]);
+        let _ = self.vertices.try_push([vertex, on_a]);
     }
 
     #[inline(always)]

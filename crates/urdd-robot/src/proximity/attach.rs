@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::body::Shape;
 use super::{Pair, Proximity};
 use crate::error::RobotError;
-use crate::names::index;
 use crate::obstacle::Obstacle;
 
 impl Proximity {
@@ -34,7 +33,8 @@ impl Proximity {
     ///
     /// # Errors
     /// [`RobotError::OutOfRange`] for a link that does not exist; [`RobotError::Unknown`] if the object ignores a link
-    /// that does not exist; [`RobotError::Obstacle`] if a link or an attached object has its name.
+    /// that does not exist; [`RobotError::Obstacle`] if a link or an attached object has its name, or
+    /// a point of it is farther than 1e9 m from the link's origin.
     pub fn attach(&self, link: usize, object: &Obstacle) -> Result<Proximity, RobotError> {
         let count = self.motion.links.len();
         if link >= count {
@@ -47,8 +47,7 @@ impl Proximity {
                 reason: "a link or an attached object has this name: choose another one".to_owned(),
             });
         }
-        let ignored = object.ignored().iter();
-        let ignored = ignored.map(|name| index("link", &self.names, name));
+        let ignored = object.ignored.iter().map(|name| self.body(name));
         let ignored: Vec<usize> = ignored.collect::<Result<_, _>>()?;
         let mut with = self.clone();
         let owner = with.names.len();
@@ -59,17 +58,15 @@ impl Proximity {
             bodies[shape.link] != bodies[link] && !ignored.contains(&shape.owner)
         });
         let others: Vec<usize> = others.map(|(place, _)| place).collect();
-        for (piece, part) in object.parts().iter().enumerate() {
+        for (piece, part) in object.parts.iter().enumerate() {
             let place = with.shapes.len();
-            with.shapes.push(Shape {
-                link,
-                owner,
-                piece,
-                core: Arc::clone(&part.core),
-                radius: part.radius,
-                sphere: part.sphere,
-                is_ball: false,
+            let placed = part.placed(object.pose()).map_err(|reason| {
+                let (name, reason) = (object.name().to_owned(), reason.to_string());
+                RobotError::Obstacle { name, reason }
             });
+            let (core, sphere) = placed?;
+            let (core, radius) = (Arc::new(core), part.radius);
+            with.shapes.push(Shape { link, owner, piece, core, radius, sphere, is_ball: false });
             let pair = |other: &usize| Pair { shapes: [*other, place], mean: None };
             with.pairs.extend(others.iter().map(pair));
         }

@@ -72,7 +72,6 @@ impl Proximity {
         let found = (0..count).into_par_iter().map(|k| {
             let mut placed = Placed::default();
             self.place(&configurations[k * dofs..(k + 1) * dofs], &mut placed)?;
-            self.place_centres(&mut placed);
             let touches = |group: &Group| self.any_touches(&placed, std::slice::from_ref(group));
             Ok(self.groups.iter().map(touches).collect())
         });
@@ -200,7 +199,7 @@ impl Cancellable<'_> {
     /// motion is free.
     ///
     /// # Errors
-    /// As [`Cancellable::in_collision_batch_into`], and [`RobotError::Setting`].
+    /// As [`Cancellable::in_collision_batch_into`], [`RobotError::Setting`] and [`RobotError::Steps`].
     pub fn blocked_edge_batch_into(
         &self,
         starts: &[f64],
@@ -208,16 +207,46 @@ impl Cancellable<'_> {
         settings: &EdgeSettings,
         out: &mut [f64],
     ) -> Result<(), RobotError> {
-        let count = self.count(ends)?;
-        check_room(starts.len(), count, self.proximity.num_dofs())?;
-        check_room(out.len(), count, 1)?;
-        let dofs = self.proximity.num_dofs();
-        fill(out, 1, EDGES, Workspace::default, |workspace, k, out| {
-            self.cancellation.check()?;
-            let [start, end] = [starts, ends].map(|all| &all[k * dofs..(k + 1) * dofs]);
+        self.edges([starts, ends], 1, out, |start, end, workspace, out| {
             let blocked = self.proximity.blocked_edge_with(start, end, settings, workspace)?;
             out[0] = blocked.unwrap_or(f64::NAN);
             Ok(())
+        })
+    }
+
+    /// As [`Proximity::first_contact`] from each configuration of `starts` to that of `ends`, into `out`: the last part
+    /// that is free and the first that is blocked, NaN where the motion is free.
+    ///
+    /// # Errors
+    /// As [`Cancellable::blocked_edge_batch_into`].
+    pub fn first_contact_batch_into(
+        &self,
+        starts: &[f64],
+        ends: &[f64],
+        settings: &EdgeSettings,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        self.edges([starts, ends], 2, out, |start, end, workspace, out| {
+            let contact = self.proximity.first_contact_with(start, end, settings, workspace)?;
+            out.copy_from_slice(&contact.map_or([f64::NAN; 2], |one| [one.free, one.blocked]));
+            Ok(())
+        })
+    }
+
+    fn edges(
+        &self,
+        [starts, ends]: [&[f64]; 2],
+        width: usize,
+        out: &mut [f64],
+        ask: impl Fn(&[f64], &[f64], &mut Workspace, &mut [f64]) -> Result<(), RobotError> + Sync,
+    ) -> Result<(), RobotError> {
+        let (count, dofs) = (self.count(ends)?, self.proximity.num_dofs());
+        check_room(starts.len(), count, dofs)?;
+        check_room(out.len(), count, width)?;
+        fill(out, width, EDGES, Workspace::default, |workspace, k, out| {
+            self.cancellation.check()?;
+            let [start, end] = [starts, ends].map(|all| &all[k * dofs..(k + 1) * dofs]);
+            ask(start, end, workspace, out)
         })
     }
 

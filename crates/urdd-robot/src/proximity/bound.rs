@@ -1,18 +1,10 @@
 //! Lower bounds of distances from bounding spheres.
 
-use super::body::Shape;
 use super::vector::to_root;
 use super::{Placed, Proximity};
 use urdd_geometry::vector::{dot, norm, sub};
 
 impl Proximity {
-    /// Transforms the centre of each shape's bounding sphere to the root link's frame.
-    pub(crate) fn place_centres(&self, placed: &mut Placed) {
-        placed.centres.clear();
-        let centre = |shape: &Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
-        placed.centres.extend(self.shapes.iter().map(centre));
-    }
-
     /// A lower bound of the distance of a pair of shapes, in metres; not positive if they may touch.
     pub(super) fn bound(&self, placed: &Placed, pair: usize) -> f64 {
         let [a, b] = self.pairs[pair].shapes;

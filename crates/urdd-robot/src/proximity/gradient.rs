@@ -1,19 +1,16 @@
 //! Gradients of distances with respect to the configuration.
 
-use nalgebra::Isometry3;
-
-use super::swept::penetration_of;
 use super::vector::to_root;
-use super::{PairDistance, Proximity, Workspace};
-use crate::error::RobotError;
+use super::workspace::{Derivative, Placed};
+use super::{PairDistance, Proximity};
 use urdd_geometry::convex::Penetration;
 use urdd_geometry::vector::{norm, sub};
 
 /// The distance of a pair, and how it changes with the configuration.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PairGradient {
+pub struct Gradient<P> {
     /// The pair, its distance and its closest points.
-    pub pair: PairDistance,
+    pub pair: P,
     /// The derivative of the distance for each DOF, m/rad or m/m. `None` if the shapes touch or overlap, where the
     /// distance is 0 and has no gradient.
     ///
@@ -22,6 +19,9 @@ pub struct PairGradient {
     /// distance is not differentiable, and this is one of its directional derivatives.
     pub gradient: Option<Vec<f64>>,
 }
+
+/// The distance of a pair of the robot's shapes, and how it changes.
+pub type PairGradient = Gradient<PairDistance>;
 
 /// Two shapes that touch or overlap.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,78 +38,31 @@ pub struct Overlap<P> {
 }
 
 impl Proximity {
-    /// The `k` nearest pairs, nearest first, with the gradients of their distances.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn gradients(
+    /// How fast two points of links, in the root link's frame, come apart in a direction with each DOF, m/rad or m/m.
+    /// Without a second link, the second point stays.
+    pub(crate) fn derivative<'a>(
         &self,
         configuration: &[f64],
-        k: usize,
-    ) -> Result<Vec<PairGradient>, RobotError> {
-        let mut workspace = Workspace::default();
-        let nearest = self.least(configuration, k, &mut workspace)?;
-        let pairs: Vec<usize> = nearest.iter().map(|(_, pair)| *pair).collect();
-        let poses = &workspace.placed.poses;
-        let of = |pair: PairDistance| {
-            let [a, b] = pair.link_idxs;
-            let gradient = toward(&pair.points, pair.distance).map(|toward| {
-                let speeds = |link: usize, point: usize| {
-                    self.speeds(configuration, poses, link, pair.points[point], toward)
-                };
-                let each = speeds(a, 0).into_iter().zip(speeds(b, 1));
-                each.map(|(a, b)| b - a).collect()
-            });
-            PairGradient { pair, gradient }
-        };
-        let found = self.witnesses(&workspace.placed, &pairs);
-        Ok(found.into_iter().map(of).collect())
-    }
-
-    /// The pairs that touch or overlap, in the order of [`Proximity::pairs`], with how far they do.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn penetrations(
-        &self,
-        configuration: &[f64],
-    ) -> Result<Vec<Overlap<PairDistance>>, RobotError> {
-        let placed = self.placed(configuration)?;
-        let near = (0..self.pairs.len()).filter(|pair| self.bound(&placed, *pair) <= 0.0);
-        let overlap = |place: usize| {
-            let swept = self.swept(place, self.pose(&placed, place));
-            let found = penetration_of(self.level, &swept)?;
-            let [a, b] = self.pairs[place].shapes.map(|shape| self.shapes[shape].link);
-            let (direction, points) = in_root(&placed.links[a], &found);
-            let speeds = |link: usize, point: [f64; 3]| {
-                self.speeds(configuration, &placed.poses, link, point, direction)
-            };
-            let each = speeds(a, points[0]).into_iter().zip(speeds(b, points[1]));
-            Some(Overlap {
-                pair: self.pair_distance(place, 0.0, points),
-                depth: found.depth,
-                direction,
-                gradient: each.map(|(a, b)| a - b).collect(),
-            })
-        };
-        Ok(near.filter_map(overlap).collect())
-    }
-
-    /// How fast a point of a link, in the root link's frame, moves in a direction with each DOF, m/rad or m/m.
-    pub(crate) fn speeds(
-        &self,
-        configuration: &[f64],
-        poses: &[Isometry3<f64>],
-        link: usize,
-        point: [f64; 3],
+        placed: &Placed,
+        (a, b): (usize, Option<usize>),
+        points: [[f64; 3]; 2],
         direction: [f64; 3],
-    ) -> Vec<f64> {
-        let mut jacobian = vec![0.0; 6 * self.num_dofs()];
-        let kinematics = &self.motion.kinematics;
-        kinematics.jacobian_into(configuration, poses, link, &point.into(), &mut jacobian);
-        let columns = jacobian.chunks_exact(6);
-        let speed = |column: &[f64]| (0..3).map(|k| direction[k] * column[k]).sum();
-        columns.map(speed).collect()
+        memory: &'a mut Derivative,
+    ) -> &'a [f64] {
+        let (kinematics, dofs) = (&self.motion.kinematics, self.num_dofs());
+        memory.jacobian.resize(6 * dofs, 0.0);
+        memory.of_dofs.clear();
+        memory.of_dofs.resize(dofs, 0.0);
+        for (link, point, sign) in [(Some(a), points[0], -1.0), (b, points[1], 1.0)] {
+            let Some(link) = link else { continue };
+            let (poses, jacobian) = (&placed.poses, &mut memory.jacobian);
+            kinematics.jacobian_into(configuration, poses, link, &point.into(), jacobian);
+            for (sum, column) in memory.of_dofs.iter_mut().zip(jacobian.chunks_exact(6)) {
+                let speed: f64 = (0..3).map(|k| direction[k] * column[k]).sum();
+                *sum += sign * speed;
+            }
+        }
+        &memory.of_dofs
     }
 }
 

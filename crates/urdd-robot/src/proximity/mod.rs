@@ -7,8 +7,9 @@
 //! that take a [`Workspace`] do not allocate.
 //! Results do not depend on the number of threads or on the batch.
 //!
-//! [`Proximity::attach`] adds an object that a link carries. [`Proximity::is_within`] answers for a margin, [`Proximity::gradients`] has the derivatives of distances, and
-//! [`Proximity::blocked_edge`] checks a straight motion.
+//! [`Proximity::attach`] adds an object that a link carries, [`Proximity::without`] leaves pairs out.
+//! [`Proximity::is_within`] answers for a margin, [`Proximity::gradients`] has the derivatives of distances, and
+//! [`Proximity::blocked_edge`] and [`Proximity::first_contact`] check a straight motion.
 //!
 //! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: [`Proximity::penetrations`] says how far.
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
@@ -18,36 +19,36 @@ mod attach;
 mod batch;
 mod body;
 mod bound;
-mod edges;
 mod gradient;
-mod margin;
 mod query;
 mod swept;
 mod vector;
+mod without;
 mod workspace;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use self::body::Shape;
 use super::Robot;
 use super::error::RobotError;
 use super::motion::Motion;
+use super::names::index;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
 use super::statistics::AllStatistics;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
-use urdd_geometry::vector::{dot, sub};
+use urdd_kinematics::Travel;
 
 pub use batch::Cancellable;
-pub use gradient::{Overlap, PairGradient};
+pub(super) use body::Shape;
+pub use gradient::{Gradient, Overlap, PairGradient};
 pub(super) use gradient::{in_root, toward};
 pub(super) use swept::{SweptPair, Waiting, penetration_of, witnesses};
-pub(super) use vector::to_root;
+pub(super) use vector::{relative, to_root};
+pub(super) use workspace::Placed;
 pub use workspace::Workspace;
-pub(super) use workspace::{Least, Placed};
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +57,9 @@ pub struct PairDistance {
     pub links: [Arc<str>; 2],
     /// The indices of the two links; for an attached object, of the link that it is attached to.
     pub link_idxs: [usize; 2],
+    /// The indices of the two bodies: of the links, or, from the number of links on, of the attached objects in the order
+    /// in which they were attached. [`Proximity::body_name`] has their names.
+    pub body_idxs: [usize; 2],
     /// The indices of the pieces; 0 for hulls and their bounding volumes. For an attached object, of its parts.
     pub pieces: [usize; 2],
     /// In metres; 0 if they touch or overlap.
@@ -224,6 +228,11 @@ impl Proximity {
         self.pairs.iter().map(move |pair| pair.shapes.map(name))
     }
 
+    /// The bodies of [`Proximity::pairs`], as [`PairDistance::body_idxs`].
+    pub fn pair_bodies(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
+        self.pairs.iter().map(|pair| pair.shapes.map(|shape| self.shapes[shape].owner))
+    }
+
     /// The root link.
     pub(super) fn root(&self) -> usize {
         self.motion.kinematics.root()
@@ -233,6 +242,24 @@ impl Proximity {
     pub fn link_name(&self, link: usize) -> Option<&str> {
         let names = &self.names[..self.motion.links.len()];
         names.get(link).map(|name| &**name)
+    }
+
+    /// Number of bodies: links and attached objects.
+    pub fn num_bodies(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The name of a link or of an attached object, by [`PairDistance::body_idxs`].
+    pub fn body_name(&self, body: usize) -> Option<&str> {
+        self.names.get(body).map(|name| &**name)
+    }
+
+    /// The index of a link or of an attached object.
+    ///
+    /// # Errors
+    /// [`RobotError::Unknown`], with the nearest name.
+    pub fn body(&self, name: &str) -> Result<usize, RobotError> {
+        index("link or attached object", &self.names, name)
     }
 }
 
@@ -277,7 +304,6 @@ impl Proximity {
     fn placed(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
         let mut placed = Placed::default();
         self.place(configuration, &mut placed)?;
-        self.place_centres(&mut placed);
         Ok(placed)
     }
 
@@ -290,13 +316,18 @@ impl Proximity {
         kinematics.link_poses_into(configuration, &mut placed.poses)?;
         placed.links.clear();
         placed.links.extend(placed.poses.iter().map(columns));
+        placed.centres.clear();
+        let centre = |shape: &Shape| to_root(&placed.links[shape.link], shape.sphere.centre);
+        placed.centres.extend(self.shapes.iter().map(centre));
         Ok(())
+    }
+
+    pub(super) fn travel(&self, start: &[f64], end: &[f64]) -> Result<Travel<'_>, RobotError> {
+        Ok(self.motion.kinematics.travel(start, end)?)
     }
 
     /// The pose of link `b` in the frame of link `a`.
     fn relative(placed: &Placed, a: usize, b: usize) -> [[f64; 3]; 4] {
-        let (a, b) = (&placed.links[a], &placed.links[b]);
-        let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(a[k], v));
-        [back(b[0]), back(b[1]), back(b[2]), back(sub(b[3], a[3]))]
+        relative(&placed.links[a], &placed.links[b])
     }
 }

@@ -4,13 +4,17 @@ use std::sync::Arc;
 
 use arrayvec::ArrayVec;
 
-use super::swept::{self, SweptPair, Waiting};
-use super::vector::to_root;
+use super::swept::{SweptPair, Waiting};
 use super::workspace::{Placed, Workspace};
-use super::{Group, PairDistance, Proximity, Rounding};
+use super::{Gradient, Group, Overlap, PairDistance, Proximity, Rounding};
 use crate::batch::check_room;
+use crate::checked::{Checked, closest, least};
+use crate::edge::{EdgeSettings, FirstContact};
 use crate::error::RobotError;
+use crate::questions::questions;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
+use urdd_geometry::vector::norm;
+use urdd_kinematics::Travel;
 
 impl Proximity {
     /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
@@ -20,8 +24,7 @@ impl Proximity {
     /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite.
     pub fn closest_points(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
         let placed = self.placed(configuration)?;
-        let all: Vec<usize> = (0..self.pairs.len()).collect();
-        Ok(self.witnesses(&placed, &all))
+        Ok(self.witnesses(&placed, 0..self.pairs.len()))
     }
 
     /// The distance of each pair that is checked, in metres, in the order of [`Proximity::pairs`].
@@ -47,7 +50,6 @@ impl Proximity {
         check_room(out.len(), 1, self.pairs.len())?;
         let placed = &mut workspace.placed;
         self.place(configuration, placed)?;
-        self.place_centres(placed);
         let mut pairs = [0; AT_ONCE];
         for (chunk, out) in out.chunks_mut(AT_ONCE).enumerate() {
             for (k, pair) in pairs.iter_mut().enumerate() {
@@ -56,22 +58,6 @@ impl Proximity {
             self.values(placed, &pairs[..out.len()], out);
         }
         Ok(())
-    }
-
-    /// The `k` nearest pairs, nearest first; all pairs if there are fewer. Ties are in the order of
-    /// [`Proximity::pairs`].
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn nearest(
-        &self,
-        configuration: &[f64],
-        k: usize,
-    ) -> Result<Vec<PairDistance>, RobotError> {
-        let mut workspace = Workspace::default();
-        let nearest = self.least(configuration, k, &mut workspace)?;
-        let pairs: Vec<usize> = nearest.iter().map(|(_, pair)| *pair).collect();
-        Ok(self.witnesses(&workspace.placed, &pairs))
     }
 
     /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
@@ -91,31 +77,8 @@ impl Proximity {
         configuration: &[f64],
         workspace: &mut Workspace,
     ) -> Result<Option<f64>, RobotError> {
-        let least = self.least(configuration, 1, workspace)?;
-        Ok(least.first().map(|(distance, _)| *distance))
-    }
-
-    /// Whether any pair touches or overlaps, that is, has distance 0. Stops at the first collision.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
-        self.in_collision_with(configuration, &mut Workspace::default())
-    }
-
-    /// As [`Proximity::in_collision`], with memory that is used again: it does not allocate.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn in_collision_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-    ) -> Result<bool, RobotError> {
-        let placed = &mut workspace.placed;
-        self.place(configuration, placed)?;
-        self.place_centres(placed);
-        Ok(self.any_touches(placed, &self.groups))
+        let nearest = least(self, configuration, 1, workspace)?;
+        Ok(nearest.first().map(|(distance, _)| *distance))
     }
 
     /// The pairs that touch or overlap, in the order of [`Proximity::pairs`].
@@ -133,7 +96,7 @@ impl Proximity {
             let both = pairs.iter().zip(values);
             touching.extend(both.filter(|(_, value)| *value == 0.0).map(|(pair, _)| *pair));
         }
-        Ok(self.witnesses(&placed, &touching))
+        Ok(self.witnesses(&placed, touching))
     }
 
     /// Whether any pair in these groups touches, for the given placement of the links.
@@ -158,22 +121,6 @@ impl Proximity {
             }
         }
         waiting.any_touches()
-    }
-
-    /// The distances and indices of the `k` nearest pairs, nearest first.
-    pub(super) fn least<'a>(
-        &self,
-        configuration: &[f64],
-        k: usize,
-        workspace: &'a mut Workspace,
-    ) -> Result<&'a [(f64, usize)], RobotError> {
-        let Workspace { placed, least, .. } = workspace;
-        self.place(configuration, placed)?;
-        self.place_centres(placed);
-        let bounds = (0..self.pairs.len()).map(|pair| (self.bound(placed, pair), pair));
-        Ok(least.of(bounds, k, |pairs, values| {
-            self.values(placed, pairs, values);
-        }))
     }
 
     /// The distances of some pairs, at most [`AT_ONCE`].
@@ -223,46 +170,104 @@ impl Proximity {
         self.shapes[a].radius + self.shapes[b].radius
     }
 
-    /// The two shapes of a pair.
-    pub(super) fn swept(&self, pair: usize, b_in_a: [[f64; 3]; 4]) -> SweptPair<'_> {
-        let [a, b] = self.pairs[pair].shapes;
-        SweptPair {
-            cores: self.cores(pair, b_in_a),
-            radii: [self.shapes[a].radius, self.shapes[b].radius],
-        }
+    /// The farthest point of a link's shapes from its origin, m.
+    fn radius(&self, link: usize) -> f64 {
+        let sphere = self.spheres[link].as_ref();
+        sphere.map_or(0.0, |sphere| norm(sphere.centre) + sphere.radius)
     }
 
-    pub(super) fn witnesses(&self, placed: &Placed, pairs: &[usize]) -> Vec<PairDistance> {
-        let both = pairs.iter();
-        let swept = both.map(|pair| self.swept(*pair, self.pose(placed, *pair)));
-        let found = swept::witnesses(self.level, &swept.collect::<Vec<_>>());
-        let both = pairs.iter().zip(found);
-        both.map(|(pair, (distance, points))| {
-            let link = self.shapes[self.pairs[*pair].shapes[0]].link;
-            let points = points.map(|p| to_root(&placed.links[link], p));
-            let distance = match self.are_balls(*pair) {
-                true => self.bound(placed, *pair).max(0.0),
-                false => distance,
-            };
-            self.pair_distance(*pair, distance, points)
-        })
-        .collect()
-    }
-
-    pub(super) fn pair_distance(
+    fn witnesses(
         &self,
+        placed: &Placed,
+        pairs: impl IntoIterator<Item = usize>,
+    ) -> Vec<PairDistance> {
+        let mut all = Vec::new();
+        closest(self, placed, pairs, |pair, distance, points| {
+            all.push(self.found(placed, pair, distance, points));
+        });
+        all
+    }
+}
+
+impl Checked for Proximity {
+    type Found = PairDistance;
+
+    fn shapes(&self) -> &Proximity {
+        self
+    }
+
+    fn count(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// Pairs of a group share its rate. Links that cannot move against each other have no margin between them.
+    fn within(&self, margin: f64) -> impl Iterator<Item = (usize, usize)> {
+        let groups = self.groups.iter().enumerate();
+        let groups = groups.filter(move |(_, group)| group.moves || margin == 0.0);
+        groups.flat_map(|(place, group)| (group.first..group.end).map(move |pair| (pair, place)))
+    }
+
+    fn bound(&self, placed: &Placed, pair: usize) -> f64 {
+        Proximity::bound(self, placed, pair)
+    }
+
+    fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
+        Proximity::values(self, placed, pairs, values);
+    }
+
+    fn touches(&self, placed: &Placed) -> bool {
+        self.any_touches(placed, &self.groups)
+    }
+
+    fn swept(&self, placed: &Placed, pair: usize) -> SweptPair<'_> {
+        let shapes = self.pairs[pair].shapes.map(|shape| &self.shapes[shape]);
+        let cores = self.cores(pair, self.pose(placed, pair));
+        SweptPair { cores, radii: shapes.map(|shape| shape.radius) }
+    }
+
+    fn links(&self, pair: usize) -> (usize, Option<usize>) {
+        let [a, b] = self.pairs[pair].shapes.map(|shape| self.shapes[shape].link);
+        (a, Some(b))
+    }
+
+    fn found(
+        &self,
+        placed: &Placed,
         pair: usize,
         distance: f64,
         points: [[f64; 3]; 2],
     ) -> PairDistance {
         let shapes = self.pairs[pair].shapes.map(|shape| &self.shapes[shape]);
+        let distance = match self.are_balls(pair) {
+            true => Proximity::bound(self, placed, pair).max(0.0),
+            false => distance,
+        };
         PairDistance {
             links: shapes.map(|shape| Arc::clone(self.owner(shape))),
             link_idxs: shapes.map(|shape| shape.link),
+            body_idxs: shapes.map(|shape| shape.owner),
             pieces: shapes.map(|shape| shape.piece),
             distance,
             relative: self.pairs[pair].mean.map(|mean| distance / mean),
             points,
         }
     }
+
+    /// One for each group.
+    fn rates(&self, travel: &Travel) -> Vec<f64> {
+        let rate = |links: [usize; 2]| {
+            let above = travel.common(links[0], links[1]);
+            let of = |link: usize| travel.of_points(link, self.radius(link), above);
+            of(links[0]) + of(links[1])
+        };
+        self.groups.iter().map(|group| rate(group.links)).collect()
+    }
+
+    fn farthest(&self, travel: &Travel) -> f64 {
+        let links = self.groups.iter().flat_map(|group| group.links);
+        let of = |link: usize| travel.of_points(link, self.radius(link), self.root());
+        links.map(of).fold(0.0, f64::max)
+    }
 }
+
+questions! { PairDistance, impl Proximity }

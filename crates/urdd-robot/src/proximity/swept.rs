@@ -14,10 +14,13 @@ pub(crate) struct SweptPair<'a> {
     pub radii: [f64; 2],
 }
 
-/// The distances of pairs, m, and their closest points in the frame of the first shape.
-pub(crate) fn witnesses(level: Level, pairs: &[SweptPair]) -> Vec<(f64, [[f64; 3]; 2])> {
-    let cores: Vec<PlacedPair> = pairs.iter().map(|pair| pair.cores).collect();
-    let found = across::witnesses(level, &cores);
+/// The distances of some pairs, at most [`AT_ONCE`], m, and their closest points in the frame of the first shape.
+pub(crate) fn witnesses(
+    level: Level,
+    pairs: &[SweptPair],
+) -> ArrayVec<(f64, [[f64; 3]; 2]), AT_ONCE> {
+    let cores: ArrayVec<PlacedPair, AT_ONCE> = pairs.iter().map(|pair| pair.cores).collect();
+    let found = across::some_witnesses(level, &cores);
     let each = found.iter().zip(pairs);
     each.map(|(witness, pair)| rounded(witness, pair.radii)).collect()
 }

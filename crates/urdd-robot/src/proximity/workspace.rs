@@ -13,9 +13,15 @@ use urdd_geometry::convex::across::AT_ONCE;
 #[derive(Debug, Default)]
 pub struct Workspace {
     pub(crate) placed: Placed,
-    pub(super) least: Least<usize>,
-    /// For pairs of a shape and a part of an obstacle.
-    pub(crate) least_of_parts: Least<(usize, usize)>,
+    pub(crate) least: Least,
+    pub(crate) derivative: Derivative,
+}
+
+/// The derivative of a distance for each DOF, and the Jacobian of a point.
+#[derive(Debug, Default)]
+pub(crate) struct Derivative {
+    pub jacobian: Vec<f64>,
+    pub of_dofs: Vec<f64>,
 }
 
 /// The placement of all links in one configuration.
@@ -28,55 +34,58 @@ pub(crate) struct Placed {
     pub centres: Vec<[f64; 3]>,
 }
 
-/// A lower bound of a pair's distance, as its bits, and the pair.
-type Bound<P> = Reverse<(u64, P)>;
-
-/// A search of the nearest pairs.
-#[derive(Debug)]
-pub(crate) struct Least<P> {
-    bounds: Vec<Bound<P>>,
-    best: Vec<(f64, P)>,
+/// A search of the nearest pairs. The bits of numbers that are not negative have their order.
+#[derive(Debug, Default)]
+pub(crate) struct Least {
+    /// Lower bounds of distances, and the pairs.
+    bounds: Vec<Reverse<(u64, usize)>>,
+    /// The nearest that are known.
+    known: Vec<(u64, usize)>,
+    best: Vec<(f64, usize)>,
 }
 
-impl<P> Default for Least<P> {
-    fn default() -> Self {
-        let (bounds, best) = (Vec::new(), Vec::new());
-        Least { bounds, best }
-    }
-}
-
-impl<P: Ord + Copy> Least<P> {
+impl Least {
     /// The `k` nearest pairs, nearest first, from lower bounds of their distances. Ties are in the order of the pairs.
     /// `values` computes the distances of some pairs, at most [`AT_ONCE`].
     pub fn of(
         &mut self,
-        bounds: impl Iterator<Item = (f64, P)>,
+        bounds: impl Iterator<Item = (f64, usize)>,
         k: usize,
-        values: impl Fn(&[P], &mut [f64]),
-    ) -> &[(f64, P)] {
-        self.best.clear();
+        values: impl Fn(&[usize], &mut [f64]),
+    ) -> &[(f64, usize)] {
+        let bits = |distance: f64| (distance.max(0.0) + 0.0).to_bits();
         self.bounds.clear();
-        // A heap, as a few of the pairs are enough. The bits of numbers that are not negative have their order.
-        self.bounds
-            .extend(bounds.map(|(bound, pair)| Reverse(((bound.max(0.0) + 0.0).to_bits(), pair))));
-        self.best.reserve(k.min(self.bounds.len()) + AT_ONCE);
+        self.known.clear();
+        // Heaps: as a few of the pairs are enough, and `k` may be all of them.
+        self.bounds.extend(bounds.map(|(bound, pair)| Reverse((bits(bound), pair))));
+        self.known.reserve(k.min(self.bounds.len()) + 1);
         let mut heap = BinaryHeap::from(std::mem::take(&mut self.bounds));
-        let best = &mut self.best;
+        let mut known = BinaryHeap::from(std::mem::take(&mut self.known));
         while let Some(Reverse((least, _))) = heap.peek() {
             // No pair in the heap can be nearer than the worst of `k` results, or equal to it and earlier in order.
-            let least = f64::from_bits(*least);
-            if best.len() >= k && best.last().is_none_or(|worst| least > worst.0) {
+            if known.len() >= k && known.peek().is_none_or(|(worst, _)| least > worst) {
                 break;
             }
             let next = std::iter::from_fn(|| heap.pop()).take(AT_ONCE);
-            let pairs: ArrayVec<P, AT_ONCE> = next.map(|Reverse((_, pair))| pair).collect();
+            let pairs: ArrayVec<usize, AT_ONCE> = next.map(|Reverse((_, pair))| pair).collect();
             let mut found = [0.0; AT_ONCE];
             values(&pairs, &mut found[..pairs.len()]);
-            best.extend(found.into_iter().zip(pairs));
-            best.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            best.truncate(k);
+            for (value, pair) in found.into_iter().zip(pairs) {
+                known.push((bits(value), pair));
+                if known.len() > k {
+                    known.pop();
+                }
+            }
         }
         self.bounds = heap.into_vec();
+        self.known = known.into_sorted_vec();
+        self.best.clear();
+        self.best.extend(self.known.iter().map(|(value, pair)| (f64::from_bits(*value), *pair)));
         &self.best
+    }
+
+    /// The nearest pairs that were found last.
+    pub fn best(&self) -> impl Iterator<Item = usize> {
+        self.best.iter().map(|(_, pair)| *pair)
     }
 }

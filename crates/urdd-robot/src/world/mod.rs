@@ -1,8 +1,8 @@
 //! Obstacles around a robot, and its distances to them.
 //!
 //! A [`World`] is a list of [`Obstacle`]s: boxes, spheres, capsules, cylinders and meshes.
-//! [`Proximity::world_proximity`] combines a robot's shapes of one kind with a world. [`WorldProximity`] then offers
-//! queries like those of [`Proximity`]. Skips do not apply: every shape of the robot is tested against every obstacle,
+//! [`Proximity::world_proximity`] combines a robot's shapes of one kind with a world. [`WorldProximity`] then has the
+//! queries of [`Proximity`]. Skips do not apply: every shape of the robot is tested against every obstacle,
 //! except for links that the obstacle ignores.
 //!
 //! ```
@@ -26,13 +26,26 @@
 //! ```
 //!
 //! Positions are in the root link's frame, in metres. To move the robot's base, apply the inverse motion to the world.
+//!
+//! Obstacles that move only move: [`Obstacle::at`] and [`WorldProximity::move_obstacles`] prepare nothing again, and the
+//! latter does not allocate. A control loop, with `poses` from a tracker:
+//!
+//! ```
+//! # use nalgebra::Isometry3;
+//! # use urdd_robot::{Proximity, RobotError, World, Workspace};
+//! # fn cycle(proximity: &Proximity, world: &World, q: &[f64], poses: &[Isometry3<f64>]) -> Result<(), RobotError> {
+//! let mut around = proximity.world_proximity(world)?;
+//! let mut workspace = Workspace::default();
+//! // In each cycle:
+//! around.move_obstacles(0, poses)?;
+//! let distance = around.min_distance_with(q, &mut workspace)?;
+//! # Ok(())
+//! # }
+//! ```
 
-mod edges;
-mod gradient;
 mod proximity;
 
-pub use gradient::ObstacleGradient;
-pub use proximity::{ObstacleDistance, WorldProximity};
+pub use proximity::{ObstacleDistance, ObstacleGradient, WorldProximity};
 
 #[cfg(doc)]
 use super::{Obstacle, Proximity, World};

@@ -4,16 +4,21 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
+use nalgebra::{Isometry3, UnitQuaternion};
 
+use crate::batch::check_room;
+use crate::checked::{Checked, closest, least};
+use crate::edge::{EdgeSettings, FirstContact};
 use crate::error::RobotError;
-use crate::names::index;
-use crate::obstacle::{Obstacle, Part, World};
+use crate::obstacle::{Part, World, check_pose};
 use crate::proximity::{
-    Least, Placed, Proximity, SweptPair, Waiting, Workspace, to_root, witnesses,
+    Gradient, Overlap, Placed, Proximity, Shape, SweptPair, Waiting, Workspace, relative,
 };
+use crate::questions::questions;
 use urdd_geometry::bounding_sphere::BoundingSphere;
-use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
-use urdd_geometry::vector::dot;
+use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair, columns};
+use urdd_geometry::vector::{dot, norm, sub};
+use urdd_kinematics::Travel;
 
 /// The distance between a shape of the robot and an obstacle, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +27,9 @@ pub struct ObstacleDistance {
     pub link: Arc<str>,
     /// The index of the link; for an attached object, of the link that it is attached to.
     pub link_idx: usize,
+    /// The index of the body: of the link, or, from the number of links on, of the attached object, as in
+    /// [`PairDistance::body_idxs`](crate::PairDistance::body_idxs).
+    pub body_idx: usize,
     /// The index of the link's piece; 0 for a hull and its bounding volumes. For an attached object, of its part.
     pub piece: usize,
     /// The name of the obstacle.
@@ -35,17 +43,56 @@ pub struct ObstacleDistance {
     pub points: [[f64; 3]; 2],
 }
 
-/// The indices of a shape and of a part of an obstacle.
-pub(super) type Pair = (usize, usize);
+/// The distance of a pair of a shape of the robot and an obstacle, and how it changes.
+pub type ObstacleGradient = Gradient<ObstacleDistance>;
 
 /// A robot's shapes and a world, prepared for distance queries.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct WorldProximity<P> {
-    pub(super) proximity: P,
+    proximity: P,
     names: Vec<Arc<str>>,
-    parts: Vec<(usize, Part)>,
-    /// For each obstacle, the links and attached objects that are not tested against it.
-    ignored: Vec<Vec<usize>>,
+    /// Those of an obstacle are contiguous.
+    parts: Vec<PlacedPart>,
+    /// The shapes of the robot and the parts that are tested against each other, by shape, then by part.
+    pairs: Vec<[u32; 2]>,
+}
+
+/// A part of an obstacle, at its pose.
+#[derive(Debug, Clone)]
+struct PlacedPart {
+    obstacle: usize,
+    part: Part,
+    /// The columns of the rotation of the obstacle's frame, then its translation.
+    frame: [[f64; 3]; 4],
+    /// Whether that is a rotation.
+    is_turned: bool,
+    /// More than what is rounded in its frame, m.
+    rounding: f64,
+}
+
+impl PlacedPart {
+    fn new(obstacle: usize, part: Part, pose: &Isometry3<f64>) -> Self {
+        let (frame, is_turned, rounding) = ([[0.0; 3]; 4], false, 0.0);
+        let mut placed = PlacedPart { obstacle, part, frame, is_turned, rounding };
+        placed.place(pose);
+        placed
+    }
+
+    fn place(&mut self, pose: &Isometry3<f64>) {
+        self.frame = columns(pose);
+        self.is_turned = pose.rotation != UnitQuaternion::identity();
+        self.rounding = 1e-12 * norm(self.frame[3]);
+    }
+
+    /// A lower bound of the distance from a sphere, m; not positive if they may touch.
+    fn bound(&self, centre: [f64; 3], radius: f64) -> f64 {
+        let from = sub(centre, self.frame[3]);
+        let centre = match self.is_turned {
+            true => [0, 1, 2].map(|k| dot(self.frame[k], from)),
+            false => from,
+        };
+        self.part.bound(&BoundingSphere { centre, radius: radius + self.rounding })
+    }
 }
 
 impl Proximity {
@@ -64,42 +111,89 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// # Errors
     /// As there.
     pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
-        let ignored = |obstacle: &Obstacle| {
-            let links = obstacle.ignored.iter();
-            let known = |link: &String| index("link", &proximity.names, link);
-            links.map(known).collect()
+        let mut parts = Vec::new();
+        let mut ignored = Vec::new();
+        for (obstacle, one) in world.obstacles.iter().enumerate() {
+            let bodies = one.ignored.iter().map(|name| proximity.body(name));
+            ignored.push(bodies.collect::<Result<Vec<usize>, RobotError>>()?);
+            let placed = one.parts.iter();
+            parts.extend(placed.map(|part| PlacedPart::new(obstacle, part.clone(), &one.pose)));
+        }
+        let mut pairs = Vec::new();
+        for (shape, own) in proximity.shapes.iter().enumerate() {
+            let tested = parts.iter().enumerate();
+            let tested = tested.filter(|(_, part)| !ignored[part.obstacle].contains(&own.owner));
+            pairs.extend(tested.map(|(part, _)| [shape as u32, part as u32]));
+        }
+        let names = world.obstacles.iter().map(|one| one.name.clone()).collect();
+        Ok(WorldProximity { proximity, names, parts, pairs })
+    }
+
+    /// Moves the obstacles from `first` on to these poses: their shapes stay, and nothing else is prepared. It does not
+    /// allocate. After an error, none has moved.
+    ///
+    /// # Errors
+    /// [`RobotError::OutOfRange`] if there are fewer obstacles; [`RobotError::Obstacle`] as [`Obstacle::at`].
+    pub fn move_obstacles(
+        &mut self,
+        first: usize,
+        poses: &[Isometry3<f64>],
+    ) -> Result<(), RobotError> {
+        let count = self.names.len();
+        let names = first.checked_add(poses.len()).and_then(|end| self.names.get(first..end));
+        let Some(names) = names else {
+            let index = first.saturating_add(poses.len().saturating_sub(1));
+            return Err(RobotError::OutOfRange { what: "obstacle", index, count });
         };
-        let ignored: Result<Vec<Vec<usize>>, RobotError> =
-            world.obstacles.iter().map(ignored).collect();
-        let obstacles = world.obstacles.iter().enumerate();
-        let parts = obstacles
-            .flat_map(|(k, obstacle)| obstacle.parts.iter().map(move |part| (k, part.clone())));
-        Ok(WorldProximity {
-            proximity,
-            names: world.obstacles.iter().map(|one| one.name.clone()).collect(),
-            parts: parts.collect(),
-            ignored: ignored?,
-        })
+        for (name, pose) in names.iter().zip(poses) {
+            check_pose(name, pose)?;
+        }
+        for part in &mut self.parts {
+            if let Some(pose) = part.obstacle.checked_sub(first).and_then(|k| poses.get(k)) {
+                part.place(pose);
+            }
+        }
+        Ok(())
     }
 
     /// The tested pairs: each shape of the robot, as the indices of its link and piece, with the index of each obstacle
     /// that does not ignore its link. Sorted by shape, then by obstacle.
     pub fn pairs(&self) -> impl Iterator<Item = ([usize; 2], usize)> {
-        let shapes = self.proximity.shapes.iter();
-        shapes.flat_map(|shape| {
-            let tested = (0..self.names.len()).filter(|k| !self.ignored[*k].contains(&shape.owner));
-            tested.map(|obstacle| ([shape.link, shape.piece], obstacle))
+        self.tested().map(|[shape, obstacle]| {
+            let shape = &self.proximity.shapes[shape];
+            ([shape.link, shape.piece], obstacle)
         })
+    }
+
+    /// The body of each of the [pairs](WorldProximity::pairs), as [`ObstacleDistance::body_idx`].
+    pub fn pair_bodies(&self) -> impl Iterator<Item = usize> {
+        self.tested().map(|[shape, _]| self.proximity.shapes[shape].owner)
     }
 
     /// The name of the link of each of the [pairs](WorldProximity::pairs), or of the attached object.
     pub fn pair_names(&self) -> impl Iterator<Item = &str> {
-        let shapes = self.proximity.shapes.iter();
-        shapes.flat_map(|shape| {
-            let tested = self.ignored.iter();
-            let tested = tested.filter(|ignored| !ignored.contains(&shape.owner));
-            tested.map(|_| &**self.proximity.owner(shape))
-        })
+        self.pair_bodies().map(|body| &*self.proximity.names[body])
+    }
+
+    /// Number of [pairs](WorldProximity::pairs).
+    pub fn num_pairs(&self) -> usize {
+        self.tested().count()
+    }
+
+    /// The shapes of the robot and the obstacles that are tested against each other.
+    fn tested(&self) -> impl Iterator<Item = [usize; 2]> {
+        (0..self.pairs.len()).filter(|pair| self.is_first(*pair)).map(|pair| self.of(pair))
+    }
+
+    /// The shape and the obstacle of a pair.
+    fn of(&self, pair: usize) -> [usize; 2] {
+        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        [shape, self.parts[part].obstacle]
+    }
+
+    /// Whether a pair is the first of its shape and its obstacle.
+    fn is_first(&self, pair: usize) -> bool {
+        pair == 0 || self.of(pair - 1) != self.of(pair)
     }
 
     /// The distance of each of the [pairs](WorldProximity::pairs), in metres.
@@ -107,25 +201,36 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// # Errors
     /// As [`Proximity::closest_points`].
     pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
-        let placed = self.place(configuration)?;
-        let tested: Vec<Pair> = self.tested().collect();
-        let mut values = vec![0.0; tested.len()];
-        for (pairs, out) in tested.chunks(AT_ONCE).zip(values.chunks_mut(AT_ONCE)) {
-            self.values(&placed, pairs, out);
-        }
-        let values = values.into_iter().zip(&tested);
-        let mut found: Vec<f64> = Vec::new();
-        let mut last = None;
-        // The parts of an obstacle are contiguous.
-        for (value, (shape, part)) in values {
-            let pair = Some((*shape, self.parts[*part].0));
-            match found.last_mut() {
-                Some(least) if pair == last => *least = least.min(value),
-                _ => found.push(value),
+        let mut values = vec![0.0; self.num_pairs()];
+        self.distances_with(configuration, &mut Workspace::default(), &mut values)?;
+        Ok(values)
+    }
+
+    /// As [`WorldProximity::distances`], into `out`, with memory that is used again: it does not allocate.
+    ///
+    /// # Errors
+    /// As there, and [`RobotError::Room`] if the length of `out` differs from the number of pairs.
+    pub fn distances_with(
+        &self,
+        configuration: &[f64],
+        workspace: &mut Workspace,
+        out: &mut [f64],
+    ) -> Result<(), RobotError> {
+        check_room(out.len(), 1, self.num_pairs())?;
+        self.proximity.place(configuration, &mut workspace.placed)?;
+        let mut at = 0;
+        for first in (0..self.pairs.len()).step_by(AT_ONCE) {
+            let pairs = first..self.pairs.len().min(first + AT_ONCE);
+            let pairs: ArrayVec<usize, AT_ONCE> = pairs.collect();
+            let mut values = [0.0; AT_ONCE];
+            self.values(&workspace.placed, &pairs, &mut values[..pairs.len()]);
+            for (pair, value) in pairs.into_iter().zip(values) {
+                at += usize::from(self.is_first(pair));
+                let out = &mut out[at - 1];
+                *out = if self.is_first(pair) { value } else { out.min(value) };
             }
-            last = pair;
         }
-        Ok(found)
+        Ok(())
     }
 
     /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
@@ -145,9 +250,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         configuration: &[f64],
         workspace: &mut Workspace,
     ) -> Result<Option<f64>, RobotError> {
-        let Workspace { placed, least_of_parts, .. } = workspace;
-        self.place_into(configuration, placed)?;
-        let nearest = self.least_pairs(placed, self.tested(), 1, least_of_parts);
+        let nearest = least(self, configuration, 1, workspace)?;
         Ok(nearest.first().map(|(distance, _)| *distance))
     }
 
@@ -160,191 +263,126 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         &self,
         configuration: &[f64],
     ) -> Result<Vec<ObstacleDistance>, RobotError> {
-        let placed = self.place(configuration)?;
-        let mut all = Vec::new();
-        for shape in 0..self.proximity.shapes.len() {
-            for obstacle in 0..self.names.len() {
-                let own = |(_, part): &Pair| self.parts[*part].0 == obstacle;
-                let pairs = self.pairs_of(shape).filter(own);
-                all.extend(self.least(&placed, pairs, 1));
+        let mut placed = Placed::default();
+        self.proximity.place(configuration, &mut placed)?;
+        let mut all: Vec<ObstacleDistance> = Vec::new();
+        closest(self, &placed, 0..self.pairs.len(), |pair, distance, points| {
+            let found = self.found(&placed, pair, distance, points);
+            match all.last_mut() {
+                Some(last) if !self.is_first(pair) && distance >= last.distance => {}
+                Some(last) if !self.is_first(pair) => *last = found,
+                _ => all.push(found),
             }
-        }
+        });
         Ok(all)
     }
 
-    /// The `k` nearest pairs of a shape of the robot and a part of an obstacle, nearest first.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn nearest(
-        &self,
-        configuration: &[f64],
-        k: usize,
-    ) -> Result<Vec<ObstacleDistance>, RobotError> {
-        let placed = self.place(configuration)?;
-        Ok(self.least(&placed, self.tested(), k))
-    }
-
-    /// Whether any shape of the robot touches or overlaps an obstacle.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn in_collision(&self, configuration: &[f64]) -> Result<bool, RobotError> {
-        self.in_collision_with(configuration, &mut Workspace::default())
-    }
-
-    /// As [`WorldProximity::in_collision`], with memory that is used again: it does not allocate.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn in_collision_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-    ) -> Result<bool, RobotError> {
-        self.place_into(configuration, &mut workspace.placed)?;
-        Ok(self.touches(&workspace.placed))
-    }
-
-    /// Whether any pair touches or overlaps.
-    pub(super) fn touches(&self, placed: &Placed) -> bool {
-        let mut waiting = Waiting::new(self.proximity.level);
-        let mut near = self.tested().filter(|pair| self.bound(placed, *pair) <= 0.0);
-        near.any(|pair| waiting.touches_with(self.cores(placed, pair), self.radii(pair)))
-            || waiting.any_touches()
-    }
-
-    /// Number of pairs of a shape of the robot and a part of an obstacle: the most that [`WorldProximity::nearest`]
-    /// returns.
+    /// Number of pairs of a shape of the robot and a convex part of an obstacle: the most that
+    /// [`WorldProximity::nearest`] returns.
     pub fn num_pairs_of_parts(&self) -> usize {
-        self.tested().count()
+        self.pairs.len()
     }
 
-    pub(super) fn tested(&self) -> impl Iterator<Item = Pair> {
-        let shapes = 0..self.proximity.shapes.len();
-        shapes.flat_map(|shape| self.pairs_of(shape))
+    /// The shape of the robot and the part of an obstacle of a pair.
+    fn both(&self, pair: usize) -> (&Shape, &PlacedPart) {
+        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        (&self.proximity.shapes[shape], &self.parts[part])
     }
 
-    fn pairs_of(&self, shape: usize) -> impl Iterator<Item = Pair> {
-        let owner = self.proximity.shapes[shape].owner;
-        let parts = self.parts.iter().enumerate();
-        let tested =
-            parts.filter(move |(_, (obstacle, _))| !self.ignored[*obstacle].contains(&owner));
-        tested.map(move |(part, _)| (shape, part))
+    /// The two in the frame of the shape's link.
+    fn cores(&self, placed: &Placed, pair: usize) -> PlacedPair<'_> {
+        let (own, other) = self.both(pair);
+        let b_in_a = relative(&placed.links[own.link], &other.frame);
+        PlacedPair { a: &own.core, b: &other.part.core, b_in_a }
     }
 
-    pub(super) fn place(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
-        let mut placed = Placed::default();
-        self.place_into(configuration, &mut placed)?;
-        Ok(placed)
+    fn radii(&self, pair: usize) -> [f64; 2] {
+        let (own, other) = self.both(pair);
+        [own.radius, other.part.radius]
+    }
+}
+
+impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
+    type Found = ObstacleDistance;
+
+    fn shapes(&self) -> &Proximity {
+        &self.proximity
     }
 
-    pub(super) fn place_into(
-        &self,
-        configuration: &[f64],
-        placed: &mut Placed,
-    ) -> Result<(), RobotError> {
-        self.proximity.place(configuration, placed)?;
-        self.proximity.place_centres(placed);
-        Ok(())
+    fn count(&self) -> usize {
+        self.pairs.len()
     }
 
-    /// A lower bound of the distance of a pair, in metres; not positive if it may touch.
-    pub(super) fn bound(&self, placed: &Placed, (shape, part): Pair) -> f64 {
-        let sphere = BoundingSphere {
-            centre: placed.centres[shape],
-            radius: self.proximity.shapes[shape].sphere.radius,
-        };
-        self.parts[part].1.bound(&sphere)
+    /// Pairs of a shape of the robot share its rate.
+    fn within(&self, _: f64) -> impl Iterator<Item = (usize, usize)> {
+        self.pairs.iter().enumerate().map(|(pair, [shape, _])| (pair, *shape as usize))
     }
 
-    pub(super) fn least(
-        &self,
-        placed: &Placed,
-        pairs: impl Iterator<Item = Pair>,
-        k: usize,
-    ) -> Vec<ObstacleDistance> {
-        let mut least = Least::default();
-        let best = self.least_pairs(placed, pairs, k, &mut least).iter();
-        let pairs: Vec<Pair> = best.map(|(_, pair)| *pair).collect();
-        self.witnesses(placed, &pairs)
+    fn bound(&self, placed: &Placed, pair: usize) -> f64 {
+        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        let radius = self.proximity.shapes[shape].sphere.radius;
+        self.parts[part].bound(placed.centres[shape], radius)
     }
 
-    /// The `k` nearest of these pairs, with their distances.
-    fn least_pairs<'a>(
-        &self,
-        placed: &Placed,
-        pairs: impl Iterator<Item = Pair>,
-        k: usize,
-        least: &'a mut Least<Pair>,
-    ) -> &'a [(f64, Pair)] {
-        let bounds = pairs.map(|pair| (self.bound(placed, pair), pair));
-        least.of(bounds, k, |pairs, values| {
-            self.values(placed, pairs, values);
-        })
-    }
-
-    /// The cores of a shape of the robot and a part of an obstacle, with the part placed in the frame of the shape's link.
-    fn cores(&self, placed: &Placed, (shape, part): Pair) -> PlacedPair<'_> {
-        let own = &self.proximity.shapes[shape];
-        let link = &placed.links[own.link];
-        let back = |v: [f64; 3]| [0, 1, 2].map(|k| dot(link[k], v));
-        let axis = |k: usize| [link[0][k], link[1][k], link[2][k]];
-        PlacedPair {
-            a: &own.core,
-            b: &self.parts[part].1.core,
-            b_in_a: [axis(0), axis(1), axis(2), back(link[3].map(|x| -x))],
-        }
-    }
-
-    /// The sum of the radii of a pair.
-    fn radii(&self, (shape, part): Pair) -> f64 {
-        self.proximity.shapes[shape].radius + self.parts[part].1.radius
-    }
-
-    pub(super) fn swept(&self, placed: &Placed, pair: Pair) -> SweptPair<'_> {
-        let own = self.proximity.shapes[pair.0].radius;
-        SweptPair { cores: self.cores(placed, pair), radii: [own, self.parts[pair.1].1.radius] }
-    }
-
-    /// The distances of some pairs, at most [`AT_ONCE`].
-    pub(super) fn values(&self, placed: &Placed, pairs: &[Pair], values: &mut [f64]) {
+    fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
         let cores = pairs.iter().map(|pair| self.cores(placed, *pair));
         let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
         across::distances(self.proximity.level, &cores, values);
         for (value, pair) in values.iter_mut().zip(pairs) {
-            *value = (*value - self.radii(*pair)).max(0.0);
+            *value = (*value - self.radii(*pair).iter().sum::<f64>()).max(0.0);
         }
     }
 
-    fn witnesses(&self, placed: &Placed, pairs: &[Pair]) -> Vec<ObstacleDistance> {
-        let both = pairs.iter().map(|pair| self.swept(placed, *pair));
-        let found = witnesses(self.proximity.level, &both.collect::<Vec<_>>());
-        let each = pairs.iter().zip(found);
-        each.map(|(pair, (distance, points))| {
-            let link = self.proximity.shapes[pair.0].link;
-            let points = points.map(|p| to_root(&placed.links[link], p));
-            self.obstacle_distance(*pair, distance, points)
-        })
-        .collect()
+    fn touches(&self, placed: &Placed) -> bool {
+        let mut waiting = Waiting::new(self.proximity.level);
+        let mut near = (0..self.pairs.len()).filter(|pair| self.bound(placed, *pair) <= 0.0);
+        near.any(|pair| {
+            waiting.touches_with(self.cores(placed, pair), self.radii(pair).iter().sum())
+        }) || waiting.any_touches()
     }
 
-    pub(super) fn obstacle_distance(
+    fn swept(&self, placed: &Placed, pair: usize) -> SweptPair<'_> {
+        SweptPair { cores: self.cores(placed, pair), radii: self.radii(pair) }
+    }
+
+    fn links(&self, pair: usize) -> (usize, Option<usize>) {
+        (self.both(pair).0.link, None)
+    }
+
+    fn found(
         &self,
-        (shape, part): Pair,
+        _: &Placed,
+        pair: usize,
         distance: f64,
         points: [[f64; 3]; 2],
     ) -> ObstacleDistance {
-        let own = &self.proximity.shapes[shape];
-        let obstacle = self.parts[part].0;
+        let (own, other) = self.both(pair);
         ObstacleDistance {
             link: Arc::clone(self.proximity.owner(own)),
             link_idx: own.link,
+            body_idx: own.owner,
             piece: own.piece,
-            obstacle: self.names[obstacle].clone(),
-            obstacle_idx: obstacle,
+            obstacle: self.names[other.obstacle].clone(),
+            obstacle_idx: other.obstacle,
             distance,
             points,
         }
     }
+
+    /// One for each shape of the robot.
+    fn rates(&self, travel: &Travel) -> Vec<f64> {
+        let root = self.proximity.root();
+        let shapes = self.proximity.shapes.iter();
+        let rate = shapes.map(|shape| {
+            let radius = norm(shape.sphere.centre) + shape.sphere.radius;
+            travel.of_points(shape.link, radius, root)
+        });
+        rate.collect()
+    }
+
+    fn farthest(&self, travel: &Travel) -> f64 {
+        self.rates(travel).into_iter().fold(0.0, f64::max)
+    }
 }
+
+questions! { ObstacleDistance, impl<P: Deref<Target = Proximity>> WorldProximity<P> }

@@ -1,0 +1,164 @@
+//! Queries on pairs of shapes: of the robot's own, and of the robot and obstacles.
+
+use super::error::RobotError;
+use super::proximity::{Overlap, Placed, Proximity, SweptPair, Workspace};
+use super::proximity::{in_root, penetration_of, to_root, toward, witnesses};
+use arrayvec::ArrayVec;
+use urdd_geometry::convex::across::AT_ONCE;
+use urdd_kinematics::Travel;
+
+/// Pairs that can be checked in a configuration and along a motion.
+pub(super) trait Checked {
+    /// What an answer says of a pair.
+    type Found;
+    /// The robot's shapes.
+    fn shapes(&self) -> &Proximity;
+    fn count(&self) -> usize;
+    /// The pairs that can come within a margin (m) or leave it, each with its place in `rates`.
+    fn within(&self, margin: f64) -> impl Iterator<Item = (usize, usize)>;
+    /// A lower bound of the distance of a pair, m; not positive if it may touch.
+    fn bound(&self, placed: &Placed, pair: usize) -> f64;
+    /// The distances of some pairs, at most [`AT_ONCE`], m.
+    fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]);
+    /// Whether any pair touches or overlaps.
+    fn touches(&self, placed: &Placed) -> bool;
+    /// The two shapes, in the frame of the first one's link.
+    fn swept(&self, placed: &Placed, pair: usize) -> SweptPair<'_>;
+    /// The links of the two; none for an obstacle.
+    fn links(&self, pair: usize) -> (usize, Option<usize>);
+    fn found(
+        &self,
+        placed: &Placed,
+        pair: usize,
+        distance: f64,
+        points: [[f64; 3]; 2],
+    ) -> Self::Found;
+    /// Bounds on how far pairs move toward each other, m.
+    fn rates(&self, travel: &Travel) -> Vec<f64>;
+    /// The farthest that a point of a shape travels, m.
+    fn farthest(&self, travel: &Travel) -> f64;
+}
+
+/// A margin, m: finite, and not negative.
+pub(super) fn check_margin(margin: f64) -> Result<f64, RobotError> {
+    match margin.is_finite() && margin >= 0.0 {
+        true => Ok(margin),
+        false => Err(RobotError::Setting("a margin is finite, and not below 0 m")),
+    }
+}
+
+/// Whether any pair is at most `margin` apart, m. Stops at the first such pairs.
+pub(super) fn any_within(checked: &impl Checked, placed: &Placed, margin: f64) -> bool {
+    if margin == 0.0 {
+        return checked.touches(placed);
+    }
+    let pairs = checked.within(margin).map(|(pair, _)| pair);
+    let near = pairs.filter(|pair| checked.bound(placed, *pair) <= margin);
+    let mut near = near.peekable();
+    while near.peek().is_some() {
+        let pairs: ArrayVec<_, AT_ONCE> = near.by_ref().take(AT_ONCE).collect();
+        let mut values = [f64::INFINITY; AT_ONCE];
+        checked.values(placed, &pairs, &mut values[..pairs.len()]);
+        if values.iter().any(|value| *value <= margin) {
+            return true;
+        }
+    }
+    false
+}
+
+/// The distances and indices of the `k` nearest pairs, nearest first.
+pub(super) fn least<'a>(
+    checked: &impl Checked,
+    configuration: &[f64],
+    k: usize,
+    workspace: &'a mut Workspace,
+) -> Result<&'a [(f64, usize)], RobotError> {
+    let Workspace { placed, least, .. } = workspace;
+    checked.shapes().place(configuration, placed)?;
+    let bounds = (0..checked.count()).map(|pair| (checked.bound(placed, pair), pair));
+    Ok(least.of(bounds, k, |pairs, values| checked.values(placed, pairs, values)))
+}
+
+/// Calls `each` with some pairs, their distances (m), and their closest points in the root link's frame.
+pub(super) fn closest(
+    checked: &impl Checked,
+    placed: &Placed,
+    pairs: impl IntoIterator<Item = usize>,
+    mut each: impl FnMut(usize, f64, [[f64; 3]; 2]),
+) {
+    let mut pairs = pairs.into_iter().peekable();
+    while pairs.peek().is_some() {
+        let some: ArrayVec<_, AT_ONCE> = pairs.by_ref().take(AT_ONCE).collect();
+        let swept = some.iter().map(|pair| checked.swept(placed, *pair));
+        let swept: ArrayVec<_, AT_ONCE> = swept.collect();
+        for (pair, (distance, points)) in some.iter().zip(witnesses(checked.shapes().level, &swept))
+        {
+            let link = &placed.links[checked.links(*pair).0];
+            each(*pair, distance, points.map(|p| to_root(link, p)));
+        }
+    }
+}
+
+/// Calls `each` with the `k` nearest pairs.
+pub(super) fn nearest<C: Checked>(
+    checked: &C,
+    configuration: &[f64],
+    k: usize,
+    workspace: &mut Workspace,
+    mut each: impl FnMut(C::Found),
+) -> Result<(), RobotError> {
+    least(checked, configuration, k, workspace)?;
+    let Workspace { placed, least, .. } = workspace;
+    closest(checked, placed, least.best(), |pair, distance, points| {
+        each(checked.found(placed, pair, distance, points));
+    });
+    Ok(())
+}
+
+/// Calls `each` with the `k` nearest pairs and the gradients of their distances.
+pub(super) fn gradients<C: Checked>(
+    checked: &C,
+    configuration: &[f64],
+    k: usize,
+    workspace: &mut Workspace,
+    mut each: impl FnMut(C::Found, Option<&[f64]>),
+) -> Result<(), RobotError> {
+    least(checked, configuration, k, workspace)?;
+    let Workspace { placed, least, derivative, .. } = workspace;
+    closest(checked, placed, least.best(), |pair, distance, points| {
+        let found = checked.found(placed, pair, distance, points);
+        let gradient = toward(&points, distance).map(|toward| {
+            let links = checked.links(pair);
+            checked.shapes().derivative(configuration, placed, links, points, toward, derivative)
+        });
+        each(found, gradient);
+    });
+    Ok(())
+}
+
+/// Calls `each` with the pairs that touch or overlap.
+pub(super) fn penetrations<C: Checked>(
+    checked: &C,
+    configuration: &[f64],
+    workspace: &mut Workspace,
+    mut each: impl FnMut(Overlap<C::Found>),
+) -> Result<(), RobotError> {
+    let Workspace { placed, derivative, .. } = workspace;
+    let shapes = checked.shapes();
+    shapes.place(configuration, placed)?;
+    for pair in (0..checked.count()).filter(|pair| checked.bound(placed, *pair) <= 0.0) {
+        let Some(found) = penetration_of(shapes.level, &checked.swept(placed, pair)) else {
+            continue;
+        };
+        let links = checked.links(pair);
+        let (direction, points) = in_root(&placed.links[links.0], &found);
+        let toward = shapes.derivative(configuration, placed, links, points, direction, derivative);
+        each(Overlap {
+            pair: checked.found(placed, pair, 0.0, points),
+            depth: found.depth,
+            direction,
+            gradient: toward.iter().map(|x| -x).collect(),
+        });
+    }
+    Ok(())
+}
