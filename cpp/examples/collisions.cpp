@@ -16,11 +16,9 @@ int main(int count, char **words) {
         const urdd::Proximity proximity = robot.proximity(urdd::ShapeKind::pieces);
 
         // The floor, on which the base may stand, and a ball.
-        std::vector<urdd::Obstacle> obstacles;
-        obstacles.push_back(
-            urdd::Obstacle::cuboid("floor", urdd::translation(0, 0, -0.05), {2, 2, 0.05}).ignoring(links.front()));
-        obstacles.push_back(urdd::Obstacle::sphere("ball", {0.5, 0, 0.5}, 0.1));
-        const urdd::WorldProximity world = proximity.world_proximity(obstacles);
+        const urdd::WorldProximity world = proximity.world_proximity(
+            {urdd::Obstacle::cuboid("floor", urdd::translation(0, 0, -0.05), {2, 2, 0.05}).ignoring(links.front()),
+             urdd::Obstacle::sphere("ball", {0.5, 0, 0.5}, 0.1)});
 
         const std::vector<double> q = robot.zero();
         for (const urdd_pair_distance &near : proximity.nearest(q, 3)) {
@@ -34,8 +32,8 @@ int main(int count, char **words) {
         // A thousand configurations at once, on all processors.
         const std::size_t rows = 1000;
         const std::vector<double> samples = robot.random(0, rows);
-        const std::vector<bool> self = proximity.in_collision_batch({samples.data(), rows, robot.num_dofs()});
-        const std::vector<bool> others = world.in_collision_batch({samples.data(), rows, robot.num_dofs()});
+        const std::vector<bool> self = proximity.in_collision_batch({samples, robot.num_dofs()});
+        const std::vector<bool> others = world.in_collision_batch({samples, robot.num_dofs()});
         std::cout << std::count(self.begin(), self.end(), true) << " of " << rows << " samples collide with the robot, "
                   << std::count(others.begin(), others.end(), true) << " with an obstacle\n";
     } catch (const urdd::Error &error) {

@@ -21,14 +21,14 @@ public:
         return found;
     }
     /// The estimated clearance of each pair, metres; 0 or less: the pair may be in contact.
-    std::vector<double> clearances(Span<const double> q) const {
+    std::vector<double> clearances(Argument<const double> q) const {
         std::vector<double> found(num_pairs());
         detail::check(
             urdd_collision_model_clearances(handle_.get(), q.data(), 1, q.size(), found.data(), found.size()));
         return found;
     }
     /// Whether any pair may be in contact.
-    bool may_collide(Span<const double> q) const {
+    bool may_collide(Argument<const double> q) const {
         bool found = false;
         detail::check(urdd_collision_model_may_collide(handle_.get(), q.data(), 1, q.size(), &found));
         return found;

@@ -13,41 +13,42 @@ public:
     /// A box: the pose of its centre and axes, and its half extents, metres.
     static Obstacle cuboid(const std::string &name, const Pose &pose, const Point &half_extents) {
         return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
-            return urdd_obstacle_cuboid(name.c_str(), pose.data(), half_extents.data(), out);
+            return urdd_obstacle_cuboid(detail::c_text(name), pose.data(), half_extents.data(), out);
         }));
     }
     /// A sphere: its centre and radius, metres.
     static Obstacle sphere(const std::string &name, const Point &centre, double radius) {
-        return Obstacle(detail::made<urdd_obstacle>(
-            [&](urdd_obstacle **out) { return urdd_obstacle_sphere(name.c_str(), centre.data(), radius, out); }));
+        return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
+            return urdd_obstacle_sphere(detail::c_text(name), centre.data(), radius, out);
+        }));
     }
     /// All points within `radius` of a segment along the z axis, from -`half_length` to `half_length`, metres.
     static Obstacle capsule(const std::string &name, const Pose &pose, double radius, double half_length) {
         return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
-            return urdd_obstacle_capsule(name.c_str(), pose.data(), radius, half_length, out);
+            return urdd_obstacle_capsule(detail::c_text(name), pose.data(), radius, half_length, out);
         }));
     }
     /// A cylinder along the z axis, from -`half_length` to `half_length`, metres: a circumscribed prism with 64 sides.
     static Obstacle cylinder(const std::string &name, const Pose &pose, double radius, double half_length) {
         return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
-            return urdd_obstacle_cylinder(name.c_str(), pose.data(), radius, half_length, out);
+            return urdd_obstacle_cylinder(detail::c_text(name), pose.data(), radius, half_length, out);
         }));
     }
     /// The convex hull of points, metres.
-    static Obstacle hull(const std::string &name, const Pose &pose, Span<const Point> points) {
+    static Obstacle hull(const std::string &name, const Pose &pose, Argument<const Point> points) {
         const double *values = points.size() == 0 ? nullptr : points.data()->data();
         return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
-            return urdd_obstacle_hull(name.c_str(), pose.data(), values, points.size(), out);
+            return urdd_obstacle_hull(detail::c_text(name), pose.data(), values, points.size(), out);
         }));
     }
     /// A mesh, decomposed into convex pieces as `urdd generate` does, at the same cost.
-    static Obstacle mesh(const std::string &name, const Pose &pose, Span<const Point> vertices,
-                         Span<const std::array<std::uint32_t, 3>> triangles) {
+    static Obstacle mesh(const std::string &name, const Pose &pose, Argument<const Point> vertices,
+                         Argument<const std::array<std::uint32_t, 3>> triangles) {
         const double *values = vertices.size() == 0 ? nullptr : vertices.data()->data();
         const std::uint32_t *corners = triangles.size() == 0 ? nullptr : triangles.data()->data();
         return Obstacle(detail::made<urdd_obstacle>([&](urdd_obstacle **out) {
-            return urdd_obstacle_mesh(name.c_str(), pose.data(), values, vertices.size(), corners, triangles.size(),
-                                      out);
+            return urdd_obstacle_mesh(detail::c_text(name), pose.data(), values, vertices.size(), corners,
+                                      triangles.size(), out);
         }));
     }
 
@@ -59,10 +60,11 @@ public:
     /// The same obstacle with a link that may touch it, such as the base that is mounted on it.
     Obstacle ignoring(const std::string &link) const {
         return Obstacle(detail::made<urdd_obstacle>(
-            [&](urdd_obstacle **out) { return urdd_obstacle_ignoring(handle_.get(), link.c_str(), out); }));
+            [&](urdd_obstacle **out) { return urdd_obstacle_ignoring(handle_.get(), detail::c_text(link), out); }));
     }
 
-    const urdd_obstacle *handle() const noexcept { return handle_.get(); }
+    const urdd_obstacle *handle() const & noexcept { return handle_.get(); }
+    const urdd_obstacle *handle() const && = delete; // it would be freed at once
 
 private:
     explicit Obstacle(urdd_obstacle *handle) : handle_(handle) {}

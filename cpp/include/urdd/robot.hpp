@@ -4,36 +4,24 @@
 #define URDD_ROBOT_HPP
 
 #include "collision_model.hpp"
+#include "inverse.hpp"
 #include "proximity.hpp"
 
 namespace urdd {
-
-/// The settings of inverse kinematics, with the defaults of the library.
-inline urdd_inverse_settings inverse_settings() {
-    urdd_inverse_settings settings{};
-    detail::check(urdd_inverse_settings_default(&settings));
-    return settings;
-}
-
-/// What inverse kinematics found: the configuration, and how near it comes.
-struct Inverse {
-    std::vector<double> configuration;
-    urdd_inverse_solution solution;
-
-    bool is_reached() const noexcept { return solution.is_reached; }
-};
 
 /// A robot, as its URDD describes it.
 class Robot {
 public:
     /// Opens the URDD in a folder or zip archive. Reads no module yet.
     static Robot open(const std::string &path) {
-        return Robot(detail::made<urdd_robot>([&](urdd_robot **out) { return urdd_robot_open(path.c_str(), out); }));
+        return Robot(
+            detail::made<urdd_robot>([&](urdd_robot **out) { return urdd_robot_open(detail::c_text(path), out); }));
     }
     /// Opens the URDD in a zip archive in memory, which is copied. `name` stands for it in messages.
-    static Robot of_archive(const std::string &name, Span<const std::uint8_t> bytes) {
-        return Robot(detail::made<urdd_robot>(
-            [&](urdd_robot **out) { return urdd_robot_of_archive(name.c_str(), bytes.data(), bytes.size(), out); }));
+    static Robot of_archive(const std::string &name, Argument<const std::uint8_t> bytes) {
+        return Robot(detail::made<urdd_robot>([&](urdd_robot **out) {
+            return urdd_robot_of_archive(detail::c_text(name), bytes.data(), bytes.size(), out);
+        }));
     }
 
     std::size_t num_links() const { return sizes()[0]; }
@@ -47,13 +35,27 @@ public:
     /// The index of a link.
     std::size_t link(const std::string &name) const {
         std::size_t found = 0;
-        detail::check(urdd_robot_link(handle_.get(), name.c_str(), &found));
+        detail::check(urdd_robot_link(handle_.get(), detail::c_text(name), &found));
+        return found;
+    }
+    /// The index of a joint.
+    std::size_t joint(const std::string &name) const {
+        std::size_t found = 0;
+        detail::check(urdd_robot_joint(handle_.get(), detail::c_text(name), &found));
+        return found;
+    }
+    /// The DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
+    std::vector<std::size_t> dofs_between(std::size_t base, std::size_t tip) const {
+        std::vector<std::size_t> found(num_dofs());
+        std::size_t count = 0;
+        detail::check(urdd_robot_dofs_between(handle_.get(), base, tip, found.data(), found.size(), &count));
+        found.resize(count);
         return found;
     }
     /// The index of a DOF.
     std::size_t dof(const std::string &name) const {
         std::size_t found = 0;
-        detail::check(urdd_robot_dof(handle_.get(), name.c_str(), &found));
+        detail::check(urdd_robot_dof(handle_.get(), detail::c_text(name), &found));
         return found;
     }
 
@@ -63,6 +65,13 @@ public:
         double *values = found.empty() ? nullptr : found.data()->data();
         detail::check(urdd_robot_bounds(handle_.get(), values, 2 * found.size()));
         return found;
+    }
+    /// Whether the source limits each DOF. The bounds of others are a range to sample from, which they may leave.
+    std::vector<bool> dof_is_limited() const {
+        const std::size_t dofs = num_dofs();
+        auto found = std::make_unique<bool[]>(dofs);
+        detail::check(urdd_robot_dof_is_limited(handle_.get(), found.get(), dofs));
+        return detail::answers(found, dofs);
     }
     /// The default configuration: every DOF at 0, or at the bound nearest to 0.
     std::vector<double> zero() const { return configuration(urdd_robot_zero); }
@@ -76,7 +85,7 @@ public:
         return found;
     }
     /// Moves each value beyond its bounds to the nearer bound.
-    void clamp(Span<double> q) const { detail::check(urdd_robot_clamp(handle_.get(), q.data(), q.size())); }
+    void clamp(Argument<double> q) const { detail::check(urdd_robot_clamp(handle_.get(), q.data(), q.size())); }
     /// The largest speed of each DOF, rad/s or m/s; infinite where the source states none.
     std::vector<double> velocity_limits() const { return configuration(urdd_robot_velocity_limits); }
     /// The largest effort of each DOF, N m or N; infinite where the source states none.
@@ -89,7 +98,7 @@ public:
         return found;
     }
     /// The centre of mass of the robot, in the root link's frame; NaN where the source states no mass.
-    Point centre_of_mass(Span<const double> q) const {
+    Point centre_of_mass(Argument<const double> q) const {
         Point found{};
         detail::check(urdd_robot_centre_of_mass(handle_.get(), q.data(), 1, q.size(), found.data()));
         return found;
@@ -103,53 +112,82 @@ public:
     /// A configuration that a person named.
     std::vector<double> named_configuration(const std::string &name) const {
         std::vector<double> found(num_dofs());
-        detail::check(urdd_robot_named_configuration(handle_.get(), name.c_str(), found.data(), found.size()));
+        detail::check(urdd_robot_named_configuration(handle_.get(), detail::c_text(name), found.data(), found.size()));
         return found;
     }
 
     /// The pose of each link.
-    std::vector<Pose> link_poses(Span<const double> q) const { return link_poses_batch({q.data(), 1, q.size()}); }
+    Poses link_poses(Argument<const double> q) const { return link_poses_batch({q.data(), 1, q.size()}); }
     /// The poses of all links in each configuration: rows x links.
-    std::vector<Pose> link_poses_batch(Rows q) const {
-        std::vector<Pose> found(q.rows * num_links());
+    Poses link_poses_batch(Rows q) const {
+        Poses found(q.rows * num_links());
         link_poses(q, found);
         return found;
     }
     /// As above, into `out`: rows x links.
-    void link_poses(Rows q, Span<Pose> out) const {
+    void link_poses(Rows q, Argument<Pose> out) const {
         double *values = out.size() == 0 ? nullptr : out.data()->data();
         detail::check(urdd_robot_link_poses(handle_.get(), q.data, q.rows, q.columns, values, 16 * out.size()));
     }
     /// The geometric Jacobian of a point of a link, in the link's frame: 6 x dofs, column-major. Linear, then angular
     /// velocity, in the root link's frame.
-    std::vector<double> jacobian(Span<const double> q, std::size_t link, const Point &point = {0, 0, 0}) const {
-        std::vector<double> found(6 * q.size());
+    std::vector<double> jacobian(Argument<const double> q, std::size_t link, const Point &point = {0, 0, 0}) const {
+        return jacobian_batch({q.data(), 1, q.size()}, link, point);
+    }
+    /// As above, into `out`.
+    void jacobian(Argument<const double> q, std::size_t link, const Point &point, Argument<double> out) const {
+        jacobian({q.data(), 1, q.size()}, link, point, out);
+    }
+    /// The Jacobians in each configuration, one after another.
+    std::vector<double> jacobian_batch(Rows q, std::size_t link, const Point &point = {0, 0, 0}) const {
+        std::vector<double> found(6 * q.rows * q.columns);
         jacobian(q, link, point, found);
         return found;
     }
-    /// As above, into `out`.
-    void jacobian(Span<const double> q, std::size_t link, const Point &point, Span<double> out) const {
+    /// As above, into `out`: rows x dofs x 6.
+    void jacobian(Rows q, std::size_t link, const Point &point, Argument<double> out) const {
         detail::check(
-            urdd_robot_jacobians(handle_.get(), q.data(), 1, q.size(), link, point.data(), out.data(), out.size()));
+            urdd_robot_jacobians(handle_.get(), q.data, q.rows, q.columns, link, point.data(), out.data(), out.size()));
     }
 
-    /// Searches a configuration within the bounds in which a link has a pose. Checks for collisions where `free_of` of
-    /// the settings is set, to the `handle()` of a `Proximity`.
-    Inverse inverse_kinematics(std::size_t link, const Pose &pose, Span<const double> start,
-                               const urdd_inverse_settings &settings = inverse_settings()) const {
-        urdd_target target{};
-        target.link = link;
-        for (std::size_t k = 0; k < 16; ++k)
-            target.pose[k] = pose[k];
-        return inverse_kinematics(target, start, settings);
-    }
-    /// As above, for a target that can also be a position, or of another point of the link.
-    Inverse inverse_kinematics(const urdd_target &target, Span<const double> start,
-                               const urdd_inverse_settings &settings = inverse_settings()) const {
+    /// Searches a configuration within the bounds that reaches a target: by damped least squares from `start`, then
+    /// from random configurations.
+    Inverse inverse_kinematics(const Target &target, Argument<const double> start,
+                               const InverseSettings &settings = {}) const {
         Inverse found{std::vector<double>(start.size()), {}};
-        detail::check(urdd_robot_inverse_kinematics(handle_.get(), &target, 1, start.data(), 1, start.size(), &settings,
-                                                    found.configuration.data(), &found.solution));
+        inverse_kinematics({&target, 1}, {start.data(), 1, start.size()}, settings, found.configuration,
+                           {&found.solution, 1});
         return found;
+    }
+    /// As above, for a pose of a link.
+    Inverse inverse_kinematics(std::size_t link, const Pose &pose, Argument<const double> start,
+                               const InverseSettings &settings = {}) const {
+        return inverse_kinematics(Target(link, pose), start, settings);
+    }
+    /// Many targets, from one start or one for each, on all processors.
+    std::vector<Inverse> inverse_kinematics_batch(Argument<const Target> targets, Rows starts,
+                                                  const InverseSettings &settings = {}) const {
+        const std::size_t count = targets.size(), dofs = starts.columns;
+        std::vector<double> configurations(count * dofs);
+        std::vector<urdd_inverse_solution> solutions(count);
+        inverse_kinematics(targets, starts, settings, configurations, solutions);
+        std::vector<Inverse> found;
+        found.reserve(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto first = configurations.begin() + static_cast<std::ptrdiff_t>(k * dofs);
+            found.push_back({{first, first + static_cast<std::ptrdiff_t>(dofs)}, solutions[k]});
+        }
+        return found;
+    }
+    /// As above, into `configurations`, targets x dofs, and `solutions`, one for each target.
+    void inverse_kinematics(Argument<const Target> targets, Rows starts, const InverseSettings &settings,
+                            Argument<double> configurations, Argument<urdd_inverse_solution> solutions) const {
+        const urdd_inverse_settings raw = settings.raw();
+        detail::same_size("configurations", configurations.size(), targets.size() * starts.columns);
+        detail::same_size("solutions", solutions.size(), targets.size());
+        detail::check(urdd_robot_inverse_kinematics(handle_.get(), targets.data(), targets.size(), starts.data,
+                                                    starts.rows, starts.columns, &raw, configurations.data(),
+                                                    solutions.data()));
     }
 
     /// Prepares the shapes of a kind for distances.
@@ -168,7 +206,8 @@ public:
             [&](urdd_skips **out) { return urdd_robot_skips(handle_.get(), name(kind), out); }));
     }
 
-    const urdd_robot *handle() const noexcept { return handle_.get(); }
+    const urdd_robot *handle() const & noexcept { return handle_.get(); }
+    const urdd_robot *handle() const && = delete; // it would be freed at once
 
 private:
     explicit Robot(urdd_robot *handle) : handle_(handle) {}

@@ -16,7 +16,7 @@ struct Report {
 /// Validates every URDD at or below a path. `settings` is the text of a urdd.toml.
 inline Report validate(const std::string &path, const std::string &settings = "") {
     detail::Handle<urdd_report, urdd_report_free> report(detail::made<urdd_report>(
-        [&](urdd_report **out) { return urdd_validate(path.c_str(), settings.c_str(), out); }));
+        [&](urdd_report **out) { return urdd_validate(detail::c_text(path), detail::c_text(settings), out); }));
     Report found{};
     urdd_text text{};
     detail::check(urdd_report_passes(report.get(), &found.passes));

@@ -160,8 +160,10 @@ pub(crate) unsafe fn exact_room<'a, T: Plain>(
 
 /// Refuses `count` times `bytes` that there is not memory for, before an allocation that would end the process.
 pub(crate) fn enough(what: &'static str, count: usize, bytes: usize) -> Result<(), Failure> {
+    // What is small is not tried: a control loop does not allocate.
+    const SMALL: usize = 1 << 16;
     let all = count.saturating_mul(bytes);
-    match has_room(all) && Vec::<u8>::new().try_reserve_exact(all).is_ok() {
+    match all < SMALL || has_room(all) && Vec::<u8>::new().try_reserve_exact(all).is_ok() {
         true => Ok(()),
         false => {
             let message = format!("not enough memory for `{what}`: {count} values");

@@ -49,6 +49,14 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
     unsafe {
         assert_eq!(urdd_robot_open(path.as_ptr(), &mut robot), Status::Ok);
         assert_eq!(urdd_robot_collision_model(robot, &mut model), Status::Ok);
+        let (mut shapes, mut ball) = (null_mut(), null_mut());
+        assert_eq!(urdd_robot_proximity(robot, c"hulls".as_ptr(), &mut shapes), Status::Ok);
+        let centre = [5.0; 3];
+        assert_eq!(
+            urdd_obstacle_sphere(c"b".as_ptr(), centre.as_ptr(), 0.1, &mut ball),
+            Status::Ok
+        );
+        let obstacles = vec![ball.cast_const(); 20_000];
         let (mut pairs, mut dofs, mut links) = (0, 0, 0);
         assert_eq!(urdd_robot_sizes(robot, &mut links, null_mut(), null_mut()), Status::Ok);
         assert_eq!(urdd_collision_model_sizes(model, &mut pairs, &mut dofs), Status::Ok);
@@ -96,6 +104,16 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
                 }),
             ),
             (
+                "obstacles",
+                Box::new(|| {
+                    let (mut made, at) = (null_mut(), obstacles.as_ptr());
+                    let status =
+                        urdd_proximity_world_proximity(shapes, at, obstacles.len(), &mut made);
+                    urdd_world_proximity_free(made);
+                    status
+                }),
+            ),
+            (
                 "clearances",
                 Box::new(|| {
                     let (at, length) = (clearances.as_mut_ptr(), clearances.len());
@@ -128,6 +146,8 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
         drop(calls);
         // Blocks of rows are joined as the whole.
         assert_eq!(clearances, known.clearances_batch(&q).expect("clearances"));
+        assert_eq!(urdd_obstacle_free(ball), Status::Ok);
+        assert_eq!(urdd_proximity_free(shapes), Status::Ok);
         assert_eq!(urdd_collision_model_free(model), Status::Ok);
         assert_eq!(urdd_robot_free(robot), Status::Ok);
     }
