@@ -25,7 +25,8 @@ pub unsafe extern "C" fn urdd_mesh(files: *mut Files, path: *const u8, length: u
 
 fn triangles(files: &Files, path: &str) -> Result<Vec<u8>, String> {
     let bytes = files.read(path, MAX_MESH_BYTES)?;
-    let options = Options { gltf_up: GltfUp::Keep, max_triangles: MAX_TRIANGLES, uncut: false };
+    let options =
+        Options { gltf_up: GltfUp::Keep, max_triangles: MAX_TRIANGLES, ..Options::default() };
     let scene =
         read_with(&bytes, path, &mut |_| None, &options).map_err(|error| match &error.place {
             Some(place) => format!("{place}: {}", error.fault),

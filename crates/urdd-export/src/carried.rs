@@ -46,10 +46,11 @@ const RETRACT: How = Otherwise("one, as the retract configuration");
 const CUROBO: How = Otherwise("in the whole robot file");
 const NO_FRICTION: How = Otherwise("damping; Drake ignores friction");
 const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
+const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 
 /// SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt, SDF.
-const TABLE: [Feature; 16] = [
+const TABLE: [Feature; 17] = [
     Feature {
         name: "masses and inertias",
         count: |of| links(of, |link| link.inertial.is_some()),
@@ -61,7 +62,13 @@ const TABLE: [Feature; 16] = [
         by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
-        name: "textures in the URDF",
+        name: TEXTURES,
+        // `textures` counts what became of them.
+        count: |_| 0,
+        by_format: [Elsewhere, Yes, PNG, PNG, Elsewhere, Elsewhere, Yes, Yes, PNG],
+    },
+    Feature {
+        name: "textures that the URDF itself names",
         count: |of| links(of, has_texture),
         by_format: [Elsewhere, No, No, No, Elsewhere, Elsewhere, No, No, No],
     },
@@ -165,7 +172,25 @@ fn joints(subject: &Subject, has: impl Fn(&Joint) -> bool) -> usize {
 
 fn has_texture(link: &Link) -> bool {
     let materials = link.visual.iter().filter_map(|visual| visual.material.as_ref());
-    materials.into_iter().any(|material| material.texture.is_some())
+    let mut textures = materials.filter_map(|material| material.texture.as_ref());
+    textures.any(|texture| !texture.filename.is_empty())
+}
+
+const TEXTURES: &str = "textures of meshes";
+
+/// What became of the textures of meshes.
+fn textures(made: &Export) -> impl Iterator<Item = (&'static str, usize, How)> {
+    let count = |of: fn(&Note) -> usize| made.notes.iter().map(of).sum();
+    let lost: usize = count(|note| usize::from(matches!(note, Note::LostTexture { .. })));
+    let converted: usize = count(|note| match note {
+        Note::ConvertedTextures(textures) => textures.len(),
+        _ => 0,
+    });
+    let is_image = |path: &str| path.ends_with(".png") || path.ends_with(".jpg");
+    let written = made.files.iter().filter(|(path, _)| is_image(path)).count();
+    let all = [(written.saturating_sub(converted), Yes), (converted, PNG), (lost, No)];
+    let all = all.into_iter().filter(|(count, _)| *count > 0);
+    all.map(|(count, how)| (TEXTURES, count, how))
 }
 
 /// What a robot has, and how its format carries it.
@@ -190,7 +215,7 @@ pub(super) fn lost(subject: &Subject) -> Option<Note> {
 /// The report of an export, as JSON: what is carried, what otherwise, what is lost, and the notes.
 pub(super) fn report(subject: &Subject, made: &Export) -> String {
     let of = |wanted: fn(How) -> bool| -> Vec<serde_json::Value> {
-        let found = carried(subject).filter(|(_, _, how)| wanted(*how));
+        let found = carried(subject).chain(textures(made)).filter(|(_, _, how)| wanted(*how));
         let entry = |(name, count, how)| match how {
             Otherwise(how) => serde_json::json!({"what": name, "count": count, "how": how}),
             _ => serde_json::json!({"what": name, "count": count}),

@@ -167,6 +167,17 @@ pub enum Note {
     /// What the format cannot carry: what, and how many.
     #[error("left out, since the format has no place for them: {0}")]
     Lost(String),
+    /// A texture that is not in the export.
+    #[error("texture `{}` is left out, and what it covers has a plain colour: {reason}", .texture.escape_debug())]
+    LostTexture {
+        /// Its path in the URDD; of one in a mesh, that of the mesh, and what stands for its name.
+        texture: String,
+        /// Why.
+        reason: String,
+    },
+    /// Textures that are written as PNG.
+    #[error("written as PNG, since MuJoCo and Drake show no JPEG: {}", all(.0))]
+    ConvertedTextures(Vec<String>),
     /// Visual geometry with fewer triangles.
     #[error("visual geometry has {to} of {from} triangles; where it was sampled, it deviates from the original by at most {} mm", *.micrometres as f64 / 1e3)]
     Simplified {
@@ -209,14 +220,17 @@ const SHOWN: usize = 5;
 /// Names of links, the first few of many, and a verb.
 fn some(links: &[String]) -> String {
     let shown = if links.len() > SHOWN { SHOWN - 1 } else { SHOWN };
-    let names = links.iter().take(shown);
-    let names: Vec<String> = names.map(|name| format!("`{}`", name.escape_debug())).collect();
-    let names = names.join(", ");
+    let names = all(&links[..shown.min(links.len())]);
     match links.len() {
         1 => format!("link {names} has"),
         count if count > SHOWN => format!("links {names} and {} others have", count - shown),
         _ => format!("links {names} have"),
     }
+}
+
+fn all(names: &[String]) -> String {
+    let names = names.iter().map(|name| format!("`{}`", name.escape_debug()));
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn mixed(

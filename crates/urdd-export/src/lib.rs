@@ -67,6 +67,7 @@ mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
+mod textures;
 mod urdf;
 mod urdf_elements;
 mod xacro;

@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 
 use super::error::{ExportError, Note};
+use super::format::Format;
 use super::names::FileNames;
 use super::simplify::simplify_all;
 use super::subject::Subject;
+use super::textures::{Image, Images};
 use urdd_geometry::Mesh;
 use urdd_geometry::read::Part;
 use urdd_geometry::write::{WriteError, obj, stl};
@@ -25,11 +27,10 @@ impl MeshFormat {
         }
     }
 
-    fn write(self, mesh: Mesh) -> Result<Vec<u8>, WriteError> {
-        let part = [Part::from(mesh)];
+    fn write(self, part: Part) -> Result<Vec<u8>, WriteError> {
         match self {
-            MeshFormat::Stl => stl(&part),
-            MeshFormat::Obj => obj(&part),
+            MeshFormat::Stl => stl(&[part]),
+            MeshFormat::Obj => obj(&[part]),
         }
     }
 }
@@ -54,18 +55,52 @@ impl<'a> MeshFiles<'a> {
         mesh: Mesh,
         format: MeshFormat,
     ) -> Result<String, ExportError> {
-        let bytes = format
-            .write(mesh)
-            .map_err(|error| ExportError::Mesh { link: self.subject.links[link].clone(), error })?;
+        let bytes = format.write(Part::from(mesh)).map_err(self.fault(link))?;
+        Ok(self.file(link, what, format.ending(), bytes))
+    }
+
+    /// Adds visual geometry as OBJ, with its texture. Returns the paths of both.
+    pub fn add_look(
+        &mut self,
+        link: usize,
+        place: usize,
+        look: Look,
+    ) -> Result<(String, Option<String>), ExportError> {
+        let what = format!("visual_{place}");
+        let Some(image) = look.image else {
+            return Ok((self.add(link, &what, look.part.mesh, MeshFormat::Obj)?, None));
+        };
+        let image =
+            self.file(link, &format!("texture_{place}"), image.ending, image.bytes.to_vec());
+        let mut bytes = Vec::new();
+        // MJCF names the texture itself.
+        if self.subject.format != Format::Mjcf {
+            let file = image.rsplit('/').next().unwrap_or(&image);
+            let library = format!("newmtl texture\nKa 1 1 1\nKd 1 1 1\nmap_Kd {file}\n");
+            let library =
+                self.file(link, &format!("material_{place}"), "mtl", library.into_bytes());
+            let library = library.rsplit('/').next().unwrap_or(&library);
+            bytes = format!("mtllib {library}\nusemtl texture\n").into_bytes();
+        }
+        bytes.extend(MeshFormat::Obj.write(look.part).map_err(self.fault(link))?);
+        Ok((self.file(link, &what, "obj", bytes), Some(image)))
+    }
+
+    fn fault(&self, link: usize) -> impl FnOnce(WriteError) -> ExportError + use<> {
+        let link = self.subject.links[link].clone();
+        |error| ExportError::Mesh { link, error }
+    }
+
+    fn file(&mut self, link: usize, what: &str, ending: &str, bytes: Vec<u8>) -> String {
         if let Some(path) = self.by_content.get(&bytes) {
-            return Ok(path.clone());
+            return path.clone();
         }
         let name = self.names.of(&format!("{}_{what}", self.subject.links[link]));
         let folder = &self.subject.options.mesh_folder;
         let slash = if folder.is_empty() { "" } else { "/" };
-        let path = format!("{folder}{slash}{name}.{}", format.ending());
+        let path = format!("{folder}{slash}{name}.{ending}");
         self.by_content.insert(bytes, path.clone());
-        Ok(path)
+        path
     }
 
     /// All files, sorted by path.
@@ -77,10 +112,10 @@ impl<'a> MeshFiles<'a> {
     }
 }
 
-/// Visual geometry of one colour.
+/// Visual geometry of one colour, or of one texture and its image.
 pub(super) struct Look {
-    pub mesh: Mesh,
-    pub rgba: Option<[f64; 4]>,
+    pub part: Part,
+    image: Option<Image>,
 }
 
 /// The visual geometry of all links, by link, simplified where that is asked for.
@@ -92,18 +127,32 @@ pub(super) fn looks(
     if !subject.options.visuals {
         return Ok(looks);
     }
+    let mut images = Images::new(subject);
+    let mut textured: HashMap<usize, Vec<Part>> = HashMap::new();
+    for visual in subject.robot.textured_visuals()? {
+        textured.entry(visual.link).or_default().extend(visual.parts);
+    }
     for visual in subject.robot.visuals()? {
         let Some(of_link) = looks.get_mut(visual.link) else {
             continue;
         };
-        for part in visual.parts {
-            match of_link.iter_mut().find(|look| look.rgba == part.color) {
-                Some(look) => look.mesh.append(&part.mesh),
-                None => of_link.push(Look { mesh: part.mesh, rgba: part.color }),
+        let textured = textured.remove(&visual.link).unwrap_or_default();
+        for (part, image) in images.painted(visual.parts, textured)? {
+            let name = |part: &Part| part.texture.as_ref().map(|texture| texture.name.clone());
+            let is_same = |known: &Part| known.color == part.color && name(known) == name(&part);
+            match of_link.iter_mut().find(|look| is_same(&look.part)) {
+                Some(Look { part: known, .. }) => {
+                    known.mesh.append(&part.mesh);
+                    if let Some((known, new)) = known.texture.as_mut().zip(part.texture) {
+                        known.uv.extend(new.uv);
+                    }
+                }
+                None => of_link.push(Look { part, image }),
             }
         }
     }
-    let meshes = looks.iter_mut().flatten().map(|look| &mut look.mesh);
-    notes.extend(simplify_all(meshes.collect(), subject.options.detail));
+    notes.extend(images.notes());
+    let parts = looks.iter_mut().flatten().map(|look| &mut look.part);
+    notes.extend(simplify_all(parts.collect(), subject.options.detail));
     Ok(looks)
 }

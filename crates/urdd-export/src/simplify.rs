@@ -3,14 +3,15 @@
 use std::collections::HashMap;
 
 use meshoptimizer_rs::{
-    Error, LodQualityMesh, LodQualityOptions, Positions, SimplifyOptions, SimplifySettings,
-    Workspace, measure_lod_quality, simplify,
+    Attributes, Error, LodQualityMesh, LodQualityOptions, Positions, SimplifyOptions,
+    SimplifySettings, Workspace, measure_lod_quality, simplify, simplify_with_attributes,
 };
 use rayon::prelude::*;
 
 use super::error::Note;
 use super::options::Detail;
 use urdd_geometry::Mesh;
+use urdd_geometry::read::Part;
 
 /// Samples on a surface, besides the corners of its triangles.
 const SAMPLES: f64 = 10_000.0;
@@ -21,9 +22,10 @@ const STEP: f64 = 1.25;
 const STEPS: u32 = 64;
 
 /// Simplifies meshes, and says by how much: all with the same error, the least with which there are few enough triangles.
-/// A mesh that cannot be simplified stays as it is.
-pub fn simplify_all(mut meshes: Vec<&mut Mesh>, detail: Detail) -> Option<Note> {
-    let from: usize = meshes.iter().map(|mesh| mesh.triangles.len()).sum();
+/// A mesh that cannot be simplified stays as it is. What is left of a mesh has the texture coordinates that it had, and a
+/// texture moves on it by no more than that error.
+pub fn simplify_all(mut parts: Vec<&mut Part>, detail: Detail) -> Option<Note> {
+    let from: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
     let most = match detail {
         Detail::Full => return None,
         Detail::Ratio(ratio) => (from as f64 * ratio).ceil() as usize,
@@ -32,7 +34,7 @@ pub fn simplify_all(mut meshes: Vec<&mut Mesh>, detail: Detail) -> Option<Note> 
     if most >= from {
         return None;
     }
-    let surfaces: Vec<Surface> = meshes.par_iter().map(|mesh| Surface::new(mesh)).collect();
+    let surfaces: Vec<Surface> = parts.par_iter().map(|part| Surface::new(part)).collect();
     let with_error = |step: u32| -> Vec<Option<Vec<u32>>> {
         let error = (FINEST * STEP.powi(step as i32)) as f32;
         let each = surfaces.par_iter();
@@ -56,22 +58,22 @@ pub fn simplify_all(mut meshes: Vec<&mut Mesh>, detail: Detail) -> Option<Note> 
         }
     }
     let best = best.unwrap_or_else(|| with_error(STEPS));
-    let changes = meshes.par_iter_mut().zip(&surfaces).zip(best);
-    let deviations = changes.map(|((mesh, surface), found)| {
+    let changes = parts.par_iter_mut().zip(&surfaces).zip(best);
+    let deviations = changes.map(|((part, surface), found)| {
         let Some(found) = found.filter(|found| found.len() < surface.indices.len()) else {
             return 0.0;
         };
         // What cannot be measured is not changed.
-        let Ok(deviation) = surface.deviation(&found, mesh.area()) else {
+        let Ok(deviation) = surface.deviation(&found, part.mesh.area()) else {
             return 0.0;
         };
-        **mesh = compact(&surface.vertices, &found);
+        surface.compact(&found, part);
         deviation
     });
     let deviation = deviations.reduce(|| 0.0, f64::max);
     Some(Note::Simplified {
         from,
-        to: meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
+        to: parts.iter().map(|part| part.mesh.triangles.len()).sum(),
         micrometres: (deviation * 1e6).ceil() as u64,
     })
 }
@@ -80,12 +82,34 @@ pub fn simplify_all(mut meshes: Vec<&mut Mesh>, detail: Detail) -> Option<Note> 
 struct Surface {
     vertices: Vec<[f32; 3]>,
     indices: Vec<u32>,
+    /// Texture coordinates of the vertices, if there are any.
+    uvs: Vec<[f32; 2]>,
+    /// Metres on the surface for one texture, about.
+    uv_size: f32,
 }
 
 impl Surface {
-    fn new(mesh: &Mesh) -> Self {
-        let (vertices, indices) = welded(mesh);
-        Surface { vertices, indices }
+    /// Vertices with equal positions and texture coordinates are one: otherwise each triangle of an STL would be a surface
+    /// of its own.
+    fn new(part: &Part) -> Self {
+        let uv = part.texture.as_ref().map_or(&[][..], |texture| &texture.uv);
+        let (mut vertices, mut uvs, mut places) = (Vec::new(), Vec::new(), HashMap::new());
+        let place_of = |(at, vertex): (usize, &[f64; 3])| {
+            // Adding 0 makes -0 equal to 0.
+            let position = vertex.map(|coordinate| coordinate as f32 + 0.0);
+            let uv = uv.get(at).map(|uv| uv.map(|coordinate| coordinate as f32 + 0.0));
+            let key = (position.map(f32::to_bits), uv.map(|uv| uv.map(f32::to_bits)));
+            *places.entry(key).or_insert_with(|| {
+                vertices.push(position);
+                uvs.extend(uv);
+                (vertices.len() - 1) as u32
+            })
+        };
+        let places: Vec<u32> = part.mesh.vertices.iter().enumerate().map(place_of).collect();
+        let indices = part.mesh.triangles.as_flattened().iter();
+        let indices = indices.map(|index| places[*index as usize]).collect();
+        let size = part.mesh.bounds().map_or(0.0, |bounds| bounds.extent());
+        Surface { vertices, indices, uvs, uv_size: size as f32 }
     }
 
     /// The triangles that are left with this error, m. A surface never vanishes.
@@ -96,7 +120,18 @@ impl Surface {
             options: SimplifyOptions::ERROR_ABSOLUTE,
         };
         let positions = Positions::from_packed(&self.vertices);
-        let found = simplify(&self.indices, positions, settings, &mut Workspace::default())?;
+        let mut workspace = Workspace::default();
+        let found = match &self.uvs[..] {
+            [] => simplify(&self.indices, positions, settings, &mut workspace)?,
+            uvs => {
+                let uvs = Attributes::from_interleaved(uvs.as_flattened(), uvs.len(), 2, 2, 0)?;
+                let weights = [self.uv_size; 2];
+                let (indices, workspace) = (&self.indices, &mut workspace);
+                simplify_with_attributes(
+                    indices, positions, uvs, &weights, None, settings, workspace,
+                )?
+            }
+        };
         Ok(match found.indices.is_empty() {
             true => self.indices.clone(),
             false => found.indices,
@@ -116,38 +151,25 @@ impl Surface {
         )?;
         Ok(quality.symmetric.max)
     }
-}
 
-/// Vertices with equal positions as one: otherwise each triangle of an STL would be a surface of its own.
-fn welded(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<u32>) {
-    let mut places = HashMap::new();
-    let mut vertices = Vec::new();
-    let place_of = |vertex: &[f64; 3]| {
-        // Adding 0 makes -0 equal to 0.
-        let position = vertex.map(|coordinate| coordinate as f32 + 0.0);
-        *places.entry(position.map(f32::to_bits)).or_insert_with(|| {
-            vertices.push(position);
-            (vertices.len() - 1) as u32
-        })
-    };
-    let places: Vec<u32> = mesh.vertices.iter().map(place_of).collect();
-    let indices = mesh.triangles.as_flattened().iter();
-    (vertices, indices.map(|index| places[*index as usize]).collect())
-}
-
-/// A mesh of the vertices that triangles use, in their order.
-fn compact(vertices: &[[f32; 3]], indices: &[u32]) -> Mesh {
-    let mut places = vec![u32::MAX; vertices.len()];
-    let mut mesh = Mesh::default();
-    for triangle in indices.as_chunks::<3>().0 {
-        mesh.triangles.push(triangle.map(|index| {
-            let place = &mut places[index as usize];
-            if *place == u32::MAX {
-                *place = mesh.vertices.len() as u32;
-                mesh.vertices.push(vertices[index as usize].map(f64::from));
-            }
-            *place
-        }));
+    /// Makes a part of the vertices that triangles use, in their order.
+    fn compact(&self, indices: &[u32], part: &mut Part) {
+        let mut places = vec![u32::MAX; self.vertices.len()];
+        let (mut mesh, mut uvs) = (Mesh::default(), Vec::new());
+        for triangle in indices.as_chunks::<3>().0 {
+            mesh.triangles.push(triangle.map(|index| {
+                let place = &mut places[index as usize];
+                if *place == u32::MAX {
+                    *place = mesh.vertices.len() as u32;
+                    mesh.vertices.push(self.vertices[index as usize].map(f64::from));
+                    uvs.extend(self.uvs.get(index as usize).map(|uv| uv.map(f64::from)));
+                }
+                *place
+            }));
+        }
+        part.mesh = mesh;
+        if let Some(texture) = &mut part.texture {
+            texture.uv = uvs;
+        }
     }
-    mesh
 }

@@ -156,11 +156,11 @@ fn visual(
     look: Look,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
-    let what = format!("visual_{place}");
-    let path = files.add(link, &what, look.mesh, MeshFormat::Obj)?;
+    let rgba = look.part.color;
+    let (path, _) = files.add_look(link, place, look)?;
     let mesh = Element::new("mesh").with("filename", path);
     let mut visual = Element::new("visual").holding(Element::new("geometry").holding(mesh));
-    if let Some(rgba) = look.rgba {
+    if let Some(rgba) = rgba {
         let color = Element::new("color").with("rgba", numbers(&rgba));
         let name = format!("rgba {}", numbers(&rgba));
         visual.push(Element::new("material").with("name", name).holding(color));

@@ -54,6 +54,7 @@ mod skip_edits;
 mod skips;
 mod space;
 mod statistics;
+mod textured;
 pub mod world;
 
 #[doc(hidden)]

@@ -157,7 +157,7 @@ fn what_the_table_says_is_so() {
     let folder = folder.path();
     let (status, _, said) =
         urdd(&["export", "mjcf", name, "-o", "m.xml", "--report", "m.json"], folder);
-    assert!(status == 0 && said.contains("textures in the URDF (1)"), "{said}");
+    assert!(status == 0 && said.contains("textures that the URDF itself names (1)"), "{said}");
     // A file of a person's is no report.
     std::fs::write(folder.join("mine.json"), "mine").expect("written");
     let again = ["export", "mjcf", name, "-o", "n.xml", "--report", "mine.json"];

@@ -24,7 +24,8 @@ pub fn dae(bytes: &[u8]) {
 }
 
 /// Fewer than by default: an input may ask for far more than it contains.
-const OPTIONS: Options = Options { gltf_up: GltfUp::Keep, max_triangles: 100_000, uncut: false };
+const OPTIONS: Options =
+    Options { gltf_up: GltfUp::Keep, max_triangles: 100_000, uncut: false, textures: false };
 
 /// A mesh that was read has finite vertices, indices in range and colours from 0 to 1. Reading it again gives the same.
 /// Written in any format and read again, it has the same triangles.

@@ -10,7 +10,6 @@ use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
-use urdd_geometry::Mesh;
 use urdd_robot::{LinkShape, ShapeKind, Solid};
 use urdd_xml::number::{number, numbers};
 
@@ -138,17 +137,21 @@ impl<'a> Bodies<'a> {
             element.push(site);
         }
         for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
-            if !surface::complete(&mut look.mesh) {
+            if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
                 continue;
             }
-            let what = format!("visual_{place}");
-            let asset = self.asset(link, &what, look.mesh, MeshFormat::Obj)?;
+            let count = look.part.mesh.vertices.len();
+            look.part.texture.iter_mut().for_each(|texture| texture.uv.resize(count, [0.0; 2]));
+            let rgba = look.part.color.map(|rgba| numbers(&rgba));
+            let (path, texture) = self.files.add_look(link, place, look)?;
+            let asset = self.asset(path, MeshFormat::Obj);
             let geom = Element::new("geom")
                 .with("class", "visual")
                 .with("type", "mesh")
                 .with("mesh", asset)
-                .with_some("rgba", look.rgba.map(|rgba| numbers(&rgba)));
+                .with_some("rgba", rgba)
+                .with_some("material", texture.map(|path| self.material(path)));
             element.push(geom);
         }
         for shape in std::mem::take(&mut self.shapes[link]) {
@@ -182,7 +185,8 @@ impl<'a> Bodies<'a> {
                     true => MeshFormat::Stl,
                     false => MeshFormat::Obj,
                 };
-                let asset = self.asset(link, &what, mesh, format)?;
+                let path = self.files.add(link, &what, mesh, format)?;
+                let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)
             }
             Solid::Box { pose, half_extents } => cuboid(geom, &pose, half_extents),
@@ -194,29 +198,36 @@ impl<'a> Bodies<'a> {
     }
 
     /// The name of the asset of a mesh.
-    fn asset(
-        &mut self,
-        link: usize,
-        what: &str,
-        mesh: Mesh,
-        format: MeshFormat,
-    ) -> Result<String, ExportError> {
-        let path = self.files.add(link, what, mesh, format)?;
-        let file = path.rsplit('/').next().unwrap_or(&path);
-        let name = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-        if self.named.contains(&path) {
-            return Ok(name.to_owned());
+    fn asset(&mut self, path: String, format: MeshFormat) -> String {
+        let name = stem(&path);
+        if !self.named.insert(path.clone()) {
+            return name;
         }
-        let mut asset = Element::new("mesh").with("name", name).with("file", path.as_str());
+        let mut asset = Element::new("mesh").with("name", name.as_str()).with("file", path);
         if format == MeshFormat::Obj {
             // Visual meshes need not enclose a volume.
             asset = asset.with("inertia", "shell");
         }
         self.assets.push(asset);
-        let name = name.to_owned();
-        self.named.insert(path);
-        Ok(name)
+        name
     }
+
+    /// The name of the material of a texture.
+    fn material(&mut self, path: String) -> String {
+        let name = stem(&path);
+        if self.named.insert(path.clone()) {
+            let named = |tag| Element::new(tag).with("name", name.as_str());
+            self.assets.push(named("texture").with("type", "2d").with("file", path));
+            self.assets.push(named("material").with("texture", name.as_str()));
+        }
+        name
+    }
+}
+
+/// The name of a file without folder and ending, as unique as the file's.
+fn stem(path: &str) -> String {
+    let file = path.rsplit('/').next().unwrap_or(path);
+    file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
 }
 
 /// The name of a shape's geom: unique for any link names.

@@ -60,10 +60,11 @@ pub(super) fn links(
             },
         );
         for (place, look) in looks.into_iter().enumerate() {
-            let path = files.add(link, &format!("visual_{place}"), look.mesh, MeshFormat::Obj)?;
+            let rgba = look.part.color;
+            let (path, _) = files.add_look(link, place, look)?;
             let mut visual = Element::new("visual").with("name", format!("visual_{place}"));
             visual.push(Element::new("geometry").holding(mesh(&path)));
-            if let Some(rgba) = look.rgba {
+            if let Some(rgba) = rgba {
                 let colour = numbers(&rgba);
                 let ambient = Element::new("ambient").containing(&colour);
                 let diffuse = Element::new("diffuse").containing(&colour);

@@ -19,4 +19,6 @@ mod spheres_cover_filled;
 mod spheres_judge;
 mod spheres_surface;
 mod srdf_merge;
+mod textured_box;
+mod textures;
 mod yaml;

@@ -173,6 +173,7 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
         mesh: tidy(part.mesh, &place),
         color: part.color.or(color),
         material: part.material,
+        texture: None,
     });
     moved.filter(|part| !part.mesh.triangles.is_empty()).collect()
 }

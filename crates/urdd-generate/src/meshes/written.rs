@@ -38,7 +38,7 @@ impl WrittenMesh {
 
     /// The mesh as one part.
     pub fn part(&self) -> Part {
-        Part { mesh: self.mesh.clone(), color: self.color, material: None }
+        Part { mesh: self.mesh.clone(), color: self.color, ..Part::default() }
     }
 }
 

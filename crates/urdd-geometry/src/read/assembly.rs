@@ -8,7 +8,7 @@ use nalgebra::Matrix4;
 use super::error::{Failure, Fault, NoteCode, Notes};
 use super::format::Format;
 use super::options::Options;
-use super::scene::{Part, Scene};
+use super::scene::{Part, Scene, Texture};
 use crate::mesh::Mesh;
 
 /// A scene under construction: one part per material, in the order of first use.
@@ -25,14 +25,15 @@ pub(super) struct Assembly {
 /// materials. A part takes some hundred bytes of memory, for the ten bytes in the file that name it.
 pub(super) const MOST_PARTS: usize = 4096;
 
-/// Name and colour of a material.
+/// Name, colour and texture of a material.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Material {
     pub(super) name: Option<String>,
     pub(super) color: Option<[f64; 4]>,
+    pub(super) texture: Option<Texture>,
 }
 
-type Look = (Option<String>, Option<[u64; 4]>);
+type Look = (Option<String>, Option<[u64; 4]>, Option<(String, bool)>);
 
 impl Assembly {
     pub(super) fn new(options: &Options) -> Self {
@@ -71,23 +72,36 @@ impl Assembly {
         if placed.triangles.is_empty() {
             return Ok(());
         }
-        let mut look = look_of(material);
-        let mut material = material;
-        let plain = Material::default();
+        let mut material = material.clone();
+        material.texture.take_if(|_| !self.options.textures);
+        let texture = material.texture.as_mut();
+        let uv = texture.map(|texture| std::mem::take(&mut texture.uv)).unwrap_or_default();
+        let mut look = look_of(&material);
         if self.parts.len() >= MOST_PARTS && !self.part_of.contains_key(&look) {
             self.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
-            material = &plain;
-            look = look_of(material);
+            material = Material::default();
+            look = look_of(&material);
         }
-        if let Some(part) = self.part_of.get(&look) {
-            self.parts[*part].mesh.append(&placed);
-        } else {
-            self.part_of.insert(look, self.parts.len());
-            self.parts.push(Part {
+        let count = placed.vertices.len();
+        let at = *self.part_of.entry(look).or_insert(self.parts.len());
+        match self.parts.get_mut(at) {
+            Some(part) => part.mesh.append(&placed),
+            None => self.parts.push(Part {
                 mesh: placed,
                 color: material.color,
-                material: material.name.clone(),
-            });
+                material: material.name,
+                texture: material.texture,
+            }),
+        }
+        let part = &mut self.parts[at];
+        // A mesh whose vertices were dropped, since some are not finite, gets no coordinates.
+        let uv = Some(uv).filter(|uv| uv.len() == count).unwrap_or_default();
+        if let Some(texture) = &mut part.texture
+            && !(uv.is_empty() && texture.uv.is_empty())
+        {
+            texture.uv.resize(part.mesh.vertices.len() - count, [0.0; 2]);
+            texture.uv.extend(uv);
+            texture.uv.resize(part.mesh.vertices.len(), [0.0; 2]);
         }
         Ok(())
     }
@@ -137,7 +151,9 @@ pub(super) const TOO_MANY_PARTS: &str =
     "more than 4096 materials; faces with any other material are read without one";
 
 fn look_of(material: &Material) -> Look {
-    (material.name.clone(), material.color.map(|color| color.map(f64::to_bits)))
+    let texture = material.texture.as_ref();
+    let texture = texture.map(|texture| (texture.name.clone(), texture.embedded.is_some()));
+    (material.name.clone(), material.color.map(|color| color.map(f64::to_bits)), texture)
 }
 
 /// Checks a number of items against a limit.

@@ -14,7 +14,7 @@
 //! | rejected | no complete triangle | invalid UTF-16, a DTD | nothing: a face with an index 0 or a malformed index is dropped with a note | version 1, Draco, meshopt |
 //! | repaired, with a note | wrong count, truncation, NaN corners, a header that begins with `solid` | NaN, indices out of range, missing scene, invalid UTF-8 | NaN, indices out of range, missing .mtl | NaN, indices out of range, wrong lengths in the GLB header |
 //!
-//! A part with a texture has no colour, because its true colour is in the image. Colours are clamped to 0 to 1, and not
+//! A part with a texture has no colour, because its true colour is in the image. [`Options::textures`] reads that too. Colours are clamped to 0 to 1, and not
 //! converted between sRGB and linear values.
 //!
 //! # Axes and lengths
@@ -57,11 +57,12 @@ mod options;
 mod scene;
 mod sniff;
 mod stl;
+mod uv;
 
 pub use error::{Fault, MeshError, Note, NoteCode, Place};
 pub use format::Format;
 pub use options::{GltfUp, Options};
-pub use scene::{Part, Scene};
+pub use scene::{Part, Scene, Texture};
 
 use assembly::Assembly;
 use error::Failure;

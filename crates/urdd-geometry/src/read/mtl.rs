@@ -8,13 +8,14 @@ pub(super) struct Entry {
     pub(super) name: String,
     color: Option<[f64; 3]>,
     opacity: f64,
-    textured: bool,
+    /// The image of its diffuse colour, relative to the library.
+    pub(super) texture: Option<String>,
 }
 
 impl Entry {
     /// Colour and opacity; `None` with a texture.
     pub(super) fn color(&self) -> Option<[f64; 4]> {
-        let [red, green, blue] = self.color.filter(|_| !self.textured)?;
+        let [red, green, blue] = self.color.filter(|_| self.texture.is_none())?;
         Some([red, green, blue, self.opacity])
     }
 }
@@ -31,12 +32,7 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
         let rest = rest.trim();
         let keyword = keyword.to_ascii_lowercase();
         if keyword == "newmtl" {
-            entries.push(Entry {
-                name: rest.to_owned(),
-                color: None,
-                opacity: 1.0,
-                textured: false,
-            });
+            entries.push(Entry { name: rest.to_owned(), color: None, opacity: 1.0, texture: None });
             continue;
         }
         let Some(entry) = entries.last_mut() else {
@@ -49,14 +45,17 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
             _ if keyword.starts_with("map_")
                 || matches!(keyword.as_str(), "bump" | "disp" | "decal" | "norm" | "refl") =>
             {
-                entry.textured |= keyword == "map_kd";
                 // Options such as `-bm 0.2` precede the name, which is last.
                 let name = if rest.starts_with('-') {
                     rest.rsplit(char::is_whitespace).next().unwrap_or(rest)
                 } else {
                     rest
                 };
-                textures.push(name.replace('\\', "/"));
+                let name = name.replace('\\', "/");
+                if keyword == "map_kd" {
+                    entry.texture = Some(name.clone());
+                }
+                textures.push(name);
             }
             _ => {}
         }

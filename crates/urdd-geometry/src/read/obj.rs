@@ -8,6 +8,8 @@ use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS, ma
 use super::error::{Failure, NoteCode, Place};
 use super::mtl;
 use super::number::Words;
+use super::scene::Texture;
+use super::uv::UvCorners;
 use crate::polygon::Splitter;
 
 /// Reads OBJ. Groups faces by material: objects, groups and smoothing groups do not affect the surface.
@@ -19,6 +21,8 @@ pub(super) fn read(
     let mut file = File {
         libraries: Vec::new(),
         vertices: Vec::new(),
+        uvs: Vec::new(),
+        textures: assembly.options.textures,
         groups: vec![Group::default()],
         current: 0,
         wanted: None,
@@ -61,22 +65,22 @@ pub(super) fn read(
     drop(used);
     let mut picker = Picker::default();
     for group in &file.groups {
-        let color = group
-            .material
-            .as_ref()
-            .and_then(|name| materials.get(name))
-            .and_then(mtl::Entry::color);
-        let (mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
+        let entry = group.material.as_ref().and_then(|name| materials.get(name));
+        let color = entry.and_then(mtl::Entry::color);
+        let texture = entry.and_then(|entry| entry.texture.clone());
+        let (mut mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
         assembly.notes.add_many(
             NoteCode::IndexOutOfRange,
             "a triangle was dropped: a vertex index is out of range",
             left_out,
         );
-        assembly.add(
-            &mesh,
-            &Matrix4::identity(),
-            &Material { name: group.material.clone(), color },
-        )?;
+        let mut uv = Vec::new();
+        if !group.uvs.is_empty() {
+            (mesh, uv) = group.uvs.mesh(&file.vertices, &group.triangles, &file.uvs);
+        }
+        let texture = texture.map(|name| Texture { name, embedded: None, uv });
+        let material = Material { name: group.material.clone(), color, texture };
+        assembly.add(&mesh, &Matrix4::identity(), &material)?;
     }
     Ok(())
 }
@@ -86,11 +90,15 @@ pub(super) fn read(
 struct Group {
     material: Option<String>,
     triangles: Vec<[u32; 3]>,
+    uvs: UvCorners,
 }
 
 struct File {
     libraries: Vec<String>,
     vertices: Vec<[f64; 3]>,
+    /// Texture coordinates, if textures are read.
+    uvs: Vec<[f64; 3]>,
+    textures: bool,
     groups: Vec<Group>,
     current: usize,
     /// The material selected since the last face.
@@ -114,6 +122,10 @@ impl File {
                 let vertex = [coordinate(), coordinate(), coordinate()];
                 self.vertices.push(vertex);
                 within("vertices", self.vertices.len(), u32::MAX as usize)?;
+            }
+            Some(b"vt") if self.textures => {
+                let mut coordinate = || words.float().unwrap_or(0.0);
+                self.uvs.push([coordinate(), coordinate(), 0.0]);
             }
             // `fo` is an old spelling of `f`.
             Some(b"f" | b"fo") => {
@@ -146,7 +158,7 @@ impl File {
             }
             None => {
                 self.group_of.insert(name.clone(), next);
-                self.groups.push(Group { material: Some(name), triangles: Vec::new() });
+                self.groups.push(Group { material: Some(name), ..Group::default() });
                 next
             }
         };
@@ -154,20 +166,27 @@ impl File {
 
     fn face(&mut self, words: Words<'_>) {
         self.corners.clear();
+        let group = &mut self.groups[self.current];
         for word in words {
             if word.starts_with(b"#") {
                 break;
             }
             match corner(word, self.vertices.len()) {
-                Some(index) => self.corners.push(index),
+                Some(index) => {
+                    self.corners.push(index);
+                    let uv = word.split(|byte| *byte == b'/').nth(1).filter(|_| self.textures);
+                    if let Some(uv) = uv.and_then(|uv| corner(uv, self.uvs.len())) {
+                        group.uvs.note(index, uv);
+                    }
+                }
                 None => {
                     self.bad += 1;
                     return;
                 }
             }
         }
-        let triangles = &mut self.groups[self.current].triangles;
-        self.splitter.split(&self.vertices, &self.corners, triangles);
+        self.splitter.split(&self.vertices, &self.corners, &mut group.triangles);
+        group.uvs.follow(&group.triangles);
     }
 }
 
@@ -218,7 +237,8 @@ fn read_libraries(
             for texture in textures {
                 assembly.add_side_file(&beside(name, &texture));
             }
-            for entry in entries {
+            for mut entry in entries {
+                entry.texture = entry.texture.map(|texture| beside(name, &texture));
                 materials.entry(entry.name.clone()).or_insert(entry);
             }
         }

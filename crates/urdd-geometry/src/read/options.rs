@@ -20,10 +20,12 @@ pub struct Options {
     /// Whether to leave the faces that are not convex uncut. Each is then a fan from its first corner, which may overlap
     /// itself, between two triangles of three equal indices. No other triangle has three equal indices.
     pub uncut: bool,
+    /// Whether to read textures. Vertices then have one texture coordinate each: one where a texture is cut is several.
+    pub textures: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { gltf_up: GltfUp::Turn, max_triangles: 20_000_000, uncut: false }
+        Self { gltf_up: GltfUp::Turn, max_triangles: 20_000_000, uncut: false, textures: false }
     }
 }

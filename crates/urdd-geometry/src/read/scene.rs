@@ -1,5 +1,7 @@
 //! What the readers return.
 
+use std::sync::Arc;
+
 use super::error::Note;
 use super::format::Format;
 use crate::mesh::Mesh;
@@ -26,6 +28,20 @@ pub struct Part {
     pub color: Option<[f64; 4]>,
     /// The material's name.
     pub material: Option<String>,
+    /// Its texture; always `None` without [`Options::textures`](super::Options::textures).
+    pub texture: Option<Texture>,
+}
+
+/// An image on a part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Texture {
+    /// The image's file, as the mesh names it; of an embedded image, what stands for its name.
+    pub name: String,
+    /// The content of an embedded image.
+    pub embedded: Option<Arc<[u8]>>,
+    /// Places in the image, one for each vertex of the mesh: (0, 0) is lower left, (1, 1) upper right, and the image
+    /// repeats. Empty if the mesh has none.
+    pub uv: Vec<[f64; 2]>,
 }
 
 impl Scene {

@@ -48,7 +48,7 @@ pub enum WriteError {
 impl From<Mesh> for Part {
     /// A part without colour.
     fn from(mesh: Mesh) -> Self {
-        Self { mesh, color: None, material: None }
+        Self { mesh, ..Self::default() }
     }
 }
 

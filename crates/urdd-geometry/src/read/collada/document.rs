@@ -37,11 +37,15 @@ impl<'a> Document<'a> {
     pub(super) fn images(&self) -> Vec<String> {
         children(self.root, "library_images")
             .flat_map(|library| children(library, "image"))
-            .filter_map(|image| child(image, "init_from"))
-            .filter_map(|from| child(from, "ref").unwrap_or(from).text())
-            .map(|url| path_of_url(url.trim()))
+            .filter_map(file_of_image)
             .collect()
     }
+}
+
+/// The name of an image's file, relative to the document.
+pub(super) fn file_of_image(image: Node<'_, '_>) -> Option<String> {
+    let from = child(image, "init_from")?;
+    Some(path_of_url(child(from, "ref").unwrap_or(from).text()?.trim()))
 }
 
 /// The children with this tag, in any namespace (1.4 and 1.5 have different ones).

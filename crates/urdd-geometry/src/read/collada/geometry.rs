@@ -5,6 +5,8 @@ use roxmltree::Node;
 use super::super::assembly::Picker;
 use super::super::error::{Failure, Fault, NoteCode, Notes};
 use super::super::number::Words;
+use super::super::options::Options;
+use super::super::uv::UvCorners;
 use super::document::{Document, child, children, text};
 use super::source::{Positions, Read};
 use crate::mesh::Mesh;
@@ -14,6 +16,8 @@ use crate::polygon::Splitter;
 pub(super) struct Primitive<'a> {
     pub(super) symbol: Option<&'a str>,
     pub(super) mesh: Mesh,
+    /// Texture coordinates of the vertices; none unless they are read.
+    pub(super) uv: Vec<[f64; 2]>,
 }
 
 /// State that geometries share while they are read.
@@ -21,11 +25,17 @@ pub(super) struct Tools {
     picker: Picker,
     splitter: Splitter,
     read: Read,
+    textures: bool,
 }
 
 impl Tools {
-    pub(super) fn new(uncut: bool) -> Self {
-        Self { picker: Picker::default(), splitter: Splitter::new(uncut), read: Read::default() }
+    pub(super) fn new(options: &Options) -> Self {
+        Self {
+            picker: Picker::default(),
+            splitter: Splitter::new(options.uncut),
+            read: Read::default(),
+            textures: options.textures,
+        }
     }
 }
 
@@ -46,7 +56,7 @@ pub(super) fn read<'a>(
         );
         return Ok(Vec::new());
     };
-    let Tools { picker, splitter, read } = tools;
+    let Tools { picker, splitter, read, textures } = tools;
     let mut positions = Positions::new(document, mesh, read);
     let mut primitives = Vec::new();
     for element in mesh.children().filter(Node::is_element) {
@@ -58,16 +68,28 @@ pub(super) fn read<'a>(
             "tristrips" => Shape::Strips,
             _ => continue,
         };
-        let Some(layout) = Layout::of(element)? else {
+        let Some(mut layout) = Layout::of(element)? else {
             continue;
         };
-        let vertices = positions.of(layout.source)?;
-        let mut faces = Faces { shape, layout, triangles: Vec::new(), corners: Vec::new(), bad: 0 };
+        layout.uv.take_if(|_| !*textures);
+        let (vertices, uvs) = positions.of(layout.source, layout.uv.map(|(source, _)| source))?;
+        let mut faces = Faces {
+            shape,
+            layout,
+            triangles: Vec::new(),
+            corners: Vec::new(),
+            uvs: UvCorners::default(),
+            bad: 0,
+        };
         faces.read(element, vertices, splitter, notes);
-        let (mesh, left_out) = picker.pick(vertices, &faces.triangles);
+        let (mut mesh, left_out) = picker.pick(vertices, &faces.triangles);
+        let mut uv = Vec::new();
+        if !faces.uvs.is_empty() {
+            (mesh, uv) = faces.uvs.mesh(vertices, &faces.triangles, uvs);
+        }
         let text = "a triangle was dropped: a vertex index is out of range, or is not an index";
         notes.add_many(NoteCode::IndexOutOfRange, text, left_out + faces.bad);
-        primitives.push(Primitive { symbol: element.attribute("material"), mesh });
+        primitives.push(Primitive { symbol: element.attribute("material"), mesh, uv });
     }
     Ok(primitives)
 }
@@ -87,6 +109,8 @@ struct Layout<'a> {
     source: &'a str,
     offset: usize,
     stride: usize,
+    /// The first texture coordinates: their source, and their offset.
+    uv: Option<(&'a str, usize)>,
 }
 
 /// Maximum number of indices per corner; real files have up to 6.
@@ -95,7 +119,7 @@ const MOST_INPUTS: usize = 1024;
 impl<'a> Layout<'a> {
     /// `None` for a primitive without faces, which needs no inputs.
     fn of(element: Node<'a, 'a>) -> Result<Option<Self>, Failure> {
-        let mut vertex = None;
+        let (mut vertex, mut uv) = (None, None);
         let mut stride = 0;
         for input in children(element, "input") {
             let offset =
@@ -110,9 +134,12 @@ impl<'a> Layout<'a> {
             {
                 vertex = Some((input.attribute("source").unwrap_or(""), offset));
             }
+            if input.attribute("semantic") == Some("TEXCOORD") && uv.is_none() {
+                uv = input.attribute("source").map(|source| (source, offset));
+            }
         }
         match vertex {
-            Some((source, offset)) => Ok(Some(Self { source, offset, stride })),
+            Some((source, offset)) => Ok(Some(Self { source, offset, stride, uv })),
             None if child(element, "p").is_none() => Ok(None),
             None => Err(Fault::malformed(format!(
                 "a `{}` without a VERTEX input",
@@ -127,6 +154,7 @@ struct Faces<'a> {
     layout: Layout<'a>,
     triangles: Vec<[u32; 3]>,
     corners: Vec<u32>,
+    uvs: UvCorners,
     bad: usize,
 }
 
@@ -166,6 +194,7 @@ impl Faces<'_> {
                             break;
                         }
                         splitter.split(vertices, &self.corners, &mut self.triangles);
+                        self.uvs.follow(&self.triangles);
                     }
                 }
                 // In real files, a polylist without counts contains triangles.
@@ -188,6 +217,7 @@ impl Faces<'_> {
                     }
                 }
             }
+            self.uvs.follow(&self.triangles);
         }
     }
 
@@ -201,6 +231,7 @@ impl Faces<'_> {
                 }
             }
             splitter.push(triangle, &mut self.triangles);
+            self.uvs.follow(&self.triangles);
         }
     }
 
@@ -217,15 +248,20 @@ impl Faces<'_> {
 
     /// The vertex of the next corner; `None` at the end.
     #[inline]
-    fn corner(&self, words: &mut Words<'_>) -> Option<u32> {
-        for _ in 0..self.layout.offset {
-            words.next()?;
+    fn corner(&mut self, words: &mut Words<'_>) -> Option<u32> {
+        let Layout { offset, stride, uv, .. } = self.layout;
+        let [mut vertex, mut of_uv] = [NO_INDEX; 2];
+        for at in 0..stride {
+            match (at == offset, uv) {
+                (true, _) => vertex = words.index()?.unwrap_or(NO_INDEX),
+                (_, Some((_, uv))) if at == uv => of_uv = words.index()?.unwrap_or(NO_INDEX),
+                _ => _ = words.next()?,
+            }
         }
-        let index = words.index()?.unwrap_or(NO_INDEX);
-        for _ in self.layout.offset + 1..self.layout.stride {
-            words.next()?;
+        if let Some((_, uv)) = uv {
+            self.uvs.note(vertex, if uv == offset { vertex } else { of_uv });
         }
-        Some(index)
+        Some(vertex)
     }
 }
 

@@ -9,7 +9,7 @@ use super::super::assembly::{Assembly, Nesting, within};
 use super::super::error::{Failure, NoteCode};
 use super::document::{Document, child, children};
 use super::geometry::{self, Primitive, Tools};
-use super::material::{self, Colors};
+use super::material::{self, Looks};
 use super::transform;
 
 /// Maximum number of node bytes processed, counted for each placement.
@@ -26,10 +26,10 @@ pub(super) fn walk(
     let root = Matrix4::new_nonuniform_scaling(&Vector3::repeat(unit));
     let mut walker = Walker {
         document,
-        tools: Tools::new(assembly.options.uncut),
+        tools: Tools::new(&assembly.options),
         assembly,
         geometries: HashMap::new(),
-        colors: Colors::new(),
+        looks: Looks::new(),
         nesting: Nesting::new(),
         text: 0,
     };
@@ -68,7 +68,7 @@ struct Walker<'a, 'd> {
     tools: Tools,
     /// Geometries by element, so that each is read once.
     geometries: HashMap<roxmltree::NodeId, Vec<Primitive<'a>>>,
-    colors: Colors,
+    looks: Looks,
     nesting: Nesting<roxmltree::NodeId>,
     text: usize,
 }
@@ -166,8 +166,11 @@ impl<'a> Walker<'a, '_> {
         let primitives = &self.geometries[&geometry.id()];
         self.nesting.visited += primitives.len();
         for primitive in primitives {
-            let material =
-                material::of_symbol(self.document, &bindings, primitive.symbol, &mut self.colors);
+            let mut material =
+                material::of_symbol(self.document, &bindings, primitive.symbol, &mut self.looks);
+            if let Some(texture) = &mut material.texture {
+                texture.uv.clone_from(&primitive.uv);
+            }
             self.assembly.add(&primitive.mesh, matrix, &material)?;
         }
         Ok(())

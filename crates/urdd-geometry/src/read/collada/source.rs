@@ -8,8 +8,8 @@ use super::super::error::{Failure, Fault};
 use super::super::number::{Words, float};
 use super::document::{Document, child, children, text};
 
-/// The positions of each source that was read, shared between meshes.
-pub(super) type Read = HashMap<NodeId, Vec<[f64; 3]>>;
+/// The positions, or the texture coordinates (true), of each source that was read, shared between meshes.
+pub(super) type Read = HashMap<(NodeId, bool), Vec<[f64; 3]>>;
 
 /// Vertex positions of one mesh.
 pub(super) struct Positions<'a, 'd> {
@@ -30,13 +30,24 @@ impl<'a, 'd> Positions<'a, 'd> {
         Self { document, own, sources: HashMap::new(), read }
     }
 
-    /// The positions that an input references through a `vertices` element or a `source`.
-    pub(super) fn of(&mut self, url: &'a str) -> Result<&[[f64; 3]], Failure> {
+    /// The positions that an input references through a `vertices` element or a `source`, and the texture coordinates of
+    /// which another references the source. These are none if they cannot be read.
+    pub(super) fn of(
+        &mut self,
+        url: &'a str,
+        uv: Option<&str>,
+    ) -> Result<(&[[f64; 3]], &[[f64; 3]]), Failure> {
         let id = match self.sources.get(url) {
             Some(id) => *id,
             None => self.find_source(url)?,
         };
-        Ok(&self.read[&id])
+        let uv = uv.and_then(|url| self.find("source", url));
+        if let Some(source) = uv.filter(|source| !self.read.contains_key(&(source.id(), true))) {
+            let uvs = self.read_source(source, ["S", "T", "T"]).unwrap_or_default();
+            self.read.insert((source.id(), true), uvs);
+        }
+        let uvs = uv.and_then(|source| self.read.get(&(source.id(), true)));
+        Ok((&self.read[&(id, false)], uvs.map_or(&[], Vec::as_slice)))
     }
 
     /// Finds a source, and reads it unless it was read before.
@@ -49,9 +60,9 @@ impl<'a, 'd> Positions<'a, 'd> {
         };
         let source = source
             .ok_or_else(|| Fault::malformed(format!("the positions '{url}' do not exist")))?;
-        if !self.read.contains_key(&source.id()) {
-            let positions = self.read_source(source)?;
-            self.read.insert(source.id(), positions);
+        if !self.read.contains_key(&(source.id(), false)) {
+            let positions = self.read_source(source, ["X", "Y", "Z"])?;
+            self.read.insert((source.id(), false), positions);
         }
         self.sources.insert(url, source.id());
         Ok(source.id())
@@ -63,7 +74,11 @@ impl<'a, 'd> Positions<'a, 'd> {
         self.own.get(&(tag, id) as &(&str, &str)).copied().or_else(|| self.document.find(tag, url))
     }
 
-    fn read_source(&self, source: Node<'a, 'a>) -> Result<Vec<[f64; 3]>, Failure> {
+    fn read_source(
+        &self,
+        source: Node<'a, 'a>,
+        names: [&str; 3],
+    ) -> Result<Vec<[f64; 3]>, Failure> {
         let name = source.attribute("id").unwrap_or("");
         let accessor =
             child(source, "technique_common").and_then(|technique| child(technique, "accessor"));
@@ -82,9 +97,10 @@ impl<'a, 'd> Positions<'a, 'd> {
                 .and_then(|accessor| accessor.attribute(key))
                 .and_then(|value| value.trim().parse::<usize>().ok())
         };
-        let stride = number("stride").unwrap_or(3).max(1);
+        let axes = axes(accessor, names);
+        let stride = number("stride").unwrap_or(axes.map_or(3, |axes| axes[2] + 1)).max(1);
         let offset = number("offset").unwrap_or(0);
-        let axes = axes(accessor).filter(|axes| axes.iter().all(|axis| *axis < stride));
+        let axes = axes.filter(|axes| axes.iter().all(|axis| *axis < stride));
         let axes = axes.ok_or_else(|| {
             Fault::malformed(format!("positions have {stride} numbers instead of 3"))
                 .within("source", name)
@@ -125,18 +141,20 @@ impl<'a, 'd> Positions<'a, 'd> {
     }
 }
 
-/// The indices of an accessor's x, y and z parameters; `None` if it has fewer than three.
-fn axes(accessor: Option<Node<'_, '_>>) -> Option<[usize; 3]> {
+/// The indices of an accessor's parameters of these names, of which the last two may be one; `None` if there are too
+/// few parameters.
+fn axes(accessor: Option<Node<'_, '_>>, wanted: [&str; 3]) -> Option<[usize; 3]> {
+    let first = [0, 1, if wanted[1] == wanted[2] { 1 } else { 2 }];
     let Some(accessor) = accessor else {
-        return Some([0, 1, 2]);
+        return Some(first);
     };
     let params = children(accessor, "param");
     let names: Vec<Option<&str>> = params.map(|param| param.attribute("name")).collect();
     let of = |name: &str| names.iter().position(|found| *found == Some(name));
-    match (of("X"), of("Y"), of("Z")) {
-        (Some(x), Some(y), Some(z)) => Some([x, y, z]),
-        // By the specification, parameters without names are skipped. Files without any names mean the first three.
-        _ if names.is_empty() || names.len() >= 3 => Some([0, 1, 2]),
+    match wanted.map(of) {
+        [Some(x), Some(y), Some(z)] => Some([x, y, z]),
+        // By the specification, parameters without names are skipped. Files without any names mean the first ones.
+        _ if names.is_empty() || names.len() > first[2] => Some(first),
         _ => None,
     }
 }

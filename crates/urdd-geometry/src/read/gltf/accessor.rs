@@ -16,26 +16,28 @@ const FLOAT: u32 = 5126;
 /// Maximum number of elements of an accessor without a buffer view, as sparse accessors may have.
 const MOST_ZEROS: usize = 1 << 20;
 
-/// The vertex positions of an accessor.
+/// The vertex positions of an accessor; or texture coordinates, with the second number twice.
 pub(super) fn positions(
     root: &Root,
     index: usize,
+    width: usize,
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<[f64; 3]>, Failure> {
     let accessor = get(root, index)?;
-    if accessor.shape != "VEC3" {
-        return Err(Fault::malformed(format!("positions are {} instead of VEC3", accessor.shape)));
+    if accessor.shape != format!("VEC{width}") {
+        let shape = &accessor.shape;
+        return Err(Fault::malformed(format!("positions are {shape} instead of VEC{width}")));
     }
     let read = reader(accessor.component_type, accessor.normalized).ok_or_else(|| {
         Fault::malformed(format!("positions of component type {}", accessor.component_type))
     })?;
     let size = size(accessor.component_type);
-    let element = |bytes: &[u8]| [0, 1, 2].map(|axis| read(&bytes[axis * size..]));
+    let element = |bytes: &[u8]| [0, 1, width - 1].map(|axis| read(&bytes[axis * size..]));
     let mut positions = match accessor.buffer_view {
         Some(view) => {
             let view = buffers.view(view, assembly)?;
-            let all = elements(view, accessor.byte_offset, size * 3, accessor.count)?;
+            let all = elements(view, accessor.byte_offset, size * width, accessor.count)?;
             all.map(element).collect()
         }
         None => {
@@ -54,14 +56,14 @@ pub(super) fn positions(
             assembly,
         )?;
         let view = buffers.view(sparse.values.buffer_view, assembly)?;
-        let values = elements(view, sparse.values.byte_offset, size * 3, sparse.count)?;
+        let values = elements(view, sparse.values.byte_offset, size * width, sparse.count)?;
         for (place, value) in places.iter().zip(values) {
             let position = positions.get_mut(*place as usize);
             *position.ok_or_else(|| Fault::malformed("a sparse index is out of range"))? =
                 element(value);
         }
     }
-    if accessor.component_type == FLOAT && !bounds_are(accessor, &positions) {
+    if width == 3 && accessor.component_type == FLOAT && !bounds_are(accessor, &positions) {
         let text =
             format!("`min` and `max` of accessor {index} are not the bounds of its positions");
         assembly.notes.add(NoteCode::WrongBounds, text);

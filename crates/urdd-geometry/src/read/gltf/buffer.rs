@@ -90,7 +90,7 @@ pub(super) fn is_data(uri: &str) -> bool {
     uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
-fn decode(uri: &str) -> Option<Vec<u8>> {
+pub(super) fn decode(uri: &str) -> Option<Vec<u8>> {
     let (head, data) = uri.split_once(',')?;
     head.ends_with(";base64").then(|| BASE64.decode(data.trim()).ok())?
 }

@@ -17,6 +17,8 @@ pub(super) struct Root {
     pub(super) buffer_views: Vec<BufferView>,
     pub(super) buffers: Vec<File>,
     pub(super) images: Vec<File>,
+    /// A value, as all that only textures need: a fault in it is none of the geometry.
+    pub(super) textures: Value,
     pub(super) animations: Vec<serde::de::IgnoredAny>,
 }
 
@@ -71,6 +73,8 @@ pub(super) struct Attributes {
     pub(super) position: Option<usize>,
     #[serde(rename = "NORMAL")]
     pub(super) normal: Option<usize>,
+    #[serde(rename = "TEXCOORD_0")]
+    pub(super) uv: Value,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -123,7 +127,8 @@ pub(super) struct BufferView {
 
 /// A buffer or an image.
 #[derive(Debug, Default, Deserialize)]
-#[serde(default)]
+#[serde(rename_all = "camelCase", default)]
 pub(super) struct File {
     pub(super) uri: Option<String>,
+    pub(super) buffer_view: Value,
 }

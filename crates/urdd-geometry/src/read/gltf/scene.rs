@@ -1,17 +1,20 @@
 //! The nodes of a glTF file, and the meshes that they place.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
 use super::super::assembly::{Assembly, Material, Nesting, Picker, mark};
-use super::super::collada::strip;
+use super::super::collada::{path_of_url, strip};
 use super::super::error::{Failure, Fault, NoteCode};
 use super::super::options::GltfUp;
+use super::super::scene::Texture;
+use super::super::uv::UvCorners;
 use super::accessor;
-use super::buffer::Buffers;
-use super::json::{Node, Primitive, Root};
+use super::buffer::{Buffers, decode, is_data};
+use super::json::{self, Node, Primitive, Root};
 use crate::mesh::Mesh;
 
 const TRIANGLES: u32 = 4;
@@ -67,6 +70,7 @@ pub(super) fn walk<'r>(
         picker: Picker::default(),
         meshes: HashMap::new(),
         positions: HashMap::new(),
+        images: HashMap::new(),
         used: BTreeMap::new(),
         num_positions: 0,
         num_triangles: 0,
@@ -77,10 +81,13 @@ pub(super) fn walk<'r>(
     }
     let Walker { positions, used, assembly, .. } = walker;
     for (accessor, used) in used {
-        assembly.note_unused(&positions[&accessor], &used);
+        assembly.note_unused(&positions[&(accessor, 3)], &used);
     }
     Ok(())
 }
+
+/// A mesh, and the texture coordinates of its vertices.
+type Surface = (Mesh, Vec<[f64; 2]>);
 
 struct Walker<'r, 'b, 'f, 'a> {
     root: &'r Root,
@@ -89,8 +96,11 @@ struct Walker<'r, 'b, 'f, 'a> {
     picker: Picker,
     /// Meshes by index, so that each is read once.
     meshes: HashMap<usize, Vec<(Mesh, Material)>>,
-    /// Positions by accessor, so that each is read once even if primitives share it.
-    positions: HashMap<usize, Vec<[f64; 3]>>,
+    /// Positions (3 numbers) and texture coordinates (2) by accessor, so that each is read once even if primitives share
+    /// it.
+    positions: HashMap<(usize, usize), Vec<[f64; 3]>>,
+    /// Embedded images.
+    images: HashMap<usize, Option<Arc<[u8]>>>,
     /// For each of these accessors, which positions a triangle uses.
     used: BTreeMap<usize, Vec<bool>>,
     /// Numbers of vertices and triangles read, placed or not: many accessors may reference the same bytes.
@@ -138,8 +148,11 @@ impl Walker<'_, '_, '_, '_> {
                 self.root.meshes.get(index).ok_or_else(|| Fault::malformed("it does not exist"))?;
             let mut parts = Vec::new();
             for primitive in &mesh.primitives {
-                if let Some(mesh) = self.primitive(primitive)? {
-                    parts.push((mesh, material(self.root, primitive.material)));
+                if let Some((mesh, uv)) = self.primitive(primitive)? {
+                    let own = primitive.material.and_then(|own| self.root.materials.get(own));
+                    let mut material = own.map(material).unwrap_or_default();
+                    material.texture = own.and_then(|own| self.texture(own, uv));
+                    parts.push((mesh, material));
                 }
             }
             self.meshes.insert(index, parts);
@@ -152,7 +165,49 @@ impl Walker<'_, '_, '_, '_> {
         Ok(())
     }
 
-    fn primitive(&mut self, primitive: &Primitive) -> Result<Option<Mesh>, Failure> {
+    /// Reads positions, or texture coordinates, unless they are there.
+    fn read(&mut self, accessor: usize, width: usize) -> Result<(), Failure> {
+        if !self.positions.contains_key(&(accessor, width)) {
+            let read = accessor::positions(self.root, accessor, width, self.buffers, self.assembly)
+                .map_err(|failure| failure.within("accessor", accessor))?;
+            self.num_positions += read.len();
+            self.assembly.check_vertices(self.num_positions)?;
+            self.positions.insert((accessor, width), read);
+        }
+        Ok(())
+    }
+
+    /// The texture of a material's base colour, with the first texture coordinates if it takes these as they are.
+    fn texture(&mut self, material: &json::Material, uv: Vec<[f64; 2]>) -> Option<Texture> {
+        let index = |value: &Value| usize::try_from(value.as_u64()?).ok();
+        let (values, _, texture) = base(material);
+        let info = values.get(texture).filter(|_| self.assembly.options.textures)?;
+        let named = self.root.textures.get(index(info.get("index")?)?)?;
+        // An extension has an image of another format.
+        let others = named["extensions"].as_object().into_iter().flat_map(|of| of.values());
+        let mut sources = std::iter::once(named).chain(others).filter_map(|of| of.get("source"));
+        let image = sources.find_map(index)?;
+        let file = self.root.images.get(image)?;
+        let is_plain = matches!(info.get("texCoord").map(Value::as_u64), None | Some(Some(0)))
+            && info["extensions"].get("KHR_texture_transform").is_none();
+        let uv = if is_plain { uv } else { Vec::new() };
+        if let Some(uri) = file.uri.as_ref().filter(|uri| !is_data(uri)) {
+            return Some(Texture { name: path_of_url(uri), embedded: None, uv });
+        }
+        let (buffers, assembly) = (&mut self.buffers, &mut self.assembly);
+        let bytes = self.images.entry(image).or_insert_with(|| match &file.uri {
+            Some(uri) => decode(uri).map(Arc::from),
+            None => {
+                let view = buffers.view(index(&file.buffer_view)?, assembly);
+                view.ok().map(|(bytes, _)| Arc::from(bytes))
+            }
+        });
+        let embedded = Some(bytes.clone().unwrap_or_default());
+        Some(Texture { name: format!("image {image}"), embedded, uv })
+    }
+
+    /// The mesh of a primitive, and the first texture coordinates of its vertices.
+    fn primitive(&mut self, primitive: &Primitive) -> Result<Option<Surface>, Failure> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         if !(TRIANGLES..=FAN).contains(&mode) {
             self.assembly.notes.add(NoteCode::LeftOut, "points or lines were left out");
@@ -168,18 +223,14 @@ impl Walker<'_, '_, '_, '_> {
             self.assembly.notes.add(NoteCode::LeftOut, "faces without positions were left out");
             return Ok(None);
         };
-        if !self.positions.contains_key(&position) {
-            let read = accessor::positions(self.root, position, self.buffers, self.assembly)
-                .map_err(|failure| failure.within("accessor", position))?;
-            self.num_positions += read.len();
-            self.assembly.check_vertices(self.num_positions)?;
-            self.positions.insert(position, read);
-        }
+        self.read(position, 3)?;
+        let uv = primitive.attributes.uv.as_u64().filter(|_| self.assembly.options.textures);
+        let uv = uv.and_then(|uv| usize::try_from(uv).ok()).filter(|uv| self.read(*uv, 2).is_ok());
         if !primitive.targets.is_empty() {
             let text = "its morph targets were left out";
             self.assembly.notes.add(NoteCode::ShownOtherwise, text);
         }
-        let vertices = &self.positions[&position];
+        let vertices = &self.positions[&(position, 3)];
         if let Some(normal) = primitive.attributes.normal {
             let count = vertices.len();
             // The surface does not depend on the normals.
@@ -213,7 +264,14 @@ impl Walker<'_, '_, '_, '_> {
         let (mesh, left_out) = self.picker.pick(vertices, &triangles);
         let text = "a triangle was dropped: a vertex index is out of range";
         self.assembly.notes.add_many(NoteCode::IndexOutOfRange, text, left_out);
-        Ok(Some(mesh))
+        let Some(uv) = uv else {
+            return Ok(Some((mesh, Vec::new())));
+        };
+        let corners = UvCorners::of(triangles.clone());
+        let (mesh, mut uvs) = corners.mesh(vertices, &triangles, &self.positions[&(uv, 2)]);
+        // glTF counts from the top.
+        uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+        Ok(Some((mesh, uvs)))
     }
 }
 
@@ -241,19 +299,20 @@ fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
     }
 }
 
-/// Name and base colour; no colour with a texture or without a material.
-fn material(root: &Root, index: Option<usize>) -> Material {
-    let Some(material) = index.and_then(|index| root.materials.get(index)) else {
-        return Material::default();
-    };
+/// Name and base colour; no colour with a texture.
+fn material(material: &json::Material) -> Material {
+    let (values, factor, texture) = base(material);
+    let color = values.get(texture).is_none().then(|| rgba(values.get(factor)));
+    Material { name: material.name.clone(), color, texture: None }
+}
+
+/// What describes the base colour, and the names of its factor and its texture.
+fn base(material: &json::Material) -> (&Value, &'static str, &'static str) {
     let pbr = &material.pbr_metallic_roughness;
-    let old = material.extensions.get("KHR_materials_pbrSpecularGlossiness");
-    let (values, factor, texture) = match old {
+    match material.extensions.get("KHR_materials_pbrSpecularGlossiness") {
         Some(old) if pbr.is_null() => (old, "diffuseFactor", "diffuseTexture"),
         _ => (pbr, "baseColorFactor", "baseColorTexture"),
-    };
-    let color = values.get(texture).is_none().then(|| rgba(values.get(factor)));
-    Material { name: material.name.clone(), color }
+    }
 }
 
 /// Four numbers, clamped to 0 to 1; 1 for missing ones.

@@ -1,0 +1,95 @@
+//! The textured parts of the meshes that the URDF names.
+
+use rayon::prelude::*;
+
+use super::Robot;
+use super::error::RobotError;
+use super::mesh::LinkVisual;
+use urdd_directory::path::beside;
+use urdd_document::mesh_files::MeshFiles;
+use urdd_document::robot::Element;
+use urdd_document::urdd::Urdd;
+use urdd_format::meshes::GeometryKind;
+use urdd_format::original_meshes::MeshReference;
+use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+use urdd_format::urdf::Geometry;
+use urdd_geometry::mesh::placement;
+use urdd_geometry::read::{Options, Part, read_with};
+
+impl Robot {
+    /// The parts with a texture of each visual element whose mesh has some, in its link's frame; [`Robot::visuals`] has the
+    /// same triangles without it. The name of a texture is its path in the URDD, or that of its mesh and what is in it.
+    /// Every call reads the files. Empty for a legacy URDD, and without `original_meshes_module`.
+    ///
+    /// # Errors
+    /// If the files cannot be listed.
+    pub fn textured_visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
+        let kinds = [ModuleKind::OriginalMeshes, ModuleKind::Urdf];
+        let part = self.part_as_it_is(&kinds)?;
+        let (Some(ModuleDocument::OriginalMeshes(original)), Some(robot)) =
+            (part.document(kinds[0]), part.robot())
+        else {
+            return Ok(Vec::new());
+        };
+        let visual = |reference: &MeshReference| {
+            let path = reference.path.as_ref()?;
+            let link = reference.link_idx.get();
+            let element = robot.links.get(link)?.visual.get(reference.element_idx.get())?;
+            Some(LinkVisual { link, parts: placed(read(&part, path), element)? })
+        };
+        let references = original.references.par_iter();
+        let references = references.filter(|of| of.geometry == GeometryKind::Visual);
+        Ok(references.filter_map(visual).filter(|visual| !visual.parts.is_empty()).collect())
+    }
+
+    /// The bytes of a file of the URDD, if it lists it.
+    ///
+    /// # Errors
+    /// If the files cannot be listed.
+    pub fn listed_file(&self, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
+        Ok(bytes(&self.part_as_it_is(&[])?, path))
+    }
+}
+
+fn bytes(part: &Urdd, path: &str) -> Option<Vec<u8>> {
+    let is_listed = part.listing().has_file(path);
+    is_listed.then(|| MeshFiles::new(part).read(Profile::V1, path).ok())?
+}
+
+/// The parts of a mesh that have a texture.
+fn read(part: &Urdd, mesh: &str) -> Vec<Part> {
+    let content = bytes(part, mesh).unwrap_or_default();
+    // Without what names a library or an image, there is none: OBJ, COLLADA, glTF.
+    let names: [&[u8]; 3] = [b"mtllib", b"init_from", b"\"images\""];
+    if !names.iter().any(|name| content.windows(name.len()).any(|bytes| bytes == *name)) {
+        return Vec::new();
+    }
+    let mut fetch = |named: &str| bytes(part, &beside(mesh, named)?);
+    let options = Options { textures: true, ..Options::default() };
+    let scene = read_with(&content, mesh, &mut fetch, &options);
+    let mut parts = scene.map_or_else(|_| Vec::new(), |scene| scene.parts);
+    parts.retain(|part| part.texture.is_some());
+    for texture in parts.iter_mut().filter_map(|part| part.texture.as_mut()) {
+        texture.name = match beside(mesh, &texture.name) {
+            Some(path) if texture.embedded.is_none() => path,
+            _ => format!("{mesh}: {}", texture.name),
+        };
+    }
+    parts
+}
+
+/// Puts the parts of an element's mesh into its link's frame, with coordinates of binary32.
+fn placed(mut parts: Vec<Part>, element: &Element) -> Option<Vec<Part>> {
+    let Some(Geometry::Mesh(mesh)) = &element.geometry else {
+        return None;
+    };
+    let rotation = element.origin.rotation();
+    let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
+    let place = placement(mesh.scale.unwrap_or([1.0; 3]), rows, element.origin.xyz);
+    for part in &mut parts {
+        part.mesh.transform(&place);
+        let coordinates = part.mesh.vertices.as_flattened_mut();
+        coordinates.iter_mut().for_each(|of| *of = f64::from(*of as f32));
+    }
+    Some(parts)
+}
