@@ -297,10 +297,14 @@ fn family(folder: &std::path::Path, last: &str) -> String {
 #[cfg(target_os = "linux")]
 fn a_signal_ends_all_that_was_started() {
     use std::time::{Duration, Instant};
-    for (signal, status) in [("TERM", 143), ("INT", 130), ("HUP", 129)] {
+    // Where these tests run under `nohup`, a process that they start ignores SIGHUP too, unless it is told otherwise.
+    let told = ["--default-signal=HUP", "--ignore-signal=HUP"];
+    let signals = [("TERM", 143, 0), ("INT", 130, 0), ("HUP", 129, 0), ("TERM", 143, 1)];
+    for (signal, status, ignored) in signals {
         let folder = testkit::temporary::folder();
         let script = family(folder.path(), "sleep 600");
-        let mut run = std::process::Command::new(URDD)
+        let mut run = std::process::Command::new("env")
+            .args([told[ignored], URDD])
             .args(["conformance", "validator", "--case", "DOF001", "--jobs", "1"])
             .args(["--", "sh", "-c", &script, "sh", "{dir}"])
             .stderr(std::process::Stdio::null())
@@ -312,8 +316,16 @@ fn a_signal_ends_all_that_was_started() {
         }
         assert_eq!(alive(folder.path()).len(), 5);
         let pid = run.id().to_string();
-        let kill = std::process::Command::new("kill").args([&format!("-{signal}"), &pid]).status();
-        assert!(kill.expect("kill").success());
+        let send = |signal: &str| {
+            let sent = std::process::Command::new("kill").args(["-s", signal, &pid]).status();
+            assert!(sent.expect("kill").success());
+        };
+        if ignored == 1 {
+            send("HUP");
+            std::thread::sleep(Duration::from_millis(300));
+            assert_eq!(alive(folder.path()).len(), 5, "an ignored SIGHUP");
+        }
+        send(signal);
         assert_eq!(run.wait().expect("a status").code(), Some(status));
         assert_eq!(alive(folder.path()), [] as [String; 0], "SIG{signal}");
     }
