@@ -156,7 +156,10 @@ static void forked(const char *path) {
     const pid_t child = fork();
     if (child == 0) {
         alarm(60);
-        _exit(colliding(path) == known ? 0 : 1);
+        /* Not `exit`: valgrind would look for what the threads that are gone have left. */
+        const char *answer = colliding(path) == known ? "true" : "false";
+        execlp(answer, answer, (char *)NULL);
+        _exit(2);
     }
     int status = -1;
     assert(waitpid(child, &status, 0) == child);
