@@ -344,9 +344,9 @@ fn arrays_that_overlap_are_refused() {
         asked.settings.locked_length = 1;
         (asked.settings.posture, asked.settings.posture_length) = (at.add(16), 6);
         (asked.settings.bounds, asked.settings.bounds_length) = (at.add(32), 12);
+        let robot = asked.robot;
         let (target, settings) = (&raw mut asked.target, &raw mut asked.settings);
         let ask = |found: *mut f64, solution: *mut Solution| {
-            let robot = (*(&raw const asked)).robot;
             urdd_robot_inverse_kinematics(robot, target, 1, at, 1, 6, settings, found, solution)
         };
         ok(ask(at.add(48), &raw mut solution));
