@@ -283,40 +283,39 @@ fn settings_that_make_no_sense_are_refused() {
     assert!(proximity.blocked_edge(&[0.0, 1.0], &[0.0], &EdgeSettings::default()).is_err());
 }
 
-/// Of all types of joints: a motion that is too long for its resolution, or for a proof, ends with an error.
+/// Of all types of joints: a motion that is too long for its resolution ends with an error, and so does a proof of one.
 #[test]
 fn motions_without_end_are_refused() {
-    for (name, lengths) in [
-        ("six_axis_arm", &[1e7, 1e18][..]),
-        ("toy_all_joints", &[1e18, 1e300, f64::MAX]),
-        ("planar_base_arm", &[1e18, f64::MAX]),
-    ] {
+    for name in ["six_axis_arm", "toy_all_joints", "planar_base_arm"] {
         let (_folder, robot) = robot_of(name);
         let proximity = robot.proximity(ShapeKind::Hulls).expect("shapes");
         let beside = Obstacle::sphere("beside", [5.0, 0.0, 0.0], 0.1).expect("a sphere");
         let world = proximity.world_proximity(&World::new([beside])).expect("a world");
-        let zero = robot.configurations().expect("bounds").zero();
-        let cases = lengths.iter().flat_map(|length| (0..zero.len()).map(move |dof| (length, dof)));
-        for (length, dof) in cases.filter(|(length, dof)| **length > 1e7 || *dof == 1) {
-            let (mut start, mut end) = (zero.clone(), zero.clone());
-            (start[dof], end[dof]) = (-length, *length);
-            for resolution in [None, Some(0.01), Some(f64::MIN_POSITIVE)] {
-                let settings = EdgeSettings { margin: 0.0, resolution };
-                let all = [
-                    proximity.blocked_edge(&start, &end, &settings),
-                    world.blocked_edge(&start, &end, &settings),
-                    world.first_contact(&start, &end, &settings).map(|one| one.map(|one| one.free)),
-                ];
-                for found in all {
-                    match (name, found) {
-                        // A slide that ends at the obstacle.
-                        (_, Ok(found)) => assert!(name != "six_axis_arm", "{length} {found:?}"),
-                        (_, Err(RobotError::Steps { .. } | RobotError::Configuration(_))) => {}
-                        (_, other) => panic!("{name} {dof} {length} {other:?}"),
-                    }
+        let start = robot.configurations().expect("bounds").zero();
+        let ask = |dof: usize, length: f64, resolution: Option<f64>| {
+            let mut end = start.clone();
+            end[dof] = length;
+            let settings = EdgeSettings { margin: 0.0, resolution };
+            let all = [
+                proximity.blocked_edge(&start, &end, &settings),
+                world.first_contact(&start, &end, &settings).map(|one| one.map(|one| one.free)),
+            ];
+            for found in all {
+                match found {
+                    // Others than the first joint of the arm, which turns it, may end at a contact, or move nothing.
+                    Ok(_) => assert!((name, dof) != ("six_axis_arm", 0), "{length} {found:?}"),
+                    Err(RobotError::Steps { .. } | RobotError::Configuration(_)) => {}
+                    other => panic!("{name} {dof} {length} {other:?}"),
                 }
             }
+        };
+        for dof in 0..start.len() {
+            for length in [1e7, 1e300, f64::MAX, -f64::MAX] {
+                ask(dof, length, Some(0.01));
+                ask(dof, length, Some(f64::MIN_POSITIVE));
+            }
         }
+        ask(0, if name == "six_axis_arm" { 1e7 } else { f64::MAX }, None);
     }
 }
 
