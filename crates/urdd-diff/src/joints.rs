@@ -3,14 +3,19 @@
 use crate::fields::{Fields, numbers};
 use crate::origin;
 use crate::other_elements;
+use crate::side::Side;
 use urdd_document::pose::unit;
 use urdd_format::urdf::{Joint, JointType, Limit};
+use urdd_xml::other_parts::{OtherParts, Owner};
 
 /// The joints as parts.
-pub(super) fn parts(joints: &[Joint], quaternions: bool) -> Vec<(String, Fields)> {
-    let parts = joints.iter();
-    let parts = parts.map(|joint| (joint.name.clone(), fields(joint, quaternions)));
-    parts.collect()
+pub(super) fn parts(side: &Side, others: Option<&OtherParts>) -> Vec<(String, Fields)> {
+    let part = |joint: &Joint| {
+        let mut fields = fields(joint, side.has_quaternions());
+        other_elements::add_parts(others, &Owner::Joint(joint.name.clone()), &mut fields);
+        (joint.name.clone(), fields)
+    };
+    side.robot.joints.iter().map(part).collect()
 }
 
 /// All values of a joint, with the defaults of SPEC 5.7, 5.10 and 6.1.8 in place of what is absent.

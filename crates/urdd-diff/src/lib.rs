@@ -38,6 +38,7 @@ use self::fields::Fields;
 use self::modules::InDetail;
 use urdd_format::diff_report::{DiffReport, PartDifference, ValueChange};
 use urdd_format::report::Tool;
+use urdd_xml::other_parts::Owner;
 
 /// Compares two robots. Numbers that differ by at most `tolerance`, in the unit of each value, are equal; 0 compares
 /// exactly.
@@ -49,7 +50,13 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
     if tolerance > 0.0 {
         notes.push(format!("numbers that differ by at most {tolerance:?} are taken as equal"));
     }
-    let joints = parts(&|side| joints::parts(&side.robot.joints, side.has_quaternions()));
+    let [a, b] = before.others_beside(after);
+    let joints = parts::differences(&joints::parts(before, a), &joints::parts(after, b), tolerance);
+    if a.is_none() {
+        notes.push(
+            "attributes that URDF does not define are not compared: one has no URDF".to_owned(),
+        );
+    }
     let dofs = dofs::differences(before, after, tolerance);
     let pairs = pairs::differences(before, after, &mut notes);
     let configurations = configurations::differences(before, after, tolerance);
@@ -83,8 +90,10 @@ pub fn compare(before: &Side, after: &Side, tolerance: f64) -> DiffReport {
 
 /// Differences of the robot itself.
 fn robot(before: &Side, after: &Side) -> Vec<ValueChange> {
-    let fields = |side: &Side| {
+    let others = before.others_beside(after);
+    let fields = |side: &Side, others| {
         let mut fields = Fields::default();
+        other_elements::add_parts(others, &Owner::Robot, &mut fields);
         fields.text("name", Some(&side.robot.name));
         let version = side.robot.version.as_deref();
         // Without a version, a URDF is of 1.0 (SPEC 6.1.9).
@@ -92,7 +101,7 @@ fn robot(before: &Side, after: &Side) -> Vec<ValueChange> {
         fields
     };
     // It has no numbers.
-    fields::compare("", &fields(before), &fields(after), 0.0)
+    fields::compare("", &fields(before, others[0]), &fields(after, others[1]), 0.0)
 }
 
 /// What is not compared, and what differs without a difference in meaning.

@@ -7,6 +7,7 @@ use crate::{geometry, origin, other_elements};
 use urdd_format::diff_report::{LinkDifference, Presence};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Link;
+use urdd_xml::other_parts::Owner;
 
 /// The links that differ.
 pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<LinkDifference> {
@@ -31,8 +32,15 @@ pub(super) fn differences(before: &Side, after: &Side, tolerance: f64) -> Vec<Li
             }
             Matched::Both(i, j) => {
                 difference.name = a[i].to_owned();
-                let [x, y] = [(before, i), (after, j)]
-                    .map(|(side, link)| fields(&side.robot.links[link], side.has_quaternions()));
+                let others = before.others_beside(after);
+                let [x, y] =
+                    [(before, i, others[0]), (after, j, others[1])].map(|(side, link, others)| {
+                        let link = &side.robot.links[link];
+                        let mut fields = fields(link, side.has_quaternions());
+                        let owner = Owner::Link(link.name.clone());
+                        other_elements::add_parts(others, &owner, &mut fields);
+                        fields
+                    });
                 difference.changes = compare("", &x, &y, tolerance);
                 for kind in [GeometryKind::Visual, GeometryKind::Collision] {
                     let of_link =

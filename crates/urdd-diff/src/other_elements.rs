@@ -3,8 +3,8 @@
 
 use std::collections::HashMap;
 
-use urdd_xml::MOST_PREFIXES;
-use urdd_xml::element::{children, name};
+use urdd_xml::element::{children, name, wrapped};
+use urdd_xml::other_parts::{OtherParts, Owner};
 
 use crate::fields::Fields;
 
@@ -28,6 +28,16 @@ pub(super) fn parts(elements: &[String]) -> Vec<(String, Fields)> {
 pub(super) fn add(elements: &[String], fields: &mut Fields) {
     for (label, part) in parts(elements) {
         fields.keyed(label, "", part.key(), part.summary());
+    }
+}
+
+/// Adds what the URDF says of a link, a joint or the robot where URDF defines nothing.
+pub(super) fn add_parts(parts: Option<&OtherParts>, owner: &Owner, fields: &mut Fields) {
+    for part in parts.and_then(|parts| parts.get(owner)).into_iter().flatten() {
+        let dot = if part.path.is_empty() { "" } else { "." };
+        let at = format!("{}{dot}{}", part.path.replace('/', "."), part.name);
+        let words: Vec<&str> = part.value.split_whitespace().collect();
+        fields.text(at, Some(&words.join(" ")));
     }
 }
 
@@ -81,26 +91,4 @@ fn part(text: &str) -> (String, Fields) {
         }
     }
     (label, fields.sorted())
-}
-
-/// The element in one that declares every prefix that it may use: the robot's declarations are not in its text.
-fn wrapped(text: &str) -> String {
-    let mut prefixes: Vec<&str> = Vec::new();
-    for (at, _) in text.match_indices(':') {
-        let before = &text[..at];
-        let word = before.rsplit(|c: char| c.is_whitespace() || "<>/\"'=&;".contains(c));
-        let prefix = word.into_iter().next().unwrap_or_default();
-        let begins = prefix.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        let is_name = prefix.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
-        let is_reserved = prefix.to_ascii_lowercase().starts_with("xml");
-        if begins && is_name && !is_reserved && !prefixes.contains(&prefix) {
-            prefixes.push(prefix);
-        }
-        if prefixes.len() == MOST_PREFIXES - 1 {
-            break;
-        }
-    }
-    let declared: Vec<String> =
-        prefixes.iter().map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\"")).collect();
-    format!("<x{}>{text}</x>", declared.concat())
 }

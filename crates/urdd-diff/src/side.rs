@@ -16,6 +16,7 @@ use urdd_format::index::Count;
 use urdd_format::report::{self, Kind};
 use urdd_format::urdf::UrdfModule;
 use urdd_generate::{GenerateError, Settings as UrdfSettings};
+use urdd_xml::other_parts::OtherParts;
 
 /// How robots are compared.
 #[derive(Debug, Default)]
@@ -76,6 +77,8 @@ pub struct Side {
     pub(super) robot: UrdfModule,
     /// The same with defaults.
     pub(super) view: Robot,
+    /// What its URDF says where URDF defines nothing; `None` without a URDF.
+    pub(super) other_parts: Option<OtherParts>,
     pub(super) shapes: Shapes,
     pub(super) dofs: Vec<DofState>,
     /// The URDD and its path, unless it is a URDF.
@@ -88,6 +91,14 @@ pub struct Side {
 impl Side {
     pub(super) fn has_quaternions(&self) -> bool {
         has_quaternions(self.robot.version.as_deref())
+    }
+
+    /// The other parts of this robot and another, if both have a URDF.
+    pub(super) fn others_beside<'a>(&'a self, other: &'a Side) -> [Option<&'a OtherParts>; 2] {
+        match (&self.other_parts, &other.other_parts) {
+            (Some(own), Some(others)) => [Some(own), Some(others)],
+            _ => [None, None],
+        }
     }
 
     pub(super) fn link_names(&self) -> Vec<&str> {

@@ -17,6 +17,7 @@ use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 use urdd_format::report::Kind;
 use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::{Scene, read};
+use urdd_xml::other_parts::other_parts;
 
 /// Opens a URDD and reads its original meshes.
 ///
@@ -45,6 +46,7 @@ pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
         path: shown,
         kind: Kind::Urdd,
         dofs,
+        other_parts: urdd.urdf().ok().map(|urdf| other_parts(&urdf.text)),
         shapes: read_shapes(&urdd, &view),
         view,
         robot,

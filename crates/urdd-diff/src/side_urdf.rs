@@ -8,6 +8,7 @@ use crate::side::{DiffError, Options, Side};
 use urdd_document::robot::of_urdf;
 use urdd_format::report::Kind;
 use urdd_generate::open_source;
+use urdd_xml::other_parts::other_parts;
 
 /// Opens a URDF and reads its meshes.
 ///
@@ -25,6 +26,7 @@ pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side
         path: shown,
         kind: Kind::Urdf,
         dofs: dof_state::of_robot(&view),
+        other_parts: Some(other_parts(&source.text)),
         view,
         shapes,
         robot: source.robot,

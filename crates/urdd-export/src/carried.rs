@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use super::error::Note;
 use super::format::Format;
+use super::other_attributes::is_kept;
 use super::output::Export;
 use super::subject::Subject;
 use urdd_format::escape;
@@ -36,6 +37,8 @@ const MIMIC: How = Otherwise("as equality constraints, which hold in simulation 
 const CHAIN: How = Otherwise("as a chain of joints of one DOF, and a ball joint");
 const SLIDES: How = Otherwise("as three slides and a ball joint");
 const PLANAR: How = Otherwise("as two slides and a hinge");
+const NAMES: How = Otherwise("on the shapes of the file, in their order");
+const GAZEBO: How = Otherwise("where SDF has what they say; plugins and sensors unchecked");
 const RENAMED: How = Otherwise("with `_joint` after the joint's name");
 const WHOLE: How = Otherwise("for whole links, also where the URDD checks some of their pieces");
 const SPHERES: How = Otherwise("by spheres");
@@ -50,7 +53,7 @@ const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 
 /// SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt, SDF.
-const TABLE: [Feature; 17] = [
+const TABLE: [Feature; 21] = [
     Feature {
         name: "masses and inertias",
         count: |of| links(of, |link| link.inertial.is_some()),
@@ -142,11 +145,38 @@ const TABLE: [Feature; 17] = [
         by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
     },
     Feature {
-        name: "elements that URDF does not define, such as transmissions",
+        name: "names of visual and collision elements",
+        count: |of| {
+            let names = |link: &Link| {
+                let visuals = link.visual.iter().filter(|visual| visual.name.is_some()).count();
+                visuals + link.collision.iter().filter(|it| it.name.is_some()).count()
+            };
+            of.urdf.links.iter().map(names).sum()
+        },
+        by_format: [Elsewhere, NAMES, NAMES, No, Elsewhere, Elsewhere, NAMES, NAMES, No],
+    },
+    Feature {
+        name: "attributes that URDF does not define, outside of shapes and materials",
+        count: |of| of.other_parts.values().flatten().filter(|part| is_kept(part)).count(),
+        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
+    },
+    Feature {
+        name: "what URDF does not define in shapes, materials, limits and the like",
+        count: |of| of.other_parts.values().flatten().filter(|part| !is_kept(part)).count(),
+        by_format: [Elsewhere, No, No, No, Elsewhere, Elsewhere, No, No, No],
+    },
+    Feature {
+        name: "`<gazebo>` elements",
+        count: |of| of.urdf.unknown_elements.iter().filter(|text| is_gazebo(text)).count(),
+        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, GAZEBO],
+    },
+    Feature {
+        name: "other elements that URDF does not define, such as transmissions",
         count: |of| {
             let of_links = of.urdf.links.iter().map(|link| link.unknown_elements.len());
             let of_joints = of.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
-            of_links.chain(of_joints).sum::<usize>() + of.urdf.unknown_elements.len()
+            let of_robot = of.urdf.unknown_elements.iter().filter(|text| !is_gazebo(text));
+            of_links.chain(of_joints).sum::<usize>() + of_robot.count()
         },
         by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
     },
@@ -161,6 +191,15 @@ const TABLE: [Feature; 17] = [
         by_format: [Elsewhere, Elsewhere, FIRST, Yes, RETRACT, Elsewhere, Elsewhere, Yes, No],
     },
 ];
+
+fn is_gazebo(text: &str) -> bool {
+    let text = urdd_xml::element::wrapped(text);
+    let document = urdd_xml::parse(&text, urdd_xml::Kind::Other);
+    document.is_ok_and(|document| {
+        let first = document.root_element().first_element_child();
+        first.is_some_and(|first| first.has_tag_name("gazebo"))
+    })
+}
 
 fn links(subject: &Subject, has: impl Fn(&Link) -> bool) -> usize {
     subject.urdf.links.iter().filter(|link| has(link)).count()

@@ -1,14 +1,18 @@
 //! An XML tree and its serialization.
 
+use std::borrow::Cow;
+
 use quick_xml::escape::escape;
+use roxmltree::{Attribute, Node};
+use urdd_xml::element::name;
 
 use urdd_format::escape::is_hidden;
 
 /// An element.
 #[derive(Debug, Clone, Default)]
 pub struct Element {
-    name: &'static str,
-    attributes: Vec<(&'static str, String)>,
+    name: Cow<'static, str>,
+    attributes: Vec<(Cow<'static, str>, String)>,
     children: Vec<Child>,
 }
 
@@ -23,12 +27,97 @@ enum Child {
 
 impl Element {
     pub fn new(name: &'static str) -> Self {
-        Element { name, ..Element::default() }
+        Element { name: name.into(), ..Element::default() }
+    }
+
+    /// An element of another document, without comments.
+    pub fn of(node: Node) -> Self {
+        let text = node.document().input_text();
+        let attribute =
+            |of: Attribute| (text[of.range_qname()].to_owned().into(), of.value().to_owned());
+        let child = |child: Node| match child.text() {
+            _ if child.is_element() => Some(Child::Element(Element::of(child))),
+            Some(text) if child.is_text() && !text.trim().is_empty() => {
+                Some(Child::Text(text.to_owned()))
+            }
+            _ => None,
+        };
+        Element {
+            name: name(node).to_owned().into(),
+            attributes: node.attributes().map(attribute).collect(),
+            children: node.children().filter_map(child).collect(),
+        }
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    pub fn attribute(&self, key: &str) -> Option<&str> {
+        let found = self.attributes.iter().find(|(name, _)| name == key);
+        found.map(|(_, value)| value.as_str())
+    }
+
+    /// The characters that it contains, without white space around them.
+    pub fn text(&self) -> &str {
+        match &self.children[..] {
+            [Child::Text(text)] => text.trim(),
+            _ => "",
+        }
+    }
+
+    pub fn elements(&self) -> impl Iterator<Item = &Element> {
+        self.children.iter().filter_map(|child| match child {
+            Child::Element(element) => Some(element),
+            _ => None,
+        })
+    }
+
+    pub fn elements_mut(&mut self) -> impl Iterator<Item = &mut Element> {
+        self.children.iter_mut().filter_map(|child| match child {
+            Child::Element(element) => Some(element),
+            _ => None,
+        })
+    }
+
+    /// Whether a name in it has a prefix, which another document need not declare.
+    pub fn has_prefix(&self) -> bool {
+        let mut names = self.attributes.iter().map(|(name, _)| name).chain([&self.name]);
+        names.any(|name| name.contains(':')) || self.elements().any(Element::has_prefix)
+    }
+
+    /// The first child element of a name.
+    pub fn child_mut(&mut self, name: &str) -> Option<&mut Element> {
+        self.elements_mut().find(|element| element.name == name)
+    }
+
+    /// Replaces all that the child element at a path contains by characters. Elements that are missing are added.
+    pub fn say(&mut self, path: &str, text: &str) {
+        let (first, rest) = path.split_once('/').unwrap_or((path, ""));
+        if self.child_mut(first).is_none() {
+            self.push(Element { name: first.to_owned().into(), ..Element::default() });
+        }
+        match self.child_mut(first) {
+            Some(child) if rest.is_empty() => child.children = vec![Child::Text(text.to_owned())],
+            Some(child) => child.say(rest, text),
+            None => {}
+        }
+    }
+
+    /// Removes the child elements of a name.
+    pub fn remove(&mut self, name: &str) {
+        self.children.retain(|child| !matches!(child, Child::Element(of) if of.name == name));
+    }
+
+    /// Sets an attribute, or removes it.
+    pub fn set(&mut self, key: &str, value: Option<&str>) {
+        self.attributes.retain(|(name, _)| name != key);
+        self.attributes.extend(value.map(|value| (key.to_owned().into(), value.to_owned())));
     }
 
     /// Adds an attribute.
     pub fn with(mut self, key: &'static str, value: impl Into<String>) -> Self {
-        self.attributes.push((key, value.into()));
+        self.attributes.push((key.into(), value.into()));
         self
     }
 
@@ -63,6 +152,13 @@ impl Element {
 
     pub fn is_empty(&self) -> bool {
         self.children.is_empty()
+    }
+
+    /// Serializes the element alone.
+    pub fn fragment(&self) -> String {
+        let mut text = String::new();
+        self.write(&mut text, 0, str::to_owned);
+        text
     }
 
     /// Serializes a document with this root element, after the comments.

@@ -49,6 +49,7 @@ mod moveit;
 pub mod names;
 mod nested;
 mod options;
+mod other_attributes;
 mod output;
 #[doc(hidden)]
 pub mod pairs;

@@ -20,6 +20,11 @@ impl Taken {
         Taken(names.into_iter().cloned().collect())
     }
 
+    /// Whether nothing had this name, which is taken from now on.
+    pub fn insert(&mut self, name: &str) -> bool {
+        self.0.insert(name.to_owned())
+    }
+
     /// A name that nothing has yet, and that is taken from now on: the wanted one, or with a number after it.
     pub fn free(&mut self, wanted: String) -> String {
         let mut name = wanted.clone();

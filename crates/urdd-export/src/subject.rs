@@ -17,6 +17,7 @@ use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
 use urdd_robot::{LinkShape, Robot, RobotError, ShapeKind};
+use urdd_xml::other_parts::{OtherParts, other_parts};
 
 impl Deref for Subject<'_> {
     type Target = Structure;
@@ -34,6 +35,8 @@ pub(super) struct Subject<'a> {
     pub urdf: UrdfModule,
     pub structure: Structure,
     pub names: JointNames,
+    /// What the source says where URDF defines nothing.
+    pub other_parts: OtherParts,
     /// Names of links, in link order.
     pub links: Vec<String>,
     /// Empty for formats without pairs.
@@ -64,7 +67,19 @@ impl<'a> Subject<'a> {
             _ => link_pairs(robot, options)?,
         };
         let names = JointNames::new(format, &structure);
-        Ok(Subject { robot, format, options, urdf, structure, names, links, pairs, lost: None })
+        let text = robot.source_text()?.unwrap_or_default();
+        Ok(Subject {
+            robot,
+            format,
+            options,
+            urdf,
+            structure,
+            names,
+            other_parts: other_parts(&text),
+            links,
+            pairs,
+            lost: None,
+        })
     }
 
     /// The shapes of a kind for each link, in link order.

@@ -6,6 +6,7 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::joints::joints;
+use super::other_attributes;
 use super::output::{Export, Files};
 use super::subject::Subject;
 use super::urdf_elements::{
@@ -14,6 +15,7 @@ use super::urdf_elements::{
 };
 use super::xacro;
 use urdd_robot::LinkShape;
+use urdd_xml::other_parts::Owner;
 
 pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let shapes = subject.options.shapes;
@@ -39,6 +41,7 @@ pub(super) fn robot(
     }
     for joint in joints(subject, notes) {
         let mut element = element_of_joint(&joint, "joint", &type_name(joint.joint_type));
+        other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &unknown(subject, &joint.unknown_elements), IN_JOINT);
         robot.push(element);
     }

@@ -1,13 +1,14 @@
 //! The elements of a URDF: links with the URDD's shapes, and joints.
 
 use nalgebra::Isometry3;
-use roxmltree::Node;
+use roxmltree::{Document, Node};
 
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::inertia::held;
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::other_attributes;
 use super::output::Files;
 use super::subject::Subject;
 use urdd_document::pose::has_quaternions;
@@ -16,6 +17,7 @@ use urdd_format::urdf::{Inertial, Joint, JointType, Link, Origin};
 use urdd_kinematics::rotation::to_rpy;
 use urdd_robot::{LinkShape, Solid};
 use urdd_xml::number::{number, numbers};
+use urdd_xml::other_parts::Owner;
 use urdd_xml::{Kind, is_character};
 
 /// Half the thickness of a flat box for programs that reject flat boxes, in metres.
@@ -32,10 +34,11 @@ pub(super) enum Geometry {
 
 /// The empty `robot` element.
 pub(super) fn empty_robot(subject: &Subject) -> Element {
-    // A URDF cannot have other characters, an edited module can.
-    let version = subject.urdf.version.as_deref();
-    let version = version.filter(|version| version.chars().all(is_character));
-    Element::new("robot").with("name", subject.urdf.name.as_str()).with_some("version", version)
+    let mut robot = Element::new("robot")
+        .with("name", subject.urdf.name.as_str())
+        .with_some("version", sound(subject.urdf.version.as_deref()));
+    other_attributes::add(subject, &Owner::Robot, &mut robot);
+    robot
 }
 
 /// The links with these shapes, in link order, and the files that they reference.
@@ -56,11 +59,16 @@ pub(super) fn links(
     let each = each.zip(shapes.into_iter().zip(looks(subject, notes)?));
     for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
         let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
+        other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
+        let mut names = link.visual.iter().map(|visual| visual.name.as_deref());
         for (look, place) in looks.into_iter().zip(0..) {
-            element.push(visual(idx, place, look, &mut files)?);
+            let name = names.next().flatten();
+            element.push(visual(idx, place, name, look, &mut files)?);
         }
+        let mut names = link.collision.iter().map(|collision| collision.name.as_deref());
         for shape in shapes {
-            let mut collision = collision(idx, shape, geometry, &mut files)?;
+            let name = names.next().flatten();
+            let mut collision = collision(idx, name, shape, geometry, &mut files)?;
             if let Some(friction) = friction.map(number) {
                 let mut properties = Element::new("drake:proximity_properties");
                 for key in ["drake:mu_static", "drake:mu_dynamic"] {
@@ -79,11 +87,11 @@ pub(super) fn links(
 pub(super) fn push_unknown(element: &mut Element, texts: &[String], known: &[&str]) -> usize {
     let mut lost = 0;
     for text in texts {
-        match urdd_xml::parse(text, Kind::Other).and_then(|_| urdd_xml::parse(text, Kind::Robot)) {
-            Ok(document)
-                if !known.contains(&document.root_element().tag_name().name())
-                    && document.descendants().all(has_namespaces) =>
-            {
+        match document(text) {
+            Some(document) if document.root_element().has_tag_name("mujoco") => {
+                element.push_raw(for_mujoco(document.root_element()));
+            }
+            Some(document) if !known.contains(&document.root_element().tag_name().name()) => {
                 element.push_raw(&text[document.root_element().range()]);
             }
             _ => lost += 1,
@@ -92,10 +100,38 @@ pub(super) fn push_unknown(element: &mut Element, texts: &[String], known: &[&st
     lost
 }
 
+/// An element that URDF does not define, as a document; `None` if readers of XML differ about it.
+pub(super) fn document(text: &str) -> Option<Document<'_>> {
+    urdd_xml::parse(text, Kind::Other).ok()?;
+    let document = urdd_xml::parse(text, Kind::Robot).ok()?;
+    document.descendants().all(has_namespaces).then_some(document)
+}
+
+/// A text that XML can hold: a URDF has no other, an edited module can.
+fn sound(text: Option<&str>) -> Option<&str> {
+    text.filter(|text| text.chars().all(is_character))
+}
+
 /// Whether the namespaces of an element are written as URIs. expat and libxml2 refuse a file with others.
 fn has_namespaces(node: Node) -> bool {
     let is_of_uri = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#[]@!&'()*+,;=%".contains(c);
     node.namespaces().all(|namespace| namespace.uri().chars().all(is_of_uri))
+}
+
+/// MuJoCo's own element of a URDF, with the meshes where they are now: MuJoCo looks for names without folders otherwise.
+fn for_mujoco(node: Node) -> String {
+    let mut element = Element::of(node);
+    if element.has_prefix() {
+        return node.document().input_text()[node.range()].to_owned();
+    }
+    element.say("compiler", "");
+    if let Some(compiler) = element.child_mut("compiler") {
+        for key in ["meshdir", "assetdir", "texturedir"] {
+            compiler.set(key, None);
+        }
+        compiler.set("strippath", Some("false"));
+    }
+    element.fragment()
 }
 
 /// The elements that URDF defines in `robot`, `link` and `joint`.
@@ -153,13 +189,15 @@ fn element_of_origin(origin: &Origin) -> Element {
 fn visual(
     link: usize,
     place: usize,
+    name: Option<&str>,
     look: Look,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
     let rgba = look.part.color;
     let (path, _) = files.add_look(link, place, look)?;
     let mesh = Element::new("mesh").with("filename", path);
-    let mut visual = Element::new("visual").holding(Element::new("geometry").holding(mesh));
+    let visual = Element::new("visual").with_some("name", sound(name));
+    let mut visual = visual.holding(Element::new("geometry").holding(mesh));
     if let Some(rgba) = rgba {
         let color = Element::new("color").with("rgba", numbers(&rgba));
         let name = format!("rgba {}", numbers(&rgba));
@@ -170,11 +208,12 @@ fn visual(
 
 fn collision(
     link: usize,
+    name: Option<&str>,
     shape: LinkShape,
     as_said: Geometry,
     files: &mut MeshFiles,
 ) -> Result<Element, ExportError> {
-    let mut collision = Element::new("collision");
+    let mut collision = Element::new("collision").with_some("name", sound(name));
     let geometry = match shape.solid {
         Solid::Mesh(mesh) => {
             let format = match as_said {

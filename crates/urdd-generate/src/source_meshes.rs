@@ -25,6 +25,8 @@ pub struct SourceMeshes {
     pub robot: UrdfModule,
     /// Its mesh references: links in order, visual before collision, elements in order.
     pub meshes: Vec<SourceMesh>,
+    /// The text that a URDD carries: the file's, or what xacro made of it, repaired.
+    pub text: String,
     folder: PathBuf,
     packages: Packages,
     roots: Roots,
@@ -180,6 +182,7 @@ fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
     let places = found.into_values().flatten();
     let places = places.map(|found| (found.file, found.place)).collect();
     SourceMeshes {
+        text: String::from_utf8_lossy(&source.carried).into_owned(),
         robot: source.reading.robot,
         meshes,
         folder: source.folder,

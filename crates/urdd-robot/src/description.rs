@@ -2,6 +2,7 @@
 
 use super::Robot;
 use super::error::RobotError;
+use urdd_document::carried_urdf::read_file;
 use urdd_document::legacy_urdf::of_legacy;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::root_metadata::Source;
@@ -42,5 +43,14 @@ impl Robot {
             path: file.path.clone(),
             sha256: file.sha256.to_string(),
         }))
+    }
+
+    /// The text of the source URDF. `None` if there is none, or it cannot be read.
+    ///
+    /// # Errors
+    /// If the files cannot be listed.
+    pub fn source_text(&self) -> Result<Option<String>, RobotError> {
+        let file = self.source()?;
+        Ok(file.and_then(|file| Some(read_file(&self.root, &file.path).ok()?.text)))
     }
 }

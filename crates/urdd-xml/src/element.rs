@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use roxmltree::{Attribute, Document, Node};
 
+use crate::MOST_PREFIXES;
+
 /// The qualified name of an element, including its prefix: `xacro:link` is not `link`, whatever namespace `xacro` has.
 pub fn name<'a>(element: Node<'a, 'a>) -> &'a str {
     name_at(element.document(), &element.range())
@@ -55,4 +57,26 @@ pub fn apply(text: &str, mut edits: Vec<Edit>) -> String {
     }
     edited.push_str(&text[done..]);
     edited
+}
+
+/// The element in one that declares every prefix that it may use: the robot's declarations are not in its text.
+pub fn wrapped(text: &str) -> String {
+    let mut prefixes: Vec<&str> = Vec::new();
+    for (at, _) in text.match_indices(':') {
+        let before = &text[..at];
+        let word = before.rsplit(|c: char| c.is_whitespace() || "<>/\"'=&;".contains(c));
+        let prefix = word.into_iter().next().unwrap_or_default();
+        let begins = prefix.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        let is_name = prefix.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
+        let is_reserved = prefix.to_ascii_lowercase().starts_with("xml");
+        if begins && is_name && !is_reserved && !prefixes.contains(&prefix) {
+            prefixes.push(prefix);
+        }
+        if prefixes.len() == MOST_PREFIXES - 1 {
+            break;
+        }
+    }
+    let declared: Vec<String> =
+        prefixes.iter().map(|prefix| format!(" xmlns:{prefix}=\"{prefix}\"")).collect();
+    format!("<x{}>{text}</x>", declared.concat())
 }

@@ -13,7 +13,9 @@ mod error;
 mod limits;
 mod markup;
 pub mod number;
+pub mod other_parts;
 mod strict;
+pub mod vocabulary;
 mod words;
 
 pub use declaration::wrong_version;

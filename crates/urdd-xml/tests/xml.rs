@@ -206,3 +206,27 @@ fn numbers_are_short_and_mean_the_same() {
         assert_eq!(number::number(value).parse::<f64>(), Ok(value));
     }
 }
+
+#[test]
+fn what_urdf_does_not_define_is_found_where_it_is() {
+    use urdd_xml::other_parts::{OtherParts, Owner, other_parts};
+    let urdf = "<robot name='r' a='1'><gazebo b='x'/><link name='l'><x c='x'/><visual/>\
+        <visual name='v'><geometry d='2'><box size='1 1 1' q:e='3' xmlns:q='u'/></geometry><surface> <s/></surface></visual></link>\
+        <joint name='j' type='fixed' f='4'><limit lower='0' g='5'/></joint><material name='m' h='6'/></robot>";
+    let parts: OtherParts = other_parts(urdf);
+    let of = |owner: Owner| -> Vec<String> {
+        let parts = parts.get(&owner).into_iter().flatten();
+        parts.map(|part| format!("{}:{}={}", part.path, part.name, part.value)).collect()
+    };
+    assert_eq!(of(Owner::Robot), [":a=1", "material:h=6"]);
+    assert_eq!(
+        of(Owner::Link("l".to_owned())),
+        [
+            "visual[1]:surface=<surface> <s/></surface>",
+            "visual[1]/geometry:d=2",
+            "visual[1]/geometry/box:q:e=3"
+        ]
+    );
+    assert_eq!(of(Owner::Joint("j".to_owned())), [":f=4", "limit:g=5"]);
+    assert!(other_parts("<robot").is_empty());
+}

@@ -268,3 +268,20 @@ fn each_name_that_is_changed_is_one_part_gone_and_one_new() {
     println!("{count} names");
     assert!(count > 25, "{count}");
 }
+
+#[test]
+fn what_urdf_does_not_define_is_named_at_its_place() {
+    let shop = Workshop::new();
+    let text = shop.text("gripper");
+    let before = open(&shop.path("gripper.urdf"));
+    for (from, to, expected) in [
+        ("<joint name=", "<joint dont_collapse=\"true\" name=", "dont_collapse"),
+        ("<limit ", "<limit stiffness=\"3\" ", "limit.stiffness"),
+        ("<geometry>", "<geometry tag=\"x\">", "geometry.tag"),
+        ("<robot ", "<robot maker=\"me\" ", "maker"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let found = changed(&shop, &before, &text.replacen(from, to, 1)).expect("a robot");
+        assert!(matches!(&found[..], [place] if place.ends_with(expected)), "{found:?}");
+    }
+}

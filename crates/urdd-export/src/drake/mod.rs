@@ -10,12 +10,14 @@ use std::collections::BTreeMap;
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::other_attributes;
 use super::output::Export;
 use super::parts::Taken;
 use super::subject::Subject;
 use super::urdf_elements::{
     Geometry, IN_JOINT, IN_LINK, IN_ROBOT, empty_robot, links, push_unknown,
 };
+use urdd_xml::other_parts::Owner;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
@@ -35,6 +37,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         robot.push(Element::new("link").with("name", link));
     }
     for (mut element, joint) in joints.elements {
+        other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
         robot.push(element);
     }

@@ -9,6 +9,7 @@ use super::super::error::Note;
 use super::super::joints::joints as resolved;
 use super::super::parts::{Moves, Taken};
 use super::super::subject::Subject;
+use super::gazebo::{Gazebo, Place};
 use urdd_document::robot::Joint as View;
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::rotation::{to_rpy, unit_axis};
@@ -32,9 +33,14 @@ pub(super) struct Joints {
     pub has_mimics: bool,
 }
 
-pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
+pub(super) fn joints(
+    subject: &Subject,
+    taken: Taken,
+    gazebo: &Gazebo,
+    notes: &mut Vec<Note>,
+) -> Joints {
     let names = &subject.names;
-    let mut made = Joints { taken: names.taken.clone(), ..Joints::default() };
+    let mut made = Joints { taken, ..Joints::default() };
     let by_name: HashMap<&str, &String> =
         subject.view.joints.iter().map(|joint| joint.name.as_str()).zip(&names.joints).collect();
     let each = resolved(subject, notes).into_iter().zip(&subject.view.joints).enumerate();
@@ -79,6 +85,10 @@ pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Joints {
                     fill(&mut axis, &joint, view, notes, &mut made.has_mimics);
                 }
                 element.push(axis);
+            }
+            if place == last {
+                let names = &mut Taken::default();
+                gazebo.add(&view.name, Place::Joint, &mut element, names, notes);
             }
             made.elements.push(element);
             match place == last {

@@ -7,8 +7,10 @@ use super::super::error::{ExportError, Note};
 use super::super::inertia::held;
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
 use super::super::output::Files;
+use super::super::parts::Taken;
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
+use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
 use urdd_document::robot::Inertial;
 use urdd_kinematics::rotation::to_rpy;
@@ -27,6 +29,7 @@ const IMPOSSIBLE: &str = "moments of inertia that no body has, which SDF refuses
 pub(super) fn links(
     subject: &Subject,
     joints: &Joints,
+    gazebo: &Gazebo,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
     let shapes = subject.shapes_by_link(subject.options.shapes)?;
@@ -42,6 +45,8 @@ pub(super) fn links(
         let joint = subject.tree.parent_joint[link];
         let joint = joint.map(|joint| joints.last_parts[joint].as_str());
         let mut element = empty(&view.name, joint);
+        let mut taken = Taken::default();
+        gazebo.add(&view.name, Place::Link, &mut element, &mut taken, notes);
         element.push(
             match view.inertial.as_ref().filter(|of| of.mass.is_some_and(|mass| mass > 0.0)) {
                 Some(of) => {
@@ -62,7 +67,8 @@ pub(super) fn links(
         for (place, look) in looks.into_iter().enumerate() {
             let rgba = look.part.color;
             let (path, _) = files.add_look(link, place, look)?;
-            let mut visual = Element::new("visual").with("name", format!("visual_{place}"));
+            let name = taken.free(format!("visual_{place}"));
+            let mut visual = Element::new("visual").with("name", name);
             visual.push(Element::new("geometry").holding(mesh(&path)));
             if let Some(rgba) = rgba {
                 let colour = numbers(&rgba);
@@ -70,11 +76,18 @@ pub(super) fn links(
                 let diffuse = Element::new("diffuse").containing(&colour);
                 visual.push(Element::new("material").holding(ambient).holding(diffuse));
             }
+            gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
             element.push(visual);
         }
+        let mut names = Vec::new();
         for shape in shapes {
-            element.push(collision(subject, link, shape, &mut files)?);
+            names.push(taken.free(format!("piece_{}", shape.piece)));
+            let mut collision = collision(subject, link, shape, &mut files)?;
+            collision.set("name", names.last().map(String::as_str));
+            gazebo.add(&view.name, Place::Collision, &mut collision, &mut taken, notes);
+            element.push(collision);
         }
+        touch(&mut element, &names);
         elements.push(element);
     }
     for (links, what) in [(massless, MASSLESS), (impossible, IMPOSSIBLE)] {
@@ -86,6 +99,20 @@ pub(super) fn links(
         elements.push(empty(name, Some(joint)).holding(light()));
     }
     Ok((elements, files.into_files()))
+}
+
+/// Contact sensors that name a collision of the source have all collisions of their link.
+fn touch(link: &mut Element, collisions: &[String]) {
+    for sensor in link.elements_mut().filter(|element| element.name() == "sensor") {
+        if let Some(contact) = sensor.child_mut("contact")
+            && contact.child_mut("collision").is_some()
+        {
+            contact.remove("collision");
+            for name in collisions {
+                contact.push(Element::new("collision").containing(name));
+            }
+        }
+    }
 }
 
 /// A link at its joint.

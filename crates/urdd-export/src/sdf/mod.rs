@@ -4,6 +4,7 @@
 //! are chains of simple joints with light links between them. SDF takes a link without `<inertial>` for 1 kg, so that
 //! links without mass get the smallest that its reader accepts.
 
+mod gazebo;
 mod joints;
 mod links;
 
@@ -12,6 +13,7 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::output::Export;
 use super::subject::Subject;
+use gazebo::{Gazebo, Place};
 
 const GAZEBO: &str = "Gazebo knows no pairs that need no check; the links do not collide with each other there (`<self_collide>` is off). Drake reads the pairs";
 const WORLD: &str = "the root link is called `world`, which is SDF's own and has neither mass nor shapes; its own are left out";
@@ -21,8 +23,11 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut model = Element::new("model").with("name", model_name(subject));
     let root = subject.tree.root;
     let is_world = subject.is_world(root);
-    let mut joints = joints::joints(subject, &mut notes);
-    let (links, files) = links::links(subject, &joints, &mut notes)?;
+    let gazebo = Gazebo::new(subject, &mut notes);
+    let mut taken = subject.names.taken.clone();
+    gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
+    let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
+    let (links, files) = links::links(subject, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
             notes.push(Note::Robot(WORLD));

@@ -4,6 +4,7 @@
 #![allow(clippy::restriction)]
 
 mod element;
+mod gazebo;
 mod inertia;
 mod invented_names;
 mod locked;
@@ -11,6 +12,7 @@ mod made;
 mod mjcf_inertia;
 mod mjcf_surface;
 mod names;
+mod other_attributes;
 mod pairs;
 mod setup_words;
 mod simplify;

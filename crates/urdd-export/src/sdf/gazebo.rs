@@ -1,0 +1,192 @@
+//! What `<gazebo>` elements say, where SDF has it: as libsdformat's own converter from URDF places it (`parser_urdf.cc`).
+//! Fixed joints stay fixed joints here, as `preserveFixedJoint` asks for; without it, the converter joins their links.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use super::super::element::Element;
+use super::super::error::Note;
+use super::super::parts::Taken;
+use super::super::subject::Subject;
+use super::super::urdf_elements::document;
+use urdd_xml::element::wrapped;
+use urdd_xml::number::number;
+
+const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
+
+/// What a word is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Model,
+    Link,
+    Visual,
+    Collision,
+    Joint,
+}
+
+/// How a word's value is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Value {
+    Number,
+    Flag,
+    Opposite,
+    Text,
+    /// The elements in it.
+    Elements,
+}
+
+use Place::{Collision, Joint, Link, Model, Visual};
+use Value::{Elements, Flag, Number, Opposite, Text};
+
+/// A word, what it is about, how its value is written, and the elements that contain it.
+type Word = (&'static str, Place, Value, &'static [&'static str]);
+
+/// The words that the converter knows. Any other element goes into the link, joint or model.
+const WORDS: [Word; 26] = [
+    ("static", Model, Flag, &["static"]),
+    ("turnGravityOff", Link, Opposite, &["gravity"]),
+    ("selfCollide", Link, Flag, &["self_collide"]),
+    ("dampingFactor", Link, Number, &["velocity_decay/linear", "velocity_decay/angular"]),
+    ("visual", Visual, Elements, &[]),
+    ("material", Visual, Text, &["material/script/name"]),
+    ("collision", Collision, Elements, &[]),
+    ("mu1", Collision, Number, &["surface/friction/ode/mu"]),
+    ("mu2", Collision, Number, &["surface/friction/ode/mu2"]),
+    ("fdir1", Collision, Text, &["surface/friction/ode/fdir1"]),
+    ("kp", Collision, Number, &["surface/contact/ode/kp"]),
+    ("kd", Collision, Number, &["surface/contact/ode/kd"]),
+    ("maxVel", Collision, Number, &["surface/contact/ode/max_vel"]),
+    ("minDepth", Collision, Number, &["surface/contact/ode/min_depth"]),
+    ("maxContacts", Collision, Number, &["max_contacts"]),
+    ("laserRetro", Collision, Number, &["laser_retro"]),
+    ("stopCfm", Joint, Number, &["physics/ode/limit/cfm"]),
+    ("stopErp", Joint, Number, &["physics/ode/limit/erp"]),
+    ("fudgeFactor", Joint, Number, &["physics/ode/fudge_factor"]),
+    ("provideFeedback", Joint, Flag, &["physics/provide_feedback", "physics/ode/provide_feedback"]),
+    ("cfmDamping", Joint, Flag, IMPLICIT),
+    ("implicitSpringDamper", Joint, Flag, IMPLICIT),
+    ("springReference", Joint, Number, &["axis/dynamics/spring_reference"]),
+    ("springStiffness", Joint, Number, &["axis/dynamics/spring_stiffness"]),
+    ("preserveFixedJoint", Joint, Flag, &[]),
+    ("disableFixedJointLumping", Joint, Flag, &[]),
+];
+
+const IMPLICIT: &[&str] = &["physics/ode/implicit_spring_damper", "physics/ode/cfm_damping"];
+
+/// What is said, by the name of a link or a joint; by an empty name, of the model.
+pub(super) struct Gazebo(HashMap<String, Vec<Element>>);
+
+impl Gazebo {
+    pub fn new(subject: &Subject, notes: &mut Vec<Note>) -> Self {
+        let joints = subject.view.joints.iter().map(|joint| &joint.name);
+        let names: HashSet<&String> = subject.links.iter().chain(joints).collect();
+        let mut said: HashMap<String, Vec<Element>> = HashMap::new();
+        let mut faults = BTreeSet::new();
+        for text in &subject.urdf.unknown_elements {
+            // Prefixes that only the source declares do not matter: what has them is left out.
+            let text = wrapped(text);
+            let Some(document) = document(&text) else {
+                continue;
+            };
+            let Some(root) = document.root_element().first_element_child() else {
+                continue;
+            };
+            if !root.has_tag_name("gazebo") {
+                continue;
+            }
+            let reference = root.attribute("reference").unwrap_or_default().to_owned();
+            if !reference.is_empty() && !names.contains(&reference) {
+                faults.insert("it refers to what is neither a link nor a joint");
+                continue;
+            }
+            let said = said.entry(reference).or_default();
+            for element in root.children().filter(|node| node.is_element()).map(Element::of) {
+                let fault = match word(&element).map(|word| word.2) {
+                    Some(Number) if !own(&element).parse().is_ok_and(f64::is_finite) => {
+                        Some("a number in it is not one")
+                    }
+                    None if element.has_prefix() => Some("it has a prefix of its file"),
+                    _ => None,
+                };
+                match fault {
+                    Some(fault) => {
+                        faults.insert(fault);
+                    }
+                    None => said.push(element),
+                }
+            }
+            // Words overwrite what such elements have.
+            said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
+        }
+        notes.extend(faults.into_iter().map(left_out));
+        if said.values().flatten().any(|said| word(said).is_none()) {
+            notes.push(Note::Robot(UNCHECKED));
+        }
+        Gazebo(said)
+    }
+
+    /// Adds what is said of a link, a joint or the model to an element. `taken` has the names of the elements in it.
+    pub fn add(
+        &self,
+        name: &str,
+        place: Place,
+        into: &mut Element,
+        taken: &mut Taken,
+        notes: &mut Vec<Note>,
+    ) {
+        let has_axis = into.elements().any(|child| child.name() == "axis");
+        for said in self.0.get(name).into_iter().flatten() {
+            let Some((_, of, value, paths)) = word(said) else {
+                // Plugins alone may share a name.
+                let name = said.attribute("name").filter(|_| said.name() != "plugin");
+                if ![Visual, Collision].contains(&place) {
+                    match name.is_none_or(|name| taken.insert(name)) {
+                        true => into.push(said.clone()),
+                        false => notes.push(left_out("another element has the name of one in it")),
+                    }
+                }
+                continue;
+            };
+            if *of != place || (paths.iter().any(|path| path.starts_with("axis")) && !has_axis) {
+                continue;
+            }
+            let own = own(said);
+            let is_true = ["true", "yes", "1"].contains(&own.to_lowercase().as_str());
+            let text = match value {
+                Flag => is_true.to_string(),
+                Opposite => (!is_true).to_string(),
+                Number => number(own.parse().unwrap_or_default()),
+                Text => own.to_owned(),
+                Elements => {
+                    for child in said.elements().filter(|child| !child.has_prefix()) {
+                        if ["surface", "material"].contains(&child.name()) {
+                            into.remove(child.name());
+                        }
+                        into.push(child.clone());
+                    }
+                    continue;
+                }
+            };
+            for path in *paths {
+                into.say(path, &text);
+            }
+            if said.name() == "material" {
+                into.say("material/script/uri", SCRIPTS);
+            }
+        }
+    }
+}
+
+/// Where Gazebo has the materials that it names.
+const SCRIPTS: &str = "file://media/materials/scripts/gazebo.material";
+
+fn word(said: &Element) -> Option<&'static Word> {
+    WORDS.iter().find(|word| word.0 == said.name())
+}
+
+fn own(said: &Element) -> &str {
+    said.attribute("value").map_or(said.text(), str::trim)
+}
+
+fn left_out(reason: &'static str) -> Note {
+    Note::Element { element: "gazebo", reason }
+}
