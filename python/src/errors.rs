@@ -51,9 +51,10 @@ pub fn of_robot(py: Python<'_>, error: &RobotError) -> PyErr {
             advice::of_robot(error),
             &[("module", text(py, module.name()))],
         ),
-        RobotError::MotionOpen | RobotError::Metadata(_) | RobotError::Kinematics(_) => {
-            raise(py, "ModuleUnusableError", advice::of_robot(error), &[])
-        }
+        RobotError::MotionOpen
+        | RobotError::Metadata(_)
+        | RobotError::Kinematics(_)
+        | RobotError::Changed(_) => raise(py, "ModuleUnusableError", advice::of_robot(error), &[]),
         RobotError::Unknown { what, name, nearest } => raise(
             py,
             "UnknownNameError",

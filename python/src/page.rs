@@ -10,6 +10,7 @@ use urdd_directory::cancellation::Cancellation;
 use urdd_view::{Collection, Server, Shown};
 
 use crate::errors::raise;
+use crate::robot::Robot;
 use crate::work;
 
 /// The page, served to this machine's browser until it is closed.
@@ -86,11 +87,11 @@ impl Drop for Page {
 
 /// The page with one embedded robot, as HTML.
 #[pyfunction]
-pub fn page_html(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    let robots = collection(py, &path)?;
-    let made = work::run(py, move |_| match &robots.robots()[..] {
-        [robot] => urdd_view::page_with(robot).map_err(|error| error.to_string()),
-        several => Err(format!("{} robots, and a page holds one", several.len())),
+pub fn page_html(py: Python<'_>, robot: &Robot) -> PyResult<String> {
+    let root = robot.robot.root();
+    let made = work::run(py, move |_| {
+        let shown = Collection::default().add_root(root).map_err(|error| error.to_string())?;
+        urdd_view::page_with(&shown).map_err(|error| error.to_string())
     })?;
-    made.map_err(PyOSError::new_err)
+    made.map_err(|error| raise(py, "OpenError", error, &[]))
 }

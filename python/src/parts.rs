@@ -1,15 +1,12 @@
 //! Unprocessed modules and files of a URDD.
 
-use std::sync::Arc;
-
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::root::ReadError;
-use urdd_document::load::Loaded;
-use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
+use urdd_robot::RobotError;
 
 use crate::advice;
 use crate::errors::{of_robot, raise};
@@ -21,17 +18,16 @@ enum Read {
     Text { version: String, is_legacy: bool, text: String },
     Missing,
     Unusable(String),
-    NotListed(ReadError),
+    NotRead(RobotError),
 }
 
 #[pymethods]
 impl Robot {
     /// The names of the modules that exist, in the order of the specification.
     fn module_names(&self, py: Python<'_>) -> PyResult<Vec<&'static str>> {
-        let listing = py.detach(|| self.root.list());
-        let listing = listing.map_err(|error| raise(py, "OpenError", error, &[]))?;
+        let part = self.robot.part_as_it_is(&[]).map_err(|error| of_robot(py, &error))?;
         let kinds = ModuleKind::ALL.iter();
-        let there = kinds.filter(|kind| listing.has_folder(kind.folder()));
+        let there = kinds.filter(|kind| part.listing().has_folder(kind.folder()));
         Ok(there.map(|kind| kind.name()).collect())
     }
 
@@ -42,13 +38,12 @@ impl Robot {
             let message = format!("there is no module `{}`", name.escape_debug());
             return Err(raise(py, "UnknownNameError", message, &[]));
         };
-        let root = self.root.clone();
+        let robot = &self.robot;
         let read = work::run(py, move |_| {
-            let loaded = match Loaded::read_only(root, &[kind]) {
-                Ok(loaded) => loaded,
-                Err(error) => return Read::NotListed(error),
+            let part = match robot.part_as_it_is(&[kind]) {
+                Ok(part) => part,
+                Err(error) => return Read::NotRead(error),
             };
-            let part = Urdd::new(Arc::new(loaded));
             let Some(module) = part.module(kind) else {
                 return Read::Missing;
             };
@@ -58,6 +53,7 @@ impl Robot {
             }
             let file = module.file("module.json");
             match part.root().read(&file, MAX_DOCUMENT_BYTES) {
+                Err(ReadError::Changed) => Read::NotRead(RobotError::Changed(robot.folder_name())),
                 Err(error) => Read::Unusable(format!("{file}: {error}")),
                 Ok(bytes) => Read::Text {
                     version: module.version.clone().unwrap_or_default(),
@@ -69,9 +65,9 @@ impl Robot {
         let name = || vec![("module", pyo3::types::PyString::new(py, name).into_any())];
         match read {
             Read::Text { version, is_legacy, text } => Ok((version, is_legacy, text)),
-            Read::NotListed(error) => Err(raise(py, "OpenError", error, &[])),
+            Read::NotRead(error) => Err(of_robot(py, &error)),
             Read::Missing => {
-                let error = urdd_robot::RobotError::Missing(kind);
+                let error = RobotError::Missing(kind);
                 Err(of_robot(py, &error))
             }
             Read::Unusable(fault) => {
@@ -84,7 +80,7 @@ impl Robot {
 
     /// The text of `urdd.json`; None if it does not exist.
     fn metadata(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        match py.detach(|| self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES)) {
+        match py.detach(|| self.robot.root().read(ROOT_METADATA, MAX_DOCUMENT_BYTES)) {
             Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
             Err(ReadError::Missing) => Ok(None),
             Err(error) => {
@@ -96,7 +92,7 @@ impl Robot {
 
     /// The bytes of a file of the URDD.
     fn read_file<'py>(&self, py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyBytes>> {
-        match py.detach(|| self.root.read(path, MAX_DOCUMENT_BYTES)) {
+        match py.detach(|| self.robot.root().read(path, MAX_DOCUMENT_BYTES)) {
             Ok(bytes) => Ok(PyBytes::new(py, &bytes)),
             Err(error) => {
                 let message = format!("{}: {error}", path.escape_debug());
@@ -113,6 +109,6 @@ impl Robot {
 
     /// The folder on disk; None for an archive.
     fn folder(&self) -> Option<std::path::PathBuf> {
-        self.root.folder().map(std::path::Path::to_owned)
+        self.robot.root().folder().map(std::path::Path::to_owned)
     }
 }

@@ -12,13 +12,12 @@ use numpy::{
 };
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
-use urdd_directory::root::Root;
 use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
 use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, Verdict, fill};
 
 use crate::arrays::{Batch, answers, copy, shaped};
 use crate::collision_model::CollisionModel;
-use crate::errors::{of_robot, raise};
+use crate::errors::of_robot;
 use crate::proximity::Proximity;
 use crate::work;
 use crate::world::WorldProximity;
@@ -66,10 +65,7 @@ impl FreeOf {
 #[pyclass(frozen, module = "urdd._urdd")]
 pub struct Robot {
     pub robot: Arc<urdd_robot::Robot>,
-    pub root: Root,
     pub path: PathBuf,
-    /// Held during the first read of modules: two reads that wait for each other on one thread pool could deadlock.
-    reading: Mutex<()>,
     is_read: AtomicBool,
     proximity: Mutex<HashMap<ShapeKind, Py<Proximity>>>,
     collision_model: Mutex<Option<Py<CollisionModel>>>,
@@ -79,7 +75,6 @@ impl Robot {
     /// The robot, after reading its kinematics and bounds as far as possible.
     pub fn read(&self, py: Python<'_>) -> PyResult<&Arc<urdd_robot::Robot>> {
         if !self.is_read.load(Ordering::Acquire) {
-            let _reading = work::lock(py, &self.reading)?;
             work::run(py, |_| {
                 let _ = self.robot.link_names();
                 let _ = self.robot.configurations();
@@ -116,12 +111,9 @@ impl Robot {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let robot = urdd_robot::Robot::open_urdd(&path).map_err(|error| of_robot(py, &error))?;
-        let root = Root::open(&path).map_err(|error| raise(py, "OpenError", error, &[]))?;
         Ok(Robot {
             robot: Arc::new(robot),
-            root,
             path,
-            reading: Mutex::default(),
             is_read: AtomicBool::new(false),
             proximity: Mutex::default(),
             collision_model: Mutex::default(),
@@ -334,7 +326,7 @@ impl Robot {
         let robot = self.read(py)?;
         let both = [robot.velocity_limits(), robot.effort_limits()];
         let [speeds, efforts] = both.map(|limits| limits.map_err(|error| of_robot(py, &error)));
-        Ok([speeds?, efforts?].map(|limits| limits.into_pyarray(py)))
+        Ok([speeds?, efforts?].map(|limits| PyArray1::from_slice(py, limits)))
     }
 
     /// (links, 4): the mass of each link, and its centre of mass.

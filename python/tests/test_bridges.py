@@ -244,6 +244,24 @@ def test_the_page_is_served_until_it_is_closed(arm: urdd.Robot) -> None:
         arm.show(backend="cheese", open_browser=False)  # type: ignore[call-overload]
 
 
+def test_a_browser_gets_a_page_that_leads_to_the_token(arm: urdd.Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    import html
+    import urllib.parse
+    import webbrowser
+
+    opened: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    with arm.show(arm.zero) as shown:
+        (address,) = opened
+    token = shown.address.split("token=")[1].split("&")[0]
+    assert token not in address
+    page = Path(urllib.parse.unquote(urllib.parse.urlsplit(address).path))
+    assert f'content="0; url={html.escape(shown.address)}"' in page.read_text(encoding="utf-8")
+    if sys.platform != "win32":
+        assert page.stat().st_mode & 0o777 == 0o600
+        assert page.parent.stat().st_mode & 0o777 == 0o700
+
+
 def test_the_page_gets_what_is_set(arm: urdd.Robot) -> None:
     import json
     import urllib.request

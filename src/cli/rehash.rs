@@ -85,7 +85,7 @@ fn report_broken(found: &Found) -> bool {
     let Ok(urdd) = Urdd::read(&found.path) else {
         return false;
     };
-    let faults: Vec<String> = urdd.modules().iter().filter_map(Module::first_fault).collect();
+    let faults: Vec<String> = urdd.modules().filter_map(Module::first_fault).collect();
     for fault in &faults {
         output::error(&format!(
             "{}/{}; fix it, and run `urdd rehash` again",

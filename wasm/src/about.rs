@@ -3,7 +3,6 @@
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde_json::{Value, json};
 use urdd_document::consumer::{self, ConsumerModules};
-use urdd_document::load::Loaded;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::{Format, MeshPath};
 use urdd_document::robot::{Inertial, Limit, Origin};
@@ -11,8 +10,6 @@ use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_robot::{Configurations, Robot};
-
-use crate::files::Files;
 
 /// The modules that [`about`] reads.
 const READ: &[ModuleKind] = &[
@@ -37,10 +34,8 @@ const READ: &[ModuleKind] = &[
 ///   `middle` are configurations.
 /// - `meshes`: by kind, the meshes of each link, each with `glb` for display and `read` for the file that is cheapest
 ///   to read.
-pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
-    let root = files.root.clone();
-    let loaded = Loaded::read_only(root, READ).map_err(|error| error.to_string())?;
-    let part = Urdd::new(loaded.into());
+pub fn about(robot: &Robot) -> Result<Value, String> {
+    let part = robot.part_as_it_is(READ).map_err(|error| error.to_string())?;
     let mut faults = Vec::new();
     for kind in READ {
         if let Some(module) = part.module(*kind)
@@ -61,7 +56,7 @@ pub fn about(files: &Files, robot: &Robot) -> Result<Value, String> {
     let configurations = configurations.ok();
     Ok(json!({
         "name": part.robot().map(|robot| &robot.name),
-        "folder": files.root.folder_name(),
+        "folder": robot.folder_name(),
         "profile": part.profile().as_str(),
         "metadata": part.metadata_file().json.document().map(|document| &document.value),
         "links": links(&part, modules.as_ref()),

@@ -53,9 +53,10 @@ impl Source for Shared {
     fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
         let files = self.0.files.lock().unwrap_or_else(PoisonError::into_inner);
         match files.get(path) {
-            Some((_, Some(bytes))) => {
-                Ok((Box::new(Cursor::new(Arc::clone(bytes))), bytes.len() as u64))
+            Some((size, Some(bytes))) if *size == bytes.len() as u64 => {
+                Ok((Box::new(Cursor::new(Arc::clone(bytes))), *size))
             }
+            Some((_, Some(_))) => Err(ReadError::Changed),
             Some((_, None)) => Err(ReadError::Io("its bytes are not there yet".to_owned())),
             None => Err(ReadError::Missing),
         }
@@ -110,7 +111,7 @@ pub unsafe extern "C" fn urdd_files_name(
     }
 }
 
-/// Sets or replaces the content of a file.
+/// Sets the content of a file. One that has content keeps it; one of another size than was named cannot be read.
 ///
 /// # Safety
 /// `files` is open; both byte ranges are valid for [`memory::bytes`].
@@ -128,7 +129,8 @@ pub unsafe extern "C" fn urdd_files_give(
     if let Some(given) = &files.given {
         let path = String::from_utf8_lossy(path).into_owned();
         let mut known = given.files.lock().unwrap_or_else(PoisonError::into_inner);
-        known.insert(path, (data.len() as u64, Some(Arc::from(data))));
+        let (_, content) = known.entry(path).or_insert((data.len() as u64, None));
+        content.get_or_insert_with(|| Arc::from(data));
     }
 }
 

@@ -3,14 +3,11 @@
 use std::collections::HashMap;
 
 use serde_json::{Value, json};
-use urdd_document::load::Loaded;
 use urdd_document::shape_matrices::{Statistics, at, shape_lists, statistics};
 use urdd_document::urdd::Urdd;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::registry::ModuleKind;
-use urdd_robot::{EditedSkips, ShapeKind, Skips};
-
-use crate::files::Files;
+use urdd_robot::{EditedSkips, Robot, ShapeKind, Skips};
 
 const STATISTICS: ModuleKind = ModuleKind::LinkShapesDistanceStatistics;
 
@@ -23,10 +20,8 @@ pub struct Pairs {
 
 impl Pairs {
     /// Reads the modules that are present.
-    pub fn read(files: &Files) -> Result<Self, String> {
-        let root = files.root.clone();
-        let loaded = Loaded::read_only(root, &[STATISTICS]);
-        let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
+    pub fn read(robot: &Robot) -> Result<Self, String> {
+        let part = robot.part_as_it_is(&[STATISTICS]).map_err(|error| error.to_string())?;
         let (mut full, mut pieces) = (HashMap::new(), HashMap::new());
         if let Some((links, shapes)) = part.document(STATISTICS).and_then(shape_lists) {
             full.extend(links.iter().enumerate().map(|(k, link)| ((link.get(), 0), k)));

@@ -184,7 +184,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
     let said = |error: RobotError| error.to_string();
     let count = |k: u64| usize::try_from(k).unwrap_or(usize::MAX);
     match question {
-        Question::About => about(&handle.files, &handle.robot),
+        Question::About => about(&handle.robot),
         Question::LinkPoses { q } => {
             let poses = handle.robot.link_poses(&q).map_err(said)?;
             Ok(poses.iter().map(pose).collect())
@@ -210,7 +210,7 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
                 None => question.solve(robot, Some(&carried), &World::default()),
             }
         }
-        Question::Sources => sources(&handle.files, &handle.robot),
+        Question::Sources => sources(&handle.robot),
         Question::Shapes { kind } => shapes(&handle.robot, kind.0).map_err(said),
         Question::ClosestPoints { q, kind } => {
             let pairs = proximity(handle, kind)?.closest_points(&q).map_err(said)?;
@@ -218,13 +218,12 @@ fn ask(handle: &mut Handle, question: Question) -> Result<Value, String> {
         }
         Question::Collisions { about, among } => collisions(handle, &about, &among),
         Question::Limits => {
-            let numbers = |found: Result<Vec<f64>, RobotError>| {
-                let found = found.map_err(said)?.into_iter();
-                Ok::<_, String>(found.map(|most| most.is_finite().then_some(most)).collect())
+            let numbers = |found: Result<&[f64], RobotError>| {
+                let found = found.map_err(said)?.iter();
+                Ok::<Value, String>(found.map(|most| most.is_finite().then_some(*most)).collect())
             };
-            let velocity: Vec<Option<f64>> = numbers(handle.robot.velocity_limits())?;
-            let effort: Vec<Option<f64>> = numbers(handle.robot.effort_limits())?;
-            Ok(json!({ "velocity": velocity, "effort": effort }))
+            let velocity = numbers(handle.robot.velocity_limits())?;
+            Ok(json!({ "velocity": velocity, "effort": numbers(handle.robot.effort_limits())? }))
         }
         Question::LinkMasses => {
             let masses = handle.robot.link_masses().map_err(said)?;
@@ -362,7 +361,7 @@ fn learned<'a>(
 
 fn pairs(handle: &mut Handle) -> Result<&Pairs, String> {
     if handle.pairs.is_none() {
-        handle.pairs = Some(Pairs::read(&handle.files)?);
+        handle.pairs = Some(Pairs::read(&handle.robot)?);
     }
     handle.pairs.as_ref().ok_or_else(String::new)
 }

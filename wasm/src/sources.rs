@@ -1,9 +1,7 @@
 //! The visual and collision elements of the URDF, with their files.
 
 use serde_json::{Value, json};
-use urdd_document::load::Loaded;
 use urdd_document::robot::Element;
-use urdd_document::urdd::Urdd;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::{MeshReference, OriginalMeshesModule};
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -11,16 +9,14 @@ use urdd_format::urdf::{Geometry, Material, UrdfModule};
 use urdd_robot::Robot;
 
 use crate::about::quaternion;
-use crate::files::Files;
 
 /// The visual and collision elements, links ascending, visual first: `link`, `geometry` (`Visual` or `Collision`),
 /// `element`, `position` (m) and `quaternion_wxyz` in the link's frame, `shape` (an object of one key as in
 /// `urdf_module`; null without one), `path` (of the mesh file in the URDD, or null), its `side_files`, and `rgba` of
 /// the URDF's material, or null.
-pub fn sources(files: &Files, robot: &Robot) -> Result<Value, String> {
+pub fn sources(robot: &Robot) -> Result<Value, String> {
     let read = [ModuleKind::Urdf, ModuleKind::OriginalMeshes];
-    let loaded = Loaded::read_only(files.root.clone(), &read);
-    let part = Urdd::new(loaded.map_err(|error| error.to_string())?.into());
+    let part = robot.part_as_it_is(&read).map_err(|error| error.to_string())?;
     let Some(known) = part.robot() else {
         return Err("urdf_module is missing or cannot be read".to_owned());
     };

@@ -11,6 +11,9 @@
 // to the caller, and nothing keeps them after the call. An array that is written overlaps no other argument. A `urdd_text`
 // that a function writes lives as long as its handle.
 //
+// Files. A robot is the one that was there when it was opened. A call that first needs a module reads it, and it is kept.
+// If the folder changed on disk before, the status is UNUSABLE, never an answer of two robots: open it again.
+//
 // Threads. A handle never changes after it is made: any number of threads can use it at once. One function changes it,
 // `urdd_world_proximity_move_obstacles`: no other thread uses that handle meanwhile. A handle must not be freed while
 // another thread uses it. Each thread has its own last error, and its own memory for queries on one configuration. Batches,
@@ -1017,8 +1020,8 @@ enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *hand
                                                struct urdd_pair_distance *closest,
                                                size_t length);
 
-// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
-// kinematics needs.
+// Opens the URDD in a folder or zip archive. Lists a folder's files, and reads no module yet: a call that needs one
+// reads it, and it is kept.
 //
 // `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
 //

@@ -67,6 +67,7 @@ impl From<RobotError> for Failure {
             | RobotError::MotionOpen
             | RobotError::Metadata(_)
             | RobotError::Kinematics(_)
+            | RobotError::Changed(_)
             | RobotError::Mesh { .. } => Status::Unusable,
             RobotError::Configuration(error) => return error.clone().into(),
             RobotError::Batch { .. } | RobotError::Room { .. } => Status::Length,

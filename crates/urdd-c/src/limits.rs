@@ -12,12 +12,12 @@ use crate::robot::Robot;
 unsafe fn limits(
     handle: *const Robot,
     (limits, dofs): (*mut f64, usize),
-    of: impl FnOnce(&urdd_robot::Robot) -> Result<Vec<f64>, RobotError>,
+    of: impl FnOnce(&urdd_robot::Robot) -> Result<&[f64], RobotError>,
 ) -> Status {
     // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = of(&at(handle)?.robot)?;
-        exact_room("limits", limits, dofs, (1, known.len()))?.copy_from_slice(&known);
+        exact_room("limits", limits, dofs, (1, known.len()))?.copy_from_slice(known);
         Ok(())
     })
 }

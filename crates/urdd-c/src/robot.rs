@@ -75,8 +75,8 @@ impl Robot {
     }
 }
 
-/// Opens the URDD in a folder or zip archive. Reads no module yet: a call that needs one reads it, and keeps what
-/// kinematics needs.
+/// Opens the URDD in a folder or zip archive. Lists a folder's files, and reads no module yet: a call that needs one
+/// reads it, and it is kept.
 ///
 /// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
 ///

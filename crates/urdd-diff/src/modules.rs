@@ -29,7 +29,7 @@ pub(super) fn differences(
 ) -> Option<Vec<ModuleDifference>> {
     let ((a, _), (b, _)) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
     let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
-        urdd.modules().iter().map(|module| module.folder.clone()).collect()
+        urdd.modules().map(|module| module.folder.clone()).collect()
     };
     let mut folders = by_folder(a);
     let new = by_folder(b);
@@ -68,7 +68,7 @@ pub(super) fn differences(
 }
 
 fn module<'a>(urdd: &'a Urdd, folder: &str) -> Option<&'a Module> {
-    urdd.modules().iter().find(|module| module.folder == folder)
+    urdd.modules().find(|module| module.folder == folder)
 }
 
 /// Whether a difference of the module's content is in another list, or is none in meaning.

@@ -44,10 +44,12 @@ pub struct Listing {
 impl Listing {
     /// The entry at a path.
     pub fn get(&self, path: &str) -> Option<&Entry> {
-        self.entries
-            .binary_search_by(|entry| entry.path.as_str().cmp(path))
-            .ok()
-            .map(|place| &self.entries[place])
+        self.place(path).map(|place| &self.entries[place])
+    }
+
+    /// The place of a path in the list.
+    pub(super) fn place(&self, path: &str) -> Option<usize> {
+        self.entries.binary_search_by(|entry| entry.path.as_str().cmp(path)).ok()
     }
 
     /// Whether a path is a folder.

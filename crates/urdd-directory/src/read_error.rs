@@ -16,6 +16,9 @@ pub enum ReadError {
     /// The path violates SPEC 2.8.
     #[error("{0}")]
     Path(#[from] PathFault),
+    /// It is not what it was when the URDD was opened.
+    #[error("it changed on disk since it was opened: open it again")]
+    Changed,
     /// A symbolic link leads out of the root.
     #[error("a symbolic link leads out of the URDD's root")]
     LeavesRoot,
@@ -55,6 +58,9 @@ pub enum ReadError {
 
 impl ReadError {
     pub(super) fn from_io(error: &io::Error) -> Self {
+        if let Some(own) = error.get_ref().and_then(|inner| inner.downcast_ref::<ReadError>()) {
+            return own.clone();
+        }
         match error.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing,
             io::ErrorKind::PermissionDenied => ReadError::Io("permission denied".to_owned()),

@@ -41,6 +41,13 @@ impl Root {
         Root { source }
     }
 
+    /// The files as they are now: a later read of one that changed is [`ReadError::Changed`].
+    #[must_use]
+    pub fn kept(&self) -> Self {
+        let source = self.source.kept().unwrap_or_else(|| Arc::clone(&self.source));
+        Root { source }
+    }
+
     /// The folder on disk, if any. An archive has none and is read-only.
     pub fn folder(&self) -> Option<&Path> {
         self.source.folder()
@@ -103,6 +110,10 @@ impl Source for Root {
 
     fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
         self.source.sibling(folder_name)
+    }
+
+    fn kept(&self) -> Option<Arc<dyn Source>> {
+        self.source.kept()
     }
 
     fn folder(&self) -> Option<&Path> {

@@ -52,7 +52,7 @@ pub fn all(urdd: &Urdd) -> Vec<Entry<'_>> {
         return Vec::new();
     };
     let modules: HashMap<&str, &Module> =
-        urdd.modules().iter().map(|module| (module.folder.as_str(), module)).collect();
+        urdd.modules().map(|module| (module.folder.as_str(), module)).collect();
     let by_name: HashMap<&str, ModuleKind> =
         version_1_kinds().map(|kind| (kind.name(), kind)).collect();
     let by_folder: HashMap<&str, ModuleKind> =
@@ -93,7 +93,7 @@ pub fn is_known(urdd: &Urdd, module: &Module) -> bool {
 
 /// The module folders that the rules check.
 pub fn known_modules(urdd: &Urdd) -> impl Iterator<Item = &Module> {
-    urdd.modules().iter().filter(|module| is_known(urdd, module))
+    urdd.modules().filter(|module| is_known(urdd, module))
 }
 
 /// The size of the regular file at a path. Does not check whether a listed file can be opened.

@@ -14,6 +14,7 @@ pub mod dof_layout;
 pub mod dofs;
 pub mod draft;
 pub mod entries;
+pub mod kept;
 pub mod legacy_urdf;
 pub mod load;
 pub mod mesh_files;

@@ -1,6 +1,7 @@
 //! Reads a URDD into memory once for all rules.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -25,11 +26,11 @@ pub struct Loaded {
     /// Its root folder.
     pub root: Root,
     /// Its files and folders.
-    pub listing: Listing,
+    pub listing: Arc<Listing>,
     /// `urdd.json`.
-    pub metadata: MetadataFile,
+    pub metadata: Arc<MetadataFile>,
     /// Its modules in the order of the specification, then others by folder.
-    pub modules: Vec<Module>,
+    pub modules: Vec<Arc<Module>>,
     /// The source URDF, or why it is not available.
     pub urdf: Result<CarriedUrdf, NoUrdf>,
     /// Its format family.
@@ -43,54 +44,44 @@ impl Loaded {
     /// If the root itself cannot be listed.
     pub fn read(root: Root) -> Result<Self, ReadError> {
         let listing = root.list()?;
-        let folders = module_folders(&listing);
-        let mut loaded = Self::of(root, listing, folders, true);
-        loaded.urdf = carried_urdf::read(&loaded.root, &loaded.listing, &loaded.metadata);
-        Ok(loaded)
-    }
-
-    /// Reads only some modules, without mirrors and URDF.
-    ///
-    /// # Errors
-    /// If the root itself cannot be listed.
-    pub fn read_only(root: Root, kinds: &[ModuleKind]) -> Result<Self, ReadError> {
-        let listing = root.list()?;
-        let folders = known_folders(kinds, &listing);
-        Ok(Self::of(root, listing, folders, false))
-    }
-
-    fn of(
-        root: Root,
-        listing: Listing,
-        folders: Vec<(String, Option<ModuleKind>)>,
-        with_mirrors: bool,
-    ) -> Self {
         let metadata = read_metadata(&root);
-        let mut listed: HashMap<&str, &Version> = HashMap::new();
-        for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
-            listed.entry(&entry.path).or_insert(&entry.version);
-        }
-        let mirrors = with_mirrors.then_some(&listing);
-        let modules: Vec<Module> = folders
-            .into_par_iter()
-            .map(|(folder, kind)| {
-                let listed = listed.get(folder.as_str()).copied();
-                read_module(&root, folder, kind, listed, mirrors)
-            })
-            .collect();
-        Loaded {
-            profile: profile(&metadata, &modules),
-            urdf: Err(NoUrdf::NotRead),
-            root,
-            listing,
-            metadata,
-            modules,
-        }
+        let modules = read_modules(&root, &metadata, module_folders(&listing), Some(&listing));
+        let urdf = carried_urdf::read(&root, &listing, &metadata);
+        Ok(Self { urdf, ..Self::of(root, listing.into(), metadata.into(), modules) })
+    }
+
+    /// These modules, without URDF.
+    pub(super) fn of(
+        root: Root,
+        listing: Arc<Listing>,
+        metadata: Arc<MetadataFile>,
+        modules: Vec<Arc<Module>>,
+    ) -> Self {
+        let profile = profile(&metadata, &modules);
+        Loaded { root, listing, metadata, modules, urdf: Err(NoUrdf::NotRead), profile }
     }
 }
 
+/// Reads modules, and their mirrors if a listing is given.
+pub(super) fn read_modules(
+    root: &Root,
+    metadata: &MetadataFile,
+    folders: Vec<(String, Option<ModuleKind>)>,
+    mirrors: Option<&Listing>,
+) -> Vec<Arc<Module>> {
+    let mut listed: HashMap<&str, &Version> = HashMap::new();
+    for entry in metadata.metadata.iter().flat_map(|m| &m.modules) {
+        listed.entry(&entry.path).or_insert(&entry.version);
+    }
+    let read = |(folder, kind): (String, Option<ModuleKind>)| {
+        let listed = listed.get(folder.as_str()).copied();
+        Arc::new(read_module(root, folder, kind, listed, mirrors))
+    };
+    folders.into_par_iter().map(read).collect()
+}
+
 /// The format family of a URDD.
-fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
+fn profile(metadata: &MetadataFile, modules: &[Arc<Module>]) -> Profile {
     let any = |profile: Profile| {
         let mut specs = modules.iter().filter_map(|module| module.spec);
         specs.any(|spec| spec.profile == profile)
@@ -103,7 +94,7 @@ fn profile(metadata: &MetadataFile, modules: &[Module]) -> Profile {
     }
 }
 
-fn read_metadata(root: &Root) -> MetadataFile {
+pub(super) fn read_metadata(root: &Root) -> MetadataFile {
     let json = JsonFile::read(root, ROOT_METADATA);
     let mut file = MetadataFile { json, violations: Vec::new(), metadata: None };
     if let JsonFile::Read(document) = &file.json {
@@ -131,7 +122,10 @@ fn newer_minor(metadata: &serde_json::Value) -> bool {
     }
 }
 
-fn known_folders(kinds: &[ModuleKind], listing: &Listing) -> Vec<(String, Option<ModuleKind>)> {
+pub(super) fn known_folders(
+    kinds: &[ModuleKind],
+    listing: &Listing,
+) -> Vec<(String, Option<ModuleKind>)> {
     let kinds = kinds.iter().filter(|kind| listing.has_folder(kind.folder()));
     kinds.map(|kind| (kind.folder().to_owned(), Some(*kind))).collect()
 }

@@ -50,6 +50,14 @@ impl JsonFile {
         }
     }
 
+    /// Why it cannot be read, if it exists.
+    pub fn unreadable(&self) -> Option<&ReadError> {
+        match self {
+            JsonFile::Unreadable(error) => Some(error),
+            _ => None,
+        }
+    }
+
     /// Its text, if it is JSON.
     pub fn text(&self) -> Option<&str> {
         match self {
@@ -136,6 +144,14 @@ impl Module {
     /// Last part of its folder's path.
     pub fn name(&self) -> &str {
         self.folder.rsplit('/').next().unwrap_or(&self.folder)
+    }
+
+    /// Why one of its files cannot be read, if it exists.
+    pub fn unreadable(&self) -> Option<&ReadError> {
+        match &self.version_file {
+            VersionFile::Unreadable(error) => Some(error),
+            _ => self.json.unreadable(),
+        }
     }
 
     /// Why its document is unusable; `None` if it is usable.

@@ -125,13 +125,13 @@ impl Urdd {
     }
 
     /// Every module folder.
-    pub fn modules(&self) -> &[Module] {
-        &self.loaded.modules
+    pub fn modules(&self) -> impl ExactSizeIterator<Item = &Module> {
+        self.loaded.modules.iter().map(|module| &**module)
     }
 
     /// The module folder of a module.
     pub fn module(&self, kind: ModuleKind) -> Option<&Module> {
-        self.loaded.modules.iter().find(|module| module.kind == Some(kind))
+        self.modules().find(|module| module.kind == Some(kind))
     }
 
     /// The document of a module, if it fits its schema.

@@ -6,12 +6,14 @@ use serde_json::Value;
 
 use super::Robot;
 use super::error::RobotError;
+use super::robot::of_read;
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::file_entry;
 use urdd_directory::json;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_directory::module_entry;
+use urdd_directory::root::ReadError;
 use urdd_format::registry::ModuleKind;
 
 /// Files by path relative to the root.
@@ -35,8 +37,10 @@ impl Robot {
             (path("module.json"), json.into_bytes()),
             (path("module.yaml"), yaml.into_bytes()),
         ]);
-        let text = self.root.read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
-        let text = text.map_err(|error| RobotError::Metadata(error.to_string()))?;
+        // Not from what was kept: an edit of a URDD that changed meanwhile would undo that change.
+        let text = self.root().read(ROOT_METADATA, MAX_DOCUMENT_BYTES);
+        let metadata = |error: ReadError| RobotError::Metadata(error.to_string());
+        let text = text.map_err(|error| of_read(self.root(), error, metadata))?;
         let metadata = json::read(&text);
         let metadata = metadata.map_err(|error| RobotError::Metadata(error.to_string()))?;
         let mut metadata = metadata.value;

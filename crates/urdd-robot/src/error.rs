@@ -28,7 +28,10 @@ pub enum RobotError {
         /// Its path.
         path: String,
     },
-    /// The robot's files can no longer be listed.
+    /// The URDD in this folder changed after it was opened, and the answer needs what was not read before.
+    #[error("{}: it changed on disk since it was opened: open it again", .0.escape_debug())]
+    Changed(String),
+    /// The robot's files cannot be listed.
     #[error("the files of the URDD cannot be listed: {0}")]
     List(ReadError),
     /// A required module is missing.

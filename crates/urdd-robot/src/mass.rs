@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::Robot;
 use super::error::RobotError;
+use urdd_document::kept::keep;
 
 /// The mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,14 +20,17 @@ impl Robot {
     ///
     /// # Errors
     /// If `urdf_module` is missing or unusable.
-    pub fn link_masses(&self) -> Result<Vec<LinkMass>, RobotError> {
-        let links = self.description()?.links.into_iter();
+    pub fn link_masses(&self) -> Result<&[LinkMass], RobotError> {
         let of = |link: urdd_format::urdf::Link| {
             let inertial = link.inertial?;
             let origin = inertial.origin.and_then(|origin| origin.xyz);
             Some(LinkMass { mass: inertial.mass?.value, centre: origin.unwrap_or_default() })
         };
-        Ok(links.map(|link| of(link).unwrap_or_default()).collect())
+        keep(&self.masses, || {
+            let links = self.description()?.links.into_iter();
+            Ok(links.map(|link| of(link).unwrap_or_default()).collect())
+        })
+        .map(Vec::as_slice)
     }
 
     /// The centre of mass of the robot, in the root link's frame, m; `None` if it has no mass.

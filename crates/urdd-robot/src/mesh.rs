@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::Robot;
 use super::error::RobotError;
-use urdd_document::mesh_files::MeshFiles;
+use super::robot::of_read;
+use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_document::meshes::{self, Format, MeshPath};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
@@ -109,8 +110,10 @@ fn fault(path: &str, reason: String) -> RobotError {
 
 fn read(part: &Urdd, profile: Profile, path: &str) -> Result<Scene, RobotError> {
     let fail = |reason: String| fault(path, reason);
-    let bytes =
-        MeshFiles::new(part).read(profile, path).map_err(|absence| fail(absence.to_string()))?;
+    let bytes = MeshFiles::new(part).read(profile, path).map_err(|absence| match absence {
+        Absence::Other(error) => of_read(part.root(), error, |error| fail(error.to_string())),
+        absence => fail(absence.to_string()),
+    })?;
     let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
     read_with(&bytes, path, &mut |_| None, &options).map_err(|error| {
         fail(match &error.place {

@@ -4,6 +4,7 @@ use super::Robot;
 use super::edited_files::Files;
 use super::error::RobotError;
 use super::robot::usable;
+use urdd_document::kept::keep;
 use urdd_format::named_configurations::{
     ConfigurationEdit, DofPosition, NamedConfiguration, NamedConfigurationsModule, NamedDofs,
     PositionFault,
@@ -27,7 +28,7 @@ impl Robot {
     /// # Errors
     /// If the module is unusable.
     pub fn named_configurations(&self) -> Result<&[NamedConfiguration], RobotError> {
-        let read = || {
+        keep(&self.named, || {
             let part = self.part_as_it_is(&[NAMED])?;
             if part.module(NAMED).is_none() {
                 return Ok(Vec::new());
@@ -39,11 +40,8 @@ impl Robot {
                 }
                 _ => Err(RobotError::Missing(NAMED)),
             }
-        };
-        match self.named.get_or_init(read) {
-            Ok(named) => Ok(named),
-            Err(error) => Err(error.clone()),
-        }
+        })
+        .map(Vec::as_slice)
     }
 
     /// The values of a named configuration.

@@ -4,28 +4,42 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::error::RobotError;
+use super::limits::Limits;
+use super::mass::LinkMass;
 use super::motion::Motion;
+use super::shapes::{LinkShape, ShapeKind};
 use super::space::Configurations;
-use urdd_directory::root::Root;
+use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
-use urdd_document::load::Loaded;
+use urdd_document::kept::{Kept, keep};
 use urdd_document::urdd::Urdd;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::{ModuleKind, Profile};
 
 /// A robot, described by a URDD.
 ///
-/// It can be shared between threads.
+/// It can be shared between threads, and never changes. It is the robot that was there when it was opened: a module is
+/// read when it is first needed, and kept. If its files changed on disk before, the answer is [`RobotError::Changed`],
+/// never a mix of two robots.
+///
+/// Opening a folder takes the device, inode number, size and ctime of each file; each read compares them after its last
+/// byte. An edit that keeps size and mtime is noticed, and so are a file or folder in the place of another, and an edit
+/// in the same tick of the clock: opening waits 20 ms where a file is that new. New hard links and permissions count as
+/// changes. An edit that keeps the size can be missed on FAT, within the 3 s for which NFS keeps times, and on Windows if
+/// it keeps the mtime too. Archives are read whole. Other sources in memory do not change.
 #[derive(Debug)]
 pub struct Robot {
-    pub(super) root: Root,
-    motion: OnceLock<Result<Arc<Motion>, RobotError>>,
-    configurations: OnceLock<Result<Arc<Configurations>, RobotError>>,
-    pub(super) named: OnceLock<Result<Vec<NamedConfiguration>, RobotError>>,
+    modules: Kept,
+    motion: OnceLock<Arc<Motion>>,
+    configurations: OnceLock<Configurations>,
+    pub(super) named: OnceLock<Vec<NamedConfiguration>>,
+    pub(super) limits: OnceLock<Limits>,
+    pub(super) masses: OnceLock<Vec<LinkMass>>,
+    pub(super) shapes: [OnceLock<Vec<LinkShape>>; ShapeKind::ALL.len()],
 }
 
 impl Robot {
-    /// Opens the robot in a folder or a zip archive. Reads no module yet.
+    /// Opens the robot in a folder or a zip archive. Lists the files of a folder; reads no module yet.
     ///
     /// # Errors
     /// [`RobotError::Open`] if the path cannot be opened.
@@ -33,7 +47,7 @@ impl Robot {
         let path = path.as_ref();
         let opened = Root::open(path)
             .map_err(|error| RobotError::Open { path: path.display().to_string(), error })?;
-        Ok(Self::at(opened))
+        Ok(Self::at(&opened))
     }
 
     /// As [`Robot::open`], for a path that a person gave: a folder without `urdd.json` and without the folder of a module
@@ -53,21 +67,30 @@ impl Robot {
 
     /// The robot whose files are in `source`.
     pub fn of(source: impl Source + 'static) -> Self {
-        Self::at(Root::of(source))
+        Self::at(&Root::of(source))
     }
 
-    fn at(root: Root) -> Self {
+    fn at(root: &Root) -> Self {
         Self {
-            root,
+            modules: Kept::new(root),
             motion: OnceLock::new(),
             configurations: OnceLock::new(),
             named: OnceLock::new(),
+            limits: OnceLock::new(),
+            masses: OnceLock::new(),
+            shapes: Default::default(),
         }
+    }
+
+    /// The files that were there when it was opened: a read of one that changed is an error.
+    #[doc(hidden)]
+    pub fn root(&self) -> &Root {
+        self.modules.root()
     }
 
     /// The name of the folder or archive.
     pub fn folder_name(&self) -> String {
-        self.root.folder_name()
+        self.root().folder_name()
     }
 }
 
@@ -82,8 +105,10 @@ impl Robot {
     }
 
     /// These modules, without a check that they are present and usable.
-    pub(super) fn part_as_it_is(&self, kinds: &[ModuleKind]) -> Result<Urdd, RobotError> {
-        let loaded = Loaded::read_only(self.root.clone(), kinds).map_err(RobotError::List)?;
+    #[doc(hidden)]
+    pub fn part_as_it_is(&self, kinds: &[ModuleKind]) -> Result<Urdd, RobotError> {
+        let loaded = self.modules.part(kinds);
+        let loaded = loaded.map_err(|error| of_read(self.root(), error, RobotError::List))?;
         Ok(Urdd::new(Arc::new(loaded)))
     }
 
@@ -105,11 +130,7 @@ impl Robot {
     }
 
     pub(super) fn shared_motion(&self) -> Result<&Arc<Motion>, RobotError> {
-        let read = || Ok(Arc::new(Motion::new(&self.moving_part(&[])?)?));
-        match self.motion.get_or_init(read) {
-            Ok(motion) => Ok(motion),
-            Err(error) => Err(error.clone()),
-        }
+        keep(&self.motion, || Ok(Arc::new(Motion::new(&self.moving_part(&[])?)?)))
     }
 
     /// The robot's configurations and their bounds.
@@ -117,14 +138,21 @@ impl Robot {
     /// # Errors
     /// If `chain_module`, `dof_module` or `bounds_module` is missing or unusable.
     pub fn configurations(&self) -> Result<&Configurations, RobotError> {
-        let read = || {
-            let part = self.moving_part(&[ModuleKind::Bounds])?;
-            Ok(Arc::new(Configurations::new(&part)?))
-        };
-        match self.configurations.get_or_init(read) {
-            Ok(configurations) => Ok(configurations),
-            Err(error) => Err(error.clone()),
-        }
+        keep(&self.configurations, || {
+            Configurations::new(&self.moving_part(&[ModuleKind::Bounds])?)
+        })
+    }
+}
+
+/// Why files could not be read: they changed, or what `other` makes of the error.
+pub(super) fn of_read(
+    root: &Root,
+    error: ReadError,
+    other: impl FnOnce(ReadError) -> RobotError,
+) -> RobotError {
+    match error {
+        ReadError::Changed => RobotError::Changed(root.folder_name()),
+        error => other(error),
     }
 }
 

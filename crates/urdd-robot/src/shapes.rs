@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Translation3};
 use super::Robot;
 use super::error::RobotError;
 use super::mesh::Meshes;
+use urdd_document::kept::keep;
 use urdd_document::shapes::{Volume, approximations};
 use urdd_format::registry::ModuleKind;
 pub use urdd_format::shape_kind::ShapeKind;
@@ -44,11 +45,15 @@ pub enum Solid {
 }
 
 impl Robot {
-    /// The shapes of one kind, by link and piece. Links without geometry have none. Every call reads the mesh files.
+    /// The shapes of one kind, by link and piece. Links without geometry have none.
     ///
     /// # Errors
     /// If their module is missing or unusable, or a mesh cannot be read.
     pub fn shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
+        keep(&self.shapes[kind as usize], || self.read_shapes(kind)).cloned()
+    }
+
+    fn read_shapes(&self, kind: ShapeKind) -> Result<Vec<LinkShape>, RobotError> {
         let part = self.part(&[kind.module()])?;
         if matches!(kind, ShapeKind::Hulls | ShapeKind::Pieces) {
             let meshes = Meshes::new(&part, kind.module())?.all()?.into_iter();

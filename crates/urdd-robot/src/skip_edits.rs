@@ -68,8 +68,7 @@ impl Robot {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let module = skips_module(simple, reasons, edits, &names);
         let files = self.edited_files(SKIPS, serde_json::to_value(&module))?;
-        let model = ModuleKind::SelfCollisionModel;
-        let model_is_stale = self.part_as_it_is(&[model])?.module(model).is_some();
+        let model_is_stale = part.listing().has_folder(ModuleKind::SelfCollisionModel.folder());
         Ok(EditedSkips { module, files, model_is_stale })
     }
 }

@@ -3,8 +3,11 @@
 use super::Robot;
 use super::error::RobotError;
 use super::shapes::ShapeKind;
-use urdd_document::shape_matrices::{Statistics, at, statistics};
+use urdd_document::shape_matrices::{at, statistics};
+use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
+
+const MODULE: ModuleKind = ModuleKind::LinkShapesDistanceStatistics;
 
 /// Distance statistics of a pair of shapes over the sampled configurations, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,35 +21,26 @@ pub struct PairStatistics {
 }
 
 /// The statistics of all pairs of shapes of one kind.
-#[derive(Debug, Clone)]
 pub(super) struct AllStatistics {
-    mean: Vec<Vec<f64>>,
-    min: Vec<Vec<f64>>,
-    max: Vec<Vec<f64>>,
+    part: Urdd,
+    kind: ShapeKind,
 }
 
 impl AllStatistics {
-    fn of(one: Statistics<'_>) -> Self {
-        Self { mean: one.mean.to_vec(), min: one.min.to_vec(), max: one.max.to_vec() }
-    }
-
     pub fn pair(&self, i: usize, j: usize) -> Option<PairStatistics> {
+        let one = statistics(self.part.document(MODULE)?)?[self.kind as usize]?;
         Some(PairStatistics {
-            mean: at(&self.mean, i, j)?,
-            min: at(&self.min, i, j)?,
-            max: at(&self.max, i, j)?,
+            mean: at(one.mean, i, j)?,
+            min: at(one.min, i, j)?,
+            max: at(one.max, i, j)?,
         })
     }
 }
 
 impl Robot {
-    /// The statistics of a kind of shapes; `None` if the module is missing or has none for this kind.
-    pub(super) fn statistics(&self, kind: ShapeKind) -> Result<Option<AllStatistics>, RobotError> {
-        let module = ModuleKind::LinkShapesDistanceStatistics;
-        let part = self.part_as_it_is(&[module])?;
-        let six = part.document(module).and_then(statistics);
-        let one = six.and_then(|six| six[kind as usize]);
-        Ok(one.map(AllStatistics::of))
+    /// The statistics of a kind of shapes; without a pair if the module is missing or has none for this kind.
+    pub(super) fn statistics(&self, kind: ShapeKind) -> Result<AllStatistics, RobotError> {
+        Ok(AllStatistics { part: self.part_as_it_is(&[MODULE])?, kind })
     }
 
     /// Number of configurations that the statistics cover; `None` if the URDD does not record it.
@@ -54,9 +48,8 @@ impl Robot {
     /// # Errors
     /// If the files of the URDD cannot be listed.
     pub fn num_samples(&self) -> Result<Option<u32>, RobotError> {
-        let module = ModuleKind::LinkShapesDistanceStatistics;
-        let part = self.part_as_it_is(&[module])?;
-        let six = part.document(module).and_then(statistics);
+        let part = self.part_as_it_is(&[MODULE])?;
+        let six = part.document(MODULE).and_then(statistics);
         Ok(six.and_then(|six| six.into_iter().flatten().find_map(|one| one.num_samples)))
     }
 
@@ -70,6 +63,6 @@ impl Robot {
         i: usize,
         j: usize,
     ) -> Result<Option<PairStatistics>, RobotError> {
-        Ok(self.statistics(kind)?.and_then(|all| all.pair(i, j)))
+        Ok(self.statistics(kind)?.pair(i, j))
     }
 }

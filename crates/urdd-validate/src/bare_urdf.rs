@@ -12,7 +12,7 @@ use super::report;
 use super::rule::{Judges, Need, Rule};
 use super::skip::SkipReason;
 use urdd_directory::discover::Found;
-use urdd_directory::root::{Listing, ReadError, Root};
+use urdd_directory::root::{ReadError, Root};
 use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::load::Loaded;
 use urdd_document::module::{JsonFile, MetadataFile};
@@ -120,8 +120,12 @@ fn is_for_urdf(rule: &Rule) -> bool {
 fn alone(root: Root, urdf: CarriedUrdf) -> Urdd {
     Urdd::new(Arc::new(Loaded {
         root,
-        listing: Listing::default(),
-        metadata: MetadataFile { json: JsonFile::Missing, metadata: None, violations: Vec::new() },
+        listing: Arc::default(),
+        metadata: Arc::new(MetadataFile {
+            json: JsonFile::Missing,
+            metadata: None,
+            violations: Vec::new(),
+        }),
         modules: Vec::new(),
         urdf: Ok(urdf),
         profile: Profile::V1,

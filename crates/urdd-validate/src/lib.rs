@@ -246,7 +246,7 @@ pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Ru
     let context =
         Context::new(urdd, settings.class).deep(settings.deep).until(&settings.cancellation);
     let checks = two_robots::run(&context, rules);
-    let modules = context.modules().iter().map(|module| Module {
+    let modules = context.modules().map(|module| Module {
         name: module.name().to_owned(),
         path: module.folder.clone(),
         version: module.version.clone(),

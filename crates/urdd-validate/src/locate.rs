@@ -72,7 +72,7 @@ fn json_text<'a>(context: &'a Context, file: &str) -> Option<(&'a str, Option<Mo
         return Some((context.metadata_file().json.text()?, None));
     }
     let folder = file.strip_suffix("/module.json")?;
-    let mut modules = context.modules().iter();
+    let mut modules = context.modules();
     let module = modules.find(|module| module.folder == folder)?;
     Some((module.json.text()?, module.kind))
 }

@@ -13,6 +13,7 @@ use urdd_directory::discover::{DiscoverError, ROOT_METADATA, discover};
 use urdd_directory::replacement::Files;
 use urdd_directory::root::{ReadError, Root};
 use urdd_generate::Settings;
+use urdd_robot::Robot;
 
 /// A displayed robot.
 #[derive(Debug)]
@@ -108,6 +109,17 @@ pub struct Opened {
     pub all: Root,
     /// The URDD's own files (see [`carried`]): for everything else.
     pub own: Root,
+    /// The robot.
+    pub robot: Arc<Robot>,
+}
+
+impl Opened {
+    /// The files of a robot, as they are now.
+    fn of(root: &Root) -> Result<Self, ReadError> {
+        let all = root.kept();
+        let own = carried(&all)?;
+        Ok(Opened { robot: Arc::new(Robot::of(own.clone())), own, all })
+    }
 }
 
 impl Shown {
@@ -127,9 +139,7 @@ impl Shown {
         }
         // Drops the old archive first: only one is in memory.
         *opened = None;
-        let all = Root::open(&path)?;
-        let own = carried(&all)?;
-        let found = Opened { all, own };
+        let found = Opened::of(&Root::open(&path)?)?;
         *opened = Some((revision.clone(), found.clone()));
         Ok((revision, found))
     }
@@ -265,6 +275,18 @@ impl Collection {
             self.put(found.name, None, path, kind);
         }
         Ok(())
+    }
+
+    /// Adds the URDD at a root: the page shows these files, whatever happens at its path.
+    ///
+    /// # Errors
+    /// If they cannot be listed.
+    pub fn add_root(&self, root: &Root) -> Result<Arc<Shown>, ReadError> {
+        let opened = Opened::of(root)?;
+        let shown = self.put(root.folder_name(), None, PathBuf::new(), Kind::ReadOnly);
+        let opened = Some((revision::GONE.to_owned(), opened));
+        *shown.opened.lock().unwrap_or_else(PoisonError::into_inner) = opened;
+        Ok(shown)
     }
 
     /// Adds a robot to be generated from a URDF when somebody opens it.

@@ -8,6 +8,7 @@ use std::time::UNIX_EPOCH;
 use sha2::{Digest, Sha256};
 
 use urdd_directory::limits::MAX_FILES;
+use urdd_directory::source::Stamp;
 use urdd_format::hexadecimal::hexadecimal;
 
 /// The fingerprint of a robot whose files no longer exist.
@@ -16,7 +17,7 @@ pub const GONE: &str = "gone";
 /// A fingerprint that changes when a file below `path`, or the file at `path`, changes. Does not follow symbolic links.
 /// A new hard link to a file is a change too.
 pub fn of(path: &Path) -> String {
-    word(path, &changed)
+    word(path, &|metadata| format!("{:?}", Stamp::of(metadata)))
 }
 
 /// As [`of`], but from names, sizes and times only: a new hard link is not a change.
@@ -67,18 +68,6 @@ fn word(path: &Path, changed: &dyn Fn(&Metadata) -> String) -> String {
         hash.update(format!("{size} {time} {changed} {name}\n"));
     }
     hexadecimal(&hash.finalize())
-}
-
-#[cfg(unix)]
-fn changed(metadata: &Metadata) -> String {
-    use std::os::unix::fs::MetadataExt;
-    let (second, nanosecond) = (metadata.ctime(), metadata.ctime_nsec());
-    format!("{} {second} {nanosecond}", metadata.ino())
-}
-
-#[cfg(not(unix))]
-fn changed(_: &Metadata) -> String {
-    String::new()
 }
 
 #[cfg(test)]

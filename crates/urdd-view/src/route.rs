@@ -11,7 +11,6 @@ use crate::reply::{Body, Reply};
 use crate::report::report_of;
 use crate::revision;
 use urdd_directory::root::{EntryKind, ReadError, Root};
-use urdd_robot::Robot;
 
 /// Maximum size of a file that is sent, in bytes.
 const MAX_FILE_BYTES: u64 = 1 << 30;
@@ -172,6 +171,7 @@ fn failure(error: &ReadError) -> Reply {
     let status = match error {
         ReadError::Missing | ReadError::NotAFile | ReadError::NotAUrdd => 404,
         ReadError::LeavesRoot | ReadError::Path(_) => 403,
+        ReadError::Changed => 409,
         _ => 500,
     };
     Reply::failure(status, format!("{error}\n"))
@@ -248,7 +248,7 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
         return picture.clone();
     }
     // A robot that cannot be drawn has no picture. The page shows the reason.
-    let drawn = picture::png(&Robot::of(opened.own)).ok().flatten();
+    let drawn = picture::png(&opened.robot).ok().flatten();
     *known = Some((revision, drawn.clone()));
     drawn
 }

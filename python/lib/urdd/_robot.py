@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 def load(path: str | os.PathLike[str], *, validate: bool = False) -> Robot:
     """Opens the robot in a folder or a zip archive.
 
-    Modules and meshes are read on demand. **The URDD is not validated**: one with errors still works as far as its
-    modules can be read. ``validate=True`` validates it first, as :func:`urdd.validate` does, which takes from tenths of
-    a second to seconds.
+    Modules and meshes are read on demand, as they were when this was called. **The URDD is not validated**: one with
+    errors still works as far as its modules can be read. ``validate=True`` validates it first, as :func:`urdd.validate`
+    does, which takes from tenths of a second to seconds.
 
     Raises:
         OpenError: if there is no URDD.
@@ -66,6 +66,9 @@ class Robot(RobotKinematics):
     Threads can share a robot, and work in parallel: arrays are copied before the GIL is released. Ctrl-C stops long
     work. If there is not enough memory for a result, methods raise ``MemoryError``: ask for fewer configurations at
     once. A robot is pickled as its path.
+
+    A robot never changes: it is the one that was there when it was loaded. Each module is read when it is first needed,
+    and kept. If the files changed on disk before, methods raise :class:`urdd.ModuleUnusableError`: load it again.
     """
 
     # Collisions.
@@ -125,7 +128,7 @@ class Robot(RobotKinematics):
     # Shapes.
 
     def shapes(self, kind: ShapeKind = "pieces") -> list[ConvexMesh] | list[Box] | Spheres:
-        """The shapes of a kind, by link and piece, in the frames of their links. Reads meshes from their files."""
+        """The shapes of a kind, by link and piece, in the frames of their links."""
         return shapes(self, kind)
 
     def hulls(self) -> list[ConvexMesh]:

@@ -130,11 +130,31 @@ def show(
 
 
 def _open(address: str) -> None:
-    import webbrowser
+    """Opens a browser at a page that leads to the address, which has a token.
 
-    webbrowser.open(address)
+    Everybody on the machine can read the arguments of programs. The page is in a folder that only this user can enter,
+    until Python ends.
+    """
+    import atexit
+    import html
+    import shutil
+    import tempfile
+    import webbrowser
+    from pathlib import Path
+
+    folder = Path(tempfile.mkdtemp(prefix="urdd-open-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    link = html.escape(address)
+    page = folder / "open.html"
+    page.touch(mode=0o600)
+    page.write_text(
+        f'<!doctype html>\n<meta charset="utf-8">\n<title>urdd</title>\n'
+        f'<meta http-equiv="refresh" content="0; url={link}">\n<a href="{link}">The robot</a>\n',
+        encoding="utf-8",
+    )
+    webbrowser.open(page.as_uri())
 
 
 def frame(robot: RobotKinematics, height: int) -> Frame:
     """As :meth:`urdd.Robot.frame`."""
-    return Frame(_urdd.page_html(robot.path), height)
+    return Frame(_urdd.page_html(robot.core), height)

@@ -2,6 +2,7 @@
 
 mod cancelled;
 mod carrying;
+mod changing;
 mod command;
 mod inverse;
 mod motion;

@@ -85,6 +85,25 @@ fn only_what_is_asked_for_is_read() {
     robot.shapes(ShapeKind::Hulls).unwrap();
     assert!(!modules(".stl").is_empty());
     assert!(modules(".glb").is_empty() && modules(".obj").is_empty());
+    // What was asked once is never read again, whatever it is asked for.
+    let all = |robot: &Robot| {
+        let q = [0.0; 6];
+        robot.centre_of_mass(&q).unwrap();
+        (robot.velocity_limits().unwrap(), robot.link_masses().unwrap());
+        (robot.description().unwrap(), robot.source().unwrap(), robot.num_samples().unwrap());
+        (robot.configurations().unwrap(), robot.named_configurations().unwrap());
+        for kind in ShapeKind::ALL {
+            robot.pair_statistics(kind, 0, 1).unwrap();
+            robot.proximity(kind).unwrap().in_collision(&q).unwrap();
+        }
+    };
+    all(&robot);
+    let before = modules("").len();
+    all(&robot);
+    assert_eq!(modules("").len(), before);
+    let json = modules("module.json");
+    let once: std::collections::BTreeSet<&String> = json.iter().collect();
+    assert_eq!(json.len(), once.len(), "{json:?}");
 }
 
 #[test]
@@ -121,16 +140,15 @@ fn what_is_missing_is_said_when_it_is_needed() {
 #[test]
 fn a_mesh_that_cannot_be_read_is_named() {
     let (_folder, path) = made(&our_robots()[8].1);
-    let robot = Robot::open(&path).unwrap();
     let file = files(&path)
         .into_keys()
         .find(|file| file.contains("convex_hull") && file.ends_with(".stl"))
         .unwrap();
     std::fs::write(path.join(&file), "solid").unwrap();
-    let error = robot.proximity(ShapeKind::Hulls).unwrap_err();
+    let error = Robot::open(&path).unwrap().proximity(ShapeKind::Hulls).unwrap_err();
     assert!(matches!(&error, RobotError::Mesh { path, .. } if *path == file), "{error}");
     std::fs::remove_file(path.join(&file)).unwrap();
-    let error = robot.shapes(ShapeKind::Hulls).unwrap_err().to_string();
+    let error = Robot::open(&path).unwrap().shapes(ShapeKind::Hulls).unwrap_err().to_string();
     assert_eq!(error, format!("{file}: there is no such file"));
 }
 

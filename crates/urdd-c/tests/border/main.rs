@@ -6,6 +6,7 @@
 mod allocations;
 mod alone;
 mod calls;
+mod changing;
 mod fuzz_findings;
 mod interface;
 mod inverse;

@@ -1,10 +1,11 @@
 //! A URDD in a folder on disk.
 
 use std::ffi::OsStr;
-use std::fs;
+use std::fs::{self, DirEntry};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::snapshot::{Seen, Snapshot, Stamp};
 use super::{OpenFile, Source};
 use crate::layout::ROOT_METADATA;
 use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
@@ -23,7 +24,7 @@ pub fn is_urdd(folder: &Path) -> bool {
 #[derive(Debug, Clone)]
 pub struct Disk {
     path: PathBuf,
-    canonical: PathBuf,
+    pub(super) canonical: PathBuf,
 }
 
 impl Disk {
@@ -39,31 +40,91 @@ impl Disk {
         Ok(Disk { path: path.to_owned(), canonical })
     }
 
-    fn kind_of(&self, path: &Path) -> (EntryKind, u64) {
-        let Ok(metadata) = fs::symlink_metadata(path) else {
-            return (EntryKind::Other, 0);
+    /// The URDD in a folder beside this one.
+    pub(super) fn beside(&self, folder_name: &str) -> Option<Disk> {
+        let parent = self.canonical.parent()?;
+        let sibling = Disk::open(&parent.join(folder_name)).ok()?;
+        let is_beside = sibling.canonical.parent() == Some(parent);
+        (is_beside && is_urdd(&sibling.canonical)).then_some(sibling)
+    }
+
+    /// Lists everything below the root, and what tells whether it changes.
+    ///
+    /// # Errors
+    /// If the root itself cannot be listed.
+    pub(super) fn walk(&self) -> Result<(Listing, Vec<Seen>), ReadError> {
+        let mut listing = Listing::default();
+        let mut found = Vec::new();
+        fs::read_dir(&self.canonical).map_err(|error| ReadError::from_io(&error))?;
+        let mut folders = vec![(self.canonical.clone(), String::new(), 0)];
+        while let Some((folder, prefix, depth)) = folders.pop() {
+            let entries = match fs::read_dir(&folder) {
+                Ok(entries) => entries,
+                Err(error) => {
+                    listing.unreadable.push((prefix, ReadError::from_io(&error)));
+                    continue;
+                }
+            };
+            for entry in entries.flatten() {
+                if found.len() >= MAX_FILES {
+                    listing.cut = true;
+                    break;
+                }
+                let name = entry.file_name();
+                let shown = name.to_string_lossy();
+                let path = if prefix.is_empty() {
+                    shown.into_owned()
+                } else {
+                    format!("{prefix}/{shown}")
+                };
+                let (kind, size, seen) = self.kind_of(&entry);
+                if kind == EntryKind::Folder {
+                    if depth + 1 < MAX_FOLDER_DEPTH {
+                        folders.push((entry.path(), path.clone(), depth + 1));
+                    } else {
+                        listing.cut = true;
+                    }
+                }
+                found.push((Entry { path, kind, size, utf8: name.to_str().is_some() }, seen));
+            }
+        }
+        found.sort_by(|a, b| a.0.path.cmp(&b.0.path));
+        listing.unreadable.sort_by(|a, b| a.0.cmp(&b.0));
+        let seen;
+        (listing.entries, seen) = found.into_iter().unzip();
+        Ok((listing, seen))
+    }
+
+    fn kind_of(&self, entry: &DirEntry) -> (EntryKind, u64, Seen) {
+        let Ok(metadata) = entry.metadata() else {
+            return (EntryKind::Other, 0, Seen::Other);
         };
-        if metadata.is_dir() {
-            return (EntryKind::Folder, 0);
+        let itself = Seen::Itself(Stamp::of(&metadata));
+        match metadata.file_type() {
+            kind if kind.is_dir() => return (EntryKind::Folder, 0, itself),
+            kind if kind.is_file() => return (EntryKind::File, metadata.len(), itself),
+            kind if kind.is_symlink() => {}
+            _ => return (EntryKind::Other, 0, Seen::Other),
         }
-        if metadata.is_file() {
-            return (EntryKind::File, metadata.len());
-        }
-        if !metadata.file_type().is_symlink() {
-            return (EntryKind::Other, 0);
-        }
-        match fs::canonicalize(path) {
-            Ok(target) if !target.starts_with(&self.canonical) => (EntryKind::LinkOut, 0),
-            Ok(target) => match fs::metadata(target) {
-                Ok(metadata) if metadata.is_file() => (EntryKind::File, metadata.len()),
-                _ => (EntryKind::Link, 0),
+        let path = entry.path();
+        match fs::canonicalize(&path) {
+            Ok(target) => match target.strip_prefix(&self.canonical) {
+                Err(_) => (EntryKind::LinkOut, 0, Seen::Other),
+                Ok(inside) => {
+                    let parts = inside.iter().map(|part| part.to_string_lossy());
+                    let leads = Seen::Leads(parts.collect::<Vec<_>>().join("/"));
+                    match fs::metadata(&target) {
+                        Ok(of) if of.is_file() => (EntryKind::File, of.len(), leads),
+                        _ => (EntryKind::Link, 0, leads),
+                    }
+                }
             },
             // Classify a broken link by its target, as far as possible.
             Err(_) => match fs::read_link(path) {
                 Ok(target) if target.is_absolute() && !target.starts_with(&self.canonical) => {
-                    (EntryKind::LinkOut, 0)
+                    (EntryKind::LinkOut, 0, Seen::Other)
                 }
-                _ => (EntryKind::Link, 0),
+                _ => (EntryKind::Link, 0, Seen::Other),
             },
         }
     }
@@ -76,43 +137,7 @@ impl Source for Disk {
     }
 
     fn list(&self) -> Result<Listing, ReadError> {
-        let mut listing = Listing::default();
-        fs::read_dir(&self.canonical).map_err(|error| ReadError::from_io(&error))?;
-        let mut folders = vec![(self.canonical.clone(), String::new(), 0)];
-        while let Some((folder, prefix, depth)) = folders.pop() {
-            let entries = match fs::read_dir(&folder) {
-                Ok(entries) => entries,
-                Err(error) => {
-                    listing.unreadable.push((prefix, ReadError::from_io(&error)));
-                    continue;
-                }
-            };
-            for entry in entries.flatten() {
-                if listing.entries.len() >= MAX_FILES {
-                    listing.cut = true;
-                    break;
-                }
-                let name = entry.file_name();
-                let shown = name.to_string_lossy();
-                let path = if prefix.is_empty() {
-                    shown.into_owned()
-                } else {
-                    format!("{prefix}/{shown}")
-                };
-                let (kind, size) = self.kind_of(&entry.path());
-                if kind == EntryKind::Folder {
-                    if depth + 1 < MAX_FOLDER_DEPTH {
-                        folders.push((entry.path(), path.clone(), depth + 1));
-                    } else {
-                        listing.cut = true;
-                    }
-                }
-                listing.entries.push(Entry { path, kind, size, utf8: name.to_str().is_some() });
-            }
-        }
-        listing.entries.sort_by(|a, b| a.path.cmp(&b.path));
-        listing.unreadable.sort_by(|a, b| a.0.cmp(&b.0));
-        Ok(listing)
+        Ok(self.walk()?.0)
     }
 
     fn open(&self, relative: &str) -> Result<(OpenFile, u64), ReadError> {
@@ -128,10 +153,11 @@ impl Source for Disk {
     }
 
     fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
-        let parent = self.canonical.parent()?;
-        let sibling = Disk::open(&parent.join(folder_name)).ok()?;
-        let is_beside = sibling.canonical.parent() == Some(parent);
-        (is_beside && is_urdd(&sibling.canonical)).then(|| Arc::new(sibling) as _)
+        Some(Arc::new(self.beside(folder_name)?))
+    }
+
+    fn kept(&self) -> Option<Arc<dyn Source>> {
+        Some(Arc::new(Snapshot::of(self.clone())))
     }
 
     fn folder(&self) -> Option<&Path> {

@@ -3,6 +3,7 @@
 mod archive;
 mod disk;
 mod memory;
+mod snapshot;
 #[doc(hidden)]
 pub mod tree;
 mod zip_list;
@@ -18,6 +19,7 @@ use super::read_error::ReadError;
 pub use archive::{Archive, is_archive};
 pub use disk::{Disk, is_urdd};
 pub use memory::Memory;
+pub use snapshot::Stamp;
 
 /// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;
@@ -42,6 +44,11 @@ pub trait Source: fmt::Debug + Send + Sync {
 
     /// The URDD with this folder name in the same parent folder, if the source supports it.
     fn sibling(&self, _folder_name: &str) -> Option<Arc<dyn Source>> {
+        None
+    }
+
+    /// The files as they are now: a later read of one that changed is [`ReadError::Changed`]. `None` if they never change.
+    fn kept(&self) -> Option<Arc<dyn Source>> {
         None
     }
 

@@ -35,7 +35,6 @@ use super::motion::Motion;
 use super::names::index;
 use super::shapes::ShapeKind;
 use super::skips::Skips;
-use super::statistics::AllStatistics;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
@@ -174,8 +173,8 @@ impl Robot {
                 if a.link == b.link || !wanted([a, b], both) {
                     continue;
                 }
-                let recorded = |all: &AllStatistics| both.and_then(|(i, j)| all.pair(i, j));
-                let mean = statistics.as_ref().and_then(recorded).map(|pair| pair.mean);
+                let recorded = both.and_then(|(i, j)| statistics.pair(i, j));
+                let mean = recorded.map(|pair| pair.mean);
                 pairs.push(Pair { shapes: [i, j], mean: mean.filter(|mean| *mean > 0.0) });
             }
         }

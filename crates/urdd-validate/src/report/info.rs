@@ -166,7 +166,6 @@ impl Info {
             collision_model: model,
             modules: urdd
                 .modules()
-                .iter()
                 .map(|module| {
                     let entries = || urdd.listing().below(&module.folder);
                     let is_file = |path: &str| urdd.listing().has_file(path);

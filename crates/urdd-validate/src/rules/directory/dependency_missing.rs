@@ -15,7 +15,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let entries = listed_modules(context)?;
-    let mut names: HashSet<&str> = context.modules().iter().map(|module| module.name()).collect();
+    let mut names: HashSet<&str> = context.modules().map(|module| module.name()).collect();
     for entry in &entries {
         names.insert(&entry.entry.name);
         names.extend(entry.kind.map(ModuleKind::name));

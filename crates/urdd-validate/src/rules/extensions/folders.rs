@@ -10,7 +10,7 @@ pub(super) const MAX_PLACES: usize = 1000;
 
 /// The folders of extensions.
 pub(super) fn extensions(context: &Context) -> impl Iterator<Item = &Module> {
-    let modules = context.modules().iter();
+    let modules = context.modules();
     modules.filter(|module| module.kind.is_none() && is_extension(&module.folder))
 }
 
