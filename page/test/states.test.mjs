@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { drawn, inPage, setting, soon, state, view } from "./world.mjs";
+import { drawn, inPage, setting, state, view } from "./world.mjs";
 
 const set = setting(["gripper"], ({ robots }) => view(join(robots, "gripper"), "--follow"));
 
@@ -48,7 +48,7 @@ inPage(set, "the page shows each configuration that a program sends, 60 a second
 
 inPage(
   set,
-  "a window that is opened later begins with the last one; other numbers of values are said",
+  "a window that is opened later begins with the last one; other numbers of values are refused",
   async (page) => {
     await drawn(page, "gripper");
     await state(page, "q", (q) => q.every((value) => value === 0.012));
@@ -59,11 +59,8 @@ inPage(
       headers: { "x-urdd-token": token, "content-type": "application/json" },
       body: JSON.stringify({ q: [1, 2, 3, 4, 5, 6, 7, 8, 9] }),
     });
-    assert.equal(sent.status, 204);
-    await soon(
-      async () => assert.match((await state(page, "note")) ?? "", /A program sends 9 values; this robot has/),
-      20,
-    );
+    assert.equal(sent.status, 400);
+    assert.match(await sent.text(), /^expected one value for each DOF, so \d+; found 9\n$/);
     assert.deepEqual(
       await shown(page),
       (await shown(page)).map(() => 0.012),

@@ -60,6 +60,8 @@ def answer(robot: urdd.Robot, question: str) -> str:
         return repr(QUESTIONS[question](robot))
 
 
+# Asked of one robot after the change.
+SLOW = {"frame", "mjcf", "drake"}
 CHANGED = "it changed on disk since it was opened: open it again"
 
 
@@ -92,7 +94,7 @@ def test_an_open_robot_is_the_one_that_was_there(urdds: Path, tmp_path: Path, ho
         other.rename(path)
     refused = 0
     for before, robot in robots.items():
-        for question in QUESTIONS:
+        for question in QUESTIONS.keys() - SLOW | {before}:
             found = answered(robot, question)
             refused += found == CHANGED
             assert found in (CHANGED, first[question]), (before, question)

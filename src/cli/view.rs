@@ -161,7 +161,7 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         }
         let _ = std::io::stdout().flush();
         if !arguments.no_open
-            && let Err(error) = open::that_detached(&address)
+            && let Err(error) = temporary.page_to(&address).and_then(open::that_detached)
         {
             output::error(&format!(
                 "no browser could be opened ({error}); open the address above yourself"

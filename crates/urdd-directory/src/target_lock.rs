@@ -52,6 +52,11 @@ impl TargetLock {
         }
     }
 
+    /// Whether there is a lock file for `target`: of a run that is active, or that was killed.
+    pub fn is_left(target: &Path) -> bool {
+        beside(target, ".lock").is_file()
+    }
+
     /// Acquires exclusive access to `target` without waiting; `None` while another run has it.
     ///
     /// # Errors

@@ -1,12 +1,14 @@
-//! The open connections. Connections without the token give way to newer ones, so that idle connections of other
-//! programs cannot lock out the page.
+//! The open connections. The oldest give way to newer ones: those without the token, so that idle connections of other
+//! programs cannot lock out the page; and those with it only to others with it.
 
 use std::io;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Maximum number of simultaneous connections.
+/// Maximum number of simultaneous connections, and of those that have sent the token. The difference is left for new
+/// ones.
 const MAX_CONNECTIONS: usize = 32;
+const MAX_KNOWN: usize = 24;
 
 /// All connections, oldest first.
 #[derive(Debug, Default)]
@@ -27,14 +29,18 @@ struct Open {
 }
 
 impl Connections {
-    /// Whether another connection can be accepted: a slot is free, or a connection without the token holds one.
-    pub fn has_room(&self) -> bool {
-        let state = self.state();
-        state.open.len() < MAX_CONNECTIONS || state.open.iter().any(|open| !open.is_known)
-    }
-
     fn state(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    /// Closes the oldest connection that has, or has not, sent the token.
+    fn close_oldest(&mut self, is_known: bool) {
+        if let Some(oldest) = self.open.iter().position(|open| open.is_known == is_known) {
+            let gone = self.open.remove(oldest);
+            let _ = gone.stream.shutdown(Shutdown::Both);
+        }
     }
 }
 
@@ -53,11 +59,8 @@ impl Connection {
     pub fn begin(stream: &TcpStream, all: &Arc<Connections>) -> io::Result<Self> {
         let stream = stream.try_clone()?;
         let mut state = all.state();
-        if state.open.len() >= MAX_CONNECTIONS
-            && let Some(oldest) = state.open.iter().position(|open| !open.is_known)
-        {
-            let gone = state.open.remove(oldest);
-            let _ = gone.stream.shutdown(Shutdown::Both);
+        if state.open.len() >= MAX_CONNECTIONS {
+            state.close_oldest(false);
         }
         let number = state.next;
         state.next += 1;
@@ -66,9 +69,12 @@ impl Connection {
         Ok(Connection { number, all })
     }
 
-    /// Marks the connection as having sent the token, so that it keeps its slot.
+    /// Marks the connection as having sent the token. If too many have, closes the oldest of them.
     pub fn keep(&self) {
         let mut state = self.all.state();
+        if state.open.iter().filter(|open| open.is_known).count() >= MAX_KNOWN {
+            state.close_oldest(true);
+        }
         let mut open = state.open.iter_mut();
         if let Some(own) = open.find(|open| open.number == self.number) {
             own.is_known = true;

@@ -16,6 +16,7 @@ use crate::keep;
 use crate::reply::Reply;
 use crate::route::{Route, answer};
 use crate::save;
+use crate::states;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
@@ -95,11 +96,7 @@ impl Server {
         let answers = Arc::new(answers);
         let connections = Arc::new(Connections::default());
         while !cancellation.is_cancelled() {
-            let accepted = match connections.has_room() {
-                true => listener.accept().ok(),
-                false => None,
-            };
-            let Some((stream, _)) = accepted else {
+            let Ok((stream, _)) = listener.accept() else {
                 thread::sleep(PAUSE);
                 continue;
             };
@@ -159,7 +156,7 @@ impl Answers {
             ("POST", Route::Configurations(id)) => {
                 with(id, &|robot| save::configuration(robot, body))
             }
-            ("POST", Route::States(id)) => with(id, &|robot| robot.states.take(body)),
+            ("POST", Route::States(id)) => with(id, &|robot| states::take(robot, body)),
             ("POST", Route::Drops) => drops::take(&self.collection, body, is_gone),
             ("POST", Route::Keep(id)) => with(id, &|robot| keep::keep(robot, body)),
             _ => Reply::failure(405, "this cannot be done here\n"),

@@ -2,7 +2,7 @@
 //! obtains a folder's lock knows that no other process uses it.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use urdd_directory::cancellation::Cancellation;
@@ -43,6 +43,25 @@ impl Temporary {
         Ok(Temporary { path, _lock: lock })
     }
 
+    /// Writes a page that only this user can read, and that leads to an address. A browser is given its path: everybody
+    /// on the machine can read the arguments of programs, and the address has a token.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn page_to(&self, address: &str) -> io::Result<PathBuf> {
+        let path = self.path.join("open.html");
+        let mut options = fs::OpenOptions::new();
+        options.write(true).create_new(true);
+        #[cfg(unix)]
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+        let text = format!(
+            "<!doctype html>\n<meta charset=\"utf-8\">\n<title>urdd view</title>\n\
+             <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<a href=\"{address}\">The robot</a>\n"
+        );
+        options.open(&path)?.write_all(text.as_bytes())?;
+        Ok(path)
+    }
+
     /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
@@ -55,15 +74,18 @@ impl Drop for Temporary {
     }
 }
 
-/// Removes the folders of programs that have ended. Those of other users remain: they cannot be locked or removed.
+/// Removes the folders of programs that have ended: those with a name that [`Temporary::begin`] gives, and with the lock
+/// file that a killed program leaves. Those of other users remain: they cannot be locked or removed.
 fn take_away(place: &Path) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
-        let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
-        if is_folder
-            && entry.file_name().to_string_lossy().starts_with(PREFIX)
-            && let Ok(Some(_lock)) = TargetLock::at_once(&entry.path())
-        {
-            let _ = fs::remove_dir_all(entry.path());
+        let (path, name) = (entry.path(), entry.file_name());
+        let number = name.to_str().and_then(|name| name.strip_prefix(PREFIX)).unwrap_or_default();
+        let is_ours = number.len() == 16
+            && number.bytes().all(|digit| matches!(digit, b'0'..=b'9' | b'a'..=b'f'))
+            && entry.file_type().is_ok_and(|kind| kind.is_dir())
+            && TargetLock::is_left(&path);
+        if is_ours && let Ok(Some(_lock)) = TargetLock::at_once(&path) {
+            let _ = fs::remove_dir_all(path);
         }
     }
 }
@@ -81,10 +103,21 @@ mod tests {
         let left = place.path().join(format!("{PREFIX}0123456789abcdef"));
         fs::create_dir(&left).expect("a folder");
         fs::write(left.join("x"), "1").expect("written");
+        let lock = TargetLock::at_once(&left).expect("a lock").expect("a lock");
+        let file =
+            fs::read_dir(place.path()).expect("a folder").flatten().map(|entry| entry.path());
+        let file = file.filter(|file| file.extension().is_some_and(|ending| ending == "lock"));
+        let files: Vec<PathBuf> = file.collect();
+        drop(lock);
+        files.iter().for_each(|file| fs::write(file, "").expect("written"));
+        // Not ours: another name, or no lock file.
+        let others = ["results", "0123456789abcdeg", "fedcba9876543210", "0123456789ABCDEF"];
+        let others = others.map(|name| place.path().join(format!("{PREFIX}{name}")));
+        others.iter().for_each(|other| fs::create_dir(other).expect("a folder"));
         let mine = place.path().join("urdd-mine");
         fs::create_dir(&mine).expect("a folder");
         let second = Temporary::begin(place.path()).expect("a folder");
-        assert!(!left.exists());
+        assert!(!left.exists() && others.iter().all(|other| other.exists()));
         drop(second);
         assert!(living.path().join("x").exists() && mine.exists());
         let path = living.path().to_owned();

@@ -138,7 +138,10 @@ async function show(chosen?: unknown): Promise<void> {
   if (command === null) return;
   const variables = withPackages(settings(), process.env);
   try {
-    await env.openExternal(Uri.parse(await viewers.address(command, robot, variables), true));
+    const address = await viewers.address(command, robot, variables);
+    // On another machine, VS Code forwards the port, and needs the address itself.
+    const isHere = env.remoteName === undefined;
+    await env.openExternal(isHere ? Uri.file(viewers.page(address)) : Uri.parse(address, true));
   } catch (error) {
     void window.showErrorMessage(error instanceof Error ? error.message : String(error));
   }

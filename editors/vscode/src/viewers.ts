@@ -1,7 +1,9 @@
 // Processes of `urdd view`, one for each robot that is shown. Nothing here needs VS Code.
 
 import { spawn, type ChildProcess } from "node:child_process";
-import { basename, dirname } from "node:path";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, dirname, join } from "node:path";
 
 /** What `urdd view` shows for a file of the editor: the file, or the URDD that it is the root of. */
 export function target(file: string): string | null {
@@ -19,12 +21,32 @@ export function address(printed: string): string | null {
   return /(?:^|\s)(http:\/\/127\.0\.0\.1:\d{1,5}\/\S*)\r?\n/.exec(printed)?.[1] ?? null;
 }
 
+/**
+ * A page that leads to an address, in a folder that only this user can enter: everybody on the machine can read the
+ * arguments that a browser is started with, and the address has a token.
+ */
+export function pageTo(address: string): string {
+  const page = join(mkdtempSync(join(tmpdir(), "urdd-open-")), "open.html");
+  const link = address.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
+  const text = `<!doctype html>\n<meta http-equiv="refresh" content="0; url=${link}">\n<a href="${link}">The robot</a>\n`;
+  writeFileSync(page, text, { mode: 0o600, flag: "wx" });
+  return page;
+}
+
 /** How long the program may take to print the address, in milliseconds. */
 const STARTS_WITHIN = 30_000;
 
 /** The servers of pages that run. */
 export class Viewers {
   readonly #running = new Map<string, { child: ChildProcess; address: Promise<string> }>();
+  readonly #pages = new Map<string, string>();
+
+  /** A page of this machine that leads to an address, until all of them end. */
+  page(address: string): string {
+    const page = this.#pages.get(address) ?? pageTo(address);
+    this.#pages.set(address, page);
+    return page;
+  }
 
   /** The address of the page with a robot, from a server that runs or is started. */
   address(program: string, robot: string, env: NodeJS.ProcessEnv): Promise<string> {
@@ -71,5 +93,7 @@ export class Viewers {
   stop(): void {
     for (const { child } of this.#running.values()) child.kill();
     this.#running.clear();
+    for (const page of this.#pages.values()) rmSync(dirname(page), { recursive: true, force: true });
+    this.#pages.clear();
   }
 }

@@ -26,10 +26,11 @@ test("every module of schema/ has its schema, as JSON and as YAML", () => {
   assert.deepEqual(yamlValidation, of("yaml"));
 });
 
-test("a workspace cannot choose the program, nor let xacro run before it is trusted", () => {
+test("a workspace cannot choose the program, nor let xacro run", () => {
   const { properties } = manifest.contributes.configuration;
   assert.equal(properties["urdd.path"].scope, "machine");
   assert.equal(properties["urdd.xacro"].default, false);
+  assert.equal(properties["urdd.xacro"].scope, "machine");
   const { restrictedConfigurations } = manifest.capabilities.untrustedWorkspaces;
   assert.deepEqual(restrictedConfigurations, Object.keys(properties));
 });

@@ -1,8 +1,8 @@
 // What `urdd view` is started with, and what is read from it.
 
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, readFileSync, statSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import { folder, program, source } from "./world.mjs";
@@ -32,6 +32,21 @@ test("the address in the output", () => {
   assert.equal(address("1 robot: http://127.0.0.1.evil.example:1/#token=1\n"), null);
   assert.equal(address("see http://example.org/\n"), null);
   assert.equal(address("see file:///etc/passwd\n"), null);
+});
+
+test("a browser gets the path of a page that only this user can read", (t) => {
+  const viewers = new Viewers();
+  t.after(() => viewers.stop());
+  const page = viewers.page(`${PAGE}&q=1`);
+  assert.equal(viewers.page(`${PAGE}&q=1`), page);
+  assert.ok(!page.includes("1f2e3d"));
+  assert.ok(readFileSync(page, "utf8").includes(`content="0; url=${PAGE}&amp;q=1"`));
+  if (process.platform !== "win32") {
+    assert.equal(statSync(page).mode & 0o777, 0o600);
+    assert.equal(statSync(dirname(page)).mode & 0o777, 0o700);
+  }
+  viewers.stop();
+  assert.ok(!existsSync(dirname(page)));
 });
 
 /** A program that writes down its process and arguments, prints an address in two pieces, and goes on. */

@@ -54,17 +54,17 @@ fn pages_get_the_last_configuration_and_those_after_it() {
     let follows = || server.json("/robots.json")[0]["follows"].clone();
     assert_eq!(follows(), false);
     for q in [0.1, 0.2] {
-        assert_eq!(server.post(STATES, &json!({ "q": [q, 0.5] })).status, 204);
+        assert_eq!(server.post(STATES, &json!({ "q": [q] })).status, 204);
     }
     assert_eq!(follows(), true);
     let mut pages = [(); 2].map(|()| listen(&server, &server.token));
     for page in &mut pages {
         assert!(status(page).contains("200"));
-        assert_eq!(next(page), json!({ "q": [0.2, 0.5] }));
+        assert_eq!(next(page), json!({ "q": [0.2] }));
     }
-    server.post(STATES, &json!({ "q": [0.3, 0.6] }));
+    server.post(STATES, &json!({ "q": [0.3] }));
     for page in &mut pages {
-        assert_eq!(next(page), json!({ "q": [0.3, 0.6] }));
+        assert_eq!(next(page), json!({ "q": [0.3] }));
     }
 }
 
@@ -96,18 +96,39 @@ fn nobody_without_the_token_and_nothing_else() {
     assert_eq!(server.json("/robots.json")[0]["follows"], false);
 }
 
+#[test]
+fn a_configuration_of_another_length_is_refused() {
+    let (_folder, path) = made("gripper");
+    let server = Running::on(&path);
+    for wrong in [&[][..], &[0.0, 0.0], &[0.0, 0.0, 0.0]] {
+        let answer = server.post(STATES, &json!({ "q": wrong }));
+        assert_eq!(answer.status, 400);
+        let found = wrong.len();
+        let expected = format!("expected one value for each DOF, so 1; found {found}\n");
+        assert_eq!(answer.text(), expected);
+    }
+    assert_eq!(server.json("/robots.json")[0]["follows"], false);
+    // The robot of the files that are there now counts.
+    let other = testkit::repository().join("conformance/robots/planar_base_arm.urdf");
+    urdd_generate::generate(&other, &path, &Default::default(), &()).expect("a URDD");
+    let dofs = urdd_robot::Robot::open(&path).expect("a robot").dof_names().expect("names").len();
+    assert_ne!(dofs, 1);
+    assert_eq!(server.post(STATES, &json!({ "q": vec![0.0; dofs] })).status, 204);
+    assert_eq!(server.post(STATES, &json!({ "q": [0.0] })).status, 400);
+}
+
 /// A page that does not read misses configurations, and holds up nobody; one that is gone frees its place.
 #[test]
 fn pages_that_stall_hold_up_nobody() {
     let (_folder, path) = made("gripper");
     let server = Running::on(&path);
-    server.post(STATES, &json!({ "q": [0, 0] }));
+    server.post(STATES, &json!({ "q": [0] }));
     let stalled: Vec<_> = (0..20).map(|_| listen(&server, &server.token)).collect();
     let mut page = listen(&server, &server.token);
     status(&mut page);
     let began = Instant::now();
     for k in 1..=300 {
-        server.post(STATES, &json!({ "q": [k, 0] }));
+        server.post(STATES, &json!({ "q": [k] }));
     }
     let last = loop {
         let found = next(&mut page);
@@ -115,7 +136,7 @@ fn pages_that_stall_hold_up_nobody() {
             break found;
         }
     };
-    assert_eq!(last, json!({ "q": [300.0, 0.0] }));
+    assert_eq!(last, json!({ "q": [300.0] }));
     assert!(began.elapsed() < Duration::from_secs(60));
     drop(stalled);
     drop(page);

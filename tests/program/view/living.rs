@@ -363,6 +363,50 @@ fn what_xacro_includes_is_followed() {
     assert_eq!(upper(&server), 2.0);
 }
 
+/// Everybody on the machine can read the arguments of a program: a browser gets the path of a file that leads on.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_token_is_in_no_argument() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = testkit::temporary::folder();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("bin")).expect("a folder");
+    let script = "#!/bin/sh\necho \"$@\" > \"$SEEN.part\"; tr '\\0' '\\n' < /proc/$$/environ >> \"$SEEN.part\"\n\
+        mv \"$SEEN.part\" \"$SEEN\"\n";
+    fs::write(at("bin/xdg-open"), script).expect("written");
+    fs::set_permissions(at("bin/xdg-open"), fs::Permissions::from_mode(0o755)).expect("set");
+    let urdf = at("arm.urdf");
+    fs::write(&urdf, robot(1.0, r#"<sphere radius="0.3"/>"#)).expect("written");
+    let mut child = view(&[&urdf])
+        .env("PATH", format!("{}:/usr/bin:/bin", at("bin").display()))
+        .env("SEEN", at("seen"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it runs");
+    let mut line = String::new();
+    let output = child.stdout.take().expect("a pipe");
+    BufReader::new(output).read_line(&mut line).expect("a line");
+    let address = line.trim().rsplit(' ').next().expect("an address");
+    let token = Running::at(address).token.clone();
+    let ends = Interrupts(child);
+    let begun = Instant::now();
+    while !at("seen").exists() {
+        assert!(begun.elapsed() < PATIENCE, "no browser was opened");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let seen = fs::read_to_string(at("seen")).expect("a file");
+    assert!(!seen.contains(&token), "{seen}");
+    let page = PathBuf::from(seen.lines().next().expect("an argument"));
+    let mode = |path: &Path| fs::metadata(path).expect("it").permissions().mode() & 0o777;
+    assert_eq!(mode(&page), 0o600);
+    assert_eq!(mode(page.parent().expect("a folder")), 0o700);
+    let text = fs::read_to_string(&page).expect("a page");
+    assert!(text.contains(&format!("content=\"0; url={address}\"")), "{text}");
+    drop(ends);
+    assert!(!page.exists());
+}
+
 /// Ends a program as Ctrl-C does, so that it removes its temporary folder.
 #[cfg(unix)]
 struct Interrupts(std::process::Child);

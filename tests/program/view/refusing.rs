@@ -84,6 +84,32 @@ fn who_says_nothing_does_not_shut_the_page_out() {
     }
 }
 
+/// Pages that stay open, and programs with the token that do not end what they begin.
+#[test]
+fn who_has_the_token_does_not_shut_others_out_either() {
+    let (_folder, path) = made("gripper");
+    let server = Running::on(&path);
+    let known = format!("Host: {}\r\nX-Urdd-Token: {}\r\n", server.host(), server.token);
+    for request in [
+        format!("GET /robots/gripper/states HTTP/1.1\r\n{known}\r\n"),
+        format!("POST /robots/gripper/skips HTTP/1.1\r\n{known}Content-Length: 1000\r\n\r\n"),
+    ] {
+        let mut open = Vec::new();
+        for _ in 0..48 {
+            let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
+            stream.write_all(request.as_bytes()).expect("sent");
+            open.push(stream);
+        }
+        // All of them were accepted.
+        std::thread::sleep(Duration::from_millis(500));
+        let begun = Instant::now();
+        assert_eq!(server.get("/robots.json").status, 200);
+        assert_eq!(server.raw("GET /", &[("Host", &*server.host())], b"").status, 200);
+        assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+        drop(open);
+    }
+}
+
 /// A connection that sends a byte now and then is closed, like a silent one.
 #[test]
 fn a_dripping_connection_ends() {
