@@ -48,6 +48,8 @@ BYTES = 8 << 30
 STEPS = 500
 GOAL = 0.99
 
+# Spheres are measured in fewer configurations than by default, which takes a fifth of the time.
+FEW = ("--samples", "1000")
 # What is exported: the format, the file, options. `used` is what a person would simulate.
 EXPORTS = {
     "srdf": ("srdf", "r.srdf"),
@@ -56,9 +58,9 @@ EXPORTS = {
     "mjcf": ("mjcf", "mjcf/r.xml"),
     "mjcf-simulated": ("mjcf", "used/r.xml", "--actuators", "position", "--scene", "--setup", "guessed.toml"),
     "sdf": ("sdf", "sdf/r.sdf"),
-    "spherized": ("spherized", "spherized/r.urdf"),
-    "curobo": ("curobo", "r.yml", "--config"),
-    "foam": ("foam", "r.json"),
+    "spherized": ("spherized", "spherized/r.urdf", *FEW),
+    "curobo": ("curobo", "r.yml", "--config", *FEW),
+    "foam": ("foam", "r.json", *FEW),
     "moveit": ("moveit", "r_moveit_config"),
 }
 TITLES = {
