@@ -6,7 +6,8 @@ use super::Robot;
 use super::error::RobotError;
 use super::mesh::LinkVisual;
 use urdd_directory::path::beside;
-use urdd_document::mesh_files::MeshFiles;
+use urdd_directory::read_error::ReadError;
+use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_document::robot::Element;
 use urdd_document::urdd::Urdd;
 use urdd_format::meshes::GeometryKind;
@@ -22,7 +23,7 @@ impl Robot {
     /// Every call reads the files. Empty for a legacy URDD, and without `original_meshes_module`.
     ///
     /// # Errors
-    /// If the files cannot be listed.
+    /// If the files cannot be listed, or one changed on disk.
     pub fn textured_visuals(&self) -> Result<Vec<LinkVisual>, RobotError> {
         let kinds = [ModuleKind::OriginalMeshes, ModuleKind::Urdf];
         let part = self.part_as_it_is(&kinds)?;
@@ -35,38 +36,59 @@ impl Robot {
             let path = reference.path.as_ref()?;
             let link = reference.link_idx.get();
             let element = robot.links.get(link)?.visual.get(reference.element_idx.get())?;
-            Some(LinkVisual { link, parts: placed(read(&part, path), element)? })
+            let parts = read(&part, path).map(|parts| placed(parts, element));
+            Some(parts.transpose()?.map(|parts| LinkVisual { link, parts }))
         };
         let references = original.references.par_iter();
         let references = references.filter(|of| of.geometry == GeometryKind::Visual);
-        Ok(references.filter_map(visual).filter(|visual| !visual.parts.is_empty()).collect())
+        let is_textured = |visual: &Result<LinkVisual, RobotError>| {
+            visual.as_ref().map_or(true, |visual| !visual.parts.is_empty())
+        };
+        references.filter_map(visual).filter(is_textured).collect()
     }
 
     /// The bytes of a file of the URDD, if it lists it.
     ///
     /// # Errors
-    /// If the files cannot be listed.
+    /// If the files cannot be listed, or this one changed on disk.
     pub fn listed_file(&self, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
-        Ok(bytes(&self.part_as_it_is(&[])?, path))
+        bytes(&self.part_as_it_is(&[])?, path)
     }
 }
 
-fn bytes(part: &Urdd, path: &str) -> Option<Vec<u8>> {
-    let is_listed = part.listing().has_file(path);
-    is_listed.then(|| MeshFiles::new(part).read(Profile::V1, path).ok())?
+fn bytes(part: &Urdd, path: &str) -> Result<Option<Vec<u8>>, RobotError> {
+    if !part.listing().has_file(path) {
+        return Ok(None);
+    }
+    match MeshFiles::new(part).read(Profile::V1, path) {
+        Err(Absence::Other(ReadError::Changed)) => {
+            Err(RobotError::Changed(part.root().folder_name()))
+        }
+        read => Ok(read.ok()),
+    }
 }
 
 /// The parts of a mesh that have a texture.
-fn read(part: &Urdd, mesh: &str) -> Vec<Part> {
-    let content = bytes(part, mesh).unwrap_or_default();
+fn read(part: &Urdd, mesh: &str) -> Result<Vec<Part>, RobotError> {
+    let content = bytes(part, mesh)?.unwrap_or_default();
     // Without what names a library or an image, there is none: OBJ, COLLADA, glTF.
     let names: [&[u8]; 3] = [b"mtllib", b"init_from", b"\"images\""];
     if !names.iter().any(|name| content.windows(name.len()).any(|bytes| bytes == *name)) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let mut fetch = |named: &str| bytes(part, &beside(mesh, named)?);
+    let mut changed = None;
+    let mut fetch = |named: &str| {
+        let read = bytes(part, &beside(mesh, named)?);
+        read.unwrap_or_else(|error| {
+            changed = Some(error);
+            None
+        })
+    };
     let options = Options { textures: true, ..Options::default() };
     let scene = read_with(&content, mesh, &mut fetch, &options);
+    if let Some(error) = changed {
+        return Err(error);
+    }
     let mut parts = scene.map_or_else(|_| Vec::new(), |scene| scene.parts);
     parts.retain(|part| part.texture.is_some());
     for texture in parts.iter_mut().filter_map(|part| part.texture.as_mut()) {
@@ -75,7 +97,7 @@ fn read(part: &Urdd, mesh: &str) -> Vec<Part> {
             _ => format!("{mesh}: {}", texture.name),
         };
     }
-    parts
+    Ok(parts)
 }
 
 /// Puts the parts of an element's mesh into its link's frame, with coordinates of binary32.
