@@ -81,10 +81,12 @@ impl Gazebo {
         let names: HashSet<&String> = subject.links.iter().chain(joints).collect();
         let mut said: HashMap<String, Vec<Element>> = HashMap::new();
         let mut faults = BTreeSet::new();
+        let mut unreadable = 0;
         for text in &subject.urdf.unknown_elements {
             // Prefixes that only the source declares do not matter: what has them is left out.
-            let text = wrapped(text);
-            let Some(document) = document(&text) else {
+            let whole = wrapped(text);
+            let Some(document) = document(&whole) else {
+                unreadable += usize::from(text.trim_start().starts_with("<gazebo"));
                 continue;
             };
             let Some(root) = document.root_element().first_element_child() else {
@@ -118,6 +120,9 @@ impl Gazebo {
             said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
         }
         notes.extend(faults.into_iter().map(left_out));
+        if unreadable > 0 {
+            notes.push(Note::Elements(unreadable));
+        }
         if said.values().flatten().any(|said| word(said).is_none()) {
             notes.push(Note::Robot(UNCHECKED));
         }
