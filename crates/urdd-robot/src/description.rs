@@ -2,6 +2,7 @@
 
 use super::Robot;
 use super::error::RobotError;
+use urdd_directory::read_error::ReadError;
 use urdd_document::carried_urdf::read_file;
 use urdd_document::legacy_urdf::of_legacy;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
@@ -48,9 +49,12 @@ impl Robot {
     /// The text of the source URDF. `None` if there is none, or it cannot be read.
     ///
     /// # Errors
-    /// If the files cannot be listed.
+    /// If the files cannot be listed, or this one changed on disk.
     pub fn source_text(&self) -> Result<Option<String>, RobotError> {
-        let file = self.source()?;
-        Ok(file.and_then(|file| Some(read_file(&self.root, &file.path).ok()?.text)))
+        let Some(file) = self.source()? else { return Ok(None) };
+        match read_file(self.root(), &file.path) {
+            Err(ReadError::Changed) => Err(RobotError::Changed(self.folder_name())),
+            read => Ok(read.ok().map(|read| read.text)),
+        }
     }
 }

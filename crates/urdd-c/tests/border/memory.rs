@@ -69,7 +69,8 @@ fn too_little_memory_for_what_the_caller_sends_is_a_status() {
             urdd_obstacle_free(made);
             status
         };
-        let mut calls: Vec<(&str, Box<dyn FnMut() -> Status + '_>)> = vec![
+        type Call<'a> = (&'a str, Box<dyn FnMut() -> Status + 'a>);
+        let mut calls: Vec<Call> = vec![
             ("a hull of corners", Box::new(|| hull(&points, &CString::default()))),
             ("a hull of points inside", Box::new(|| hull(&inside, &CString::default()))),
             ("a name", Box::new(|| hull(&points[..9], &name))),

@@ -72,7 +72,7 @@ pub(super) fn read<'a>(
             continue;
         };
         layout.uv.take_if(|_| !*textures);
-        let (vertices, uvs) = positions.of(layout.source, layout.uv.map(|(source, _)| source))?;
+        let [vertices, uvs] = positions.of(layout.source, layout.uv.map(|(source, _)| source))?;
         let mut faces = Faces {
             shape,
             layout,

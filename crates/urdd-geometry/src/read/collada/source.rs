@@ -36,7 +36,7 @@ impl<'a, 'd> Positions<'a, 'd> {
         &mut self,
         url: &'a str,
         uv: Option<&str>,
-    ) -> Result<(&[[f64; 3]], &[[f64; 3]]), Failure> {
+    ) -> Result<[&[[f64; 3]]; 2], Failure> {
         let id = match self.sources.get(url) {
             Some(id) => *id,
             None => self.find_source(url)?,
@@ -47,7 +47,7 @@ impl<'a, 'd> Positions<'a, 'd> {
             self.read.insert((source.id(), true), uvs);
         }
         let uvs = uv.and_then(|source| self.read.get(&(source.id(), true)));
-        Ok((&self.read[&(id, false)], uvs.map_or(&[], Vec::as_slice)))
+        Ok([&self.read[&(id, false)], uvs.map_or(&[], Vec::as_slice)])
     }
 
     /// Finds a source, and reads it unless it was read before.
