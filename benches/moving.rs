@@ -129,7 +129,7 @@ fn control(path: &std::path::Path) {
         around.move_obstacles(0, &poses).expect("moved");
         let mut least = around.min_distance_with(&q, &mut workspace).expect("a distance");
         let nearest = around.gradients_with(&q, 5, &mut workspace, |pair, gradient| {
-            least = least.min(Some(pair.distance));
+            least = least.map(|least| least.min(pair.distance));
             std::hint::black_box(gradient);
         });
         nearest.expect("pairs");

@@ -18,7 +18,7 @@ enum Read {
     Text { version: String, is_legacy: bool, text: String },
     Missing,
     Unusable(String),
-    NotRead(RobotError),
+    Failed(RobotError),
 }
 
 #[pymethods]
@@ -42,7 +42,7 @@ impl Robot {
         let read = work::run(py, move |_| {
             let part = match robot.part_as_it_is(&[kind]) {
                 Ok(part) => part,
-                Err(error) => return Read::NotRead(error),
+                Err(error) => return Read::Failed(error),
             };
             let Some(module) = part.module(kind) else {
                 return Read::Missing;
@@ -53,7 +53,7 @@ impl Robot {
             }
             let file = module.file("module.json");
             match part.root().read(&file, MAX_DOCUMENT_BYTES) {
-                Err(ReadError::Changed) => Read::NotRead(RobotError::Changed(robot.folder_name())),
+                Err(ReadError::Changed) => Read::Failed(RobotError::Changed(robot.folder_name())),
                 Err(error) => Read::Unusable(format!("{file}: {error}")),
                 Ok(bytes) => Read::Text {
                     version: module.version.clone().unwrap_or_default(),
@@ -65,7 +65,7 @@ impl Robot {
         let name = || vec![("module", pyo3::types::PyString::new(py, name).into_any())];
         match read {
             Read::Text { version, is_legacy, text } => Ok((version, is_legacy, text)),
-            Read::NotRead(error) => Err(of_robot(py, &error)),
+            Read::Failed(error) => Err(of_robot(py, &error)),
             Read::Missing => {
                 let error = RobotError::Missing(kind);
                 Err(of_robot(py, &error))

@@ -10,7 +10,7 @@ use urdd_robot::{
 };
 
 use crate::about::about;
-use crate::bodies::{Attached, Obstacles, carrying};
+use crate::bodies::{Obstacles, carrying};
 use crate::collisions::{About, Among, pair};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;

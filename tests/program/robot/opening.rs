@@ -89,9 +89,13 @@ fn only_what_is_asked_for_is_read() {
     let all = |robot: &Robot| {
         let q = [0.0; 6];
         robot.centre_of_mass(&q).unwrap();
-        (robot.velocity_limits().unwrap(), robot.link_masses().unwrap());
-        (robot.description().unwrap(), robot.source().unwrap(), robot.num_samples().unwrap());
-        (robot.configurations().unwrap(), robot.named_configurations().unwrap());
+        robot.velocity_limits().unwrap();
+        robot.link_masses().unwrap();
+        robot.description().unwrap();
+        robot.source().unwrap();
+        robot.num_samples().unwrap();
+        robot.configurations().unwrap();
+        robot.named_configurations().unwrap();
         for kind in ShapeKind::ALL {
             robot.pair_statistics(kind, 0, 1).unwrap();
             robot.proximity(kind).unwrap().in_collision(&q).unwrap();

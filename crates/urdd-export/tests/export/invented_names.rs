@@ -71,7 +71,9 @@ fn check_kinds(document: &Document) {
 
 #[test]
 fn invented_names_stay_apart() {
-    let cases: [(&[&str], &[(&str, &str)]); 6] = [
+    /// Names of links; names and types of joints.
+    type Case<'a> = (&'a [&'a str], &'a [(&'a str, &'a str)]);
+    let cases: [Case; 6] = [
         // Industrial arms.
         (&["link_0", "link_1", "link_2"], &[("joint_1", "revolute"), ("joint_2", "revolute")]),
         (

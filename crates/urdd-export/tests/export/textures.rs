@@ -65,10 +65,9 @@ fn corners(obj: &[u8]) -> BTreeSet<String> {
 }
 
 fn expected() -> BTreeSet<String> {
-    let of_face = |(at, face): (usize, [([f64; 3], [f64; 2]); 4])| {
-        face.map(|(position, uv)| format!("{} {position:?} {uv:?}", at / 2))
-    };
-    faces().into_iter().enumerate().flat_map(of_face).collect()
+    let faces = faces().into_iter().enumerate();
+    let corners = faces.flat_map(|(at, face)| face.map(|corner| (at / 2, corner)));
+    corners.map(|(at, (position, uv))| format!("{at} {position:?} {uv:?}")).collect()
 }
 
 fn report(made: &Export, key: &str) -> Option<u64> {
