@@ -111,7 +111,7 @@ fn control(path: &std::path::Path) {
     let (mut q, mut poses, mut workspace) = (start.clone(), [here(); BOXES], Workspace::default());
     let (mut times, mut before) = (vec![Duration::ZERO; CYCLES], 0);
     let began = Instant::now();
-    for cycle in 0..CYCLES {
+    for (cycle, taken) in times.iter_mut().enumerate() {
         let time = 1e-3 * cycle as f64;
         while began.elapsed().as_secs_f64() < time {
             std::thread::sleep(Duration::from_micros(50));
@@ -135,7 +135,7 @@ fn control(path: &std::path::Path) {
         nearest.expect("pairs");
         let touches = proximity.in_collision_with(&q, &mut workspace).expect("an answer");
         std::hint::black_box((least, touches));
-        times[cycle] = now.elapsed();
+        *taken = now.elapsed();
     }
     let allocations = ALLOCATIONS.load(Ordering::Relaxed) - before;
     times.sort_unstable();
