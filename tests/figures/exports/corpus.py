@@ -47,6 +47,8 @@ SECONDS = 180
 BYTES = 8 << 30
 STEPS = 500
 GOAL = 0.99
+# Robots that a row of the tables names.
+MOST = 8
 
 # Spheres are measured in fewer configurations than by default, which takes a fifth of the time.
 FEW = ("--samples", "1000")
@@ -419,7 +421,8 @@ def judge(results, is_whole):
         [
             one["program"],
             ", ".join(TITLES[export] for export in one["exports"]),
-            f"{len(named[at])}: {', '.join(sorted(named[at])[:3])}",
+            ", ".join(sorted(named[at])[:MOST])
+            + (f" and {len(named[at]) - MOST} more" if len(named[at]) > MOST else ""),
             one["why"],
         ]
         for at, one in enumerate(exceptions)
