@@ -3,7 +3,7 @@
     pip install mujoco==4.0.0 pin==4.1.0 drake==1.51.1 yourdfpy==0.0.60 example-robot-data==6.0.0 pybullet==3.2.7 \\
         newton==1.8.0 xacro==2.1.1 rtb-data==2.0.0 pyyaml numpy trimesh
     g++ -O1 sdf.cpp -o sdf_load $(pkg-config --cflags --libs sdformat12)      # Debian's libsdformat-dev
-    SDF_LOAD=sdf_load python3 tests/figures/exports/corpus.py target/release/urdd FOLDER [--only REGEX] [--write]
+    SDF_LOAD=$PWD/sdf_load python3 tests/figures/exports/corpus.py target/release/urdd FOLDER [--only REGEX] [--write]
 
 The robots: all of example-robot-data, those of rtb-data, those of pybullet_data, and every EVERY-th of its thousand random
 objects. FOLDER gets `results.jsonl`, a line for each robot in the order of their names, and keeps the files of each failure.
@@ -225,6 +225,8 @@ def work(program):
     log = tempfile.TemporaryFile()
     os.dup2(log.fileno(), 1)
     os.dup2(log.fileno(), 2)
+    # MuJoCo writes its warnings to a file where it runs.
+    os.chdir(tempfile.gettempdir())
     warnings.simplefilter("ignore")
     flush = ctypes.CDLL(None).fflush
     for line in sys.stdin:
