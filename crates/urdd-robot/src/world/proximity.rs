@@ -133,7 +133,7 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     /// allocate. After an error, none has moved.
     ///
     /// # Errors
-    /// [`RobotError::OutOfRange`] if there are fewer obstacles; [`RobotError::Obstacle`] as [`Obstacle::at`].
+    /// [`RobotError::OutOfRange`] if there are fewer obstacles; [`RobotError::Obstacle`] as [`Obstacle::at`](crate::Obstacle::at).
     pub fn move_obstacles(
         &mut self,
         first: usize,
