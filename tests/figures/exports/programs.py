@@ -336,6 +336,7 @@ class Newton:
         ends = lambda label, names: max((name for name in names if label.endswith(f"/{name}")), key=len, default=None)
         self.joints = [ends(label, {joint["name"] for joint in urdd.joints}) for label in builder.joint_label]
         self.bodies = {ends(label, urdd.names): body for body, label in enumerate(builder.body_label)}
+        self.turns = {joint["name"]: joint["joint_type"] in ("Revolute", "Continuous") for joint in urdd.joints}
         self.urdd, self.model = urdd, builder.finalize()
         self.state = self.model.state()
 
@@ -345,7 +346,9 @@ class Newton:
         starts = self.model.joint_q_start.numpy()
         for at, name in enumerate(self.joints):
             if name and starts[at + 1] - starts[at] == 1:
-                q[starts[at]] = values[name][0]
+                # In binary32, many turns leave nothing of an angle.
+                value = values[name][0]
+                q[starts[at]] = np.arctan2(np.sin(value), np.cos(value)) if self.turns[name] else value
         self.model.joint_q.assign(q)
         self.newton.eval_fk(self.model, self.model.joint_q, self.model.joint_qd, self.state)
         poses = self.state.body_q.numpy().astype(float)
