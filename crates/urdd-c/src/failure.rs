@@ -7,7 +7,7 @@ use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 use urdd_validate::ValidateError;
 
-use crate::memory::begin;
+use crate::span::begin;
 use crate::text::{Owned, Text, constant};
 use crate::threads::ready;
 

@@ -21,6 +21,7 @@ mod robot;
 mod rows;
 mod skips;
 mod space;
+mod span;
 mod text;
 mod threads;
 mod validate;

@@ -1,12 +1,12 @@
 //! Arrays and texts of the caller's.
 
-use std::cell::RefCell;
 use std::ffi::{CStr, c_char};
 use std::slice;
 
 use urdd_robot::has_room;
 
 use crate::failure::{Failure, Status};
+use crate::span::Span;
 
 /// Types for which any memory full of zeros is a value.
 ///
@@ -35,25 +35,6 @@ pub(crate) unsafe fn triple(what: &'static str, data: *const f64) -> Result<[f64
     Ok([values[0], values[1], values[2]])
 }
 
-/// Where an array of the caller's is.
-#[derive(Clone, Copy)]
-struct Span {
-    what: &'static str,
-    address: usize,
-    bytes: usize,
-    is_written: bool,
-}
-
-thread_local! {
-    /// The arrays of the call that this thread is in.
-    static ARRAYS: RefCell<Vec<Span>> = const { RefCell::new(Vec::new()) };
-}
-
-/// Begins a call.
-pub(crate) fn begin() {
-    let _ = ARRAYS.try_with(|arrays| arrays.borrow_mut().clear());
-}
-
 /// An array of the caller's that a call reads or writes. What it writes overlaps no other one.
 fn array<T>(
     what: &'static str,
@@ -74,30 +55,11 @@ fn array<T>(
         return Err(Failure::new(Status::Pointer, message));
     }
     let new = Span { what, address: data.addr(), bytes: length * size_of::<T>(), is_written };
-    // A thread that ends has no list any more.
-    let clash = ARRAYS.try_with(|arrays| {
-        let mut arrays = arrays.borrow_mut();
-        let other = arrays.iter().find(|other| other.clashes(&new)).copied();
-        arrays.push(new);
-        other
-    });
-    let Ok(Some(other)) = clash else {
+    let Some(other) = new.first_clash() else {
         return Ok(());
     };
     let [a, b] = if other.is_written { [other.what, what] } else { [what, other.what] };
     Err(Failure::new(Status::Pointer, format!("`{a}` and `{b}` overlap")))
-}
-
-impl Span {
-    /// Whether one of two arguments would be written over the other.
-    fn clashes(&self, other: &Span) -> bool {
-        (self.is_written || other.is_written)
-            && self.what != other.what
-            && self.bytes > 0
-            && other.bytes > 0
-            && self.address < other.address.saturating_add(other.bytes)
-            && other.address < self.address.saturating_add(self.bytes)
-    }
 }
 
 /// The caller's values.

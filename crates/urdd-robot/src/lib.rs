@@ -37,6 +37,7 @@ mod edge;
 mod edited_files;
 mod error;
 mod inverse;
+mod kept;
 mod kinematics;
 mod limits;
 mod mass;
@@ -63,8 +64,8 @@ pub use description::SourceFile;
 pub use edge::{EdgeSettings, FirstContact};
 pub use error::RobotError;
 pub use inverse::Target;
+pub use kept::{LinkMass, LinkShape, Solid};
 pub use kinematics::Jacobian;
-pub use mass::LinkMass;
 #[doc(hidden)]
 pub use memory::has_room;
 pub use mesh::LinkVisual;
@@ -74,7 +75,7 @@ pub use proximity::{
     Cancellable, Gradient, Overlap, PairDistance, PairGradient, Proximity, Workspace,
 };
 pub use robot::Robot;
-pub use shapes::{LinkShape, ShapeKind, Solid};
+pub use shapes::ShapeKind;
 pub use skip_edits::EditedSkips;
 pub use skips::Skips;
 pub use space::Configurations;

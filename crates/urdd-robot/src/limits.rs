@@ -2,15 +2,9 @@
 
 use super::Robot;
 use super::error::RobotError;
+use super::kept::Limits;
 use urdd_document::kept::keep;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
-
-/// The largest speed and the largest effort of each DOF.
-#[derive(Debug)]
-pub(super) struct Limits {
-    velocities: Vec<f64>,
-    efforts: Vec<f64>,
-}
 
 impl Robot {
     /// The largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none.

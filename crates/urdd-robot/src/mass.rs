@@ -4,16 +4,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::Robot;
 use super::error::RobotError;
+use super::kept::LinkMass;
 use urdd_document::kept::keep;
-
-/// The mass of a link.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LinkMass {
-    /// kg; 0 where the source states none.
-    pub mass: f64,
-    /// The centre of mass, in the link's frame, m.
-    pub centre: [f64; 3],
-}
 
 impl Robot {
     /// The mass of each link, and its centre of mass.

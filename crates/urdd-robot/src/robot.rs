@@ -4,10 +4,8 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::error::RobotError;
-use super::limits::Limits;
-use super::mass::LinkMass;
+use super::kept::{Limits, LinkMass, LinkShape};
 use super::motion::Motion;
-use super::shapes::{LinkShape, ShapeKind};
 use super::space::Configurations;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::{Source, is_urdd};
@@ -15,6 +13,7 @@ use urdd_document::kept::{Kept, keep};
 use urdd_document::urdd::Urdd;
 use urdd_format::named_configurations::NamedConfiguration;
 use urdd_format::registry::{ModuleKind, Profile};
+use urdd_format::shape_kind::ShapeKind;
 
 /// A robot, described by a URDD.
 ///

@@ -4,45 +4,13 @@ use nalgebra::{Isometry3, Translation3};
 
 use super::Robot;
 use super::error::RobotError;
+use super::kept::{LinkShape, Solid};
 use super::mesh::Meshes;
 use urdd_document::kept::keep;
 use urdd_document::shapes::{Volume, approximations};
 use urdd_format::registry::ModuleKind;
 pub use urdd_format::shape_kind::ShapeKind;
-use urdd_geometry::Mesh;
 use urdd_kinematics::rotation::from_rpy;
-
-/// A shape in its link's frame.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinkShape {
-    /// The link.
-    pub link: usize,
-    /// Index of the link's piece that it is or bounds; 0 for a hull and its bounding volumes.
-    pub piece: usize,
-    /// The shape.
-    pub solid: Solid,
-}
-
-/// A solid in the link's frame, in metres.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Solid {
-    /// A convex mesh, each vertex once.
-    Mesh(Mesh),
-    /// An oriented box.
-    Box {
-        /// The pose of its centre and axes.
-        pose: Isometry3<f64>,
-        /// Half extents along its axes.
-        half_extents: [f64; 3],
-    },
-    /// A sphere.
-    Sphere {
-        /// The centre.
-        centre: [f64; 3],
-        /// The radius.
-        radius: f64,
-    },
-}
 
 impl Robot {
     /// The shapes of one kind, by link and piece. Links without geometry have none.

@@ -23,6 +23,7 @@ mod report;
 mod revision;
 mod route;
 mod save;
+mod sent_states;
 pub mod server;
 mod site_list;
 mod states;

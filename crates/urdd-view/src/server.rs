@@ -16,7 +16,7 @@ use crate::keep;
 use crate::reply::Reply;
 use crate::route::{Route, answer};
 use crate::save;
-use crate::states;
+use crate::sent_states;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 
@@ -156,7 +156,7 @@ impl Answers {
             ("POST", Route::Configurations(id)) => {
                 with(id, &|robot| save::configuration(robot, body))
             }
-            ("POST", Route::States(id)) => with(id, &|robot| states::take(robot, body)),
+            ("POST", Route::States(id)) => with(id, &|robot| sent_states::take(robot, body)),
             ("POST", Route::Drops) => drops::take(&self.collection, body, is_gone),
             ("POST", Route::Keep(id)) => with(id, &|robot| keep::keep(robot, body)),
             _ => Reply::failure(405, "this cannot be done here\n"),

@@ -1,17 +1,13 @@
 //! A URDD in a folder on disk.
 
-use std::ffi::OsStr;
 use std::fs::{self, DirEntry};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use super::snapshot::{Seen, Snapshot, Stamp};
-use super::{OpenFile, Source};
+use super::stamp::{Seen, Stamp};
 use crate::layout::ROOT_METADATA;
 use crate::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
 use crate::listing::{Entry, EntryKind, Listing};
 use crate::read_error::ReadError;
-use crate::regular;
 use urdd_format::registry::ModuleKind;
 
 /// Whether a folder is the root of a URDD: it contains `urdd.json`, or a module's folder.
@@ -23,7 +19,7 @@ pub fn is_urdd(folder: &Path) -> bool {
 /// A folder on disk.
 #[derive(Debug, Clone)]
 pub struct Disk {
-    path: PathBuf,
+    pub(super) path: PathBuf,
     pub(super) canonical: PathBuf,
 }
 
@@ -127,40 +123,5 @@ impl Disk {
                 _ => (EntryKind::Link, 0, Seen::Other),
             },
         }
-    }
-}
-
-impl Source for Disk {
-    fn folder_name(&self) -> String {
-        let name = self.canonical.file_name().unwrap_or(OsStr::new(""));
-        name.to_string_lossy().into_owned()
-    }
-
-    fn list(&self) -> Result<Listing, ReadError> {
-        Ok(self.walk()?.0)
-    }
-
-    fn open(&self, relative: &str) -> Result<(OpenFile, u64), ReadError> {
-        let target = fs::canonicalize(self.canonical.join(relative))
-            .map_err(|error| ReadError::from_io(&error))?;
-        if !target.starts_with(&self.canonical) {
-            return Err(ReadError::LeavesRoot);
-        }
-        let file = regular::open(&target)?;
-        let metadata = file.metadata();
-        let size = metadata.map_err(|error| ReadError::from_io(&error))?.len();
-        Ok((Box::new(file), size))
-    }
-
-    fn sibling(&self, folder_name: &str) -> Option<Arc<dyn Source>> {
-        Some(Arc::new(self.beside(folder_name)?))
-    }
-
-    fn kept(&self) -> Option<Arc<dyn Source>> {
-        Some(Arc::new(Snapshot::of(self.clone())))
-    }
-
-    fn folder(&self) -> Option<&Path> {
-        Some(&self.path)
     }
 }

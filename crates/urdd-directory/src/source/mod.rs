@@ -2,8 +2,10 @@
 
 mod archive;
 mod disk;
+mod disk_source;
 mod memory;
 mod snapshot;
+mod stamp;
 #[doc(hidden)]
 pub mod tree;
 mod zip_list;
@@ -19,7 +21,7 @@ use super::read_error::ReadError;
 pub use archive::{Archive, is_archive};
 pub use disk::{Disk, is_urdd};
 pub use memory::Memory;
-pub use snapshot::Stamp;
+pub use stamp::Stamp;
 
 /// A file open for reading.
 pub type OpenFile = Box<dyn Read + Send>;

@@ -14,14 +14,15 @@
 //! on Windows, which has no ctime, if the mtime is reset.
 
 use std::collections::HashMap;
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime};
 
 use super::disk::Disk;
+use super::stamp::{Seen, Stamp};
 use super::{OpenFile, Source};
 use crate::layout::ROOT_METADATA;
 use crate::listing::{Entry, EntryKind, Listing};
@@ -32,44 +33,6 @@ use crate::regular;
 const TICK: Duration = Duration::from_millis(20);
 /// Most lists of a folder that keeps changing.
 const MAX_LISTS: usize = 20;
-
-/// What tells one state of a file or folder from another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stamp {
-    /// Device and inode number, where there are any.
-    place: Option<(u64, u64)>,
-    size: u64,
-    changed: SystemTime,
-}
-
-impl Stamp {
-    /// The stamp of what this is the metadata of.
-    pub fn of(metadata: &Metadata) -> Self {
-        #[cfg(unix)]
-        let (place, changed) = {
-            use std::os::unix::fs::MetadataExt;
-            let [seconds, nanoseconds] = [metadata.ctime(), metadata.ctime_nsec()];
-            let since = Duration::new(seconds.unsigned_abs(), nanoseconds.unsigned_abs() as u32);
-            (Some((metadata.dev(), metadata.ino())), UNIX_EPOCH + since)
-        };
-        #[cfg(not(unix))]
-        let (place, changed) = (None, metadata.modified().unwrap_or(UNIX_EPOCH));
-        Stamp { place, size: metadata.len(), changed }
-    }
-
-    fn is_of(&self, file: &File) -> bool {
-        file.metadata().is_ok_and(|metadata| Stamp::of(&metadata) == *self)
-    }
-}
-
-/// What an entry of a folder was.
-#[derive(Debug, PartialEq)]
-pub(super) enum Seen {
-    Itself(Stamp),
-    /// A link to this path below the root.
-    Leads(String),
-    Other,
-}
 
 /// The entries of a folder, and what each was.
 #[derive(Debug, PartialEq)]
@@ -106,7 +69,7 @@ impl Look {
 
     /// Whether nothing in it is new, and all of its folders are still those that were listed.
     fn is_settled(&self, disk: &Disk, begun: SystemTime) -> bool {
-        let is_old = |stamp: &Stamp| stamp.changed + TICK < begun;
+        let is_old = |stamp: &Stamp| stamp.changed() + TICK < begun;
         let is_same = |folder: &Path, stamp: &Stamp| {
             fs::metadata(folder).is_ok_and(|now| Stamp::of(&now) == *stamp)
         };
@@ -190,8 +153,8 @@ impl Source for Snapshot {
         let is_same = || fs::metadata(&path).is_ok_and(|now| Stamp::of(&now) == stamp);
         match regular::open(&path) {
             Ok(file) if stamp.is_of(&file) => {
-                let left = stamp.size;
-                Ok((Box::new(Unchanged { file, stamp, left }), stamp.size))
+                let left = stamp.size();
+                Ok((Box::new(Unchanged { file, stamp, left }), stamp.size()))
             }
             Err(error) if is_same() => Err(error),
             _ => Err(ReadError::Changed),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::shapes::Solid;
+use crate::kept::Solid;
 use urdd_geometry::bounding_sphere::{BoundingSphere, about, about_spheres};
 use urdd_geometry::convex::{ConvexShape, ShapeError};
 use urdd_geometry::oriented_box::corners;
