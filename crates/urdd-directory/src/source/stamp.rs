@@ -1,7 +1,7 @@
 //! What tells whether a file or folder is what it was.
 
 use std::fs::{File, Metadata};
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// What tells one state of a file or folder from another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,7 @@ impl Stamp {
         #[cfg(unix)]
         let (place, changed) = {
             use std::os::unix::fs::MetadataExt;
+            use std::time::Duration;
             let [seconds, nanoseconds] = [metadata.ctime(), metadata.ctime_nsec()];
             let since = Duration::new(seconds.unsigned_abs(), nanoseconds.unsigned_abs() as u32);
             (Some((metadata.dev(), metadata.ino())), UNIX_EPOCH + since)
