@@ -61,7 +61,7 @@ const WORDS: [Word; 26] = [
     ("stopCfm", Joint, Number, &["physics/ode/limit/cfm"]),
     ("stopErp", Joint, Number, &["physics/ode/limit/erp"]),
     ("fudgeFactor", Joint, Number, &["physics/ode/fudge_factor"]),
-    ("provideFeedback", Joint, Flag, &["physics/provide_feedback", "physics/ode/provide_feedback"]),
+    ("provideFeedback", Joint, Flag, &["physics/provide_feedback"]),
     ("cfmDamping", Joint, Flag, IMPLICIT),
     ("implicitSpringDamper", Joint, Flag, IMPLICIT),
     ("springReference", Joint, Number, &["axis/dynamics/spring_reference"]),

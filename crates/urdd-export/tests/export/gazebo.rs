@@ -77,7 +77,6 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
             ("physics/ode/limit/erp", "0.2"),
             ("physics/ode/fudge_factor", "0.3"),
             ("physics/provide_feedback", "true"),
-            ("physics/ode/provide_feedback", "true"),
             ("physics/ode/implicit_spring_damper", "true"),
             ("axis/dynamics/spring_reference", "0.4"),
             ("axis/dynamics/spring_stiffness", "0.5"),
