@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
+import runpy
 import sys
 import sysconfig
 import time
@@ -85,14 +86,13 @@ def test_a_planner_finds_ways_between_ends_that_a_person_would_choose(
         folder = tmp_path / name
         (tmp_path / "arm.urdf").write_text(chain(name, ARMS[name]), encoding="utf-8")
         urdd.generate(tmp_path / "arm.urdf", folder, samples=100)
-    monkeypatch.syspath_prepend(EXAMPLES)
-    import rrt_connect
+    plan = runpy.run_path(str(EXAMPLES / "rrt_connect.py"))["main"]
 
     robot = urdd.load(folder)
     for seed in range(10):
         monkeypatch.setattr(sys, "argv", ["rrt_connect.py", str(folder), str(seed)])
         begin = time.monotonic()
-        rrt_connect.main()
+        plan()
         assert time.monotonic() - begin < 30
         out, err = capsys.readouterr()
         path = np.loadtxt(out.splitlines(), delimiter=",", skiprows=1)
