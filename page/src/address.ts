@@ -153,12 +153,11 @@ export class Address {
       app.store.set({ failure: null, loading: { what: "the list of files", done: 0, of: 0 } });
       const entry = await untilReady(app, listed, () => turn === this.turn);
       if (!entry) return;
-      const source = await app.site.source(entry);
-      if (turn !== this.turn) return;
       // Layers and the camera are set before the first picture.
       if (shared) app.store.set(looks(shared));
       if (stage) stage.from = shared?.camera?.length === 6 ? shared.camera : null;
-      if ((await app.open(entry, source)) && shared && turn === this.turn) this.apply(shared);
+      const opened = await app.openNow(entry, null, () => turn === this.turn);
+      if (opened && shared && turn === this.turn) this.apply(shared);
     } catch (error) {
       if (turn === this.turn) app.store.set({ loading: null, failure: message(error) });
     }

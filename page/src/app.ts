@@ -114,20 +114,34 @@ export class App {
     }
   }
 
+  /** Opens a robot of the server as it is now. Files that are replaced while they are read are read again. */
+  async openNow(
+    entry: Entry,
+    old: RobotModel | null = null,
+    isWanted: () => boolean = () => true,
+  ): Promise<RobotModel | null> {
+    let failed: string | null | undefined;
+    for (let tries = 1; ; tries++) {
+      const turn = this.opening + 1;
+      const source = await this.site.source(entry);
+      // Somebody opened another robot meanwhile.
+      if (this.opening !== turn - 1 || !isWanted()) return null;
+      // The same files fail again.
+      const revision = source.kind === "url" ? source.revision : null;
+      if (revision === failed) return null;
+      const robot = await this.open(entry, source, old);
+      if (robot || this.opening !== turn || tries === MAX_TRIES) return robot;
+      failed = revision;
+      await new Promise((resolve) => setTimeout(resolve, REST));
+      if (this.opening !== turn) return null;
+    }
+  }
+
   /** Reloads the robot after its files changed, or it was saved. */
   async reopen(entry: Entry): Promise<void> {
     const { robot, skips } = this.store.now;
     if (robot?.source.kind !== "url") return;
-    for (let tries = 1; tries <= MAX_TRIES; tries++) {
-      const turn = this.opening + 1;
-      const source = await this.site.source(entry);
-      // Somebody opened another robot meanwhile.
-      if (this.opening !== turn - 1) return;
-      // Its files may be replaced again while they are read.
-      if ((await this.open(entry, source, robot)) || this.opening !== turn) break;
-      await new Promise((resolve) => setTimeout(resolve, REST));
-      if (this.opening !== turn) break;
-    }
+    await this.openNow(entry, robot);
     this.store.set({ skips: { ...this.store.now.skips, saved: skips.saved } });
     if (this.store.now.tab === "Findings") void this.loadReport();
   }
