@@ -114,10 +114,11 @@ pub struct Opened {
 }
 
 impl Opened {
-    /// The files of a robot. Pages compare revisions, and open it again when files change; the robot stays as it is now.
+    /// The files of a robot, as they are now.
     fn of(root: &Root) -> Result<Self, ReadError> {
-        let own = carried(root)?;
-        Ok(Opened { robot: Arc::new(Robot::of(carried(&root.kept())?)), own, all: root.clone() })
+        let all = root.kept();
+        let own = carried(&all)?;
+        Ok(Opened { robot: Arc::new(Robot::of(own.clone())), own, all })
     }
 }
 
