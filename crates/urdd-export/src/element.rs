@@ -104,9 +104,11 @@ impl Element {
         }
     }
 
-    /// Removes the child elements of a name.
-    pub fn remove(&mut self, name: &str) {
+    /// Removes the child elements of a name; whether there were any.
+    pub fn remove(&mut self, name: &str) -> bool {
+        let before = self.children.len();
         self.children.retain(|child| !matches!(child, Child::Element(of) if of.name == name));
+        self.children.len() < before
     }
 
     /// Sets an attribute, or removes it.

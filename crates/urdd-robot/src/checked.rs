@@ -4,6 +4,7 @@ use super::error::RobotError;
 use super::proximity::{Overlap, Placed, Proximity, SweptPair, Workspace};
 use super::proximity::{in_root, penetration_of, to_root, toward, witnesses};
 use arrayvec::ArrayVec;
+use urdd_geometry::convex::TOLERANCE;
 use urdd_geometry::convex::across::AT_ONCE;
 use urdd_kinematics::Travel;
 
@@ -18,6 +19,10 @@ pub(super) trait Checked {
     fn within(&self, margin: f64) -> impl Iterator<Item = (usize, usize)>;
     /// A lower bound of the distance of a pair, m; not positive if it may touch.
     fn bound(&self, placed: &Placed, pair: usize) -> f64;
+    /// Whether a pair is certainly farther apart than `distance`, m.
+    fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
+        self.bound(placed, pair) > distance
+    }
     /// The distances of some pairs, at most [`AT_ONCE`], m.
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]);
     /// Whether any pair touches or overlaps.
@@ -53,17 +58,25 @@ pub(super) fn any_within(checked: &impl Checked, placed: &Placed, margin: f64) -
         return checked.touches(placed);
     }
     let pairs = checked.within(margin).map(|(pair, _)| pair);
-    let near = pairs.filter(|pair| checked.bound(placed, *pair) <= margin);
-    let mut near = near.peekable();
-    while near.peek().is_some() {
+    at_most(checked, placed, pairs, margin).next().is_some()
+}
+
+/// Those of some pairs that are at most `margin` apart, m, in their order.
+fn at_most<'c>(
+    checked: &'c impl Checked,
+    placed: &'c Placed,
+    pairs: impl Iterator<Item = usize> + 'c,
+    margin: f64,
+) -> impl Iterator<Item = usize> + 'c {
+    let mut near = pairs.filter(move |pair| !checked.is_beyond(placed, *pair, margin));
+    let some = move || {
         let pairs: ArrayVec<_, AT_ONCE> = near.by_ref().take(AT_ONCE).collect();
         let mut values = [f64::INFINITY; AT_ONCE];
         checked.values(placed, &pairs, &mut values[..pairs.len()]);
-        if values.iter().any(|value| *value <= margin) {
-            return true;
-        }
-    }
-    false
+        (!pairs.is_empty()).then(|| pairs.into_iter().zip(values))
+    };
+    let found = std::iter::from_fn(some).flatten();
+    found.filter(move |(_, value)| *value <= margin).map(|(pair, _)| pair)
 }
 
 /// The distances and indices of the `k` nearest pairs, nearest first.
@@ -146,7 +159,7 @@ pub(super) fn penetrations<C: Checked>(
     let Workspace { placed, derivative, .. } = workspace;
     let shapes = checked.shapes();
     shapes.place(configuration, placed)?;
-    for pair in (0..checked.count()).filter(|pair| checked.bound(placed, *pair) <= 0.0) {
+    for pair in at_most(checked, placed, 0..checked.count(), TOLERANCE) {
         let Some(found) = penetration_of(shapes.level, &checked.swept(placed, pair)) else {
             continue;
         };

@@ -36,6 +36,8 @@ pub(crate) struct Part {
     points: Arc<[[f64; 3]]>,
     /// The least and the largest coordinates of the points, in metres.
     bounds: [[f64; 3]; 2],
+    /// Around the part.
+    pub sphere: BoundingSphere,
 }
 
 impl Part {
@@ -45,7 +47,9 @@ impl Part {
             sign * points.iter().map(|p| sign * p[k]).fold(f64::NEG_INFINITY, f64::max)
         };
         let bounds = [-1.0, 1.0].map(|sign| [0, 1, 2].map(|k| end(k, sign)));
-        Ok(Part { core, radius, bounds, points })
+        let mut sphere = about(core.centre(), &points);
+        sphere.radius += radius;
+        Ok(Part { core, radius, bounds, points, sphere })
     }
 
     /// A lower bound of the distance of the part from a sphere in its frame, in metres; not positive if they may touch.

@@ -13,6 +13,9 @@ use urdd_xml::number::number;
 
 const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
 
+/// Drake refuses it, and nothing reads it.
+const OLD_NOISE: &str = "it is right in `<imu>`, where SDF had it up to 1.4";
+
 /// What a word is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
@@ -81,6 +84,7 @@ impl Gazebo {
         let names: HashSet<&String> = subject.links.iter().chain(joints).collect();
         let mut said: HashMap<String, Vec<Element>> = HashMap::new();
         let mut faults = BTreeSet::new();
+        let mut old_noise = None;
         let mut unreadable = 0;
         for text in &subject.urdf.unknown_elements {
             // Prefixes that only the source declares do not matter: what has them is left out.
@@ -101,7 +105,10 @@ impl Gazebo {
                 continue;
             }
             let said = said.entry(reference).or_default();
-            for element in root.children().filter(|node| node.is_element()).map(Element::of) {
+            for mut element in root.children().filter(|node| node.is_element()).map(Element::of) {
+                if element.child_mut("imu").is_some_and(|imu| imu.remove("noise")) {
+                    old_noise = Some(Note::Element { element: "noise", reason: OLD_NOISE });
+                }
                 let fault = match word(&element).map(|word| word.2) {
                     Some(Number) if !own(&element).parse().is_ok_and(f64::is_finite) => {
                         Some("a number in it is not one")
@@ -120,6 +127,7 @@ impl Gazebo {
             said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
         }
         notes.extend(faults.into_iter().map(left_out));
+        notes.extend(old_noise);
         if unreadable > 0 {
             notes.push(Note::Elements(unreadable));
         }

@@ -16,6 +16,7 @@ const PARTS: &str = r#"<link name="a"><visual><geometry><box size="1 1 1"/></geo
 <maxContacts>3</maxContacts><laserRetro>2</laserRetro><material>Gazebo/Orange</material><turnGravityOff>true</turnGravityOff>
 <selfCollide>Yes</selfCollide><dampingFactor>0.125</dampingFactor>
 <visual><cast_shadows>0</cast_shadows></visual><collision><max_contacts>9</max_contacts><plugin name="p" filename="p"/><plugin name="q" filename="q"/></collision>
+<sensor name="i" type="imu"><imu><noise><rate/></noise><angular_velocity><x><noise type="gaussian"/></x></angular_velocity></imu></sensor>
 <sensor name="visual_0" type="contact"><contact><collision>b_collision</collision></contact></sensor></gazebo>
 <gazebo reference="b"><mu1>0.75</mu1></gazebo>
 <gazebo reference="j"><stopCfm>0.1</stopCfm><stopErp>0.2</stopErp><fudgeFactor>0.3</fudgeFactor><provideFeedback>true</provideFeedback>
@@ -85,12 +86,19 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
     assert_eq!(named("joint", "f").attribute("type"), Some("fixed"));
     assert!(find(named("joint", "f"), "axis").is_none());
     assert!(find(named("link", "a"), "collision/surface").is_none());
+    // Noise is where SDF 1.5 and later have it.
+    assert!(find(link, "sensor/imu/angular_velocity/x/noise").is_some());
+    assert!(find(link, "sensor/imu/noise").is_none());
     // The sensor keeps its name, and hears the collisions of the file.
-    assert_eq!(find(link, "sensor").and_then(|node| node.attribute("name")), Some("visual_0"));
-    let heard = text(link, "sensor/contact/collision");
+    let heard = text(named("sensor", "visual_0"), "contact/collision");
     assert_eq!(heard.as_deref(), find(link, "collision").and_then(|node| node.attribute("name")));
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
-    for note in ["not checked", "neither a link nor a joint", "a number in it is not one"] {
+    for note in [
+        "not checked",
+        "neither a link nor a joint",
+        "a number in it is not one",
+        "`<noise>` is left out",
+    ] {
         assert!(notes.iter().any(|said| said.contains(note)), "{note}: {notes:?}");
     }
     assert!(!made.report.contains("\"lost\": [\n    {\n      \"count\": 7"));

@@ -2,14 +2,18 @@
 //!
 //! The expanding polytope algorithm (G. van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game
 //! Objects, Game Developers Conference 2001): a polytope of vertices of the Minkowski difference grows by the farthest
-//! vertex beyond its face that is nearest to the origin. Here it is the exact hull of these vertices, computed anew in
-//! each step, so that thin shapes and parallel faces need no tolerances.
+//! vertex beyond its face that is nearest to the origin. Here it is the exact hull of these vertices, so that thin shapes
+//! and parallel faces need no tolerances.
 
+use fearless_simd::Level;
 use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
 use crate::hull::ConvexHull;
+use crate::hull::flat;
+use crate::hull::predicates::{Point, in_range};
+use crate::hull::quickhull::{self, Growing, Start};
 
 /// The least translation that separates two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,24 +39,42 @@ type Vertex = [Vector3<f64>; 2];
 pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
     let [x, y, z, shift] = pair.b_in_a.map(Vector3::from);
     let turn = Matrix3::from_columns(&[x, y, z]);
+    let level = Level::new();
     let support = |d: Vector3<f64>| -> Vertex {
-        let a = pair.a.farthest(d);
-        let b = turn * pair.b.farthest(turn.tr_mul(&-d)) + shift;
-        [a - b, a]
+        let a = pair.a.farthest(level, d);
+        let b = turn * pair.b.farthest(level, turn.tr_mul(&-d)) + shift;
+        // Adding 0 turns -0.0 into 0.0.
+        [(a - b).add_scalar(0.0), a]
     };
     let signs = [-1.0, 0.0, 1.0];
     let directions = signs.map(|x| signs.map(|y| signs.map(|z| Vector3::new(x, y, z))));
     let directions = directions.into_iter().flatten().flatten();
     let mut vertices: Vec<Vertex> =
         directions.filter(|d| *d != Vector3::zeros()).map(support).collect();
+    let mut polytope: Option<Growing> = None;
+    let mut faces: Vec<Option<Face>> = Vec::new();
+    let mut changed = Vec::new();
     let mut best: Option<Penetration> = None;
     for _ in 0..STEPS {
-        let all: Vec<[f64; 3]> = vertices.iter().map(|[v, _]| (*v).into()).collect();
-        let Ok(hull) = ConvexHull::new(&all) else {
-            // A point or a segment: nothing that is inside.
-            return touching(&vertices);
-        };
-        let face = nearest_face(&hull)?;
+        if polytope.is_none() {
+            let points: Vec<Point> = vertices.iter().map(|[v, _]| (*v).into()).collect();
+            let is_exact = points.iter().flatten().all(|x| in_range(*x));
+            match quickhull::start(&points) {
+                Ok(Start::Tetrahedron(corners)) if is_exact => {
+                    let grown = quickhull::grow(&points, corners);
+                    let corners = (0..grown.num_slots()).map(|slot| grown.triangle(slot));
+                    faces = corners.map(|of| Face::new(of?, &vertices)).collect();
+                    polytope = Some(grown);
+                }
+                Ok(Start::Plane(triangle)) if is_exact => {
+                    let corners = flat::triangulate(&points, triangle).into_iter();
+                    faces = corners.map(|of| Face::new(of, &vertices)).collect();
+                }
+                // A point or a segment: nothing that is inside.
+                _ => return touching(&vertices),
+            }
+        }
+        let (slot, face) = nearest(&faces, &vertices)?;
         let (normal, least) = (face.normal, face.distance);
         let next = support(normal);
         let depth = normal.dot(&next[0]);
@@ -72,7 +94,20 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
         if depth - least <= EXACT || vertices.iter().any(|[v, _]| *v == next[0]) {
             break;
         }
+        let point: Point = next[0].into();
         vertices.push(next);
+        polytope = polytope.filter(|of| of.holds(point));
+        if let Some(polytope) = &mut polytope {
+            // Not beyond the face: what is rounded is all that is left.
+            if !polytope.insert(point, slot, &mut changed) {
+                break;
+            }
+            faces.resize_with(polytope.num_slots() as usize, || None);
+            for slot in &changed {
+                let corners = polytope.triangle(*slot);
+                faces[*slot as usize] = corners.and_then(|of| Face::new(of, &vertices));
+            }
+        }
     }
     best
 }
@@ -82,52 +117,50 @@ struct Face {
     normal: Vector3<f64>,
     /// Of its plane from the origin, negative if the origin is outside.
     distance: f64,
-    corners: [Vector3<f64>; 3],
+    corners: [u32; 3],
 }
 
 impl Face {
+    /// `None` for a triangle so thin that doubles do not tell its normal. Those beside it are as near.
+    fn new(corners: [u32; 3], vertices: &[Vertex]) -> Option<Self> {
+        let [a, b, c] = corners.map(|k| vertices[k as usize][0]);
+        let longest = [b - a, c - b, a - c].map(|of| of.norm_squared());
+        let longest = longest.into_iter().fold(0.0, f64::max);
+        let area = (b - a).cross(&(c - a));
+        let twice = area.norm();
+        let normal = area / twice;
+        let is_wide = twice > ConvexHull::THINNEST * longest;
+        is_wide.then(|| Face { normal, distance: normal.dot(&a), corners })
+    }
+
     /// The shares of its corners in the point of its plane that is nearest to the origin; one is negative if the point is
     /// outside the triangle.
-    fn shares(&self) -> [f64; 3] {
-        let [a, b, c] = self.corners;
+    fn shares(&self, vertices: &[Vertex]) -> [f64; 3] {
+        let [a, b, c] = self.corners.map(|k| vertices[k as usize][0]);
         let point = self.normal * self.distance;
         let area = (b - a).cross(&(c - a));
         [(b, c), (c, a), (a, b)]
             .map(|(p, q)| (p - point).cross(&(q - point)).dot(&area) / area.norm_squared())
     }
 
-    /// The least share.
-    fn inside(&self) -> f64 {
-        self.shares().into_iter().fold(f64::INFINITY, f64::min)
-    }
-
     /// The point of the first shape for the point that is nearest to the origin.
     fn of_first(&self, vertices: &[Vertex]) -> Vector3<f64> {
-        let shares = self.shares().map(|share| share.max(0.0));
+        let shares = self.shares(vertices).map(|share| share.max(0.0));
         let sum: f64 = shares.iter().sum();
-        let each = self.corners.iter().zip(shares).map(|(corner, share)| {
-            let known = vertices.iter().find(|[v, _]| v == corner);
-            known.map_or(Vector3::zeros(), |[_, a]| *a) * (share / sum)
-        });
-        each.sum()
+        let of_first = self.corners.map(|k| vertices[k as usize][1]);
+        of_first.iter().zip(shares).map(|(of_first, share)| of_first * (share / sum)).sum()
     }
 }
 
-/// The face whose plane is nearest to the origin, or farthest on the wrong side of it. Of the triangles of one plane, the
-/// one with the point that is nearest.
-fn nearest_face(hull: &ConvexHull) -> Option<Face> {
-    let mesh = hull.mesh();
-    let faces = mesh.triangles.iter().filter_map(|triangle| {
-        let corners = triangle.map(|k| Vector3::from(mesh.vertices[k as usize]));
-        let [a, b, c] = corners;
-        let normal = (b - a).cross(&(c - a)).try_normalize(0.0)?;
-        Some(Face { normal, distance: normal.dot(&a), corners })
-    });
-    let faces: Vec<Face> = faces.collect();
-    let least = faces.iter().map(|face| face.distance);
+/// The face whose plane is nearest to the origin, or farthest on the wrong side of it, with its slot. Of the triangles of
+/// one plane, the one with the point that is nearest.
+fn nearest<'f>(faces: &'f [Option<Face>], vertices: &[Vertex]) -> Option<(u32, &'f Face)> {
+    let faces = (0..).zip(faces).filter_map(|(slot, face)| Some((slot, face.as_ref()?)));
+    let least = faces.clone().map(|(_, face)| face.distance);
     let most = least.fold(f64::INFINITY, f64::min) + 0.1 * EXACT;
-    let nearest = faces.into_iter().filter(|face| face.distance <= most);
-    nearest.max_by(|a, b| a.inside().total_cmp(&b.inside()))
+    let nearest = faces.filter(|(_, face)| face.distance <= most);
+    let inside = |face: &Face| face.shares(vertices).into_iter().fold(f64::INFINITY, f64::min);
+    nearest.max_by(|a, b| inside(a.1).total_cmp(&inside(b.1)))
 }
 
 /// Shapes whose Minkowski difference is a point or a segment, which has no inside: they touch, and come apart along any

@@ -1,7 +1,10 @@
 //! Convex shapes.
 
+use fearless_simd::{Level, dispatch};
 use nalgebra::{Isometry3, Vector3};
 
+use super::lanes::Vec3;
+use super::support::Support;
 use super::support_table::SupportTable;
 use crate::mesh::{Bounds, Mesh};
 use crate::vector::sub;
@@ -81,10 +84,11 @@ impl ConvexShape {
     }
 
     /// The vertex that is farthest in a direction, in the body frame, metres.
-    pub(crate) fn farthest(&self, direction: Vector3<f64>) -> Vector3<f64> {
-        let points = self.table.points().map(Vector3::from);
-        let by = |a: &Vector3<f64>, b: &Vector3<f64>| direction.dot(a).total_cmp(&direction.dot(b));
-        points.max_by(by).unwrap_or_default() + Vector3::from(self.centre)
+    pub(crate) fn farthest(&self, level: Level, direction: Vector3<f64>) -> Vector3<f64> {
+        let found = dispatch!(level, simd => {
+            self.support(simd, Vec3::splat(simd, direction.into()), 1).lane(0)
+        });
+        Vector3::from(found) + Vector3::from(self.centre)
     }
 
     /// Centre of the axis-aligned bounds, in the body frame, metres.

@@ -74,13 +74,6 @@ impl SupportTable {
         Self { side, cells, blocks }
     }
 
-    /// The vertices that are farthest in some direction, some of them several times.
-    pub fn points(&self) -> impl Iterator<Item = [f64; 3]> {
-        let point = |block: &Block, k: usize| [block.x[k], block.y[k], block.z[k]];
-        let blocks = self.blocks.iter();
-        blocks.flat_map(move |block| (0..WIDTH).map(move |k| point(block, k)))
-    }
-
     /// Cells along one side of the map.
     #[inline(always)]
     pub fn side(&self) -> usize {
@@ -126,11 +119,9 @@ fn greatest<S: Simd>(simd: S, block: &Block, d: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
 
-    use super::super::lanes::{LANES, Vec3};
     use super::super::shape::ConvexShape;
-    use super::super::support::Support;
     use super::*;
 
     /// General directions, and directions with equal, zero and opposite coordinates, which are on the borders of cells.
@@ -157,11 +148,6 @@ mod tests {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    #[inline(always)]
-    fn found<S: Simd>(simd: S, shape: &ConvexShape, d: [f64; 3]) -> [f64; 3] {
-        shape.support(simd, Vec3::splat(simd, d), (1 << LANES) - 1).lane(LANES - 1)
-    }
-
     #[test]
     fn the_table_finds_the_farthest_vertex() {
         for n in [1, 2, 3, 5, 8, 30, 300, 3000] {
@@ -177,8 +163,7 @@ mod tests {
                 .collect();
             let shape = ConvexShape::of_points(&points).expect("a shape");
             for d in directions() {
-                let p = dispatch!(Level::new(), simd => found(simd, &shape, d));
-                let p = std::array::from_fn(|k| p[k] + shape.centre[k]);
+                let p = shape.farthest(Level::new(), d.into()).into();
                 let (found, most) = (most(&[p], d), most(&points, d));
                 assert!(
                     (found - most).abs() < 1e-14,

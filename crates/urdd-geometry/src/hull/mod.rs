@@ -10,9 +10,9 @@
 
 mod error;
 mod facets;
-mod flat;
+pub(crate) mod flat;
 pub mod predicates;
-mod quickhull;
+pub(crate) mod quickhull;
 mod slivers;
 
 pub use error::HullError;
@@ -88,7 +88,7 @@ impl ConvexHull {
         let (triangles, flat) = match quickhull::start(points)? {
             Start::Plane(triangle) => (flat::triangulate(points, triangle), true),
             Start::Tetrahedron(corners) => {
-                let grown = quickhull::grow(points, corners);
+                let grown = quickhull::grow(points, corners).into_triangles();
                 (facets::triangulate(points, &grown), false)
             }
         };

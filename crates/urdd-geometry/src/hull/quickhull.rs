@@ -80,8 +80,8 @@ pub fn start(points: &[Point]) -> Result<Start, HullError> {
     })
 }
 
-/// The hull's triangles. Some corners may still be on an edge or in a face.
-pub fn grow(points: &[Point], corners: [u32; 4]) -> Vec<Triangle> {
+/// The hull of points, from four of them. Some corners may still be on an edge or in a face.
+pub fn grow(points: &[Point], corners: [u32; 4]) -> Growing {
     let mut hull = Growing::new(points);
     let [a, b, c, d] = corners;
     for (corners, neighbours) in [
@@ -105,12 +105,15 @@ pub fn grow(points: &[Point], corners: [u32; 4]) -> Vec<Triangle> {
             open.extend(new.iter().copied().filter(has_points));
         }
     }
-    hull.into_triangles()
+    hull
 }
 
-struct Growing<'a> {
-    points: &'a [Point],
-    /// Side lengths of the axis-aligned box of all points.
+/// A hull that takes in points.
+pub struct Growing {
+    points: Vec<Point>,
+    /// The axis-aligned box of all points, larger by what rounding moves them.
+    bounds: Bounds,
+    /// Its side lengths.
     extent: Vector3<f64>,
     faces: Vec<Face>,
     /// Slots of removed faces, to be used again.
@@ -124,11 +127,16 @@ struct Growing<'a> {
     spare_lists: Vec<Vec<u32>>,
 }
 
-impl<'a> Growing<'a> {
-    fn new(points: &'a [Point]) -> Self {
+impl Growing {
+    fn new(points: &[Point]) -> Self {
+        let Bounds { min, max } = Bounds::of(points.iter().copied());
+        let more = [0, 1, 2].map(|k| 1e-9 * (max[k] - min[k]));
+        let min = [0, 1, 2].map(|k| min[k] - more[k]);
+        let bounds = Bounds { min, max: [0, 1, 2].map(|k| max[k] + more[k]) };
         Self {
-            points,
-            extent: Bounds::of(points.iter().copied()).size().into(),
+            points: points.to_vec(),
+            extent: bounds.size().into(),
+            bounds,
             faces: Vec::new(),
             free: Vec::new(),
             face_from: vec![u32::MAX; points.len()],
@@ -194,7 +202,7 @@ impl<'a> Growing<'a> {
                 .iter()
                 .find_map(|f| Some((*f, self.height_outside(&self.faces[*f as usize], point)?)));
             let Some((f, height)) = found else { continue };
-            let points = self.points;
+            let points = &self.points;
             let face = &mut self.faces[f as usize];
             if face.outside.is_empty() {
                 face.outside = self.spare_lists.pop().unwrap_or_default();
@@ -273,7 +281,39 @@ impl<'a> Growing<'a> {
         }
     }
 
-    fn into_triangles(self) -> Vec<Triangle> {
+    /// Whether a point is in the box of those that are known: [`Growing::insert`] takes no other.
+    pub fn holds(&self, point: Point) -> bool {
+        let Bounds { min, max } = self.bounds;
+        (0..3).all(|k| min[k] <= point[k] && point[k] <= max[k])
+    }
+
+    /// Takes in a point that is outside the triangle of a slot. `changed` is set to the slots that have other triangles
+    /// then, or none. Returns whether the point is outside.
+    pub fn insert(&mut self, point: Point, seen_from: u32, changed: &mut Vec<u32>) -> bool {
+        let apex = self.points.len() as u32;
+        self.points.push(point);
+        self.face_from.push(u32::MAX);
+        let is_outside = self.height_outside(&self.faces[seen_from as usize], apex).is_some();
+        changed.clear();
+        if is_outside {
+            let known = self.free.len();
+            self.take_in(apex, seen_from, changed);
+            changed.extend_from_slice(&self.free[known.saturating_sub(changed.len())..]);
+        }
+        is_outside
+    }
+
+    /// The corners of the triangle of each slot; `None` for a slot without one.
+    pub fn triangle(&self, slot: u32) -> Option<[u32; 3]> {
+        let face = self.faces.get(slot as usize).filter(|face| !face.removed);
+        face.map(|face| face.triangle.corners)
+    }
+
+    pub fn num_slots(&self) -> u32 {
+        self.faces.len() as u32
+    }
+
+    pub fn into_triangles(self) -> Vec<Triangle> {
         let mut kept = 0;
         let number: Vec<u32> = self
             .faces

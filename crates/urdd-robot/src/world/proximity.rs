@@ -12,7 +12,7 @@ use crate::edge::{EdgeSettings, FirstContact};
 use crate::error::RobotError;
 use crate::obstacle::{Part, World, check_pose};
 use crate::proximity::{
-    Gradient, Overlap, Placed, Proximity, Shape, SweptPair, Waiting, Workspace, relative,
+    Gradient, Overlap, Placed, Proximity, Shape, SweptPair, Waiting, Workspace, relative, to_root,
 };
 use crate::questions::questions;
 use urdd_geometry::bounding_sphere::BoundingSphere;
@@ -68,12 +68,14 @@ struct PlacedPart {
     is_turned: bool,
     /// More than what is rounded in its frame, m.
     rounding: f64,
+    /// Around the part, in the root link's frame.
+    sphere: BoundingSphere,
 }
 
 impl PlacedPart {
     fn new(obstacle: usize, part: Part, pose: &Isometry3<f64>) -> Self {
-        let (frame, is_turned, rounding) = ([[0.0; 3]; 4], false, 0.0);
-        let mut placed = PlacedPart { obstacle, part, frame, is_turned, rounding };
+        let (frame, is_turned, rounding, sphere) = ([[0.0; 3]; 4], false, 0.0, part.sphere);
+        let mut placed = PlacedPart { obstacle, part, frame, is_turned, rounding, sphere };
         placed.place(pose);
         placed
     }
@@ -82,6 +84,9 @@ impl PlacedPart {
         self.frame = columns(pose);
         self.is_turned = pose.rotation != UnitQuaternion::identity();
         self.rounding = 1e-12 * norm(self.frame[3]);
+        let BoundingSphere { centre, radius } = self.part.sphere;
+        let centre = to_root(&self.frame, centre);
+        self.sphere = BoundingSphere { centre, radius: radius + self.rounding };
     }
 
     /// A lower bound of the distance from a sphere, m; not positive if they may touch.
@@ -92,6 +97,13 @@ impl PlacedPart {
             false => from,
         };
         self.part.bound(&BoundingSphere { centre, radius: radius + self.rounding })
+    }
+
+    /// Whether it is certainly farther from a sphere than `distance`, m.
+    fn is_beyond(&self, centre: [f64; 3], radius: f64, distance: f64) -> bool {
+        let from = sub(centre, self.sphere.centre);
+        let reach = radius + self.sphere.radius + distance;
+        dot(from, from) * (1.0 - 1e-12) > reach * reach || self.bound(centre, radius) > distance
     }
 }
 
@@ -324,6 +336,12 @@ impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
         self.parts[part].bound(placed.centres[shape], radius)
     }
 
+    fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
+        let [shape, part] = self.pairs[pair].map(|index| index as usize);
+        let radius = self.proximity.shapes[shape].sphere.radius;
+        self.parts[part].is_beyond(placed.centres[shape], radius, distance)
+    }
+
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
         let cores = pairs.iter().map(|pair| self.cores(placed, *pair));
         let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
@@ -335,7 +353,7 @@ impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
 
     fn touches(&self, placed: &Placed) -> bool {
         let mut waiting = Waiting::new(self.proximity.level);
-        let mut near = (0..self.pairs.len()).filter(|pair| self.bound(placed, *pair) <= 0.0);
+        let mut near = (0..self.pairs.len()).filter(|pair| !self.is_beyond(placed, *pair, 0.0));
         near.any(|pair| {
             waiting.touches_with(self.cores(placed, pair), self.radii(pair).iter().sum())
         }) || waiting.any_touches()
