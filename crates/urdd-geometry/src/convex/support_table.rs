@@ -122,7 +122,6 @@ mod tests {
     use fearless_simd::Level;
 
     use super::super::shape::ConvexShape;
-    use super::*;
 
     /// General directions, and directions with equal, zero and opposite coordinates, which are on the borders of cells.
     fn directions() -> Vec<[f64; 3]> {
