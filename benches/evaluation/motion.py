@@ -11,6 +11,7 @@ questions are asked in a loop, of which the empty loop is taken off; `batch` is 
 - A margin: is any pair within 2 cm? Coal by its broad phase with a security margin, MuJoCo by geoms with that margin.
 - Gradients of the 8 nearest pairs: coal's distances of all pairs, then Pinocchio's Jacobians at the closest points. They
   are held to ours, and coal's depths of overlaps to our penetrations.
+- Depths: every pair that overlaps, coal's by its broad phase with contacts.
 - An edge: a straight motion, sampled so that no link moves by more than 2 cm between two samples. Coal asks at the same
   samples.
 - A plan: RRT-Connect of `python/examples/rrt_connect.py` beside OMPL's with coal's answers, among a table and a ball.
@@ -82,6 +83,12 @@ class Coal:
             if len(joints) == 1:
                 self.near.deactivateCollisionPair(k)
         self.tree = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, self.near)
+        self.overlapping = self.geometry.createData()
+        for request in self.overlapping.collisionRequests:
+            request.enable_contact = True
+        self.overlaps = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
+            self.model, self.geometry, self.overlapping
+        )
         self.touch = self.geometry.createData()
         self.broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, self.touch)
 
@@ -95,6 +102,10 @@ class Coal:
     def in_collision(self, q: Any) -> bool:
         pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.touch, q)
         return pinocchio.computeCollisions(self.model, self.data, self.broad, q, True)
+
+    def penetrations(self, q: Any) -> None:
+        pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.overlapping, q)
+        pinocchio.computeCollisions(self.model, self.data, self.overlaps, q, False)
 
     def gradients(self, q: Any) -> list[tuple[float, str, str, Any]]:
         pinocchio.computeDistances(self.model, self.data, self.geometry, self.exact, q)
@@ -203,6 +214,8 @@ def of_robot(name: str, robot: urdd.Robot, count: int) -> tuple[list[list[str]],
             None,
         ]
     )
+    ask_depths = [each(shapes.penetrations, list(q)), each(peer.penetrations, theirs)]
+    rows.append([name, "depths of overlaps", None, *ask_depths, None])
 
     random = np.random.default_rng(1)
     starts = q[: count // 5]

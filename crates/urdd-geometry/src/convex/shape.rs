@@ -1,10 +1,7 @@
 //! Convex shapes.
 
-use fearless_simd::{Level, dispatch};
 use nalgebra::{Isometry3, Vector3};
 
-use super::lanes::Vec3;
-use super::support::Support;
 use super::support_table::SupportTable;
 use crate::mesh::{Bounds, Mesh};
 use crate::vector::sub;
@@ -81,14 +78,6 @@ impl ConvexShape {
         let points: Vec<[f64; 3]> = points.iter().map(|p| sub(*p, centre)).collect();
         let table = SupportTable::new(&points);
         Ok(Self { centre, table })
-    }
-
-    /// The vertex that is farthest in a direction, in the body frame, metres.
-    pub(crate) fn farthest(&self, level: Level, direction: Vector3<f64>) -> Vector3<f64> {
-        let found = dispatch!(level, simd => {
-            self.support(simd, Vec3::splat(simd, direction.into()), 1).lane(0)
-        });
-        Vector3::from(found) + Vector3::from(self.centre)
     }
 
     /// Centre of the axis-aligned bounds, in the body frame, metres.

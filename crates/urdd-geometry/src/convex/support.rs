@@ -1,6 +1,7 @@
 //! Support functions for all lanes at once.
 
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
+use nalgebra::Vector3;
 
 use super::lanes::{LANES, Num, Vec3, select, splat};
 use super::support_table::SupportTable;
@@ -50,6 +51,16 @@ impl Support for ConvexShape {
     fn support<S: Simd>(&self, simd: S, d: Vec3<S>, lanes: u64) -> Vec3<S> {
         let cells = cells(simd, splat(simd, self.table.side() as f64), d);
         farthest(simd, |_| &self.table, cells, d, lanes)
+    }
+}
+
+impl ConvexShape {
+    /// The vertex that is farthest in a direction, in the body frame, metres.
+    pub(crate) fn farthest(&self, level: Level, direction: Vector3<f64>) -> Vector3<f64> {
+        let found = dispatch!(level, simd => {
+            self.support(simd, Vec3::splat(simd, direction.into()), 1).lane(0)
+        });
+        Vector3::from(found) + Vector3::from(self.centre)
     }
 }
 
