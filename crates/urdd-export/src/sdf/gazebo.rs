@@ -13,6 +13,12 @@ use urdd_xml::number::number;
 
 const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
 
+/// The elements that SDF 1.9 to 1.11 have in a model, a link or a joint. Drake refuses others, and no parser reads them.
+const ELEMENTS: &str = "allow_auto_disable audio_sink audio_source auto_inertia axis axis2 battery child collision enable_wind \
+    frame gearbox_ratio gearbox_reference_body gravity gripper include inertial joint kinematic light link \
+    model must_be_base_link parent particle_emitter physics plugin pose projector screw_thread_pitch \
+    self_collide sensor static thread_pitch velocity_decay visual";
+
 /// Drake refuses it, and nothing reads it.
 const OLD_NOISE: &str = "it is right in `<imu>`, where SDF had it up to 1.4";
 
@@ -114,6 +120,9 @@ impl Gazebo {
                         Some("a number in it is not one")
                     }
                     None if element.has_prefix() => Some("it has a prefix of its file"),
+                    None if ELEMENTS.split(' ').all(|known| known != element.name()) => {
+                        Some("an element in it is none that SDF has in a model, a link or a joint")
+                    }
                     _ => None,
                 };
                 match fault {

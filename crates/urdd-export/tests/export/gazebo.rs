@@ -22,7 +22,7 @@ const PARTS: &str = r#"<link name="a"><visual><geometry><box size="1 1 1"/></geo
 <gazebo reference="j"><stopCfm>0.1</stopCfm><stopErp>0.2</stopErp><fudgeFactor>0.3</fudgeFactor><provideFeedback>true</provideFeedback>
 <implicitSpringDamper>1</implicitSpringDamper><springReference>0.4</springReference><springStiffness>0.5</springStiffness></gazebo>
 <gazebo reference="f"><preserveFixedJoint>true</preserveFixedJoint><springReference>1</springReference></gazebo>
-<gazebo reference="nothing"><mu1>1</mu1></gazebo><gazebo reference="a"><kp>hard</kp></gazebo>"#;
+<gazebo reference="nothing"><mu1>1</mu1></gazebo><gazebo><canonicalBody>b</canonicalBody></gazebo><gazebo reference="a"><kp>hard</kp></gazebo>"#;
 
 fn find<'a>(node: Node<'a, 'a>, path: &str) -> Option<Node<'a, 'a>> {
     path.split('/').try_fold(node, |at, tag| at.children().find(|child| child.has_tag_name(tag)))
@@ -86,6 +86,7 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
     assert_eq!(named("joint", "f").attribute("type"), Some("fixed"));
     assert!(find(named("joint", "f"), "axis").is_none());
     assert!(find(named("link", "a"), "collision/surface").is_none());
+    assert!(find(model, "canonicalBody").is_none());
     // Noise is where SDF 1.5 and later have it.
     assert!(find(link, "sensor/imu/angular_velocity/x/noise").is_some());
     assert!(find(link, "sensor/imu/noise").is_none());
@@ -98,6 +99,7 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
         "neither a link nor a joint",
         "a number in it is not one",
         "`<noise>` is left out",
+        "an element in it is none that SDF has",
     ] {
         assert!(notes.iter().any(|said| said.contains(note)), "{note}: {notes:?}");
     }
@@ -105,7 +107,7 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
     let report: serde_json::Value = serde_json::from_str(&made.report).expect("JSON");
     let otherwise = report["otherwise"].as_array().expect("a list");
     assert!(
-        otherwise.iter().any(|entry| entry["what"] == "`<gazebo>` elements" && entry["count"] == 7),
+        otherwise.iter().any(|entry| entry["what"] == "`<gazebo>` elements" && entry["count"] == 8),
         "{report}"
     );
 }
