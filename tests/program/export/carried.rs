@@ -36,7 +36,7 @@ const URDF: &str = r#"<robot name="r"><link name="base"><inertial><mass value="2
 <joint name="p" type="planar"><parent link="tip"/><child link="plane"/><axis xyz="0 0 1"/></joint>
 <joint name="s" type="spherical"><parent link="plane"/><child link="ball"/></joint>
 <joint name="f" type="floating"><parent link="ball"/><child link="free"/></joint>
-<gazebo reference="base"><x/></gazebo><gear_train/></robot>"#;
+<gazebo reference="base"><gravity>false</gravity></gazebo><gear_train/></robot>"#;
 
 /// What a format writes of each thing; nothing where it does not carry it.
 const PROBES: [(&str, &[&str; 9]); 9] = [
@@ -93,7 +93,7 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
         &["", "0.375", "0.375", "0.375", "", "", "0.375", "0.375", "0.375"],
     ),
     ("mimic joints", &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875"]),
-    ("`<gazebo>` elements", &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<x/>"]),
+    ("`<gazebo>` elements", &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false"]),
     (
         "other elements that URDF does not define, such as transmissions",
         &["", "<gear", "<gear", "", "", "", "<gear", "<gear", ""],
