@@ -93,7 +93,10 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
         &["", "0.375", "0.375", "0.375", "", "", "0.375", "0.375", "0.375"],
     ),
     ("mimic joints", &["", "1.875", "1.875", "1.875", "", "", "1.875", "1.875", "1.875"]),
-    ("`<gazebo>` elements", &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false"]),
+    (
+        "`<gazebo>` elements",
+        &["", "<gazebo", "<gazebo", "", "", "", "<gazebo", "<gazebo", "<gravity>false"],
+    ),
     (
         "other elements that URDF does not define, such as transmissions",
         &["", "<gear", "<gear", "", "", "", "<gear", "<gear", ""],
