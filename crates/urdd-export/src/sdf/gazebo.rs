@@ -49,7 +49,7 @@ use Value::{Elements, Flag, Number, Opposite, Text};
 /// A word, what it is about, how its value is written, and the elements that contain it.
 type Word = (&'static str, Place, Value, &'static [&'static str]);
 
-/// The words that the converter knows. Any other element goes into the link, joint or model.
+/// The words that the converter knows. Any other element of [`ELEMENTS`] goes into the link, joint or model.
 const WORDS: [Word; 26] = [
     ("static", Model, Flag, &["static"]),
     ("turnGravityOff", Link, Opposite, &["gravity"]),
@@ -90,7 +90,6 @@ impl Gazebo {
         let names: HashSet<&String> = subject.links.iter().chain(joints).collect();
         let mut said: HashMap<String, Vec<Element>> = HashMap::new();
         let mut faults = BTreeSet::new();
-        let mut old_noise = None;
         let mut unreadable = 0;
         for text in &subject.urdf.unknown_elements {
             // Prefixes that only the source declares do not matter: what has them is left out.
@@ -107,27 +106,27 @@ impl Gazebo {
             }
             let reference = root.attribute("reference").unwrap_or_default().to_owned();
             if !reference.is_empty() && !names.contains(&reference) {
-                faults.insert("it refers to what is neither a link nor a joint");
+                faults.insert(("gazebo", "it refers to what is neither a link nor a joint"));
                 continue;
             }
             let said = said.entry(reference).or_default();
             for mut element in root.children().filter(|node| node.is_element()).map(Element::of) {
                 if element.child_mut("imu").is_some_and(|imu| imu.remove("noise")) {
-                    old_noise = Some(Note::Element { element: "noise", reason: OLD_NOISE });
+                    faults.insert(("noise", OLD_NOISE));
                 }
                 let fault = match word(&element).map(|word| word.2) {
                     Some(Number) if !own(&element).parse().is_ok_and(f64::is_finite) => {
                         Some("a number in it is not one")
                     }
                     None if element.has_prefix() => Some("it has a prefix of its file"),
-                    None if ELEMENTS.split(' ').all(|known| known != element.name()) => {
-                        Some("an element in it is none that SDF has in a model, a link or a joint")
-                    }
+                    None if ELEMENTS.split(' ').all(|known| known != element.name()) => Some(
+                        "an element in it is not defined by SDF for a model, a link or a joint",
+                    ),
                     _ => None,
                 };
                 match fault {
                     Some(fault) => {
-                        faults.insert(fault);
+                        faults.insert(("gazebo", fault));
                     }
                     None => said.push(element),
                 }
@@ -135,8 +134,8 @@ impl Gazebo {
             // Words overwrite what such elements have.
             said.sort_by_key(|said| word(said).is_none_or(|word| word.2 != Elements));
         }
-        notes.extend(faults.into_iter().map(left_out));
-        notes.extend(old_noise);
+        let faults = faults.into_iter();
+        notes.extend(faults.map(|(element, reason)| Note::Element { element, reason }));
         if unreadable > 0 {
             notes.push(Note::Elements(unreadable));
         }

@@ -99,7 +99,7 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
         "neither a link nor a joint",
         "a number in it is not one",
         "`<noise>` is left out",
-        "an element in it is none that SDF has",
+        "an element in it is not defined by SDF for a model, a link or a joint",
     ] {
         assert!(notes.iter().any(|said| said.contains(note)), "{note}: {notes:?}");
     }
