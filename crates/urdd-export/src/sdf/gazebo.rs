@@ -13,11 +13,13 @@ use urdd_xml::number::number;
 
 const UNCHECKED: &str = "what `<gazebo>` elements say is where SDF has it; plugins, sensors and other elements in them are as the source has them, and not checked";
 
-/// The elements that SDF 1.9 to 1.11 have in a model, a link or a joint. Drake refuses others, and no parser reads them.
-const ELEMENTS: &str = "allow_auto_disable audio_sink audio_source auto_inertia axis axis2 battery child collision enable_wind \
-    frame gearbox_ratio gearbox_reference_body gravity gripper include inertial joint kinematic light link \
-    model must_be_base_link parent particle_emitter physics plugin pose projector screw_thread_pitch \
-    self_collide sensor static thread_pitch velocity_decay visual";
+/// The elements of a model, a link or a joint in SDF 1.9 to 1.11. Left out are those that may stand there once, where ours
+/// are (`<pose>`, `<inertial>`, `<axis>`), and `<include>`, which names another file. Drake refuses what is not defined,
+/// and no parser reads it.
+const ELEMENTS: &str = "allow_auto_disable audio_sink audio_source auto_inertia battery collision enable_wind frame \
+    gearbox_ratio gearbox_reference_body gravity gripper joint kinematic light link model \
+    must_be_base_link particle_emitter physics plugin projector screw_thread_pitch self_collide sensor \
+    static thread_pitch velocity_decay visual";
 
 /// Drake refuses it, and nothing reads it.
 const OLD_NOISE: &str = "it is right in `<imu>`, where SDF had it up to 1.4";
@@ -120,7 +122,7 @@ impl Gazebo {
                     }
                     None if element.has_prefix() => Some("it has a prefix of its file"),
                     None if ELEMENTS.split(' ').all(|known| known != element.name()) => Some(
-                        "an element in it is not defined by SDF for a model, a link or a joint",
+                        "an element in it is not defined by SDF for a model, a link or a joint, or cannot be added to ours",
                     ),
                     _ => None,
                 };

@@ -99,7 +99,7 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
         "neither a link nor a joint",
         "a number in it is not one",
         "`<noise>` is left out",
-        "an element in it is not defined by SDF for a model, a link or a joint",
+        "an element in it is not defined by SDF for a model, a link or a joint, or cannot be added to ours",
     ] {
         assert!(notes.iter().any(|said| said.contains(note)), "{note}: {notes:?}");
     }
@@ -117,12 +117,16 @@ fn what_gazebo_elements_say_is_where_sdf_has_it() {
 fn gazebo_elements_cannot_break_the_file() {
     let parts = r#"<link name="a"/><link name="b"/><joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>
 <gazebo><link name="a"/><frame name="world_fixed"/><plugin name="b" filename="x"/><plugin name="b" filename="y"/></gazebo>
+<gazebo><include><uri>x</uri></include></gazebo><gazebo reference="b"><pose>1 0 0 0 0 0</pose></gazebo><gazebo reference="j"><parent>b</parent></gazebo>
 <gazebo xmlns:q="urn:q" reference="a"><q:x/><turnGravityOff value="true"/><sensor name="s" type="imu"/><sensor name="s" type="imu"/></gazebo>"#;
     let (_folder, robot) = robot(&urdf(parts));
     let made = exported(&robot, Format::Sdf);
     let document = Document::parse(&made.text).expect("XML");
     let count = |tag: &str| document.descendants().filter(|node| node.has_tag_name(tag)).count();
     assert_eq!(["link", "frame", "plugin", "sensor"].map(count), [2, 1, 2, 1]);
+    // What would be there twice, and what would load another file.
+    assert_eq!(["include", "parent"].map(count), [0, 2]);
+    assert!(!made.text.contains("<pose>1 0 0 0 0 0</pose>"));
     assert!(!made.text.contains("q:x") && made.text.contains("<gravity>false</gravity>"));
     assert!(made.text.contains("<joint name=\"world_fixed_2\""));
 }
