@@ -1,8 +1,10 @@
-//! The hostile texts of `export/texts.json` in the places of a URDF and a URDD, through the reports: JSON, SARIF, JUnit,
-//! workflow commands of GitHub Actions, Markdown. By each format's own rules a text stays a text.
+//! The hostile texts of `export/texts.json` in the places of a URDF and a URDD, through the reports (JSON, SARIF, JUnit,
+//! workflow commands of GitHub Actions, Markdown) and the page. By each format's own rules a text stays a text.
 #![cfg(unix)]
 
 use serde_json::Value;
+use urdd_directory::cancellation::Cancellation;
+use urdd_view::{Collection, export, page_with};
 
 use crate::export::names::parsed;
 use crate::export::texts::{Table, texts};
@@ -121,4 +123,59 @@ fn every_text_in_every_place_stays_a_text_in_every_report() {
         }
     }
     assert!(findings > 20, "{findings}");
+}
+
+/// What a page has beside the data that it carries, which is base64.
+fn beside_data(page: &str) -> String {
+    let mut parts = page.split("<script type=\"text/plain\" id=\"");
+    let mut beside = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (id, rest) = part.split_once("\">").expect("an id");
+        let (data, rest) = rest.split_once("</script>").expect("an end");
+        let is_base64 = data.bytes().all(|b| b.is_ascii_alphanumeric() || b"+/=".contains(&b));
+        assert!(is_base64, "{id}");
+        beside += id;
+        beside += rest;
+    }
+    // The last line is a hash of all.
+    beside.trim_end().rsplit_once('\n').expect("lines").0.to_owned()
+}
+
+/// The page of a site, without the hashes that name its files; its file names are of ours.
+fn page_of_site(site: &std::path::Path) -> String {
+    let files = testkit::files::below(site);
+    for file in files.keys() {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
+        assert!(file.chars().all(is_plain) && !file.contains(".."), "{file}");
+    }
+    let (_, page) = files.into_iter().find(|(file, _)| file == "index.html").expect("a page");
+    let page = String::from_utf8(page).expect("UTF-8");
+    let (start, rest) = page.split_once("name=\"urdd-files\" content=\"").expect("names");
+    format!("{start}{}", rest.split_once('"').expect("an end").1)
+}
+
+/// In one file and as a site, whatever a robot says.
+#[test]
+fn the_page_of_a_robot_is_our_page() {
+    let table = Table::new();
+    let made = || {
+        let collection = Collection::default();
+        collection.add(&table.path).ok()?;
+        let page = page_with(&collection.robots()[0]).ok()?;
+        let site = testkit::temporary::folder();
+        export(&collection, site.path(), &Cancellation::default(), &mut |_| {}).ok()?;
+        Some((beside_data(&page), page_of_site(site.path())))
+    };
+    let ours = made().expect("a page");
+    let places = table.places();
+    let cases = places.iter().flat_map(|place| texts().into_iter().map(move |text| (place, text)));
+    let mut shown = 0;
+    for (place, text) in sample(cases, 2003) {
+        let _ = table.with(place, &text);
+        if let Some(page) = made() {
+            assert!(page == ours, "{place}, {text:?}");
+            shown += 1;
+        }
+    }
+    assert!(shown > 1, "{shown}");
 }

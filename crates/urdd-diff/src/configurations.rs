@@ -18,7 +18,7 @@ pub(super) fn differences(
 
 /// The configurations of a URDD by name, each with one value per DOF; none without the module.
 fn configurations(side: &Side) -> Option<Vec<(String, Fields)>> {
-    let (urdd, _) = side.urdd.as_ref()?;
+    let urdd = side.urdd.as_ref()?;
     let Some(ModuleDocument::NamedConfigurations(module)) =
         urdd.document(ModuleKind::NamedConfigurations)
     else {

@@ -27,7 +27,7 @@ pub(super) fn differences(
     in_detail: &InDetail,
     tolerance: f64,
 ) -> Option<Vec<ModuleDifference>> {
-    let ((a, _), (b, _)) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
+    let (a, b) = (before.urdd.as_ref()?, after.urdd.as_ref()?);
     let by_folder = |urdd: &'_ Urdd| -> Vec<String> {
         urdd.modules().map(|module| module.folder.clone()).collect()
     };

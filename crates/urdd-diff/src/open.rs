@@ -5,9 +5,11 @@ use std::path::Path;
 use crate::side::{DiffError, Options, Side};
 use crate::{side_urdd, side_urdf};
 use urdd_directory::discover::{Found, discover};
+use urdd_directory::root::{ReadError, Root};
+use urdd_document::urdd::Urdd;
 use urdd_format::report;
 use urdd_validate::settings::Settings;
-use urdd_validate::{ValidateError, validate};
+use urdd_validate::{Run, ValidateError, validate, validate_source};
 
 impl Side {
     /// Opens a URDF (a file whose name ends in `.urdf`), or a URDD: a folder or a zip archive.
@@ -20,7 +22,7 @@ impl Side {
         let is_urdf = extension.eq_ignore_ascii_case("urdf") && !path.is_dir();
         if is_urdf && path.exists() {
             let mut side = side_urdf::open(path, shown, options)?;
-            side.validation = validation(path, options)?;
+            side.validation = validation(options, |settings| validate(&[path], settings))?;
             return Ok(side);
         }
         let found = discover(path).map_err(DiffError::Discover)?;
@@ -35,24 +37,33 @@ impl Side {
                 });
             }
         };
-        let Found { path, closed, .. } = found;
-        if let Some(error) = closed {
+        let Found { path, name, closed } = found;
+        let failed = |error: &ReadError| {
             let reason = error.to_string();
-            return Err(DiffError::NoRobot { path: shown, reason });
+            DiffError::NoRobot { path: shown.clone(), reason }
+        };
+        if let Some(error) = closed {
+            return Err(failed(error));
         }
-        let mut side = side_urdd::open(path, shown)?;
-        side.validation = validation(path, options)?;
+        // All that is compared is of one moment, also where a program writes to the folder meanwhile.
+        let root = Root::open(path).map_err(|error| failed(&error))?.kept();
+        let urdd = Urdd::of(root.clone()).map_err(|error| failed(&error))?;
+        let mut side = side_urdd::open(urdd, shown)?;
+        side.validation = validation(options, |settings| validate_source(root, name, settings))?;
         Ok(side)
     }
 }
 
-fn validation(path: &Path, options: &Options) -> Result<Option<report::Urdd>, DiffError> {
+fn validation(
+    options: &Options,
+    validate: impl FnOnce(&Settings) -> Result<Run, ValidateError>,
+) -> Result<Option<report::Urdd>, DiffError> {
     if options.without_findings {
         return Ok(None);
     }
     let settings =
         Settings { cancellation: options.urdf.cancellation.clone(), ..Settings::default() };
-    let run = validate(&[path], &settings).map_err(|error| match error {
+    let run = validate(&settings).map_err(|error| match error {
         ValidateError::Discover(error) => DiffError::Discover(error),
         _ => DiffError::Cancelled,
     })?;

@@ -92,10 +92,10 @@ fn change(before: &Checked, after: &Checked) -> Option<PairChange> {
 
 /// Opens the robot of a URDD.
 fn open(side: &Side) -> Result<Robot, &'static str> {
-    let Some((_, path)) = &side.urdd else {
+    let Some(urdd) = &side.urdd else {
         return Err("is a URDF, which states none");
     };
-    let robot = Robot::open(path).map_err(|_| "cannot be read")?;
+    let robot = Robot::of(urdd.root().clone());
     match robot.skips(ShapeKind::Hulls) {
         Ok(_) => Ok(robot),
         Err(_) => Err("has no usable link_shapes_skips_module"),

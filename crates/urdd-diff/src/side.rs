@@ -1,7 +1,5 @@
 //! One of the two robots, opened.
 
-use std::path::PathBuf;
-
 use thiserror::Error;
 
 use crate::dof_state::DofState;
@@ -81,8 +79,8 @@ pub struct Side {
     pub(super) other_parts: Option<OtherParts>,
     pub(super) shapes: Shapes,
     pub(super) dofs: Vec<DofState>,
-    /// The URDD and its path, unless it is a URDF.
-    pub(super) urdd: Option<(Urdd, PathBuf)>,
+    /// Unless it is a URDF.
+    pub(super) urdd: Option<Urdd>,
     /// Its validation, if findings are compared.
     pub(super) validation: Option<report::Urdd>,
     pub(super) notes: Vec<String>,

@@ -1,7 +1,6 @@
-//! Opens a URDD.
+//! A URDD as a side.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use crate::dof_state;
@@ -19,13 +18,11 @@ use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::{Scene, read};
 use urdd_xml::other_parts::other_parts;
 
-/// Opens a URDD and reads its original meshes.
+/// Reads the original meshes of a URDD.
 ///
 /// # Errors
-/// If it cannot be read, or does not say what its robot is.
-pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
-    let failed = |reason: String| DiffError::NoRobot { path: shown.clone(), reason };
-    let urdd = Urdd::read(path).map_err(|error| failed(error.to_string()))?;
+/// If it does not say what its robot is.
+pub(super) fn open(urdd: Urdd, shown: String) -> Result<Side, DiffError> {
     let robot: UrdfModule = match urdd.document(ModuleKind::Urdf) {
         Some(ModuleDocument::Urdf(module)) => (**module).clone(),
         Some(ModuleDocument::LegacyUrdf(module)) => of_legacy(module),
@@ -36,7 +33,8 @@ pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
                 fault.or_else(|| Some(module.unusable()?.to_string()))
             });
             let missing = || "urdf_module is missing, which says what the robot is".to_owned();
-            return Err(failed(reason.unwrap_or_else(missing)));
+            let reason = reason.unwrap_or_else(missing);
+            return Err(DiffError::NoRobot { path: shown, reason });
         }
     };
     let view = of_urdf(&robot);
@@ -50,7 +48,7 @@ pub(super) fn open(path: &Path, shown: String) -> Result<Side, DiffError> {
         shapes: read_shapes(&urdd, &view),
         view,
         robot,
-        urdd: Some((urdd, path.to_owned())),
+        urdd: Some(urdd),
         validation: None,
         notes,
     })

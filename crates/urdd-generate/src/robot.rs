@@ -98,7 +98,9 @@ pub fn generate_composed(
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
     let mut source = source::load_text(urdf, &composed.shown, &composed.folder)?;
-    source.file_name = portable(&format!("{}.urdf", source.reading.robot.name));
+    // No hidden file, and no option of a command.
+    let name = source.reading.robot.name.trim_start_matches(['.', '-']);
+    source.file_name = portable(&format!("{}.urdf", if name.is_empty() { "robot" } else { name }));
     make(None, &source, Some(composed), target, settings, progress)
 }
 

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 use urdd_generate::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
 
-use crate::combine::support::{core, ours, put_together};
+use crate::combine::support::{core, findings, ours, put_together};
+use crate::export::names::parsed;
+use crate::export::texts::texts;
 use crate::program::urdd;
 
 const CORE: [&str; 2] = ["--modules", "core"];
@@ -289,4 +291,60 @@ fn a_recipe_is_a_regular_file_up_to_a_limit() {
         assert!(made.expect("mkfifo").success());
         assert_eq!(urdd(&["combine", "pipe.toml", "-o", "out"], folder).0, 1);
     }
+}
+
+/// A recipe with a text in each place for names; `{0}` to `{4}`.
+const NAMED: &str = r#"name = "{0}"
+base = { link = "{1}", name = "{2}" }
+[[part]]
+id = "first"
+source = "two.urdf"
+prefix = "{3}"
+[[part]]
+id = "second"
+source = "two.urdf"
+attach = { to = "first/tip", name = "{4}" }
+"#;
+
+/// Text of a recipe is a name, or refused; it is no markup and no path.
+#[test]
+fn every_text_in_a_recipe_stays_a_text() {
+    let folder = testkit::temporary::folder();
+    let folder = folder.path();
+    fs::write(folder.join("two.urdf"), TWO).expect("a file");
+    let places = 0..5;
+    let cases = places.flat_map(|place| texts().into_iter().map(move |text| (place, text)));
+    let mut held = 0;
+    for (place, text) in testkit::trials::sample(cases, 17) {
+        let mut recipe = NAMED.to_owned();
+        for at in 0..5 {
+            let escaped = text.chars().map(|c| format!("\\U{:08X}", u32::from(c)));
+            let name = if at == place { escaped.collect() } else { format!("n{at}") };
+            recipe = recipe.replace(&format!("{{{at}}}"), &name);
+        }
+        match put_together(&recipe, folder, &core()) {
+            Ok((_, made)) => {
+                assert_eq!(findings(&made), Vec::<String>::new(), "{text:?}");
+                let files = testkit::files::below(&made);
+                let (file, urdf) =
+                    files.iter().find(|(file, _)| file.ends_with(".urdf")).expect("it");
+                assert!(!file.starts_with(['.', '-']) && !file.contains(['/', '\\']), "{file:?}");
+                let urdf = String::from_utf8_lossy(urdf).into_owned();
+                let document = parsed(&urdf);
+                let elements = document.descendants().filter(|node| node.is_element());
+                let names: Vec<&str> =
+                    elements.clone().filter_map(|node| node.attribute("name")).collect();
+                assert!(names.iter().any(|name| name.contains(&text)), "{text:?}: {urdf}");
+                // The robot, the base, two links of each part; a joint to each link but the base.
+                assert_eq!(names.len(), 1 + 5 + 4, "{text:?}: {urdf}");
+                held += 1;
+                fs::remove_dir_all(made).expect("a folder");
+            }
+            Err(CombineError::Recipe { fault, .. }) => {
+                assert!(matches!(*fault, RecipeFault::BadWord { .. }), "{text:?}: {fault}");
+            }
+            Err(error) => panic!("{text:?}: {error}"),
+        }
+    }
+    assert!(held > 8, "{held}");
 }

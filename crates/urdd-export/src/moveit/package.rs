@@ -57,8 +57,11 @@ fn cmake(config: &Config) -> String {
     );
     let meshes = config.subject.options.mesh_folder.rsplit('/').next();
     for folder in ["launch", "config"].into_iter().chain(meshes) {
-        text +=
-            &format!("install(DIRECTORY {folder} DESTINATION share/${{PROJECT_NAME}} OPTIONAL)\n");
+        // CMake's escapes in a quoted argument.
+        let folder = folder.replace('\\', "\\\\").replace('"', "\\\"").replace('$', "\\$");
+        text += &format!(
+            "install(DIRECTORY \"{folder}\" DESTINATION share/${{PROJECT_NAME}} OPTIONAL)\n"
+        );
     }
     text
 }
