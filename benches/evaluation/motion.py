@@ -12,8 +12,11 @@ questions are asked in a loop, of which the empty loop is taken off; `batch` is 
 - Gradients of the 8 nearest pairs: coal's distances of all pairs, then Pinocchio's Jacobians at the closest points. They
   are held to ours, and coal's depths of overlaps to our penetrations.
 - Depths: every pair that overlaps, coal's by its broad phase with contacts.
+- Boxes: whether the robot touches any of 20 around it, which move before each question.
 - An edge: a straight motion, sampled so that no link moves by more than 2 cm between two samples. Coal asks at the same
   samples.
+- Inverse kinematics, of poses that random configurations have: any solution, one free of collision, the one nearest to a
+  posture.
 - A plan: RRT-Connect of `python/examples/rrt_connect.py` beside OMPL's with coal's answers, among a table and a ball.
 """
 
@@ -44,6 +47,7 @@ MARGIN = 0.02
 NEAREST = 8
 RESOLUTION = 0.02
 ROUNDS = 5
+BOXES = 20
 
 
 def seconds(run: Callable[[], object]) -> float:
@@ -102,6 +106,22 @@ class Coal:
     def in_collision(self, q: Any) -> bool:
         pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.touch, q)
         return pinocchio.computeCollisions(self.model, self.data, self.broad, q, True)
+
+    def add(self, shape: coal.CollisionGeometry, pose: Any, ignore: list[str]) -> int:
+        """An obstacle, which all links may touch but those to ignore."""
+        at = self.geometry.addGeometryObject(pinocchio.GeometryObject(f"obstacle {pose}", 0, pose, shape))
+        for other, name in enumerate(self.names):
+            if name.split("[")[0] not in ignore:
+                self.geometry.addCollisionPair(pinocchio.CollisionPair(other, at))
+        return at
+
+    def around(self) -> None:
+        """Takes the obstacles that were added, and leaves out the pairs of the robot itself."""
+        self.touch = self.geometry.createData()
+        for k, pair in enumerate(self.geometry.collisionPairs):
+            if pair.second < len(self.names):
+                self.touch.deactivateCollisionPair(k)
+        self.broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, self.touch)
 
     def penetrations(self, q: Any) -> None:
         pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.overlapping, q)
@@ -237,6 +257,60 @@ def of_robot(name: str, robot: urdd.Robot, count: int) -> tuple[list[list[str]],
     return [[*row[:2], *("-" if value is None else f"{value:.1f}" for value in row[2:])] for row in rows], note
 
 
+def box_poses(time: float) -> Any:
+    """The poses (20, 4, 4) of the boxes, about 0.9 m from the base."""
+    poses = []
+    for k in range(BOXES):
+        phase = time + k
+        pose = pinocchio.rpy.rpyToMatrix(0.3 * phase, phase, 0.7 * phase)
+        place = np.array([0.9 * np.cos(phase), 0.9 * np.sin(phase), 0.05 * k])
+        poses.append(pinocchio.SE3(pose, place).homogeneous)
+    return np.array(poses)
+
+
+def boxes(name: str, robot: urdd.Robot, count: int) -> tuple[list[str], str]:
+    """Yes or no among boxes that move."""
+    world, shapes, q = urdd.World(), robot.proximity("pieces"), robot.random(count)
+    names = [f"box {k}" for k in range(BOXES)]
+    for one, pose in zip(names, box_poses(0), strict=True):
+        world.add_box(one, size=[0.1, 0.1, 0.1], pose=pose)
+    peer = Coal(robot)
+    moved = [peer.add(coal.Box(0.1, 0.1, 0.1), pinocchio.SE3(pose), []) for pose in box_poses(0)]
+    peer.around()
+    questions = [(box_poses(0.01 * k), row, peer.q(row)) for k, row in enumerate(q)]
+
+    def ours(question: Any) -> bool:
+        poses, row, _ = question
+        world.move(names, poses)
+        return bool(robot.world_proximity(world, shapes).in_collision(row))
+
+    def by_coal(question: Any) -> bool:
+        poses, _, row = question
+        for at, pose in zip(moved, poses, strict=True):
+            peer.geometry.geometryObjects[at].placement = pinocchio.SE3(pose)
+        return peer.in_collision(row)
+
+    same = np.mean([ours(one) == by_coal(one) for one in questions])
+    still = robot.world_proximity(world, shapes)
+    batch = seconds(lambda: still.in_collision(q)) / count * 1e6
+    times = [batch, each(ours, questions), each(by_coal, questions)]
+    note = f"{name}: coal's answers among boxes are the same in {same:.1%}"
+    return [name, f"{BOXES} moving boxes", *(f"{one:.1f}" for one in times), "-"], note
+
+
+def inverse(name: str, robot: urdd.Robot, count: int) -> list[str]:
+    """Microseconds of inverse kinematics of the link that is last, in batches."""
+    tip = max(robot.link_names, key=lambda link: len(robot.dofs_between(robot.root_link, link)))
+    targets = robot.link_poses(robot.random(count, seed=3))[:, robot.link(tip)]
+    shapes = robot.proximity("pieces")
+    cells = [name, tip]
+    for options in ({}, {"free_of": shapes}, {"posture": robot.middle}):
+        solutions = robot.inverse_kinematics(tip, targets, **options)
+        taken = seconds(lambda options=options: robot.inverse_kinematics(tip, targets, **options)) / count * 1e6
+        cells.append(f"{taken:.0f} ({np.mean(solutions.reached):.1%})")
+    return cells
+
+
 def plans(name: str, robot: urdd.Robot, queries: int) -> list[str]:
     """Seconds for a plan, ours and OMPL's with coal."""
     from ompl import base, geometric
@@ -247,13 +321,9 @@ def plans(name: str, robot: urdd.Robot, queries: int) -> list[str]:
     world.add_sphere("ball", radius=0.15, centre=[0.45, 0.1, 0.6])
     checks = [(robot.proximity(), 0.0), (robot.world_proximity(world), 0.0)]
     peer = Coal(robot)
-    for shape, pose, size in (("table", [0, 0, -0.05], [2, 2, 0.1]), ("ball", [0.45, 0.1, 0.6], None)):
-        solid = coal.Box(*size) if size else coal.Sphere(0.15)
-        place = pinocchio.SE3(np.eye(3), np.array(pose))
-        at = peer.geometry.addGeometryObject(pinocchio.GeometryObject(shape, 0, place, solid))
-        for other in range(len(peer.names)):
-            if not (shape == "table" and peer.names[other].split("[")[0] in still):
-                peer.geometry.addCollisionPair(pinocchio.CollisionPair(other, at))
+    at = [pinocchio.SE3(np.eye(3), np.array(place)) for place in ([0, 0, -0.05], [0.45, 0.1, 0.6])]
+    peer.add(coal.Box(2, 2, 0.1), at[0], still)
+    peer.add(coal.Sphere(0.15), at[1], [])
     touch = peer.geometry.createData()
     broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(peer.model, peer.geometry, touch)
     space = base.RealVectorStateSpace(robot.num_dofs)
@@ -318,21 +388,28 @@ def main() -> None:
     }
     rows: list[list[str]] = []
     planned: list[list[str]] = []
+    reached: list[list[str]] = []
     notes: list[str] = []
     with tempfile.TemporaryDirectory() as folder:
         for name, source in sources.items():
             urdd.generate(source, Path(folder) / name, packages={"example-robot-data": share})
             robot = urdd.load(Path(folder) / name)
             found, note = of_robot(name, robot, given.configurations)
-            rows += found
-            notes.append(note)
-            print(note, *map(str, found), sep="\n", flush=True)
+            moved, of_boxes = boxes(name, robot, given.configurations)
+            rows += [*found, moved]
+            notes += [note, of_boxes]
+            reached.append(inverse(name, robot, given.configurations))
+            print(*notes[-2:], *rows[-5:], reached[-1], sep="\n", flush=True)
             if name != "H1":
                 planned.append(plans(name, robot, given.queries))
                 print(planned[-1], flush=True)
     columns = ["robot", "question", "batch, µs", "single, µs", "by coal, µs", "by MuJoCo, µs"]
     items: dict[str, Table | str] = {
         "questions": {"columns": columns, "rows": rows},
+        "inverse": {
+            "columns": ["robot", "link", "any, µs (reached)", "free of collision", "nearest to a posture"],
+            "rows": reached,
+        },
         "plans": {"columns": ["robot", "ours, ms", "OMPL with coal, ms"], "rows": planned},
         "agree": "; ".join(notes),
     }

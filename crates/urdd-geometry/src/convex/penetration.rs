@@ -10,10 +10,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::across::PlacedPair;
 use super::gjk::TOLERANCE;
-use crate::hull::ConvexHull;
 use crate::hull::flat;
 use crate::hull::predicates::{Point, in_range};
 use crate::hull::quickhull::{self, Growing, Start};
+use crate::hull::{ConvexHull, HullError};
 
 /// The least translation that separates two shapes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,11 +46,10 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
         // Adding 0 turns -0.0 into 0.0.
         [(a - b).add_scalar(0.0), a]
     };
-    let signs = [-1.0, 0.0, 1.0];
-    let directions = signs.map(|x| signs.map(|y| signs.map(|z| Vector3::new(x, y, z))));
-    let directions = directions.into_iter().flatten().flatten();
-    let mut vertices: Vec<Vertex> =
-        directions.filter(|d| *d != Vector3::zeros()).map(support).collect();
+    // Their box is that of all vertices.
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let mut vertices: Vec<Vertex> = axes.into_iter().flat_map(|d| [d, -d]).map(support).collect();
+    let num_first = vertices.len();
     let mut polytope: Option<Growing> = None;
     let mut faces: Vec<Option<Face>> = Vec::new();
     let mut changed = Vec::new();
@@ -69,6 +68,12 @@ pub fn penetration(pair: &PlacedPair) -> Option<Penetration> {
                 Ok(Start::Plane(triangle)) if is_exact => {
                     let corners = flat::triangulate(&points, triangle).into_iter();
                     faces = corners.map(|of| Face::new(of, &vertices)).collect();
+                }
+                // All on a line: the rest is beside it, if there is any.
+                Err(HullError::Line) if vertices.len() == num_first => {
+                    let across = across(&vertices);
+                    vertices.extend(across.into_iter().flat_map(|d| [d, -d]).map(support));
+                    continue;
                 }
                 // A point or a segment: nothing that is inside.
                 _ => return touching(&vertices),
@@ -163,12 +168,25 @@ fn nearest<'f>(faces: &'f [Option<Face>], vertices: &[Vertex]) -> Option<(u32, &
     nearest.max_by(|a, b| inside(a.1).total_cmp(&inside(b.1)))
 }
 
+/// The vector from the first vertex to the one that is farthest from it.
+fn along(vertices: &[Vertex]) -> Vector3<f64> {
+    let from_first = vertices.iter().map(|[v, _]| v - vertices[0][0]);
+    let longest = from_first.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    longest.unwrap_or_default()
+}
+
+/// Two unit vectors across the line of vertices, and across each other.
+fn across(vertices: &[Vertex]) -> [Vector3<f64>; 2] {
+    let along = along(vertices);
+    let first = along.cross(&Vector3::ith(along.iamin(), 1.0)).normalize();
+    [first, along.cross(&first).normalize()]
+}
+
 /// Shapes whose Minkowski difference is a point or a segment, which has no inside: they touch, and come apart along any
 /// normal of it. `None` if they are apart.
 fn touching(vertices: &[Vertex]) -> Option<Penetration> {
     let [first, of_a] = *vertices.first()?;
-    let along = vertices.iter().map(|[v, _]| v - first);
-    let along = along.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let along = along(vertices);
     let part = match along.norm_squared() {
         0.0 => 0.0,
         square => (-first.dot(&along) / square).clamp(0.0, 1.0),

@@ -50,6 +50,23 @@ fn boxes_have_closed_forms() {
     assert!((found.points[0][2] - 0.3).abs() < 1e-9, "{found:?}");
 }
 
+/// A spindle about a point: along each axis its tips are farthest, and they are on a line, so that what it has inside is
+/// found beside the line.
+#[test]
+fn a_spindle_has_an_inside() {
+    for (half, radius) in [(1.0, 1e-3), (0.5, 1e-6), (100.0, 0.01)] {
+        let tip = Vector3::new(1.0, 0.3, 0.2).normalize();
+        let side = tip.cross(&Vector3::x()).normalize();
+        let ring = [side, tip.cross(&side)];
+        let points = ring.map(|of| of * radius).into_iter().chain([tip * half]);
+        let points: Vec<[f64; 3]> = points.flat_map(|p| [p.into(), (-p).into()]).collect();
+        // The distance of a plane from its middle, by where it cuts the axes.
+        let depth = 1.0 / (2.0 / (radius * radius) + 1.0 / (half * half)).sqrt();
+        let found = found(&points, &[[0.0; 3]], &at(0.0, 0.0, 0.0)).expect("an overlap");
+        assert!((found.depth - depth).abs() < 1e-9 * half, "{found:?} {depth}");
+    }
+}
+
 /// A translation by the depth separates the two, and no shorter one along any of many directions.
 #[test]
 fn random_bodies_are_separated_by_the_depth_and_not_by_less() {
