@@ -48,7 +48,7 @@ const TESTS: &[(&str, &str)] = &[
     ),
     (
         "annotations::every_field",
-        "annotate the fields in crates/urdd-format/src: SPEC 11.3 has the words; what has none goes into a list in tests/program/annotations.rs, as a list with a length of its own",
+        "annotate the fields in crates/urdd-format/src: SPEC 11.3 and 11.4 have the words; what has none goes into a list in tests/program/annotations.rs, as a list with a length of its own",
     ),
     ("typescript::", UPDATE),
     ("cpp_types::", UPDATE),

@@ -53,7 +53,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         }
         (None, _) if family == OF_LINT => {
             return Err(format!(
-                "{OF_LINT} are the rules about URDFs: copy one of crates/urdd-lint/src/rules with its cases, and add the code to {CODES}"
+                "{OF_LINT} are the rules about URDFs: copy one of crates/urdd-lint/src/rules with its cases, and add the code to {CODES}; CONTRIBUTING.md has the steps"
             ));
         }
         (None, None) => {
