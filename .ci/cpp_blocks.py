@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes each block of C++ in a page of docs into a file of its own.
 
-    .ci/cpp_blocks.py PAGE FOLDER
+.ci/cpp_blocks.py PAGE FOLDER
 """
 
 from __future__ import annotations
