@@ -39,9 +39,10 @@ pub const INERTIA_DEFINITE: f64 = 1e-9;
 /// the triangle inequality with equality, and are written rounded.
 pub const INERTIA_TRIANGLE: f64 = 1e-6;
 
-/// Whether two numbers that should be copies agree.
+/// Whether two numbers that should be copies agree. A number that is not finite agrees only with its equal.
 pub fn numbers_agree(a: f64, b: f64) -> bool {
-    a == b || (a - b).abs() <= number_tolerance(a, b)
+    let tolerance = number_tolerance(a, b);
+    a == b || (tolerance.is_finite() && (a - b).abs() <= tolerance)
 }
 
 /// Maximum difference of two numbers that should be copies.
