@@ -125,8 +125,8 @@ pub const STL_NORMAL: f64 = 1e-3;
 /// radius, as for a circle of 16 corners (1 - cos(pi / 16) = 1.9 %).
 pub const PRIMITIVE_SAG: f64 = 0.02;
 
-/// They must have at least this fraction of the true area: an end cap of 16 corners has 97.4 %, a sphere with faces 2 %
-/// inside has 96 %.
+/// A tessellated shape, a box too, must have at least this fraction of the true area: an end cap of 16 corners has
+/// 97.4 %, a sphere with faces 2 % inside has 96 %.
 pub const PRIMITIVE_AREA: f64 = 0.95;
 
 /// Convex pieces without a stated tolerance cover a link's surface within this fraction of the diagonal of its bounding
