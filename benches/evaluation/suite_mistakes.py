@@ -77,7 +77,7 @@ BEFORE = [
                "count.0 < EVALUATION_MIN", "count.0 <= EVALUATION_MIN"),
     expression("before", "LRN", "counts off by three times as much", RULES + "learned/counts_differ.rs",
                "among.div_ceil(PER_TOLERANCE)", "3 * among.div_ceil(PER_TOLERANCE)"),
-    expression("before", "MSH", "which way triangles face is not compared", VALIDATE + "solids/surface.rs",
+    expression("before", "MSH", "which way triangles face is not compared", "crates/urdd-geometry/src/surface.rs",
                "here[facing] > there[facing]", "false"),
     expression("before", "SRC", "mimics stay within limits to 3e-6", RULES + "source/mimic_leaves_limits.rs",
                "MIMIC_LIMIT * own.0.abs().max(own.1.abs())", "3.0 * MIMIC_LIMIT * own.0.abs().max(own.1.abs())"),
