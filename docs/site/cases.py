@@ -32,6 +32,8 @@ def one(case: dict[str, Any]) -> str:
         lines.append(f"- and {len(changes) - SHOWN} more changes")
     if not changes:
         lines.append("- nothing is changed: the base itself is the case")
+    if packed := case.get("packed"):
+        lines.append("- packed as a zip archive, " + {"at_root": "at its root", "in_folder": "in a folder"}[packed])
     if case["hashes_kept"]:
         lines.append("- hashes in `urdd.json` stay as they were for " + ", ".join(map(code, case["hashes_kept"])))
     found = [f"{given['code']} at {place(given)}" for given in case["expected"]]

@@ -1,3 +1,5 @@
+mod odd_modules;
+
 use std::path::Path;
 
 use serde_json::json;
@@ -443,8 +445,11 @@ pub fn cases() -> Vec<Case> {
             set_root(f, "/source/Urdf/path", json!("Some robot.xml"));
         }),
     ];
+    cases.extend(odd_modules::cases());
     #[cfg(unix)]
     cases.extend(unix_cases());
+    #[cfg(unix)]
+    cases.extend(odd_modules::links());
     cases
 }
 

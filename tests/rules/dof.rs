@@ -32,6 +32,23 @@ pub fn star(joints: &[(&str, JointType)]) -> Robot {
     robot
 }
 
+/// A prismatic joint that is locked at 0, a mimic of it by 1e200, and a mimic of that one by `last`.
+fn locked_driver(last: f64) -> Fixture {
+    let mut robot = star(&[
+        ("a", JointType::Prismatic),
+        ("b", JointType::Prismatic),
+        ("c", JointType::Prismatic),
+    ]);
+    robot.joint_mut("a").limit = limit(0.0, 0.0);
+    for (joint, driver, multiplier) in [("b", "a", 1e200), ("c", "b", last)] {
+        let follower = robot.joint_mut(joint);
+        follower.limit = None;
+        follower.mimic =
+            Some(Mimic { joint: driver.to_owned(), multiplier: Some(multiplier), offset: None });
+    }
+    Fixture::core(&robot)
+}
+
 pub fn cases() -> Vec<Case> {
     let valid = |code, name, robot: fn() -> Robot| {
         changed(code, name, false, move || Fixture::core(&robot()), |_| {})
@@ -133,6 +150,21 @@ pub fn cases() -> Vec<Case> {
             let mimic = json!({ "dof_idx": 0, "multiplier": 1.0, "offset": 0.0 });
             f.set(DOF, "/joint_idx_to_mimic_mapping/1", mimic);
         }),
+        // Both mimics stand at 0, as their driver does: no pose is wrong.
+        changed(
+            DOF007,
+            "product-beyond-binary64",
+            true,
+            || locked_driver(1.0),
+            |f| {
+                f.urdf_replace(
+                    "<mimic joint=\"b\" multiplier=\"1\"/>",
+                    "<mimic joint=\"b\" multiplier=\"1e200\"/>",
+                );
+                f.set("urdf_module", "/joints/2/mimic/multiplier", json!(1e200));
+            },
+        ),
+        changed(DOF007, "product-within-binary64", false, || locked_driver(1e100), |_| {}),
         near_miss(DOF007, "factor-rounded", |f| {
             let pointer = "/joint_idx_to_mimic_mapping/10/multiplier";
             f.set(DOF, pointer, json!(-1.000_000_000_1));

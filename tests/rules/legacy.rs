@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use urdd_directory::canonical;
 use urdd_validate::code::Code::{self, *};
 
-use crate::legacy_robot::LegacyRobot;
+use crate::legacy_robot::{GLB, LegacyRobot, OBJ, STL};
 use crate::{Case, in_folder};
 
 const MESH: &str = "mesh_modules/original_meshes_module/meshes/a.stl";
@@ -116,6 +116,19 @@ pub fn cases() -> Vec<Case> {
             change_urdf(root, |urdf| urdf["name"] = json!("robot_description"));
         }),
         case(LEG003, "same-name", false, |_| {}),
+        // SPEC 10.7: shapes count, as in version 1.
+        in_folder(MSH011, "legacy-box-without-a-mesh", true, |root| {
+            let mut robot = LegacyRobot::new("robot", 0.0);
+            let visual = &mut robot.doc("urdf_module")["links"][1]["visual"][0];
+            visual["geometry"] = json!({"Box": {"size": [0.1, 0.1, 0.1]}});
+            robot.doc("original_meshes_module")["link_mesh_relative_paths"][1] = Value::Null;
+            for list in [STL, OBJ, GLB] {
+                robot.doc("plain_meshes_module")[list][1] = Value::Null;
+                robot.doc("convex_hull_meshes_module")[list][1] = Value::Null;
+                robot.doc("convex_decomposition_meshes_module")[list][1] = json!([]);
+            }
+            robot.write(root);
+        }),
         in_folder(LEG007, "same-mesh-placed-alike", true, |root| {
             LegacyRobot::new("robot", 0.0).write(root);
         }),

@@ -28,6 +28,7 @@ mod messages;
 mod named_configurations;
 mod numbers;
 mod one_case;
+mod packed;
 mod schema;
 mod shapes;
 mod source;
@@ -37,9 +38,12 @@ mod usable;
 mod yaml;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use testkit::fixture::Fixture;
+use urdd_conformance::archive::{self, Packed};
+use urdd_conformance::data::{PACKED, URDD};
+use urdd_conformance::tree::Tree;
 use urdd_format::report;
 use urdd_validate::code::Code;
 use urdd_validate::settings::Settings;
@@ -72,6 +76,24 @@ pub struct Case {
     /// The URDD before the change, if known.
     base: Option<Make>,
     caught: bool,
+    /// Where the URDD is in a zip archive; `None` for a folder.
+    packed: Option<Packed>,
+}
+
+impl Case {
+    /// Writes its URDD below a folder, and returns the URDD's path.
+    fn write(&self, folder: &Path) -> PathBuf {
+        let root = folder.join(URDD);
+        std::fs::create_dir(&root).expect("the URDD's folder");
+        self.make.write(&root);
+        let Some(packed) = self.packed else {
+            return root;
+        };
+        let tree = Tree::read(&root, &root).expect("what was just written");
+        let path = folder.join(PACKED);
+        archive::write(&tree, packed, &path).expect("an archive");
+        path
+    }
 }
 
 /// The URDD that most cases change, in the canonical emission.
@@ -116,6 +138,7 @@ pub fn changed(
         })),
         base: Some(Make::Fixture(Box::new(move || unchanged()))),
         caught,
+        packed: None,
     }
 }
 
@@ -127,12 +150,13 @@ pub fn in_folder(
     caught: bool,
     write: impl Fn(&Path) + 'static,
 ) -> Case {
-    Case { code, name, make: Make::Folder(Box::new(write)), base: None, caught }
+    Case { code, name, make: Make::Folder(Box::new(write)), base: None, caught, packed: None }
 }
 
 fn cases() -> Vec<Case> {
     [
         directory::cases(),
+        packed::cases(),
         json::cases(),
         yaml::cases(),
         schema::cases(),

@@ -53,10 +53,7 @@ fn fault(case: &Case, stand: Stand) -> Option<String> {
         })
         .collect();
     let folder = testkit::temporary::folder();
-    let root = folder.path().join("robot");
-    std::fs::create_dir(&root).expect("the URDD's folder");
-    case.make.write(&root);
-    judged(case, &root, &rules)
+    judged(case, &case.write(folder.path()), &rules)
 }
 
 fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {

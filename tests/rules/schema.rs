@@ -1,6 +1,7 @@
 use serde_json::json;
 use urdd_validate::code::Code::*;
 
+use crate::json::{edit_text, replaced};
 use crate::{Case, in_folder, invalid, legacy, near_miss};
 use testkit::fixture::ROOT;
 
@@ -35,6 +36,11 @@ pub fn cases() -> Vec<Case> {
         near_miss(SCH001, "integer-with-a-fraction-of-zero", |f| {
             let number = f.get("dof_module", "/num_dofs").as_f64().expect("a number");
             f.set("dof_module", "/num_dofs", json!(number));
+        }),
+        near_miss(SCH001, "integer-with-an-exponent", |f| {
+            edit_text(f, "chain_module/module.json", |bytes| {
+                replaced(bytes, "\"root_idx\": 1", "\"root_idx\": 1e0")
+            });
         }),
     ]
 }

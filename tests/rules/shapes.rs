@@ -266,6 +266,14 @@ fn matrices() -> Vec<Case> {
             let pointer = "/reasons/decomposition_bounding_spheres";
             f.set(SIMPLE, pointer, Value::Null);
         }),
+        invalid(SHP015, "skips-left-out-with-the-statistics", |f| {
+            for shapes in ["convex_hulls", "obbs", "bounding_spheres"] {
+                f.set(STATISTICS, &format!("/decomposition_{shapes}"), Value::Null);
+                f.set(SIMPLE, &format!("/decomposition_{shapes}_simple_skips"), Value::Null);
+                f.set(SIMPLE, &format!("/reasons/decomposition_{shapes}"), Value::Null);
+                f.set(SKIPS, &format!("/decomposition_{shapes}_skips"), Value::Null);
+            }
+        }),
         changed(SHP015, "empty", false, without_shapes, |f| {
             assert_eq!(f.get(SKIPS, "/decomposition_obbs_skips"), &json!([]));
         }),

@@ -170,6 +170,10 @@ fn inertias() -> Vec<Case> {
             robot.link_mut("frame").inertial = of(1.0, [0.0; 3]);
             robot.link_mut("tool/ü 1").inertial = of(1.0, [0.0; 3]);
         }),
+        fine(SRC004, "mass-without-a-tensor", |robot| {
+            let inertial = robot.link_mut("turret").inertial.as_mut().expect("it has");
+            inertial.inertia = None;
+        }),
         fine(SRC004, "thin-rod", |robot| {
             robot.link_mut("arm").inertial = of(1.0, [0.083, 0.083, 1e-9]);
         }),

@@ -49,6 +49,31 @@ pub fn cases() -> Vec<Case> {
         invalid(YML001, "byte-order-mark", |f| {
             edit_text(f, FILE, |bytes| [b"\xEF\xBB\xBF".to_vec(), bytes].concat());
         }),
+        written(
+            YML001,
+            "escaped-surrogates",
+            true,
+            json!("\u{1F916}"),
+            "\"\u{1F916}\"",
+            "\"\\ud83e\\udd16\"",
+        ),
+        invalid(YML001, "key-that-is-a-number", |f| {
+            f.set("dof_module", "/x_a", json!({"1": 2}));
+            edit_text(f, FILE, |bytes| replaced(bytes, "\"1\": 2", "1: 2"));
+        }),
+        written(YML001, "tab-in-a-block-scalar", true, json!("a\tb"), "\"a\\tb\"", "|-\n  a\tb"),
+        written(YML001, "tab-in-quotes", false, json!("a\tb"), "\"a\\tb\"", "\"a\tb\""),
+        written(
+            YML001,
+            "tab-in-the-comment-of-a-block-scalar",
+            false,
+            json!("ab"),
+            "ab",
+            "|- # a\tb\n  ab",
+        ),
+        near_miss(YML001, "document-markers", |f| {
+            edit_text(f, FILE, |bytes| [b"---\n".to_vec(), bytes, b"...\n".to_vec()].concat());
+        }),
         near_miss(YML001, "comments", |f| {
             edit_text(f, FILE, |bytes| [b"# toy\n".to_vec(), bytes, b"# end\n".to_vec()].concat());
         }),
@@ -87,6 +112,14 @@ pub fn cases() -> Vec<Case> {
                 json!(["no", "1:30", "0x1", "1e-7", "2024-01-01", "~", "="]),
             );
         }),
+        invalid(YML006, "key-no", |f| {
+            f.set("dof_module", "/x_a", json!({"no": 2}));
+            edit_text(f, FILE, |bytes| replaced(bytes, "\"no\": 2", "no: 2"));
+        }),
+        invalid(YML006, "line-separator-in-a-comment", |f| {
+            edit_text(f, FILE, |bytes| [bytes, "# a\u{2028}b\n".as_bytes().to_vec()].concat());
+        }),
+        invalid(YML007, "empty", |f| edit_text(f, FILE, |_| Vec::new())),
         replace(YML007, "stale", "num_dofs: ", "num_dofs: 1"),
         invalid(YML007, "key-missing", |f| {
             f.set("dof_module", "/x_a", json!(1));

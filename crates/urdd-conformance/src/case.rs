@@ -1,11 +1,15 @@
 //! Cases: URDDs with one fault or a near miss, and the expected results.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 
+use crate::archive::{self, Packed};
 use crate::change::Change;
+use crate::data::{PACKED, URDD};
+use crate::tree::{Tree, TreeError};
 
 /// A test case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,6 +35,9 @@ pub struct Case {
     pub changes: Vec<Change>,
     /// Files whose size and hash in `urdd.json` are not updated after the changes.
     pub hashes_kept: BTreeSet<String>,
+    /// Where the URDD is in a zip archive; `None` for a folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub packed: Option<Packed>,
 }
 
 /// The kind of case.
@@ -69,5 +76,24 @@ impl Case {
     /// Its id: code, slash, name.
     pub fn id(&self) -> String {
         format!("{}/{}", self.code, self.name)
+    }
+
+    /// The name of its URDD within its folder: that of a folder, or of a zip archive.
+    pub fn urdd(&self) -> &'static str {
+        match self.packed {
+            None => URDD,
+            Some(_) => PACKED,
+        }
+    }
+
+    /// Writes its URDD to a path, which becomes a folder or a zip archive.
+    ///
+    /// # Errors
+    /// If something cannot be written, or this operating system does not support it.
+    pub fn write(&self, urdd: &Tree, path: &Path) -> Result<(), TreeError> {
+        match self.packed {
+            None => urdd.write(path),
+            Some(packed) => archive::write(urdd, packed, path),
+        }
     }
 }

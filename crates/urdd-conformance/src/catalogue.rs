@@ -4,7 +4,7 @@ use semver::VersionReq;
 use serde::Serialize;
 
 use crate::case::{Expected, Kind, Verdict};
-use crate::data::{INVALID, URDD};
+use crate::data::INVALID;
 use crate::suite::Suite;
 use crate::valid;
 use urdd_directory::discover::ROOT_METADATA;
@@ -31,7 +31,7 @@ pub struct Catalogue {
 pub struct Item {
     /// Its name: `valid/gripper`, or the code, a slash and a name.
     pub id: String,
-    /// Its folder, relative to the catalogue.
+    /// Its folder, or its zip archive, relative to the catalogue.
     pub folder: String,
     /// Its part of the suite.
     pub kind: ItemKind,
@@ -85,7 +85,7 @@ pub fn items(suite: &Suite) -> Vec<Item> {
         };
         Item {
             id: case.id(),
-            folder: format!("{INVALID}/{}/{URDD}", case.id()),
+            folder: format!("{INVALID}/{}/{}", case.id(), case.urdd()),
             kind: match case.kind {
                 Kind::Invalid => ItemKind::Invalid,
                 Kind::NearMiss => ItemKind::NearMiss,

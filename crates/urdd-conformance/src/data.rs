@@ -17,6 +17,8 @@ pub const COPIES: &str = "bases/copies.json";
 pub const INVALID: &str = "invalid";
 /// The URDD's folder within its case's folder; other files may be beside it.
 pub const URDD: &str = "robot";
+/// The URDD in place of [`URDD`], where a case has it as a zip archive.
+pub const PACKED: &str = "robot.zip";
 /// Numeric reference values.
 pub const VECTORS: &str = "vectors";
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use crate::catalogue::{CATALOGUE, Catalogue, ItemKind, items};
-use crate::data::{Data, INVALID, ROBOTS, URDD, VALID, VECTORS};
+use crate::data::{Data, INVALID, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
 use crate::suite::{CaseError, Suite};
 use crate::tree::{Tree, TreeError};
@@ -142,11 +142,10 @@ pub fn write_valid(
 /// Writes every case. Returns those that this operating system cannot represent.
 fn write_cases(suite: &Suite, folder: &Path) -> Result<Vec<String>, ExportError> {
     let write = |case: &crate::case::Case| -> Result<Option<String>, ExportError> {
-        let root = folder.join(INVALID).join(case.id()).join(URDD);
-        match suite.tree(case)?.write(&root) {
+        let case_folder = folder.join(INVALID).join(case.id());
+        match case.write(&suite.tree(case)?, &case_folder.join(case.urdd())) {
             Ok(()) => Ok(None),
             Err(TreeError::Unsupported(_)) => {
-                let case_folder = folder.join(INVALID).join(case.id());
                 fs::remove_dir_all(&case_folder)
                     .map_err(|error| ExportError::Write { path: case_folder, error })?;
                 Ok(Some(case.id()))

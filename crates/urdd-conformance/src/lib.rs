@@ -5,6 +5,7 @@
 //! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a base with changes. It becomes a [`tree::Tree`],
 //! which is written to disk for validation.
 
+pub mod archive;
 pub mod case;
 pub mod catalogue;
 pub mod change;

@@ -83,6 +83,11 @@ impl FilePath {
         }
     }
 
+    /// The path, in whatever encoding.
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.0
+    }
+
     /// The path as text, if it is UTF-8.
     pub fn as_str(&self) -> Option<&str> {
         std::str::from_utf8(&self.0).ok()
@@ -268,6 +273,7 @@ fn link(_: &Path, _: &Path) -> Option<io::Result<()>> {
     None
 }
 
-fn make_folder(path: &Path) -> Result<(), TreeError> {
+/// Creates a folder and those above it.
+pub(crate) fn make_folder(path: &Path) -> Result<(), TreeError> {
     fs::create_dir_all(path).map_err(|error| TreeError::Write { path: path.to_owned(), error })
 }

@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::case::{Case, Verdict};
 use crate::catalogue::{Item, ItemKind, items};
-use crate::data::{ROBOTS, URDD, VALID};
+use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
 use crate::printed_codes;
 use crate::process::{End, Ran, Template};
@@ -175,7 +175,7 @@ fn urdds(suite: &Suite) -> Vec<Chosen<'_>> {
             continue;
         };
         let folder = match case {
-            Some(_) => format!("{id}/{URDD}"),
+            Some(case) => format!("{id}/{}", case.urdd()),
             None => item.folder.clone(),
         };
         let again = Item {
@@ -204,7 +204,7 @@ fn judge(
     plan.cancellation.check()?;
     let path = folder.path().join(&urdd.item.folder);
     if let Some(case) = urdd.case {
-        match suite.tree(case)?.write(&path) {
+        match case.write(&suite.tree(case)?, &path) {
             Ok(()) => {}
             Err(TreeError::Unsupported(_)) => return Ok(None),
             Err(error) => return Err(error.into()),
@@ -218,8 +218,8 @@ fn judge(
         return Ok(None);
     };
     let ran = plan.command.run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
-    if let (Some(_), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
-        debug_assert!(path.ends_with(URDD));
+    if let (Some(case), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
+        debug_assert!(path.ends_with(case.urdd()));
         fs::remove_dir_all(around)
             .map_err(|error| RunError::Remove { path: around.to_owned(), error })?;
     }

@@ -111,9 +111,9 @@ impl Finding {
             .off_by(expected - actual, "")
     }
 
-    /// Sets the tolerance of the comparison.
+    /// Sets the tolerance of the comparison, if it is finite.
     pub fn tolerance(mut self, tolerance: f64) -> Self {
-        self.tolerance = Some(tolerance);
+        self.tolerance = Some(tolerance).filter(|tolerance| tolerance.is_finite());
         self
     }
 

@@ -39,9 +39,10 @@ pub const INERTIA_DEFINITE: f64 = 1e-9;
 /// the triangle inequality with equality, and are written rounded.
 pub const INERTIA_TRIANGLE: f64 = 1e-6;
 
-/// Whether two numbers that should be copies agree.
+/// Whether two numbers that should be copies agree. A number that is not finite agrees only with its equal.
 pub fn numbers_agree(a: f64, b: f64) -> bool {
-    a == b || (a - b).abs() <= number_tolerance(a, b)
+    let tolerance = number_tolerance(a, b);
+    a == b || (tolerance.is_finite() && (a - b).abs() <= tolerance)
 }
 
 /// Maximum difference of two numbers that should be copies.
@@ -124,8 +125,8 @@ pub const STL_NORMAL: f64 = 1e-3;
 /// radius, as for a circle of 16 corners (1 - cos(pi / 16) = 1.9 %).
 pub const PRIMITIVE_SAG: f64 = 0.02;
 
-/// They must have at least this fraction of the true area: an end cap of 16 corners has 97.4 %, a sphere with faces 2 %
-/// inside has 96 %.
+/// A tessellated shape, a box too, must have at least this fraction of the true area: an end cap of 16 corners has
+/// 97.4 %, a sphere with faces 2 % inside has 96 %.
 pub const PRIMITIVE_AREA: f64 = 0.95;
 
 /// Convex pieces without a stated tolerance cover a link's surface within this fraction of the diagonal of its bounding

@@ -35,13 +35,13 @@ fn in_memory(tree: &Tree) -> Option<Memory> {
 /// The validator's findings in a case; `None` if this system cannot store it on disk.
 fn report(case: &Case, suite: &Suite) -> Option<Report> {
     let tree = suite.tree(case).unwrap_or_else(|error| panic!("{error}"));
-    if let Some(source) = in_memory(&tree) {
+    if let (Some(source), None) = (in_memory(&tree), case.packed) {
         let run = validate_source(source, "robot", &Settings::default()).expect("not cancelled");
         return Some(run.report);
     }
     let folder = testkit::temporary::folder();
-    let root = folder.path().join("robot");
-    match tree.write(&root) {
+    let root = folder.path().join(case.urdd());
+    match case.write(&tree, &root) {
         Ok(()) => {}
         Err(TreeError::Unsupported(_)) if !cfg!(target_os = "linux") => return None,
         Err(error) => panic!("{}: {error}", case.id()),

@@ -73,8 +73,8 @@ fn tree_written(write: &dyn Fn(&Path)) -> Tree {
 /// The validator's findings in a case, which is this URDD.
 fn found(case: &case::Case, urdd: &Tree) -> Vec<Expected> {
     let folder = testkit::temporary::folder();
-    let root = folder.path().join("robot");
-    urdd.write(&root).expect("the URDD is written");
+    let root = folder.path().join(case.urdd());
+    case.write(urdd, &root).expect("the URDD is written");
     let run = validate(&[&root], &Settings::default()).expect("something to examine");
     let report = run.report;
     let found = judge::found(&case.code, &report);
@@ -108,6 +108,7 @@ fn as_data(case: &Case, base: String, way: Difference, old: Option<&case::Case>)
         base,
         changes: way.0,
         hashes_kept: way.1,
+        packed: case.packed,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use serde_json::json;
-use urdd_format::urdf::JointType;
+use urdd_format::urdf::{JointType, Mimic};
 use urdd_validate::code::Code::*;
 
 use super::{Number, Sides, most, number};
@@ -26,6 +26,16 @@ pub fn add(f: &mut Fixture, module: &str, pointer: &str, by: f64) {
 fn one_joint(joint_type: JointType, limits: Option<(f64, f64)>) -> Fixture {
     let mut robot = star(&[("j", joint_type)]);
     robot.joint_mut("j").limit = limits.and_then(|(lower, upper)| limit(lower, upper));
+    Fixture::core(&robot)
+}
+
+/// A prismatic joint that follows a revolute one by 0.5, up to 0.5 m of the 3 m of its limits.
+fn sliding_mimic() -> Fixture {
+    let mut robot = star(&[("j", JointType::Prismatic), ("driver", JointType::Revolute)]);
+    let follower = robot.joint_mut("j");
+    follower.limit = limit(-3.0, 1.0);
+    follower.mimic =
+        Some(Mimic { joint: "driver".to_owned(), multiplier: Some(0.5), offset: None });
     Fixture::core(&robot)
 }
 
@@ -55,6 +65,8 @@ pub fn numbers() -> Vec<Number> {
                 ),
                 // 1 m for a planar joint.
                 most(CHN008, || one_joint(JointType::Planar, None), move_origin, 1e-9),
+                // Of a mimic joint its own limits, wherever its driver takes it.
+                most(CHN008, sliding_mimic, move_origin, 3e-9),
                 most(
                     KIN003,
                     || one_joint(JointType::Prismatic, Some((-3.0, 1.0))),

@@ -47,6 +47,14 @@ fn box_of(size: [f64; 3]) -> Fixture {
     f
 }
 
+/// A box of 0.1 m at (2, 2, 2), and a link without a shape. All of it is above z = 0.
+fn far_box() -> Fixture {
+    let far = visual(origin([2.0; 3], [0.0; 3]), cuboid([0.1; 3]));
+    let mut f = Fixture::full(&robot_of(vec![link("a"), Link { visual: vec![far], ..link("b") }]));
+    geometry_alone(&mut f);
+    f
+}
+
 /// Raises the top of the box of link 1: its plain mesh, hull and piece.
 fn raise_top(f: &mut Fixture, by: f64) {
     for module in [PLAIN, HULLS, PIECES] {
@@ -329,6 +337,13 @@ pub fn cases() -> Vec<crate::Case> {
     vec![
         case(MSH021, "just-above-2-percent", 1.005),
         case(MSH023, "just-below-2-percent", 0.995),
+        // E is 3.51 m, and the tolerance 3.35e-6 m; no coordinate is above 2.05 m.
+        crate::changed(MSH015, "shape-far-along-a-diagonal", false, far_box, |f| {
+            raise_top(f, 3e-6);
+        }),
+        crate::changed(MSH015, "shape-too-far-along-a-diagonal", true, far_box, |f| {
+            raise_top(f, 3.6e-6);
+        }),
         // The mesh's corner is still inside the hull.
         crate::changed(MSH019, "off-by-four-resolutions", true, lone_box, |f| {
             geometry_alone(f);

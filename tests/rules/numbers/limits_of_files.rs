@@ -277,9 +277,9 @@ pub fn numbers() -> Vec<Number> {
         number(
             "characters-of-a-comparison",
             "11.1",
-            "some 32 characters",
+            "floor(p / 32)",
             ("32", 32.0),
-            vec![Sides::Elsewhere("\"some\": a tenth of the work is safe, and has its cases")],
+            vec![Sides::Elsewhere("a part of what is counted: the whole has its cases")],
         ),
     ]
 }

@@ -4,7 +4,7 @@
 
 mod agreement;
 mod documents;
-mod geometry;
+pub mod geometry;
 mod learned;
 mod limits_of_files;
 mod not_limits;

@@ -4,7 +4,7 @@ use serde_json::json;
 use urdd_format::urdf::{Axis, JointType};
 use urdd_validate::code::Code::*;
 
-use super::{STATISTICS, number, pair_that_is, set_pair, two_boxes};
+use super::{REACH, STATISTICS, number, pair_that_is, set_pair, two_boxes};
 use crate::legacy_robot::LegacyRobot;
 use crate::meshes::{boxy, legacy, robot_of};
 use crate::{Case, changed, invalid, near_miss};
@@ -45,6 +45,18 @@ fn to_seven_digits(f: &mut Fixture) {
     assert!(changed > 6, "{changed} matrices have more digits");
 }
 
+/// Moves the smallest and the largest distance of two equal boxes apart, by 0.8 of the tolerance each. `reach` is the
+/// robot's reach, m.
+fn moved_apart(f: &mut Fixture, reach: f64) {
+    let of_shape = number(f, REACH, "/full_obbs_maximum_distances/0");
+    let by = 0.8e-5 * 2.0 * (reach + of_shape);
+    for (key, by) in [("min", -by), ("max", by)] {
+        let matrix = format!("/full_obbs/{key}_distances");
+        let old = number(f, STATISTICS, &format!("{matrix}/0/1"));
+        set_pair(f, STATISTICS, &matrix, (0, 1), json!(old + by));
+    }
+}
+
 /// SHP022 to SHP025.
 pub fn cases() -> Vec<Case> {
     let scale_pair = |f: &mut Fixture, matrix: &str, pair: (usize, usize), factor: f64| {
@@ -66,6 +78,15 @@ pub fn cases() -> Vec<Case> {
         changed(SHP022, "rounded", false, two_boxes, move |f| {
             scale_pair(f, "/full_obbs/min_distances", (0, 1), 1.0 - 1e-7);
         }),
+        // Each of the two agrees with the distance, and they do not agree with each other.
+        changed(SHP022, "fixed-joint-between", true, two_boxes, |f| moved_apart(f, 1.0)),
+        changed(
+            SHP022,
+            "locked-joint-between",
+            false,
+            || super::sliding(0.3, 0.0, 0.0),
+            |f| moved_apart(f, 1.7),
+        ),
         changed(SHP023, "of-few-samples", true, turning_boxes, of_a_billion),
         changed(SHP023, "of-more-samples", false, turning_boxes, move |f| {
             of_a_billion(f);

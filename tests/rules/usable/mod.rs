@@ -102,6 +102,7 @@ fn stl_rows() -> Vec<Row> {
     let text = |facets: &str| format!("solid part\n{facets}endsolid part\n");
     vec![
         row("binary-stl-that-begins-with-solid", "part.stl", whole.clone(), true),
+        row("binary-stl-that-begins-with-off", "part.stl", [b"OFF\r", &whole[4..]].concat(), true),
         row("binary-stl-named-otherwise", "part.obj", whole, true),
         row("binary-stl-cut-off", "part.stl", cut(&stl(2, &[TRIANGLE; 2]), 20), true),
         row(
@@ -142,6 +143,13 @@ fn obj_rows() -> Vec<Row> {
         row("obj-of-index-0", "part.obj", obj("f 0 1 2"), false),
         row("obj-of-an-index-beyond", "part.obj", obj("f 1 2 4"), false),
         row("obj-of-an-index-beyond-beside-a-face", "part.obj", obj("f 1 2 4\nf 1 2 3"), true),
+        row("obj-of-a-quad-with-an-index-beyond", "part.obj", obj("f 1 2 3 9"), false),
+        row(
+            "obj-of-vertices-after-their-face",
+            "part.obj",
+            "f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n",
+            true,
+        ),
         row("obj-of-an-index-that-is-no-integer", "part.obj", obj("f 1 2 three"), false),
         row("obj-of-no-number", "part.obj", "v 0 0 0\nv x 0 0\nv 0 1 0\nf 1 2 3\n", false),
         row("obj-without-faces", "part.obj", obj(""), false),
@@ -152,10 +160,13 @@ fn obj_rows() -> Vec<Row> {
 /// What is no mesh, whatever it is called.
 fn others() -> Vec<Row> {
     let ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
+    // Long enough for a triangle, where it is taken for binary STL.
+    let off = format!("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n# {}\n", "filler ".repeat(30));
     vec![
         row("empty-file", "part.stl", "", false),
         row("ply", "part.stl", [ply.as_bytes(), &[b' '; 60]].concat(), false),
         row("off", "part.obj", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", false),
+        row("off-with-carriage-returns", "part.stl", off.replace('\n', "\r\n"), false),
         row("packed-by-gzip", "part.stl", [&[0x1f, 0x8b][..], &[8; 100]].concat(), false),
         row(
             "pointer-of-git-lfs",

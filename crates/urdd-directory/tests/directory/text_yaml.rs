@@ -113,10 +113,25 @@ fn mirrors_in_other_layouts_pass() {
         "# a comment\na:\n- 1.0\n- 2\n- b:\nc: 'no'\nd: \"x\ty\"\ne: {} # done\n",
         "---\r\nc: \"no\"\r\na: [1, 2.0, {b: ~}]\r\nd: \"x\\ty\"\r\ne: {\r\n }\r\n...\r\n",
         "{\"a\":[1,2.0,{\"b\":null}],\"c\":\"no\",\"d\":\"x\\ty\",\"e\":{}} # \t tab",
-        "e: {\n  # a\tcomment\n }\nd: |-\n  x\ty\nc: >-\n  no\na: [ # a\tb\n 1, +2., {b: Null}]\n",
+        "e: {\n  # a\tcomment\n }\nd: \"x\ty\"\nc: >- # a\tb\n  no\n# a\tb\na: [ # a\tb\n 1, +2., {b: Null}]\n",
     ] {
         let faults = faults_of(yaml, json.clone());
         assert!(faults.is_empty(), "{yaml}: {faults}");
+    }
+}
+
+#[test]
+fn a_tab_in_a_block_scalar_is_a_fault() {
+    for (yaml, place) in [
+        ("d: |-\n  x\ty\n", (2, 4)),
+        ("d: >- # a\tb\n  x\ty\n# c\td\n", (2, 4)),
+        ("d: |-\t# a\tb\n  \"x\n", (1, 6)),
+    ] {
+        let json = json!({"d": if place.0 == 2 { "x\ty" } else { "\"x" }});
+        let fault = only(yaml, json);
+        let at = fault.position.unwrap();
+        assert_eq!((fault.kind, at.line, at.column), (Kind::YamlSyntax, place.0, place.1));
+        assert_eq!(fault.message.contains("block scalar"), place.0 == 2, "{yaml:?}: {fault:?}");
     }
 }
 

@@ -17,7 +17,8 @@ pub fn is_mesh(bytes: &[u8], scene: Option<&Scene>) -> bool {
 
 /// Whether a file starts like a mesh, even if it cannot be read.
 fn is_marked(bytes: &[u8]) -> bool {
-    const MAGIC: &[&[u8]] = &[b"glTF", b"ply\n", b"ply\r", b"Kaydara FBX", b"BLENDER", b"OFF\n"];
+    const MAGIC: &[&[u8]] =
+        &[b"glTF", b"ply\n", b"ply\r", b"Kaydara FBX", b"BLENDER", b"OFF\n", b"OFF\r"];
     if MAGIC.iter().any(|magic| bytes.starts_with(magic)) {
         return true;
     }

@@ -1,6 +1,7 @@
 //! Wavefront OBJ.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use nalgebra::Matrix4;
 
@@ -30,6 +31,7 @@ pub(super) fn read(
         group_of: HashMap::new(),
         splitter: Splitter::new(assembly.options.uncut),
         corners: Vec::new(),
+        ahead: Vec::new(),
         bad: 0,
     };
     let mut joined: Vec<u8> = Vec::new();
@@ -51,6 +53,7 @@ pub(super) fn read(
         }
         .map_err(|failure| failure.at(|| Place::Line(at + 1)))?;
     }
+    file.drop_faces_out_of_range();
     let text = "a face was dropped: a vertex index is out of range, or is not an index";
     assembly.notes.add_many(NoteCode::IndexOutOfRange, text, file.bad);
     if file.too_many {
@@ -109,6 +112,8 @@ struct File {
     splitter: Splitter,
     /// The corners of the current face.
     corners: Vec<u32>,
+    /// Group and triangles of each face with a vertex that was not there yet.
+    ahead: Vec<(usize, Range<usize>)>,
     /// Number of dropped faces.
     bad: usize,
 }
@@ -185,8 +190,24 @@ impl File {
                 }
             }
         }
+        let start = group.triangles.len();
         self.splitter.split(&self.vertices, &self.corners, &mut group.triangles);
         group.uvs.follow(&group.triangles);
+        let count = self.vertices.len();
+        if self.corners.iter().any(|corner| *corner as usize >= count) {
+            self.ahead.push((self.current, start..group.triangles.len()));
+        }
+    }
+
+    /// Marks all triangles of a face with a vertex that the whole file lacks: the face is dropped, not a part of it.
+    fn drop_faces_out_of_range(&mut self) {
+        let count = self.vertices.len();
+        for (group, range) in self.ahead.drain(..) {
+            let triangles = &mut self.groups[group].triangles[range];
+            if triangles.as_flattened().iter().any(|corner| *corner as usize >= count) {
+                triangles.fill([u32::MAX; 3]);
+            }
+        }
     }
 }
 

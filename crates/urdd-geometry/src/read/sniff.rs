@@ -81,7 +81,7 @@ fn is_whole_binary_stl(bytes: &[u8]) -> bool {
 }
 
 fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
-    let marks: [(&[u8], &str); 8] = [
+    let marks: [(&[u8], &str); 9] = [
         (b"PK\x03\x04", "a ZIP archive (.zae, .3mf, .usdz)"),
         (b"ply\n", "PLY"),
         (b"ply\r", "PLY"),
@@ -90,6 +90,7 @@ fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
         (b"\x1f\x8b", "a gzip archive"),
         (b"version https://git-lfs", "a Git LFS pointer instead of the mesh (run `git lfs pull`)"),
         (b"OFF\n", "OFF"),
+        (b"OFF\r", "OFF"),
     ];
     marks.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, name)| *name)
 }

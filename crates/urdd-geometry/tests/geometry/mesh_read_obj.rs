@@ -1,6 +1,6 @@
 //! OBJ and its material libraries. All files are written here.
 
-use urdd_geometry::read::{Format, NoteCode, Scene, read};
+use urdd_geometry::read::{Format, NoteCode, Options, Scene, read, read_with};
 
 fn load_with(text: &str, files: &[(&str, &str)]) -> Scene {
     let mut fetch = |name: &str| {
@@ -104,6 +104,26 @@ fn bad_faces_and_numbers_are_dropped_with_a_note() {
         (scene.triangle_count(), codes(&scene), scene.notes[0].count),
         (0, vec![NoteCode::NotFinite, NoteCode::NoTriangles], 2)
     );
+}
+
+#[test]
+fn a_face_with_a_vertex_that_the_file_lacks_is_dropped_whole() {
+    let (library, material) = ("newmtl m\nmap_Kd a.png\n", "mtllib m.mtl\nusemtl m\n");
+    let uv = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    let faces = "f 1/1 2/2 3/3 9/4\nf 1/1 2/2 3/3\nf 2/1 9/4 3/2 4/3\n";
+    let text = format!("{material}{SQUARE}{uv}{faces}");
+    for textures in [false, true] {
+        let options = Options { textures, ..Options::default() };
+        let mut fetch = |_: &str| Some(library.as_bytes().to_vec());
+        let scene = read_with(text.as_bytes(), "a.obj", &mut fetch, &options).unwrap();
+        assert_eq!((scene.triangle_count(), scene.merged().area()), (1, 0.5));
+        assert!(codes(&scene).contains(&NoteCode::IndexOutOfRange));
+        let uv = scene.parts[0].texture.as_ref().map(|texture| texture.uv.clone());
+        assert_eq!(uv, textures.then(|| vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]));
+    }
+    // A vertex that comes later in the file is there.
+    let scene = load(&format!("f 1 2 3 4\n{SQUARE}f 5 1 2 3\n"));
+    assert_eq!((scene.triangle_count(), scene.merged().area()), (2, 1.0));
 }
 
 #[test]

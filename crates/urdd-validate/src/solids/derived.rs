@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::file::{self, MeshFault};
-use super::glb_header::{HEADER, header_fault};
+use super::glb_chunks;
 use super::stl_records;
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
@@ -84,9 +84,9 @@ pub struct DerivedFile {
     pub format: Format,
     /// The format of its content; `None` if it is not a mesh.
     pub content: Option<Content>,
-    /// Its fault. `None` for a `.glb` without a GLB header, which MSH010 reports.
+    /// Its fault. MSH010 reports that of a `.glb` whose header or chunks are wrong.
     pub fault: Option<MeshFault>,
-    /// Whether it is a `.glb` without a GLB header.
+    /// Whether it is a `.glb` whose header or chunks are wrong.
     pub not_glb: bool,
 }
 
@@ -185,7 +185,7 @@ fn read(
         };
         let read = file::bytes(files, profile, path.path).and_then(|bytes| {
             file.not_glb = format == Format::Glb
-                && header_fault(&bytes[..bytes.len().min(HEADER)], bytes.len() as u64).is_some();
+                && matches!(glb_chunks::fault(&bytes[..], bytes.len() as u64), Ok(Some(_)));
             let (scene, fault) = file::derived(&bytes, path.path, profile)?;
             let of_stl = profile == Profile::V1 && scene.format == Content::StlBinary;
             let fault = fault.or_else(|| stl_records::fault(&bytes).filter(|_| of_stl));

@@ -12,7 +12,7 @@ pub mod derived;
 pub mod difference;
 pub mod expected;
 pub mod file;
-pub mod glb_header;
+pub mod glb_chunks;
 pub mod original;
 pub mod placed;
 pub mod polytope;

@@ -139,8 +139,8 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
 }
 
-/// Whether triangles are those of the primitives: corners on a surface, faces not far inside it, and the right total
-/// area.
+/// What is wrong with the triangles of the primitives: a corner off the surface, a face too far inside it, or too little
+/// or too much area.
 fn primitives(
     expected: &Expected,
     found: &Mesh,
@@ -183,11 +183,7 @@ fn primitives(
             break;
         }
         let whole = primitive.area();
-        let least = match primitive.sag(PRIMITIVE_SAG) {
-            0.0 => whole,
-            _ => whole * PRIMITIVE_AREA,
-        };
-        if area < least - rounding(whole) {
+        if area < whole * PRIMITIVE_AREA - rounding(whole) {
             return Some(format!(
                 "{area:.6} m² of the {whole:.6} m² of its {} are there",
                 primitive.name()

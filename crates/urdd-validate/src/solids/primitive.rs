@@ -104,11 +104,16 @@ impl Primitive {
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The largest absolute coordinate of its points in the link's frame, and of its origin, m.
+    /// The distance of its position from the link's origin, plus its largest half side, radius or half length, m
+    /// (SPEC 7.6).
     pub fn extent(&self) -> f64 {
-        let half = self.shape.half_extents(&self.rotation);
-        let ends = (0..3).map(|axis| self.position[axis].abs() + half[axis]);
-        ends.fold(0.0, f64::max)
+        let size = match self.shape {
+            Shape::Box([x, y, z]) => x.max(y).max(z),
+            Shape::Cylinder { radius, half } => radius.max(half),
+            Shape::Capsule { radius, half } => radius + half,
+            Shape::Sphere { radius } => radius,
+        };
+        self.position.norm() + size
     }
 
     /// Its name.

@@ -45,7 +45,7 @@ mod shape_rules_random;
 mod solids_apart;
 mod solids_cut;
 mod solids_dents;
-mod solids_glb_header;
+mod solids_glb_chunks;
 mod solids_placed;
 mod solids_polytope;
 mod solids_primitive;

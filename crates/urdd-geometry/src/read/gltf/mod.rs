@@ -10,6 +10,10 @@ use super::error::{Failure, Fault, NoteCode, Place};
 use super::sniff::skip_byte_order_mark;
 use buffer::Fetch;
 
+/// The beginnings of names of extensions for textures, lights and materials, which leave positions as they are.
+const LOOKS: [&str; 5] =
+    ["KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_", "KHR_materials_"];
+
 /// Reads a .gltf.
 pub(super) fn read_json(
     bytes: &[u8],
@@ -92,13 +96,8 @@ fn read_document(
                     Fault::NotSupported(format!("the mesh is compressed ({extension})")).into()
                 );
             }
-            // These do not change positions, or are supported.
-            "KHR_mesh_quantization"
-            | "KHR_texture_transform"
-            | "KHR_texture_basisu"
-            | "EXT_texture_webp"
-            | "KHR_lights_punctual" => {}
-            other if other.starts_with("KHR_materials_") => {}
+            "KHR_mesh_quantization" => {}
+            other if LOOKS.iter().any(|look| other.starts_with(look)) => {}
             other => assembly.notes.add(
                 NoteCode::LeftOut,
                 format!("the extension {other} is required, but not supported"),

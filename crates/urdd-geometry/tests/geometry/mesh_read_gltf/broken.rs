@@ -54,6 +54,9 @@ fn what_is_broken_is_an_error_or_a_note() {
     assert!(matches!(load(&root, &data).unwrap_err().fault, Fault::NotSupported(_)));
     root["extensionsRequired"] = json!(["VENDOR_shape"]);
     assert_eq!(codes(&load(&root, &data).unwrap()), [NoteCode::LeftOut]);
+    root["extensionsRequired"] =
+        json!(["EXT_texture_avif", "EXT_lights_ies", "KHR_materials_ior", "KHR_mesh_quantization"]);
+    assert_eq!(codes(&load(&root, &data).unwrap()), []);
     let (mut root, data) = document();
     root["accessors"][0] =
         json!({"componentType": 5126, "count": 4_000_000_000_u64, "type": "VEC3"});

@@ -1,3 +1,5 @@
+use std::collections::HashSet;
+
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_directory::root::ReadError;
@@ -18,7 +20,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    for module in entries::known_modules(context) {
+    for module in checked_modules(context) {
         let actual = match &module.version_file {
             VersionFile::Text(text) if Version::new(text.as_str()).is_none() => {
                 let shown: String = text.chars().take(40).collect();
@@ -35,6 +37,15 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
     }
     Some(())
+}
+
+/// The modules of the specification, extensions, and the unknown modules that `urdd.json` lists.
+fn checked_modules(context: &Context) -> impl Iterator<Item = &Module> {
+    let entries = context.metadata().into_iter().flat_map(|metadata| &metadata.modules);
+    let listed: HashSet<&str> = entries.map(|entry| entry.path.as_str()).collect();
+    context.modules().filter(move |module| {
+        entries::is_known(context, module) || listed.contains(module.folder.as_str())
+    })
 }
 
 /// Whether line endings were converted since the file was listed; DIR014 reports that.

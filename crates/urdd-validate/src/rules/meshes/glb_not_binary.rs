@@ -1,7 +1,7 @@
-use std::io::Read;
+use std::io::BufReader;
 
 use crate::rules::prelude::*;
-use crate::solids::glb_header::{HEADER, header_fault};
+use crate::solids::glb_chunks;
 use urdd_document::mesh_files::MeshFiles;
 use urdd_document::meshes::Format;
 
@@ -9,11 +9,12 @@ declare_rule! {
     /// A `.glb` file is not binary glTF 2.0.
     ///
     /// By its name it is a binary glTF (GLB): the four letters `glTF`, the version 2 and the file's
-    /// length, twelve bytes in all, before the content. Loaders that go by the name fail on anything
-    /// else. A common mistake is glTF as JSON, buffers in base64, which is a `.gltf` file; another a
-    /// file that was cut off, or a Git LFS pointer.
+    /// length, twelve bytes in all, and then chunks up to the end of the file. The first chunk is
+    /// the JSON, and each has a length that is a multiple of four. Loaders that go by the name fail
+    /// on anything else, or read a part of it. A common mistake is glTF as JSON, buffers in base64,
+    /// which is a `.gltf` file; another a file that was cut off, or a Git LFS pointer.
     ///
-    /// Export as binary glTF ("GLB").
+    /// Export as binary glTF ("GLB"), and pad the JSON with spaces and the data with zeros.
     MSH010 "glb-not-binary", Error, clause "7.6", since "0.1.0",
     phase References, needs [DERIVED_MESHES, NotFailed(MSH003)],
 }
@@ -27,14 +28,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let Ok((file, size)) = files.open(meshes.profile, mesh.path) else {
                 continue;
             };
-            let mut header = Vec::with_capacity(HEADER);
-            let read = file.take(HEADER as u64).read_to_end(&mut header);
-            if read.is_ok()
-                && let Some(fault) = header_fault(&header, size)
-            {
+            if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
                 let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
                 Finding::of(module, &mesh.pointer, message)
-                    .expected("a GLB header: glTF, version 2, the file's length")
+                    .expected("glTF, version 2, the file's length, and chunks up to its end")
                     .actual(fault)
                     .report(findings);
             }

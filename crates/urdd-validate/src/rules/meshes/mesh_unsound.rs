@@ -13,7 +13,7 @@ declare_rule! {
     /// says. Some loaders refuse it, others show a part of it.
     ///
     /// Write it again: binary STL with as many triangles as its header counts, Wavefront OBJ,
-    /// binary glTF 2.0. (MSH010 reports a `.glb` that does not begin as one.)
+    /// binary glTF 2.0. (MSH010 reports a `.glb` whose header or chunks are wrong.)
     MSH013 "mesh-unsound", Error, clause "7.6", since "0.1.0",
     phase Geometry, needs [DERIVED_MESHES, NotFailed(MSH003)],
 }

@@ -1,0 +1,107 @@
+//! MSH010 and MSH013: the chunks of binary glTF, and what formats leave open.
+
+use serde_json::{Value, json};
+use urdd_validate::code::Code::*;
+
+use super::{BASE, change_gltf, path};
+use crate::meshes::{HULLS, PLAIN};
+use crate::{Case, invalid, near_miss};
+use testkit::fixture::Fixture;
+
+/// Changes the bytes of a GLB, and states their number in its header.
+fn change_bytes(f: &mut Fixture, module: &str, change: impl Fn(&mut Vec<u8>)) {
+    let path = path(f, module, BASE, "glb");
+    let mut bytes = f.file(&path).to_vec();
+    change(&mut bytes);
+    let total = (bytes.len() as u32).to_le_bytes();
+    bytes[8..12].copy_from_slice(&total);
+    f.put_file(&path, bytes);
+}
+
+/// Adds to a length that the GLB states.
+fn lengthen(bytes: &mut [u8], at: usize, by: u32) {
+    let old: [u8; 4] = bytes[at..at + 4].try_into().expect("four");
+    bytes[at..at + 4].copy_from_slice(&(u32::from_le_bytes(old) + by).to_le_bytes());
+}
+
+/// The offset of the second chunk.
+fn second(bytes: &[u8]) -> usize {
+    let length: [u8; 4] = bytes[12..16].try_into().expect("four");
+    20 + u32::from_le_bytes(length) as usize
+}
+
+fn change_obj(f: &mut Fixture, change: impl Fn(&str) -> String) {
+    let path = path(f, PLAIN, BASE, "obj");
+    let obj = String::from_utf8(f.file(&path).to_vec()).expect("text");
+    f.put_file(&path, change(&obj));
+}
+
+pub fn cases() -> Vec<Case> {
+    let mut cases = chunks();
+    cases.extend(open());
+    cases
+}
+
+fn chunks() -> Vec<Case> {
+    vec![
+        invalid(MSH010, "chunk-beyond-the-end", |f| {
+            change_bytes(f, HULLS, |bytes| {
+                let at = second(bytes);
+                lengthen(bytes, at, 4);
+            });
+        }),
+        invalid(MSH010, "length-not-a-multiple-of-four", |f| {
+            change_bytes(f, HULLS, |bytes| {
+                bytes.insert(second(bytes), b' ');
+                lengthen(bytes, 12, 1);
+            });
+        }),
+        invalid(MSH010, "first-chunk-not-json", |f| {
+            change_bytes(f, HULLS, |bytes| bytes[16..20].copy_from_slice(b"XTRA"));
+        }),
+        invalid(MSH010, "bytes-after-the-last-chunk", |f| {
+            change_bytes(f, HULLS, |bytes| bytes.extend([0; 4]));
+        }),
+        near_miss(MSH010, "empty-chunk-at-the-end", |f| {
+            change_bytes(f, HULLS, |bytes| bytes.extend(*b"\0\0\0\0XTRA"));
+        }),
+    ]
+}
+
+/// What SPEC 7.6 leaves open.
+fn open() -> Vec<Case> {
+    vec![
+        near_miss(MSH013, "requires-an-avif-texture", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                for key in ["extensionsUsed", "extensionsRequired"] {
+                    gltf[key] = json!(["EXT_texture_avif", "EXT_lights_ies"]);
+                }
+            });
+        }),
+        invalid(MSH013, "requires-what-nobody-knows", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                for key in ["extensionsUsed", "extensionsRequired"] {
+                    gltf[key] = json!(["EXT_textures"]);
+                }
+            });
+        }),
+        near_miss(MSH013, "skin-that-no-scene-reaches", |f| {
+            change_gltf(f, PLAIN, |gltf| {
+                gltf["skins"] = json!([{ "joints": [1] }]);
+                let nodes = gltf["nodes"].as_array_mut();
+                let nodes: &mut Vec<Value> = nodes.expect("a list");
+                nodes.push(json!({ "mesh": 0, "skin": 0, "translation": [1, 0, 0] }));
+            });
+        }),
+        near_miss(MSH013, "curve-in-the-obj", |f| {
+            change_obj(f, |obj| format!("{obj}cstype bezier\ndeg 1\ncurv 0 1 1 2\nend\nl 1 2\n"));
+        }),
+        near_miss(MSH013, "quad-in-the-obj", |f| {
+            change_obj(f, |obj| {
+                let triangles = "f 1 5 3\nf 3 5 7\n";
+                assert!(obj.contains(triangles), "{obj}");
+                obj.replacen(triangles, "f 5 7 3 1\n", 1)
+            });
+        }),
+    ]
+}
