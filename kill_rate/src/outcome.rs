@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::mutation::Description;
+use urdd_findings::description::Phase;
 use urdd_format::report::{Severity, Status, Verdict};
 use urdd_validate::code::Code;
-use urdd_validate::rule::{Phase, Rule};
+use urdd_validate::rule::Rule;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
 

@@ -10,12 +10,13 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::trials::trials;
+use urdd_findings::description::Severity;
 use urdd_kill_rate::{
     FIELD_TOLERANCES, FREE_FIELDS, Judge, MeasureError, Measured, Outcome, PERMITTED, Plan, Target,
     Tolerance, Trial, measure, present,
 };
 use urdd_validate::code::Code;
-use urdd_validate::rule::{Rule, Severity};
+use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 

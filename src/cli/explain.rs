@@ -6,10 +6,10 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::output::{self, printed};
+use urdd_findings::description::Description;
 use urdd_format::escape;
 use urdd_validate::code::RetiredCode;
 use urdd_validate::report;
-use urdd_validate::rule::Description;
 use urdd_validate::selection::Codes;
 
 /// Arguments of `urdd explain`.

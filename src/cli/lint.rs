@@ -11,8 +11,9 @@ use super::packages::PackageArguments;
 use super::reporting::ReportArguments;
 use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
+use urdd_findings::baseline::Baseline;
 use urdd_format::escape;
-use urdd_lint::{Baseline, LeftAlone, LintSettings, Mended};
+use urdd_lint::{LeftAlone, LintSettings, Mended};
 use urdd_validate::Run;
 
 /// Arguments of `urdd lint`.

@@ -135,7 +135,7 @@ fn every_rule_on_disk_is_registered() {
     let of_urdfs = urdd_lint::rules::all().into_iter();
     registered.extend(of_urdfs.map(|rule| rule.description.code.to_string()));
     let codes: BTreeSet<String> = Code::ALL.iter().map(|code| code.to_string()).collect();
-    assert_eq!(codes, registered, "crates/urdd-validate/src/code.rs and the rules differ");
+    assert_eq!(codes, registered, "crates/urdd-findings/src/code.rs and the rules differ");
 }
 
 #[test]

@@ -8,9 +8,9 @@ mod values;
 use std::collections::BTreeMap;
 use std::fs;
 
+use urdd_findings::description::Severity;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
 use urdd_validate::code::Code;
-use urdd_validate::rule::Severity;
 use urdd_validate::rules;
 
 fn spec() -> String {

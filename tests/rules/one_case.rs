@@ -8,9 +8,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use urdd_findings::description::Description;
+use urdd_findings::finding::{Finding, Findings};
 use urdd_format::report::Severity as Shown;
-use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::rule::{Description, Rule};
+use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;

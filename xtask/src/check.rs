@@ -18,7 +18,7 @@ const TESTS: &[(&str, &str)] = &[
     ("architecture::files_stay_small", "split the file by ideas"),
     (
         "architecture::every_rule_on_disk",
-        "list the rule in the family's mod.rs, and its code in crates/urdd-validate/src/code.rs",
+        "list the rule in the family's mod.rs, and its code in crates/urdd-findings/src/code.rs",
     ),
     ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
     ("snapshots::", UPDATE),

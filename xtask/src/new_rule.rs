@@ -7,7 +7,7 @@ use crate::source::{Edits, camel, with_module};
 
 /// The family of the rules about URDFs.
 const OF_LINT: &str = "LNT";
-const CODES: &str = "crates/urdd-validate/src/code.rs";
+const CODES: &str = "crates/urdd-findings/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";

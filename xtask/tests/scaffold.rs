@@ -27,7 +27,7 @@ fn source() -> TempDir {
         "crates/urdd-format/src/lib.rs",
         "crates/urdd-format/src/registry.rs",
         "crates/urdd-generate/src/selection.rs",
-        "crates/urdd-validate/src/code.rs",
+        "crates/urdd-findings/src/code.rs",
         "crates/urdd-validate/src/rules",
         "SPEC.md",
         "tests/rules",
@@ -57,7 +57,7 @@ fn text(root: &Path, path: &str) -> String {
 
 /// The next free code of a family.
 fn next(root: &Path, family: &str) -> String {
-    let codes = text(root, "crates/urdd-validate/src/code.rs");
+    let codes = text(root, "crates/urdd-findings/src/code.rs");
     let of_family = codes.split_whitespace().filter(|word| word.starts_with(family));
     let numbers = of_family.filter_map(|word| word.get(3..)?.parse::<u32>().ok());
     format!("{family}{:03}", numbers.max().expect("a code") + 1)
@@ -88,7 +88,7 @@ fn a_rule_gets_all_of_its_files() {
     let place = |name: &str| list.find(&format!("mod {name};")).expect(name);
     assert!(place("inertia_not_positive_definite") < place("made_of_cheese"));
     assert!(place("made_of_cheese") < place("mass_not_positive"));
-    assert!(text(root, "crates/urdd-validate/src/code.rs").contains(&format!(" {code}")));
+    assert!(text(root, "crates/urdd-findings/src/code.rs").contains(&format!(" {code}")));
     let spec = text(root, "SPEC.md");
     let clause = spec
         .split("\n\n")
@@ -118,7 +118,7 @@ fn a_rule_gets_all_of_its_files() {
 #[test]
 fn every_family_can_have_another_rule() {
     let codes =
-        text(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."), "crates/urdd-validate/src/code.rs");
+        text(&Path::new(env!("CARGO_MANIFEST_DIR")).join(".."), "crates/urdd-findings/src/code.rs");
     let list = codes.split_once("\ncodes! {").expect("the list").1;
     let list = list.split_once("\n}").expect("its end").0;
     let mut families: Vec<&str> =
@@ -166,7 +166,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
             "SPEC.md",
             "|\n| `battery_pack_module` | `battery_pack_module` | (optional) | `urdf_module` |\n| `original_meshes_module` |",
         ),
-        ("crates/urdd-validate/src/code.rs", "    BAT001 BAT002\n    LEG001"),
+        ("crates/urdd-findings/src/code.rs", "    BAT001 BAT002\n    LEG001"),
         ("crates/urdd-validate/src/rules/mod.rs", "pub mod battery_pack;\npub mod bounds;"),
         ("crates/urdd-validate/src/rules/battery_pack/mod.rs", "mod no_values;\nmod odd_values;"),
         (
@@ -203,7 +203,7 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
 fn what_does_not_fit_writes_nothing() {
     let folder = source();
     let root = folder.path();
-    let before = text(root, "crates/urdd-validate/src/code.rs");
+    let before = text(root, "crates/urdd-findings/src/code.rs");
     let next = next(root, "SRC");
     for (arguments, words) in [
         (&["SRC999", "a-name"][..], "next free code"),
@@ -226,5 +226,5 @@ fn what_does_not_fit_writes_nothing() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
-    assert_eq!(text(root, "crates/urdd-validate/src/code.rs"), before);
+    assert_eq!(text(root, "crates/urdd-findings/src/code.rs"), before);
 }

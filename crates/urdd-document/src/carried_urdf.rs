@@ -85,14 +85,27 @@ pub(super) fn read(
 /// # Errors
 /// If it cannot be read.
 pub fn read_file(root: &Root, path: &str) -> Result<CarriedUrdf, ReadError> {
-    let bytes = root.read(path, MAX_URDF_BYTES)?;
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    let not_utf8_at = std::str::from_utf8(bytes).err().map(|error| error.valid_up_to());
-    Ok(CarriedUrdf {
-        path: path.to_owned(),
-        text: String::from_utf8_lossy(bytes).into_owned(),
-        not_utf8_at,
-    })
+    CarriedUrdf::of_bytes(path, &root.read(path, MAX_URDF_BYTES)?)
+}
+
+impl CarriedUrdf {
+    /// The URDF of these bytes; `path` is its name.
+    ///
+    /// # Errors
+    /// If they are too many.
+    pub fn of_bytes(path: &str, bytes: &[u8]) -> Result<CarriedUrdf, ReadError> {
+        let size = bytes.len() as u64;
+        if size > MAX_URDF_BYTES {
+            return Err(ReadError::TooLarge { size, limit: MAX_URDF_BYTES });
+        }
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let not_utf8_at = std::str::from_utf8(bytes).err().map(|error| error.valid_up_to());
+        Ok(CarriedUrdf {
+            path: path.to_owned(),
+            text: String::from_utf8_lossy(bytes).into_owned(),
+            not_utf8_at,
+        })
+    }
 }
 
 /// Without root metadata: the only `.urdf` file in the root, or the one named after the folder.

@@ -8,11 +8,11 @@ use std::str::FromStr;
 use roxmltree::{Document, Node};
 
 use urdd_directory::position::{LineIndex, Position};
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::places::retain;
+use urdd_findings::selection::Codes;
+use urdd_findings::skip::SkipReason;
 use urdd_format::report::StaleIgnore;
-use urdd_validate::engine::{Check, Outcome};
-use urdd_validate::places::retain;
-use urdd_validate::selection::Codes;
-use urdd_validate::skip::SkipReason;
 
 /// A code in a comment.
 struct Allow {

@@ -1,29 +1,25 @@
 //! Runs the rules on a text: those of the validator that need only the source, and the family LNT.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use roxmltree::Document;
 
-use super::refusal::refusal;
-use super::rule::{Description, LintRule};
+use super::rule::LintRule;
 use super::settings::LintSettings;
+use super::skip::{NOT_EXPANDED, refusal};
 use super::subject::Subject;
-use super::{allow, consequences, rules};
-use urdd_directory::read_error::ReadError;
-use urdd_directory::root::Root;
-use urdd_directory::source::Memory;
+use super::{allow, effects, rules};
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::examined::Examined;
+use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::selection::Codes;
+use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
-use urdd_format::report::{Kind, Place, StaleIgnore};
+use urdd_format::report::{Place, StaleIgnore};
 use urdd_generate::{SourceMeshes, open_source_text, well_formed};
-use urdd_validate::Examined;
-use urdd_validate::code::Code;
-use urdd_validate::engine::{Check, Outcome, caught};
-use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::selection::Codes;
-use urdd_validate::skip::SkipReason;
+use urdd_validate::examine_urdf;
 
 /// The family of this crate's rules.
 const FAMILY: &str = "LNT";
@@ -46,7 +42,7 @@ pub fn examined(
     settings: &LintSettings,
 ) -> (Examined, Vec<StaleIgnore>) {
     let job = Job { text, name, folder, settings };
-    let mut examined = by_validator(text, name);
+    let mut examined = examine_urdf(text, name);
     // URD011 says what is wrong; the rest can be looked at nevertheless.
     let (mended, lines) = match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
         Ok(_) => (Cow::Borrowed(text), 0),
@@ -57,12 +53,12 @@ pub fn examined(
     };
     let Ok(document) = urdd_xml::parse(&mended, urdd_xml::Kind::Robot) else {
         let skipped = rules_to_run(settings)
-            .map(|rule| skipped(&rule.description, SkipReason::Failed(Code::URD011)));
+            .map(|rule| Check::skipped(&rule.description, SkipReason::Failed(Code::URD011)));
         examined.checks.extend(skipped);
         return (examined, Vec::new());
     };
     let of_mended = match &mended {
-        Cow::Owned(mended) => complete(&mut examined, by_validator(mended, name)),
+        Cow::Owned(mended) => complete(&mut examined, examine_urdf(mended, name)),
         Cow::Borrowed(_) => Vec::new(),
     };
     let source = job.source(&examined.checks);
@@ -78,9 +74,9 @@ pub fn examined(
             as_reported(place, lines, is_mended);
         }
     }
-    consequences::mark(&mut examined.checks);
+    effects::mark(&mut examined.checks);
     if !is_mended {
-        consequences::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
+        effects::mark_misspelt(&subject, &mut examined.checks, |text| job.again(text));
     }
     let stale = allow::apply(&document, name, &mut examined.checks);
     (examined, stale)
@@ -112,7 +108,7 @@ impl<'a> Job<'a> {
             // LNT051 says it all: what others find is about the text of macros.
             let ran = |check: &&mut Check| !matches!(check.outcome, Outcome::Crashed(_));
             for check in checks.iter_mut().filter(ran) {
-                *check = skipped(check.rule, SkipReason::NotExpanded);
+                *check = Check::skipped(check.rule, NOT_EXPANDED);
             }
         }
         for rule in rules_to_run(self.settings) {
@@ -121,8 +117,8 @@ impl<'a> Job<'a> {
             }
             let description = &rule.description;
             checks.push(match is_macro && description.code != Code::LNT051 {
-                true => skipped(description, SkipReason::NotExpanded),
-                false => caught(description, &mut Findings::default(), |findings| {
+                true => Check::skipped(description, NOT_EXPANDED),
+                false => Check::caught(description, &mut Findings::default(), |findings| {
                     (rule.check)(subject, findings)
                 }),
             });
@@ -133,7 +129,7 @@ impl<'a> Job<'a> {
     fn again(self, text: &str) -> Option<Vec<Check>> {
         let job = Job { text, ..self };
         let document = urdd_xml::parse(text, urdd_xml::Kind::Robot).ok()?;
-        let mut checks = by_validator(text, self.name).checks;
+        let mut checks = examine_urdf(text, self.name).checks;
         let source = job.source(&checks);
         job.run(&job.subject(&document, &source), &mut checks);
         Some(checks)
@@ -151,11 +147,6 @@ fn rules_to_run(settings: &LintSettings) -> impl Iterator<Item = &'static LintRu
         is_selected && (rule.on_by_default || is_named)
     };
     rules::all().into_iter().filter(runs)
-}
-
-/// A rule that does not run.
-fn skipped(rule: &'static Description, reason: SkipReason) -> Check {
-    caught(rule, &mut Findings::default(), |findings| findings.skip(reason))
 }
 
 /// Takes over what rules say of the mended text that could not look at the text itself. Returns these rules.
@@ -189,37 +180,5 @@ fn as_reported(place: &mut Place, lines: u32, is_mended: bool) {
     }
     for related in &mut place.related {
         as_reported(related, lines, is_mended);
-    }
-}
-
-/// What the validator says of the URDF alone.
-fn by_validator(text: &str, name: &str) -> Examined {
-    urdd_validate::caught(Kind::Urdf, name, || {
-        let bytes: Arc<[u8]> = Arc::from(text.as_bytes());
-        // Its own name could be one that no URDD may hold.
-        const FILE: &str = "robot.urdf";
-        let memory = Memory::new(name, BTreeMap::from([(FILE.to_owned(), bytes)]));
-        let memory = memory.map_err(|_| ReadError::Missing)?;
-        let mut examined = urdd_validate::bare_urdf::examine_file(
-            Root::of(memory),
-            FILE,
-            &urdd_validate::rules::all(),
-        )?;
-        examined.report.path = name.to_owned();
-        for finding in examined.checks.iter_mut().flat_map(|check| &mut check.findings) {
-            renamed(finding, name);
-        }
-        Ok(examined)
-    })
-}
-
-fn renamed(finding: &mut Finding, name: &str) {
-    for place in places(finding) {
-        let related = place.related.iter_mut().map(|place| &mut place.file);
-        let edits = place.fixes.iter_mut().flat_map(|fix| &mut fix.edits);
-        edits.for_each(|edit| edit.file = name.to_owned());
-        for file in related.chain([&mut place.file]).flatten() {
-            *file = name.to_owned();
-        }
     }
 }

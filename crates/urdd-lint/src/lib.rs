@@ -7,9 +7,8 @@
 // Hidden modules are public for `tests/`.
 #[doc(hidden)]
 pub mod allow;
-mod baseline;
 mod bodies;
-mod consequences;
+mod effects;
 mod elements;
 mod examine;
 mod fix;
@@ -22,10 +21,10 @@ mod named_file;
 mod offset;
 mod pose;
 mod primitives;
-mod refusal;
 mod rule;
 pub mod rules;
 mod settings;
+pub mod skip;
 mod srdf;
 mod subject;
 mod target;
@@ -35,7 +34,6 @@ pub mod vocabulary;
 #[doc(hidden)]
 pub mod written;
 
-pub use baseline::{Baseline, BaselineError, BaselineFileError, BaselineFileFault};
 pub use fix::{ChangedError, Mended, mend};
 pub use rule::LintRule;
 pub use settings::LintSettings;
@@ -48,10 +46,11 @@ use thiserror::Error;
 
 use examine::examined;
 use urdd_directory::cancellation::Cancelled;
+use urdd_findings::examined::Examined;
+use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore, Verdict};
 use urdd_generate::batch::{BatchError, jobs};
 use urdd_generate::{SourceText, included, read_source};
-use urdd_validate::{Examined, Run};
 use written::Sources;
 
 /// Why a run has no result.
@@ -159,10 +158,17 @@ pub fn seen_from(path: &Path, given: &[PathBuf]) -> String {
 fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted {
     let (seen, name) = (seen_from(path, given), stems(path).1);
     let (mut stale, mut text) = (Vec::new(), None);
-    let mut examined = urdd_validate::caught(Kind::Urdf, &seen, || {
+    let mut examined = Examined::caught(Kind::Urdf, &seen, || {
         let read = match read_source(path, &settings.source) {
             Ok(read) => read,
-            Err(error) => return Ok(unreadable(&name, error.to_string())),
+            Err(error) => {
+                return Ok(Examined::without_checks(
+                    Kind::Urdf,
+                    &name,
+                    Verdict::Unreadable,
+                    error.to_string(),
+                ));
+            }
         };
         let (mut examined, unused) = of_source(path, &read, settings);
         text = Some(read.text);
@@ -196,12 +202,6 @@ fn of_source(
         Sources::read(&files, &read.folder).place(&mut examined.checks);
     }
     (examined, unused)
-}
-
-fn unreadable(name: &str, reason: String) -> Examined {
-    let mut report = urdd_validate::report::blank(Kind::Urdf, name);
-    (report.verdict, report.reason) = (Verdict::Unreadable, Some(reason));
-    Examined { report, checks: Vec::new() }
 }
 
 /// Lints a text. `name` is its file's name in the report; relative mesh names refer to `folder`. Of the settings, only

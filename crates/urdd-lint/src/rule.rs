@@ -1,9 +1,9 @@
 //! What a rule of the family LNT is.
 
 use super::subject::Subject;
-use urdd_validate::finding::{Finding, Findings};
-pub use urdd_validate::rule::Description;
-use urdd_validate::rule::Severity;
+pub use urdd_findings::description::Description;
+use urdd_findings::description::Severity;
+use urdd_findings::finding::{Finding, Findings};
 
 /// A rule about URDFs.
 pub struct LintRule {
@@ -36,13 +36,13 @@ macro_rules! declare_lint {
             $(#[doc = $doc])+
             pub const RULE: &'static $crate::rule::LintRule = &$crate::rule::LintRule {
                 description: $crate::rule::Description {
-                    code: urdd_validate::code::Code::$code,
+                    code: urdd_findings::code::Code::$code,
                     name: $name,
-                    severity: urdd_validate::rule::Severity::$severity,
+                    severity: urdd_findings::description::Severity::$severity,
                     clause: None,
                     since: $since,
-                    consequence: urdd_validate::rule::Consequence::$consequence,
-                    phase: urdd_validate::rule::Phase::References,
+                    consequence: urdd_findings::description::Consequence::$consequence,
+                    phase: urdd_findings::description::Phase::References,
                     doc: &[$($doc),+],
                 },
                 on_by_default: true $(&& $crate::rule::$default)?,

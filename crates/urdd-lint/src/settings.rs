@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::baseline::Baseline;
-use urdd_validate::Examined;
-use urdd_validate::settings::Settings;
+use urdd_findings::baseline::Baseline;
+use urdd_findings::examined::Examined;
+use urdd_findings::settings::Settings;
 
 /// How URDFs are linted.
 #[derive(Debug, Clone, Default)]

@@ -12,19 +12,20 @@ use super::bodies::Bodies;
 use super::elements::{child, numbers, text};
 use super::geometry::{NamedMesh, RobotGeometry};
 use super::named_file::NamedFile;
+use super::skip::{WITHOUT_MESHES, refused};
 use super::unknown::{Unknown, unknown};
 use super::vocabulary::hint;
 use urdd_directory::position::LineIndex;
 use urdd_document::robot::{Robot, of_urdf};
+use urdd_findings::code::Code;
+use urdd_findings::finding::{Finding, Findings};
+use urdd_findings::part::Part;
+use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::urdf::JointType;
 use urdd_generate::{SourceMesh, SourceMeshes};
-use urdd_validate::code::Code;
-use urdd_validate::finding::{Finding, Findings};
-use urdd_validate::part::Part;
-use urdd_validate::skip::SkipReason;
 use urdd_xml::element::{children, name};
 
 /// A URDF, its XML, the robot that it describes and its mesh files.
@@ -68,9 +69,7 @@ impl<'a> Subject<'a> {
             let robot = &source.robot;
             match (robot.links.len(), robot.joints.len()) == (links.len(), joints.len()) {
                 true => Ok(source),
-                false => Err(SkipReason::Refused(
-                    "its links and joints could not be told apart".to_owned(),
-                )),
+                false => Err(refused("its links and joints could not be told apart")),
             }
         });
         Subject {
@@ -98,7 +97,7 @@ impl<'a> Subject<'a> {
     /// Skips the rule if no mesh file is read. For rules that read mesh files other than through [`Subject::geometry`].
     pub fn reads_meshes(&self, findings: &mut Findings) -> Option<()> {
         match self.without_meshes {
-            true => findings.skip(SkipReason::WithoutMeshes),
+            true => findings.skip(WITHOUT_MESHES),
             false => Some(()),
         }
     }

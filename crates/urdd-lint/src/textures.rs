@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use super::elements::text;
 use super::named_file::NamedFile;
 use super::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_generate::MissingMesh;
-use urdd_validate::finding::Findings;
 
 /// A texture of a material.
 pub struct Texture<'a> {

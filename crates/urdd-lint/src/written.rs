@@ -6,9 +6,9 @@ use roxmltree::Node;
 
 use urdd_directory::position::LineIndex;
 use urdd_directory::regular;
+use urdd_findings::check::Check;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, WrittenAt};
-use urdd_validate::engine::Check;
 use urdd_xml::element::name;
 
 /// Maximum size of a file that is searched, bytes.

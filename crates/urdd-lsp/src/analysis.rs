@@ -12,10 +12,10 @@ use crate::project::Project;
 use crate::urdd_documents;
 use crate::xacro;
 use urdd_directory::cancellation::Cancellation;
+use urdd_findings::check::Outcome;
+use urdd_findings::examined::Examined;
+use urdd_lint::skip::WITHOUT_MESHES;
 use urdd_lint::{LintSettings, lint_text};
-use urdd_validate::Examined;
-use urdd_validate::engine::Outcome;
-use urdd_validate::skip::SkipReason;
 
 /// How much is examined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,10 +108,8 @@ fn of_urdf(snapshot: &Snapshot, depth: Depth, project: &Project) -> Analysis {
     let text = snapshot.text.content();
     let examined = lint_text(text, &snapshot.name(), &snapshot.folder, &settings);
     let examined = project.apply(snapshot, examined);
-    let waiting = examined
-        .checks
-        .iter()
-        .filter(|check| matches!(check.outcome, Outcome::Skipped(SkipReason::WithoutMeshes)));
+    let waiting =
+        examined.checks.iter().filter(|check| check.outcome == Outcome::Skipped(WITHOUT_MESHES));
     Analysis {
         postponed: match depth {
             Depth::Text => {

@@ -10,10 +10,10 @@ use lsp_types::{
 
 use crate::document::Snapshot;
 use crate::uri;
+use urdd_findings::check::Check;
+use urdd_findings::finding::Finding;
 use urdd_format::escape;
 use urdd_format::report::{Fix, Place, Severity};
-use urdd_validate::engine::Check;
-use urdd_validate::finding::Finding;
 
 /// What diagnostics name as their source.
 pub const SOURCE: &str = "urdd";

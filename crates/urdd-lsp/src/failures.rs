@@ -4,9 +4,9 @@ use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, at_the_top, diagnostic};
 use crate::document::Snapshot;
+use urdd_findings::check::Outcome;
+use urdd_findings::examined::Examined;
 use urdd_format::report::Verdict;
-use urdd_validate::Examined;
-use urdd_validate::engine::Outcome;
 
 /// What kept rules from running to their end.
 pub fn failures(snapshot: &Snapshot, examined: &Examined) -> Vec<Found> {

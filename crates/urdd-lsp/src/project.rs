@@ -7,9 +7,10 @@ use lsp_types::DiagnosticSeverity;
 use crate::diagnostics::{Found, at_the_top, further, line_of};
 use crate::document::Snapshot;
 use urdd_directory::cancellation::Cancellation;
-use urdd_lint::{Baseline, LintSettings, seen_from};
-use urdd_validate::Examined;
-use urdd_validate::settings_file::{SettingsFile, SettingsFileError, nearest};
+use urdd_findings::baseline::Baseline;
+use urdd_findings::examined::Examined;
+use urdd_findings::settings_file::{SettingsFile, SettingsFileError, nearest};
+use urdd_lint::{LintSettings, seen_from};
 
 /// The settings that count for a document.
 pub struct Project {

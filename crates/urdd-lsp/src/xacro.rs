@@ -12,11 +12,11 @@ use crate::document::Snapshot;
 use crate::failures::{failures, not_well_formed};
 use crate::includes::{included, missing};
 use crate::project::Project;
+use urdd_findings::check::Check;
+use urdd_findings::finding::Finding;
 use urdd_format::report::{Place, WrittenAt};
 use urdd_generate::read_source;
 use urdd_lint::lint_source;
-use urdd_validate::engine::Check;
-use urdd_validate::finding::Finding;
 
 /// What is wrong with the text as it is.
 pub fn of_text(snapshot: &Snapshot) -> Vec<Found> {

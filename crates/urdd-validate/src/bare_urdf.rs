@@ -1,22 +1,25 @@
 //! Validates a URDF without a URDD, with the rules that need only the source: whether it describes one tree, whether
 //! its names resolve, and what is unusual about it.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::code::Code;
 use super::context::Context;
-use super::engine::{Check, Outcome, Outcomes, run_all};
-use super::examined::Examined;
-use super::report;
+use super::engine::{Outcomes, run_all};
 use super::rule::{Judges, Need, Rule};
-use super::skip::SkipReason;
+use super::rules;
 use urdd_directory::discover::Found;
 use urdd_directory::root::{ReadError, Root};
+use urdd_directory::source::Memory;
 use urdd_document::carried_urdf::{self, CarriedUrdf};
 use urdd_document::load::Loaded;
 use urdd_document::module::{JsonFile, MetadataFile};
 use urdd_document::urdd::Urdd;
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::examined::{Examined, blank};
+use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::registry::Profile;
 use urdd_format::report::{self as format, Kind, Size};
@@ -45,20 +48,22 @@ pub(super) fn found(path: &Path) -> Found {
 
 /// Examines a URDF with the rules that apply to it.
 pub(super) fn examine(found: &Found, rules: &[&'static Rule]) -> Result<Examined, ReadError> {
-    examine_file(Root::open(&found.path)?, &found.name, rules)
+    let root = Root::open(&found.path)?;
+    let urdf = carried_urdf::read_file(&root, &found.name)?;
+    Ok(judged(alone(root, urdf), &found.name, rules))
 }
 
-/// Examines the URDF of this name in a folder with those of the rules that apply to it.
-///
-/// # Errors
-/// If it cannot be read.
-pub fn examine_file(
-    root: Root,
-    name: &str,
-    rules: &[&'static Rule],
-) -> Result<Examined, ReadError> {
-    let urdf = carried_urdf::read_file(&root, name)?;
-    let context = Context::new(alone(root, urdf), None);
+/// Examines the text of a URDF with the rules that need nothing else. `name` is its name in the report.
+pub fn examine_urdf(text: &str, name: &str) -> Examined {
+    Examined::caught(Kind::Urdf, name, || {
+        let urdf = CarriedUrdf::of_bytes(name, text.as_bytes())?;
+        let no_files = Memory::new(name, BTreeMap::new()).map_err(|_| ReadError::Missing)?;
+        Ok(judged(alone(Root::of(no_files), urdf), name, &rules::all()))
+    })
+}
+
+fn judged(urdf: Urdd, name: &str, rules: &[&'static Rule]) -> Examined {
+    let context = Context::new(urdf, None);
     let rules = rules.iter().copied().filter(|rule| is_for_urdf(rule));
     let mut outcomes = Outcomes::new();
     let by_urdf = context.by_urdf();
@@ -76,9 +81,9 @@ pub fn examine_file(
             joints: robot.map(|robot| Count::saturating(robot.joints.len())),
             dofs: None,
         },
-        ..report::blank(Kind::Urdf, name)
+        ..blank(Kind::Urdf, name)
     };
-    Ok(Examined { report, checks })
+    Examined { report, checks }
 }
 
 /// Where URD011 found a fault, there is no robot for that reason, not because a module is not here.
@@ -89,7 +94,7 @@ fn say_that_it_is_unreadable(checks: &mut [Check]) {
         return;
     }
     for check in checks {
-        if let Outcome::Skipped(SkipReason::Absent(_) | SkipReason::NoneUsable(_)) = check.outcome {
+        if let Outcome::Skipped(SkipReason::Absent(_)) = check.outcome {
             check.outcome = Outcome::Skipped(SkipReason::Failed(Code::URD011));
         }
     }

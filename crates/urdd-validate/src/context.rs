@@ -6,8 +6,6 @@ use std::sync::{Arc, OnceLock};
 use super::distances::Distances;
 use super::learned::counts::Judge;
 use super::memo::Memos;
-use super::part::Why;
-use super::skip::SkipReason;
 use super::solids::Solids;
 use super::solids::placed::{self, Misplaced, Placed};
 use super::urdf_text;
@@ -18,6 +16,8 @@ use urdd_document::robot;
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::{RobotFrom, Urdd};
+use urdd_findings::part::Why;
+use urdd_findings::skip::SkipReason;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_format::root_metadata::ConformanceClass;
 
@@ -147,7 +147,7 @@ impl Context {
             Some(ModuleDocument::SelfCollisionModel(model)) => {
                 Judge::new(&self.urdd, self.solids(), model, self.deep)
             }
-            _ => Err(SkipReason::Absent(kind)),
+            _ => Err(SkipReason::absent(kind)),
         };
         let judge = self.model_judge.get_or_init(make);
         judge.as_ref().map_err(Clone::clone)

@@ -1,70 +1,18 @@
 //! Runs the rules on a URDD, phase by phase. A rule runs only if its needs are met; a rule that crashes is caught.
 
-use std::any::Any;
 use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::code::Code;
 use super::context::Context;
-use super::effect::Consequence;
-use super::finding::{Finding, Findings};
 use super::locate::locate;
-use super::part::{NotVerified, Part, Parts};
-use super::rule::{Description, Need, Rule, Severity};
-use super::scope::{Faulted, Scope};
-use super::skip::SkipReason;
-use super::worst::worst_first;
+use super::rule::{Need, Parts, Rule};
+use super::skip;
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::finding::Findings;
+use urdd_findings::part::Part;
+use urdd_findings::scope::{Faulted, Scope};
+use urdd_findings::skip::SkipReason;
 use urdd_format::registry::{ModuleKind, Profile};
-
-/// The outcome of a rule on a URDD.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
-    /// It ran and found nothing.
-    Passed,
-    /// It ran and found something.
-    Failed,
-    /// It did not run to its end, for this reason.
-    Skipped(SkipReason),
-    /// The rule itself is faulty; the message says how.
-    Crashed(String),
-}
-
-/// A rule and its outcome.
-pub struct Check {
-    /// What the rule says of itself.
-    pub rule: &'static Description,
-    /// Severity of its findings: the rule's, unless settings change it.
-    pub severity: Severity,
-    /// Its outcome.
-    pub outcome: Outcome,
-    /// Its findings.
-    pub findings: Vec<Finding>,
-    /// Which of these follow from findings of other rules.
-    pub consequences: Vec<Consequence>,
-    /// The parts of the robot that it did not verify.
-    pub not_verified: Vec<NotVerified>,
-    /// The parts with findings.
-    pub(super) faulted: Faulted,
-    /// The parts that it was to judge.
-    pub(super) scope: Scope,
-}
-
-impl Check {
-    /// What a rule found.
-    #[doc(hidden)]
-    pub fn new(rule: &'static Description, outcome: Outcome, findings: Vec<Finding>) -> Self {
-        Check {
-            rule,
-            severity: rule.severity,
-            outcome,
-            findings,
-            consequences: Vec::new(),
-            not_verified: Vec::new(),
-            faulted: Faulted::default(),
-            scope: Scope::default(),
-        }
-    }
-}
 
 /// The outcome of a rule, and the parts with findings.
 #[derive(Debug, Clone)]
@@ -121,7 +69,7 @@ pub(super) fn run_all(
 fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
     let unmet = rule.needs.iter().find_map(|need| unmet(context, *need, outcomes));
     if let Some(reason) = unmet {
-        return Check::new(&rule.description, Outcome::Skipped(reason), Vec::new());
+        return Check::skipped(&rule.description, reason);
     }
     let mut unsound = HashMap::new();
     for need in rule.needs {
@@ -166,51 +114,10 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) 
 
 /// The same, but leaves `findings` to the caller, without the findings that are returned.
 pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
-    let mut check = caught(&rule.description, findings, |findings| (rule.check)(context, findings));
+    let mut check =
+        Check::caught(&rule.description, findings, |findings| (rule.check)(context, findings));
     locate(context, &mut check.findings);
     check
-}
-
-/// The outcome of a check, whatever it judges. `None` from it without a reason given to [`Findings::skip`] is a fault of
-/// the rule. The findings are not located.
-pub fn caught(
-    rule: &'static Description,
-    findings: &mut Findings,
-    check: impl FnOnce(&mut Findings) -> Option<()>,
-) -> Check {
-    let ran = catch_unwind(AssertUnwindSafe(|| check(findings)));
-    let completed = match ran {
-        Ok(completed) => completed.is_some(),
-        Err(panic) => {
-            let message = panic_message(&*panic);
-            return Check::new(rule, Outcome::Crashed(message), Vec::new());
-        }
-    };
-    let undeclared = !completed && findings.skipped().is_none();
-    if undeclared && cfg!(debug_assertions) {
-        let message = format!("{} takes something that it does not declare in `needs`", rule.code);
-        return Check::new(rule, Outcome::Crashed(message), Vec::new());
-    }
-    let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
-    let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
-    let skipped = findings.skipped().cloned();
-    let skipped = skipped.or_else(undeclared).or_else(nothing_left);
-    let not_verified = findings.scope().not_verified();
-    let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
-    let mut found = findings.take();
-    found.iter_mut().for_each(worst_first);
-    let outcome = match (found.is_empty(), skipped) {
-        (false, _) => Outcome::Failed,
-        (true, Some(reason)) => Outcome::Skipped(reason),
-        (true, None) => Outcome::Passed,
-    };
-    Check { not_verified, scope, faulted, ..Check::new(rule, outcome, found) }
-}
-
-/// The message of a panic.
-pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
 }
 
 /// Why a need is not met; `None` if it is.
@@ -220,25 +127,25 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::Module(ModuleKind::Urdf) | Need::SourceRobot if context.is_by_urdf() => None,
         Need::SourceRobot => unmet(context, Need::Module(ModuleKind::Urdf), outcomes),
         Need::Module(kind) => match context.module(kind) {
-            None => Some(SkipReason::Absent(kind)),
-            Some(module) => module.unusable().map(SkipReason::Unusable),
+            None => Some(SkipReason::absent(kind)),
+            Some(module) => module.unusable().map(SkipReason::obstacle),
         },
         Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes).or_else(|| {
             let spec = context.module(kind)?.spec;
             let of_v1 = spec.is_some_and(|spec| spec.profile == Profile::V1);
-            (!of_v1).then_some(SkipReason::NotInThisVersion(kind))
+            (!of_v1).then_some(skip::not_in_this_version(kind))
         }),
         Need::AnyModule(kinds) => {
             let usable = |kind: &ModuleKind| context.document(*kind).is_some();
-            (!kinds.iter().any(usable)).then_some(SkipReason::NoneUsable(kinds))
+            (!kinds.iter().any(usable)).then_some(skip::none_usable(kinds))
         }
         Need::RootMetadata => match context.metadata() {
             Some(_) => None,
-            None => Some(SkipReason::NoRootMetadata),
+            None => Some(skip::NO_ROOT_METADATA),
         },
         Need::UrdfFile if matches!(context.urdf(), Err(why) if why.is_too_large()) => None,
         Need::CarriedUrdf | Need::UrdfFile => {
-            context.urdf().err().cloned().map(SkipReason::NoCarriedUrdf)
+            context.urdf().err().map(|why| SkipReason::LeftOut(why.to_string().into()))
         }
         Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
         Need::Each(parts) if !applies(context, parts) => None,
@@ -256,8 +163,8 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             None => Some(SkipReason::DidNotRun(code)),
         },
         Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes, code, |_| true),
-        Need::Version1 => (context.profile() != Profile::V1).then_some(SkipReason::NotVersion1),
-        Need::Legacy => (context.profile() != Profile::Legacy).then_some(SkipReason::NotLegacy),
+        Need::Version1 => (context.profile() != Profile::V1).then_some(skip::NOT_VERSION_1),
+        Need::Legacy => (context.profile() != Profile::Legacy).then_some(skip::NOT_LEGACY),
     }
 }
 

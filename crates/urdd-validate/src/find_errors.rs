@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::code::Code;
-use super::rule::Severity;
-use super::settings::Settings;
 use super::{ValidateError, validate};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_findings::code::Code;
+use urdd_findings::description::Severity;
+use urdd_findings::settings::Settings;
 
 /// The rules that find errors in a URDD, each with its number of findings, as text; empty if there are none. For a URDD
 /// that cannot be examined, the reason.

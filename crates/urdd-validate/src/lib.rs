@@ -17,51 +17,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[doc(hidden)]
-pub mod bare_urdf;
-#[doc(hidden)]
-pub mod bound;
-pub mod code;
-#[doc(hidden)]
-pub mod consequence;
+mod bare_urdf;
 #[doc(hidden)]
 pub mod context;
 #[doc(hidden)]
 pub mod distances;
-#[doc(hidden)]
-pub mod effect;
-pub mod engine;
-mod examined;
+mod engine;
 mod find_errors;
 #[doc(hidden)]
 pub mod finding;
 #[doc(hidden)]
-pub mod fold;
-#[doc(hidden)]
 pub mod learned;
 mod locate;
 mod memo;
-#[doc(hidden)]
-pub mod memory;
 mod model_verified;
 mod names;
 mod needs;
 #[doc(hidden)]
-pub mod part;
-#[doc(hidden)]
-pub mod places;
-#[doc(hidden)]
 pub mod reference;
-pub mod report;
 #[doc(hidden)]
 pub mod rule;
 #[doc(hidden)]
 pub mod rules;
-#[doc(hidden)]
-pub mod scope;
-pub mod selection;
-pub mod settings;
-pub mod settings_file;
 #[doc(hidden)]
 pub mod skip;
 #[doc(hidden)]
@@ -69,69 +46,35 @@ pub mod solids;
 #[doc(hidden)]
 pub mod tolerance;
 mod two_robots;
-mod unverified;
 #[doc(hidden)]
 pub mod urdf_text;
 #[doc(hidden)]
 pub mod views;
+
 #[doc(hidden)]
-pub mod worst;
-
-pub use examined::Examined;
+pub use bare_urdf::examine_urdf;
 pub use find_errors::find_errors;
+pub use model_verified::{ModelVerdict, verify_model};
+pub use urdd_findings::run::Run;
+pub use urdd_findings::{code, report, selection, settings, settings_file};
 
-use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use thiserror::Error;
 
 use self::context::Context;
-use self::rule::{Description, Rule};
+use self::rule::Rule;
 use self::settings::Settings;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::discover::{DiscoverError, discover};
-use urdd_directory::root::{ReadError, Root};
+use urdd_directory::root::Root;
 use urdd_directory::source::Source;
 use urdd_document::urdd::Urdd;
+use urdd_findings::bound;
+use urdd_findings::examined::{Examined, blank};
 use urdd_format::index::Count;
-use urdd_format::report::{self as format, Kind, Module, Report, Size, Verdict};
-
-/// The result of a run.
-pub struct Run {
-    /// The report.
-    pub report: Report,
-    /// The folder of each URDD of the report. The report itself has no absolute paths.
-    pub folders: Vec<PathBuf>,
-    /// Number of URDDs that the settings exclude.
-    pub excluded: usize,
-    rules: BTreeMap<&'static str, &'static Description>,
-}
-
-impl Run {
-    /// The report on what was examined in these folders, with the settings applied.
-    #[doc(hidden)]
-    pub fn of(
-        examined: Vec<Examined>,
-        folders: Vec<PathBuf>,
-        excluded: usize,
-        settings: &Settings,
-    ) -> Run {
-        let checks = examined.iter().flat_map(|one| &one.checks);
-        Run {
-            rules: checks.map(|check| (check.rule.code.as_str(), check.rule)).collect(),
-            report: report::fill(examined, settings),
-            folders,
-            excluded,
-        }
-    }
-
-    /// What a rule that ran says of itself, by its code.
-    pub fn rule(&self, code: &str) -> Option<&'static Description> {
-        self.rules.get(code).copied()
-    }
-}
+use urdd_format::report::{self as format, Kind, Module, Size};
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -179,7 +122,7 @@ pub fn validate_with<P: AsRef<Path>>(
     });
     let kept = bound::of_each(found.len());
     let examined = found.par_iter().map(|(kind, found)| {
-        let mut examined = caught(*kind, &found.name, || match (kind, &found.closed) {
+        let mut examined = Examined::caught(*kind, &found.name, || match (kind, &found.closed) {
             (Kind::Urdf, _) => bare_urdf::examine(found, rules),
             (Kind::Urdd, Some(error)) => Err(error.clone()),
             (Kind::Urdd, None) => {
@@ -206,38 +149,13 @@ pub fn validate_source(
     settings: &Settings,
 ) -> Result<Run, ValidateError> {
     let root = Root::of(source);
-    let mut examined =
-        caught(Kind::Urdd, name, || Ok(examine(Urdd::of(root)?, name, settings, &rules::all())));
+    let mut examined = Examined::caught(Kind::Urdd, name, || {
+        Ok(examine(Urdd::of(root)?, name, settings, &rules::all()))
+    });
     settings.cancellation.check()?;
     bound::trim(&mut examined.checks, bound::of_each(1));
     let folders = vec![PathBuf::from(name)];
     Ok(Run::of(vec![examined], folders, 0, settings))
-}
-
-/// Examines a URDD. If it cannot be read, or if the program crashes outside a rule, its report says so; the other URDDs
-/// still have their reports.
-#[doc(hidden)]
-pub fn caught(
-    kind: Kind,
-    name: &str,
-    examine: impl FnOnce() -> Result<Examined, ReadError>,
-) -> Examined {
-    let without_checks = |verdict, reason| {
-        let mut report = report::blank(kind, name);
-        (report.verdict, report.reason) = (verdict, Some(reason));
-        Examined { report, checks: Vec::new() }
-    };
-    match catch_unwind(AssertUnwindSafe(examine)) {
-        Ok(Ok(examined)) => examined,
-        Ok(Err(error)) => without_checks(Verdict::Unreadable, error.to_string()),
-        Err(panic) => {
-            let message = engine::panic_message(&*panic);
-            let reason = format!(
-                "the program crashed: {message}; this is a bug in the program, please report it"
-            );
-            without_checks(Verdict::Incomplete, reason)
-        }
-    }
 }
 
 /// Runs the rules over a URDD. `name` is its name in the report. Of the settings, only those that change what the rules
@@ -265,7 +183,7 @@ pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Ru
             dofs: context.dofs().map(|dofs| dofs.num_dofs),
         },
         modules: modules.collect(),
-        ..report::blank(Kind::Urdd, name)
+        ..blank(Kind::Urdd, name)
     };
     Examined { report, checks }
 }

@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::context::Context;
-use super::finding::{Finding, Place};
 use super::names::Names;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::position::{self, LineIndex, Position};
+use urdd_findings::finding::{Finding, Place};
 use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
 
-use super::code::Code;
 use super::solids::dents::Dents;
 use super::solids::polytope::NotConvex;
+use urdd_findings::code::Code;
 
 /// Results by key, each computed once.
 pub struct Memo<K, V>(Mutex<HashMap<K, V>>);

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::code::Code;
 use super::rule::Rule;
-use super::settings::Settings;
 use super::{rules, validate_with};
+use urdd_findings::code::Code;
+use urdd_findings::settings::Settings;
 use urdd_format::report::Status;
 
 /// The result of recounting the rates of a model (SPEC 8.8.9 to 8.8.12).

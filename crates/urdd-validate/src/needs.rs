@@ -1,8 +1,8 @@
 //! Groups of needs with names. A need of parts is met part by part: a rule leaves out unsound parts and judges the others.
 
-use super::code::Code;
-use super::part::{PartKind, Parts};
-use super::rule::Need;
+use super::rule::{Need, Parts};
+use urdd_findings::code::Code;
+use urdd_findings::part::PartKind;
 use urdd_format::registry::ModuleKind as Kind;
 
 /// Each part passed these rules.

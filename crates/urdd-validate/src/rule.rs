@@ -2,31 +2,12 @@
 
 use std::ops::Deref;
 
-use super::code::Code;
 use super::context::Context;
-use super::finding::Findings;
-use super::part::{PartKind, Parts};
+use urdd_findings::code::Code;
+use urdd_findings::description::{Consequence, Description, Phase};
+use urdd_findings::finding::Findings;
+use urdd_findings::part::PartKind;
 use urdd_format::registry::ModuleKind;
-pub use urdd_format::report::{Consequence, Severity};
-
-/// When a rule runs. Phases run in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Phase {
-    /// The files of the URDD.
-    Files,
-    /// JSON and YAML as text.
-    Syntax,
-    /// Documents against their schemas.
-    Schema,
-    /// Values against each other, within and across modules.
-    References,
-    /// Meshes, and their bounding boxes and bounding spheres.
-    Geometry,
-    /// Poses.
-    Kinematics,
-    /// Distances between shapes in sampled configurations.
-    Statistics,
-}
 
 /// A precondition of a rule. The rule does not run unless all its needs are met, so its check may take with `?`
 /// whatever they guarantee.
@@ -105,39 +86,13 @@ impl Judges {
     }
 }
 
-/// What a rule says of itself, to those who read a report.
-pub struct Description {
-    /// Its code.
-    pub code: Code,
-    /// Its name, which states the fault.
-    pub name: &'static str,
-    /// Severity of its findings, unless settings change it.
-    pub severity: Severity,
-    /// The clause of SPEC.md that it checks; `None` for rules about robots, which are not of SPEC.md.
-    pub clause: Option<&'static str>,
-    /// The first version of urdd that has it.
-    pub since: &'static str,
-    /// Effect of the fault on users of the URDD.
-    pub consequence: Consequence,
-    /// When it runs.
-    pub phase: Phase,
-    /// Its documentation in Markdown, line by line: what is wrong, why it matters, what to do.
-    pub doc: &'static [&'static str],
-}
-
-impl Description {
-    /// Its documentation as a single text.
-    pub fn explanation(&self) -> String {
-        let lines: Vec<&str> =
-            self.doc.iter().map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
-        lines.join("\n").trim().to_owned()
-    }
-
-    /// The first paragraph of its documentation.
-    pub fn summary(&self) -> String {
-        let text = self.explanation();
-        text.split("\n\n").next().unwrap_or_default().replace('\n', " ")
-    }
+/// Rules that find unsound parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parts {
+    /// The rules.
+    pub codes: &'static [Code],
+    /// Whether this applies to URDDs of version 1 only: in legacy URDDs, these rules often report a convention.
+    pub in_version_1_only: bool,
 }
 
 /// A rule: one kind of fault in a URDD.
@@ -200,27 +155,27 @@ macro_rules! declare_rule {
                 #[allow(unused_imports)]
                 use urdd_format::registry::ModuleKind as Kind;
                 #[allow(unused_imports)]
-                use $crate::code::Code::*;
+                use urdd_findings::code::Code::*;
                 $crate::rule::Rule {
-                    description: $crate::rule::Description {
-                        code: $crate::code::Code::$code,
+                    description: urdd_findings::description::Description {
+                        code: urdd_findings::code::Code::$code,
                         name: $name,
-                        severity: $crate::rule::Severity::$severity,
+                        severity: urdd_findings::description::Severity::$severity,
                         clause: Some($clause),
                         since: $since,
                         consequence: {
                             #[allow(unused_variables)]
                             let consequence = $crate::rule::of_family(stringify!($code));
-                            $(let consequence = $crate::rule::Consequence::$consequence;)?
+                            $(let consequence = urdd_findings::description::Consequence::$consequence;)?
                             consequence
                         },
-                        phase: $crate::rule::Phase::$phase,
+                        phase: urdd_findings::description::Phase::$phase,
                         doc: &[$($doc),+],
                     },
                     judges: [
                         $($crate::rule::Judges::$judges,)?
                         $crate::rule::Judges::by_phase(
-                            $crate::rule::Phase::$phase,
+                            urdd_findings::description::Phase::$phase,
                         ),
                     ][0],
                     needs: &[$($need),*],

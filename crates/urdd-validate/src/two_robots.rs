@@ -13,12 +13,13 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::code::Code;
 use super::context::Context;
-use super::engine::{Check, Outcome, Outcomes, judge, judge_into, run_all};
-use super::finding::Findings;
+use super::engine::{Outcomes, judge, judge_into, run_all};
 use super::rule::{Judges, Rule};
-use super::skip::SkipReason;
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::finding::Findings;
+use urdd_findings::skip::SkipReason;
 
 /// Runs rules on a URDD. The checks are ordered by code.
 pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {

@@ -11,8 +11,8 @@ use urdd_conformance::suite::Suite;
 use urdd_conformance::tree::{Node, Tree, TreeError};
 use urdd_conformance::valid;
 use urdd_directory::source::Memory;
+use urdd_findings::description::Severity;
 use urdd_format::report::Report;
-use urdd_validate::rule::Severity;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate, validate_source};
 

@@ -20,7 +20,7 @@ use urdd_conformance::data::{BASES, INVALID};
 use urdd_conformance::judge;
 use urdd_conformance::tree::Tree;
 use urdd_directory::canonical;
-use urdd_validate::rule::Severity;
+use urdd_findings::description::Severity;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;

@@ -1,7 +1,7 @@
 use crate::elements::{ONE_DOF, child, number};
 use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// The effort or velocity of a joint's limit is negative, or one of them is 0.

@@ -1,7 +1,7 @@
 use crate::elements::numbers;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An angle of an `<origin>` looks like degrees.

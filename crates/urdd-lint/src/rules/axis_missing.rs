@@ -1,7 +1,7 @@
 use crate::elements::{WITH_AXIS, child};
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A joint that needs an axis has none.

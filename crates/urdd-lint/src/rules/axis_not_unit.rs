@@ -1,8 +1,8 @@
 use crate::elements::{child, numbers};
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::number;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The axis of a prismatic or planar joint is not of length 1.

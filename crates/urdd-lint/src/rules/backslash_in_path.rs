@@ -2,7 +2,7 @@ use std::path::Path;
 
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// The name of a mesh or texture has a backslash.

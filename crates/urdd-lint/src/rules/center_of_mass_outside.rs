@@ -3,8 +3,8 @@ use crate::inertial::Inertial;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use nalgebra::Point3;
+use urdd_findings::finding::{Findings, point};
 use urdd_format::readable::metres;
-use urdd_validate::finding::{Findings, point};
 
 declare_lint! {
     /// The centre of mass of a link is outside of its shapes.

@@ -2,7 +2,7 @@ use urdd_geometry::read::NoteCode;
 
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A COLLADA file is not in metres.

@@ -1,8 +1,8 @@
 use crate::elements::numbers;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::report::Fix;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A number of a colour is below 0 or above 1.

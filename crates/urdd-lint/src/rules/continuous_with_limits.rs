@@ -1,7 +1,7 @@
 use crate::elements::{child, number};
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A continuous joint has a lower and an upper limit.

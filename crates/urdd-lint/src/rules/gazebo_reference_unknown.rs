@@ -1,7 +1,7 @@
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::vocabulary::hint;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 use urdd_xml::element::children;
 
 declare_lint! {

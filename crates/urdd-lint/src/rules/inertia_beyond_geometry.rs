@@ -7,8 +7,8 @@ use crate::geometry::diagonal;
 use crate::inertial::Inertial;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::metres;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The inertia of a link is larger than any mass inside its shapes can have.

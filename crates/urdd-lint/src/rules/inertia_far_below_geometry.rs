@@ -3,8 +3,8 @@ use crate::hull::Hull;
 use crate::inertial::Inertial;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::number;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The inertia of a link is less than a thousandth of what its mass and shapes give.

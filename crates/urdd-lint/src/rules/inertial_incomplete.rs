@@ -1,7 +1,7 @@
 use crate::elements::child;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An `<inertial>` has no mass, no inertia, or not all numbers of it.

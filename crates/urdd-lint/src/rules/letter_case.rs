@@ -3,9 +3,9 @@ use std::ops::Range;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::textures::textures;
+use urdd_findings::description::Severity;
+use urdd_findings::finding::Findings;
 use urdd_generate::OtherCase;
-use urdd_validate::finding::Findings;
-use urdd_validate::rule::Severity;
 
 declare_lint! {
     /// A mesh or texture is not there, but a file whose path differs in the case of letters is.

@@ -1,7 +1,7 @@
 use crate::elements::child;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A `<limit>` has no effort or no velocity, or a revolute or prismatic joint has no `<limit>`.

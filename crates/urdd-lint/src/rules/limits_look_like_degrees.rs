@@ -1,8 +1,8 @@
 use crate::elements::{child, number};
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::number as shown;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The limits of a revolute joint look like degrees.

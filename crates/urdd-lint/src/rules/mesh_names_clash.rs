@@ -7,7 +7,7 @@ use urdd_format::meshes::GeometryKind;
 
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// Two different collision meshes have one file name in different folders.

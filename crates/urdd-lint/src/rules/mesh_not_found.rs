@@ -1,7 +1,7 @@
 use crate::named_file::NamedFile;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A mesh is not there.

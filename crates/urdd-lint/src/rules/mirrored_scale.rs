@@ -3,7 +3,7 @@ use urdd_format::meshes::GeometryKind;
 use crate::elements::numbers;
 use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// The scale of a collision mesh mirrors it, or flattens it.

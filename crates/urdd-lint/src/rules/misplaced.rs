@@ -3,7 +3,7 @@ use roxmltree::Node;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::unknown::{Unknown, What};
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An element or attribute of URDF is in a place where no program looks.

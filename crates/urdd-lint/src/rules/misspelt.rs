@@ -2,7 +2,7 @@ use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::unknown::{Unknown, What};
 use crate::vocabulary::fits;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An element or attribute is misspelt.

@@ -1,7 +1,7 @@
 use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::urdf::JointType;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A joint moves links of which none has a mass.

@@ -5,7 +5,7 @@ use roxmltree::Node;
 use crate::elements::{child, text};
 use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A link or joint has a name that a program refuses.

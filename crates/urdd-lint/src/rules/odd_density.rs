@@ -4,8 +4,8 @@ use crate::geometry::diagonal;
 use crate::hull::Hull;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::number;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// The mass and the shapes of a body make no density of a thing that is built.

@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::textures::textures;
+use urdd_findings::finding::Findings;
 use urdd_format::escape;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A package that the URDF names is not found.

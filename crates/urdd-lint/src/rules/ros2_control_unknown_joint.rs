@@ -1,6 +1,6 @@
 use crate::rule::declare_lint;
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 use urdd_xml::element::children;
 
 declare_lint! {

@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use crate::hull::Hull;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::number;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// Links of different sizes have one mass and one inertia.

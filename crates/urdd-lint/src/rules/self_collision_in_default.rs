@@ -11,8 +11,8 @@ use crate::pose::at_default;
 use crate::rule::declare_lint;
 use crate::srdf;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::metres;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// Links overlap in the default configuration.

@@ -7,7 +7,7 @@ use crate::rule::declare_lint;
 use crate::srdf;
 use crate::subject::Subject;
 use urdd_directory::position::LineIndex;
-use urdd_validate::finding::{Finding, Findings};
+use urdd_findings::finding::{Finding, Findings};
 
 declare_lint! {
     /// The robot's SRDF names a link or joint that the URDF does not have.

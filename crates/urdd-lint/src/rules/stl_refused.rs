@@ -3,7 +3,7 @@ use urdd_geometry::read::{Format, NoteCode};
 
 use crate::rule::{declare_lint, error_if};
 use crate::subject::Subject;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// An STL is text, or is cut off.

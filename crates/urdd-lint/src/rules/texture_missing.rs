@@ -7,7 +7,7 @@ use urdd_format::meshes::GeometryKind;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
 use crate::textures::textures;
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 
 declare_lint! {
     /// A texture of a mesh or of a `<material>`, or the material library of an OBJ, is not there.

@@ -3,8 +3,8 @@ use urdd_format::meshes::GeometryKind;
 use crate::geometry::diagonal;
 use crate::rule::declare_lint;
 use crate::subject::Subject;
+use urdd_findings::finding::Findings;
 use urdd_format::readable::metres;
-use urdd_validate::finding::Findings;
 
 declare_lint! {
     /// A body is drawn, and nothing can collide with it.

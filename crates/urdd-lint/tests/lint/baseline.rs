@@ -3,7 +3,8 @@
 use std::fs;
 
 use super::{SLIDE, codes, linted, written};
-use urdd_lint::{Baseline, LintSettings};
+use urdd_findings::baseline::Baseline;
+use urdd_lint::LintSettings;
 
 #[test]
 fn what_was_there_is_left_out_wherever_it_moves_and_what_is_new_is_not() {

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use urdd_findings::code::Code;
 use urdd_format::report::Verdict;
 use urdd_lint::{LintRule, LintSettings, lint, rules};
-use urdd_validate::code::Code;
 
 fn folder_of(code: Code) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases")).join(code.as_str())

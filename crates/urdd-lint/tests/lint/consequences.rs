@@ -3,8 +3,9 @@
 use std::fs;
 
 use super::{codes, linted, written};
+use urdd_findings::baseline::Baseline;
 use urdd_format::report::{Finding, Severity};
-use urdd_lint::{Baseline, LintSettings};
+use urdd_lint::LintSettings;
 
 /// A robot without a fault.
 const ARM: &str = include_str!("../cases/LNT040/near_miss.urdf");
@@ -107,7 +108,7 @@ fn what_follows_is_reported_where_the_cause_is_not() {
     assert_eq!(kinds(&text, &selected), effect);
     let toml = "[[ignore]]\ncode = \"LNT040\"\npath = \"*.urdf\"\nreason = \"known\"";
     let by_file = LintSettings {
-        report: urdd_validate::settings::Settings::from_toml(toml).expect("settings"),
+        report: urdd_findings::settings::Settings::from_toml(toml).expect("settings"),
         ..LintSettings::default()
     };
     assert_eq!(kinds(&text, &by_file), effect);
@@ -124,7 +125,7 @@ fn settings_say_how_severe_both_are() {
         [("LNT008", Severity::Info, Severity::Warning), ("LNT040", Severity::Info, Severity::Error)]
     {
         let mut settings = LintSettings::default();
-        let code = urdd_validate::code::Code::parse(code).expect("a code");
+        let code = urdd_findings::code::Code::parse(code).expect("a code");
         settings.report.severities.insert(code, severity);
         assert_eq!(kinds(&text, &settings), [is("LNT040", expected)], "{code}");
     }

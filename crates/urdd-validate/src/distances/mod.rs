@@ -12,11 +12,12 @@ pub mod tolerances;
 use self::plan::Work;
 use self::poses::Poses;
 use self::shape_set::ShapeSet;
-use super::skip::{NoStatistics, SkipReason};
+use super::skip;
 use super::solids::Solids;
 use urdd_document::shape_matrices::statistics;
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;
+use urdd_findings::skip::SkipReason;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
@@ -61,15 +62,14 @@ impl Distances {
         let recorded = urdd
             .document(ModuleKind::LinkShapesDistanceStatistics)
             .and_then(statistics)
-            .ok_or(SkipReason::NoStatistics(NoStatistics::Unusable))?;
+            .ok_or(skip::STATISTICS_UNUSABLE)?;
         let num_samples = recorded.iter().flatten().find_map(|one| one.num_samples);
-        let num_samples =
-            num_samples.ok_or(SkipReason::NoStatistics(NoStatistics::SamplesUnknown))?;
+        let num_samples = num_samples.ok_or(skip::SAMPLES_UNKNOWN)?;
         if num_samples == 0 {
-            return Err(SkipReason::NoStatistics(NoStatistics::NoSamples));
+            return Err(skip::NO_SAMPLES);
         }
         let poses = Poses::new(urdd)?;
-        let shapes = Shapes::new(urdd).ok_or(SkipReason::NoStatistics(NoStatistics::NoShapes))?;
+        let shapes = Shapes::new(urdd).ok_or(skip::NO_SHAPES)?;
         let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(ShapeKind::ALL.len());
         for (kind, recorded) in ShapeKind::ALL.into_iter().zip(&recorded) {
             let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));

@@ -5,10 +5,11 @@ use std::ops::Range;
 use nalgebra::Isometry3;
 use rayon::prelude::*;
 
-use crate::code::Code;
-use crate::skip::SkipReason;
+use crate::skip;
 use urdd_document::consumer;
 use urdd_document::urdd::Urdd;
+use urdd_findings::code::Code;
+use urdd_findings::skip::SkipReason;
 use urdd_format::registry::Profile;
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::Motion;
@@ -28,19 +29,19 @@ impl Poses {
     /// # Errors
     /// Why there are no poses.
     pub fn new(urdd: &Urdd) -> Result<Self, SkipReason> {
-        let open = SkipReason::KinematicsOpen;
+        let open = skip::KINEMATICS_OPEN;
         let modules = consumer::modules(urdd).ok_or(open.clone())?;
         let groups = urdd.rigid_groups().ok_or(open.clone())?;
         let bounds = urdd.bounds().ok_or(open)?;
         let unlike = |joint: JointType| matches!(joint, JointType::Planar | JointType::Floating);
         let mut joints = modules.chain.joints_in_chain.iter();
         if urdd.profile() == Profile::Legacy && joints.any(|joint| unlike(joint.joint_type)) {
-            return Err(SkipReason::LegacyCoordinates);
+            return Err(skip::LEGACY_COORDINATES);
         }
         let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)
-            .map_err(SkipReason::kinematics)?;
+            .map_err(SkipReason::obstacle)?;
         let kinematics =
-            ForwardKinematics::new(&modules.chain, &modules.dof).map_err(SkipReason::kinematics)?;
+            ForwardKinematics::new(&modules.chain, &modules.dof).map_err(SkipReason::obstacle)?;
         if groups.of_link.len() != kinematics.num_links() {
             return Err(SkipReason::Failed(Code::CHN001));
         }
@@ -65,8 +66,8 @@ impl Poses {
         let configuration = self.space.default_configuration();
         let poses = self.kinematics.link_poses(&configuration);
         let poses = poses
-            .map_err(|error| SkipReason::Kinematics(format!("default configuration: {error}")))?;
-        Motion::new(&[poses], &self.groups).map_err(SkipReason::kinematics)
+            .map_err(|error| SkipReason::obstacle(format!("default configuration: {error}")))?;
+        Motion::new(&[poses], &self.groups).map_err(SkipReason::obstacle)
     }
 
     /// A sampled configuration and its poses.
@@ -77,7 +78,7 @@ impl Poses {
         let configuration = self.space.sampled(u64::from(sample));
         let poses = self.kinematics.link_poses(&configuration);
         let poses = poses.map_err(|error| {
-            SkipReason::Kinematics(format!("sampled configuration {sample}: {error}"))
+            SkipReason::obstacle(format!("sampled configuration {sample}: {error}"))
         })?;
         Ok((configuration, poses))
     }
@@ -88,7 +89,7 @@ impl Poses {
     /// If numbers exceed 64 bits.
     pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
         let poses = self.kinematics.link_poses(configuration);
-        poses.map_err(SkipReason::kinematics)
+        poses.map_err(SkipReason::obstacle)
     }
 
     /// The poses in a range of sampled configurations.
@@ -100,6 +101,6 @@ impl Poses {
             .into_par_iter()
             .map(|sample| Ok(self.sampled(sample)?.1))
             .collect::<Result<_, _>>()?;
-        Motion::new(&poses, &self.groups).map_err(SkipReason::kinematics)
+        Motion::new(&poses, &self.groups).map_err(SkipReason::obstacle)
     }
 }

@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use super::network::Network;
 use super::pairs;
 use crate::distances::poses::Poses;
-use crate::skip::SkipReason;
+use crate::skip;
 use crate::solids::Solids;
 use urdd_document::urdd::Urdd;
+use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::self_collision_model::{
     EVALUATION_FIRST, ModelEvaluation, NEAR_CONTACT_STEP, SelfCollisionModelModule,
@@ -75,7 +76,7 @@ impl Judge {
         let one = |k: u32| {
             let (found, work) = self.judge(first.wrapping_add(k), first == EVALUATION_FIRST)?;
             match done.fetch_add(work, Ordering::Relaxed) + work > budget {
-                true => Err(SkipReason::TooMuchWork { deep: self.deep }),
+                true => Err(skip::too_much_work(self.deep)),
                 false => Ok(found),
             }
         };

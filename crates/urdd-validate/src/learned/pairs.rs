@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use crate::skip::SkipReason;
 use crate::solids::Solids;
 use urdd_document::shape_matrices::{at, skips};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::Urdd;
+use urdd_findings::skip::SkipReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::convex::BodyPairs;
 
@@ -84,7 +84,7 @@ pub fn not_skipped(urdd: &Urdd) -> Option<Vec<[usize; 2]>> {
 /// # Errors
 /// Why there are none.
 pub fn pieces(urdd: &Urdd, solids: &Solids) -> Result<BodyPairs, SkipReason> {
-    let open = || SkipReason::Kinematics("there are no pieces to take distances of".to_owned());
+    let open = || SkipReason::obstacle("there are no pieces to take distances of");
     let shapes = Shapes::new(urdd).ok_or_else(open)?;
     let skipped = Skipped::new(urdd, &shapes).ok_or_else(open)?;
     let pairs = skipped.not_skipped();
@@ -94,7 +94,7 @@ pub fn pieces(urdd: &Urdd, solids: &Solids) -> Result<BodyPairs, SkipReason> {
         let why = format!(
             "the pairs of links that are not skipped have {count} pairs of pieces, and distances are taken of {MOST} at most"
         );
-        return Err(SkipReason::Kinematics(why));
+        return Err(SkipReason::obstacle(why));
     }
     let kind = ModuleKind::ConvexDecompositionMeshes;
     let meshes = shapes.pieces.iter().map(|(link, piece)| {
@@ -103,7 +103,7 @@ pub fn pieces(urdd: &Urdd, solids: &Solids) -> Result<BodyPairs, SkipReason> {
     });
     let meshes: Vec<(usize, &[[f64; 3]])> = meshes.collect::<Option<_>>().ok_or_else(open)?;
     let mut pairs = BodyPairs::new(meshes)
-        .map_err(|(piece, error)| SkipReason::Kinematics(format!("piece {piece}: {error}")))?;
+        .map_err(|(piece, error)| SkipReason::obstacle(format!("piece {piece}: {error}")))?;
     for [a, b] in skipped.not_skipped() {
         pairs.add([a.0, b.0], |a, b| !skipped.of_pieces(a, b).unwrap_or(false));
     }

@@ -1,17 +1,18 @@
 //! Names that rules use.
 
 pub(super) use crate::context::Context;
-pub(super) use crate::finding::{Finding, Findings, point};
-pub(super) use crate::fold::Fold;
-pub(super) use crate::part::{Part, Why};
+pub(super) use crate::finding::finding_in;
 pub(super) use crate::rule::declare_rule;
-pub(super) use crate::skip::SkipReason;
 pub(super) use crate::tolerance::*;
 pub(super) use crate::views::list_lengths::wrong_lengths;
 pub(super) use urdd_directory::discover::ROOT_METADATA;
 pub(super) use urdd_document::entries::{self, Entry};
 pub(super) use urdd_document::meshes::DERIVED;
 pub(super) use urdd_document::module::Module;
+pub(super) use urdd_findings::finding::{Finding, Findings, point};
+pub(super) use urdd_findings::fold::Fold;
+pub(super) use urdd_findings::part::{Part, Why};
+pub(super) use urdd_findings::skip::SkipReason;
 pub(super) use urdd_format::readable::{metres, number};
 pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 pub(super) use urdd_format::shape_kind::ShapeKind;

@@ -25,6 +25,6 @@ pub fn in_words(difference: &Difference) -> String {
             urdd_format::readable::metres(difference.distance)
         ));
     }
-    text.push_str(&format!(", first at {}", crate::finding::point(difference.place)));
+    text.push_str(&format!(", first at {}", urdd_findings::finding::point(difference.place)));
     text
 }

@@ -2,11 +2,11 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use crate::part::Part;
 use crate::solids::Solids;
 use crate::tolerance::HULL_IN_VOLUME;
 use urdd_document::shapes::{Volume, approximations};
 use urdd_document::urdd::Urdd;
+use urdd_findings::part::Part;
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::{Mesh, farthest};

@@ -2,11 +2,11 @@
 //! verified.
 
 use super::enclosure::{self, Enclosure};
-use crate::code::Code;
 use crate::context::Context;
-use crate::finding::Findings;
-use crate::part::{Part, Why};
 use urdd_document::shapes::Shapes;
+use urdd_findings::code::Code;
+use urdd_findings::finding::Findings;
+use urdd_findings::part::{Part, Why};
 use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use crate::part::Part;
 use urdd_document::meshes::{DERIVED, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
+use urdd_findings::part::Part;
 use urdd_format::legacy::urdf as legacy;
 use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 

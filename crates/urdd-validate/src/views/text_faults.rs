@@ -1,11 +1,11 @@
 //! Faults in the text of documents, recorded when the documents were read.
 
 use super::super::context::Context;
-use super::super::finding::{Finding, Findings, KEPT_PLACES, Place};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
 use urdd_document::entries;
 use urdd_document::module::Mirror;
+use urdd_findings::finding::{Finding, Findings, KEPT_PLACES, Place};
 use urdd_format::index::Count;
 
 /// Reports the faults of these kinds in `urdd.json` and every `module.json`: one finding per file and kind, with their

@@ -4,24 +4,16 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
-mod bound;
-mod code;
 mod core_rules_random;
 mod corpus;
-mod crash;
 mod distances;
 mod distances_plan;
 mod extension_schema;
-mod finding;
-mod fold;
 mod kinematics_figures;
 mod learned_counts;
 mod no_crash;
 mod reference;
 mod reference_motion;
-mod report_causes;
-mod report_place;
-mod report_summary;
 mod rules_bounds_unlimited_bounds_wrong;
 mod rules_chain_quaternion_not_canonical;
 mod rules_connections_explicit_paths_missing;
@@ -40,7 +32,6 @@ mod rules_urdf_cycle;
 mod rules_urdf_parts;
 mod rules_urdf_source_differences;
 mod rules_urdf_zero_axis;
-mod scope;
 mod shape_rules_random;
 mod solids_apart;
 mod solids_cut;
@@ -59,4 +50,3 @@ mod views_enclosure;
 mod views_repeated;
 mod views_shape_pair;
 mod views_tangled;
-mod worst;

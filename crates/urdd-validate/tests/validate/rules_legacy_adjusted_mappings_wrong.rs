@@ -1,6 +1,6 @@
 //! The rule `legacy::adjusted_mappings_wrong`.
 
-use urdd_validate::finding::Findings;
+use urdd_findings::finding::Findings;
 use urdd_validate::rules::legacy::adjusted_mappings_wrong::*;
 
 fn pointers(to_base: &[usize], to_adjusted: &[Option<usize>], deleted: usize) -> Vec<String> {

@@ -3,14 +3,15 @@
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::folder::Folder;
 use urdd_document::urdd::Urdd;
+use urdd_findings::check::Outcome;
+use urdd_findings::description::{Consequence, Description, Phase, Severity};
+use urdd_findings::finding::Findings;
+use urdd_findings::skip::SkipReason;
 use urdd_validate::code::Code;
 use urdd_validate::context::Context;
-use urdd_validate::engine::Outcome;
-use urdd_validate::finding::Findings;
-use urdd_validate::rule::{Consequence, Description, Judges, Need, Phase, Rule, Severity};
+use urdd_validate::rule::{Judges, Need, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
-use urdd_validate::skip::SkipReason;
 
 static FORGETFUL: Rule = Rule {
     description: Description {

@@ -43,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             )
         }
     };
-    Finding::of(module, wrong.pointer, message)
+    finding_in(module, wrong.pointer, message)
         .expected(format!("{dofs} entries (num_dofs of dof_module)"))
         .actual(format!("{length} entries"))
         .report(findings);

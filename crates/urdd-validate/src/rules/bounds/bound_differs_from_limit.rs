@@ -28,8 +28,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !agree && columns_agree(bounds, dof, end) {
                 let name = &limited.joint.name;
                 let message = format!("DOF {dof}: this is not the {key} limit of joint {name:?}");
-                Finding::of(module, format!("/bounds/{dof}/{end}"), message)
-                    .numbers(limit, bound)
+                finding_in(module, format!("/bounds/{dof}/{end}"), message)
+                    .numbers(limit, bound, number_tolerance(limit, bound))
                     .report(findings);
             }
         }

@@ -52,7 +52,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     format!("{right:?}, as `{other}` has it"),
                 ),
             };
-            Finding::of(module, wrong, message)
+            finding_in(module, wrong, message)
                 .expected(expected)
                 .actual(format!("{written:?}"))
                 .tolerance(number_tolerance(right, written))

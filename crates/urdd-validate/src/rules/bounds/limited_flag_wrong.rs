@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 false => format!("is a {} joint without position limits", joint.joint_type),
             };
             let message = format!("DOF {dof} moves joint {:?}, which {why}", joint.name);
-            Finding::of(module, format!("/dof_limited/{dof}"), message)
+            finding_in(module, format!("/dof_limited/{dof}"), message)
                 .expected(limited)
                 .actual(written)
                 .report(findings);

@@ -33,9 +33,11 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "this is not what urdf_module says of joint {:?}, which DOF {dof} moves",
                 joint.name
             );
-            let finding = Finding::of(module, format!("/{key}/{dof}"), message);
+            let finding = finding_in(module, format!("/{key}/{dof}"), message);
             findings.report(match both {
-                Some((right, written)) => finding.numbers(right, written),
+                Some((right, written)) => {
+                    finding.numbers(right, written, number_tolerance(right, written))
+                }
                 None => finding.expected(or_null(right)).actual(or_null(written)),
             });
         }

@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         joint.name
                     ),
                 };
-                Finding::of(module, format!("/bounds/{dof}"), message)
+                finding_in(module, format!("/bounds/{dof}"), message)
                     .expected(format!("{ends:?}"))
                     .actual(format!("{pair:?}"))
                     .report(findings);
@@ -58,7 +58,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
                     joint.name
                 );
-                Finding::of(module, pointer, message).numbers(right, written).report(findings);
+                finding_in(module, pointer, message)
+                    .numbers(right, written, number_tolerance(right, written))
+                    .report(findings);
             }
         }
     }

@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (right, written) = (robot.joints.len(), chain.joints.len());
     if right != written {
         let message = "one entry per joint of urdf_module is needed";
-        Finding::of(module, "/joints_in_chain", message)
+        finding_in(module, "/joints_in_chain", message)
             .expected(format!("{right} joints"))
             .actual(format!("{written} joints"))
             .report(findings);
@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if right != written {
                 let pointer = format!("/joints_in_chain/{index}/{key}");
                 let message = format!("this is not what urdf_module says of joint {index}");
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 findings.report(finding.expected(right).actual(written));
             }
         };

@@ -19,7 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (right, written) = (robot.links.len(), chain.links.len());
     if right != written {
         let message = "one entry per link of urdf_module is needed";
-        Finding::of(module, "/links_in_chain", message)
+        finding_in(module, "/links_in_chain", message)
             .expected(format!("{right} links"))
             .actual(format!("{written} links"))
             .report(findings);
@@ -29,7 +29,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if link.name != right.name {
             let pointer = format!("/links_in_chain/{index}/name");
             let message = format!("this is not the name of link {index} of urdf_module");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{:?}", right.name))
                 .actual(format!("{:?}", link.name))
                 .report(findings);
@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if link.link_idx.get() != index {
             let pointer = format!("/links_in_chain/{index}/link_idx");
             let message = "`link_idx` is not the link's place in this list";
-            let finding = Finding::of(module, pointer, message);
+            let finding = finding_in(module, pointer, message);
             findings.report(finding.expected(index).actual(link.link_idx));
         }
     }

@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "these are not the children of link {index} ({:?}) by the joints of urdf_module",
                 link.name
             );
-            let finding = Finding::of(module, pointer, message);
+            let finding = finding_in(module, pointer, message);
             findings.report(finding.expected(list(right)).actual(list(&written)));
         }
     }

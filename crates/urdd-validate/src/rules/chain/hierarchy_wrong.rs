@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let levels = tree.levels();
     if levels.len() != chain.hierarchy.len() {
         let message = "the tree of urdf_module has another number of levels";
-        Finding::of(module, "/kinematic_hierarchy", message)
+        finding_in(module, "/kinematic_hierarchy", message)
             .expected(format!("{} levels", levels.len()))
             .actual(format!("{} levels", chain.hierarchy.len()))
             .report(findings);
@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "these are not the links of level {depth} (so many joints from the root), ascending"
             );
-            let finding = Finding::of(module, pointer, message);
+            let finding = finding_in(module, pointer, message);
             findings.report(finding.expected(list(right)).actual(list(&written)));
         }
     }

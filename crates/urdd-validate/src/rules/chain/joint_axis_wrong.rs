@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let (name, kind) = (&right.name, right.joint_type);
         let message = format!("joint {index} ({name:?}, {kind}) {message}");
-        let mut finding = Finding::of(module, format!("/joints_in_chain/{index}/axis"), message)
+        let mut finding = finding_in(module, format!("/joints_in_chain/{index}/axis"), message)
             .expected(or_null(expected.map(<[f64; 3]>::from)))
             .actual(or_null(joint.axis));
         finding.tolerance = compared.map(|_| UNIT_NORM);

@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 right.name,
                 number(offset, 4)
             );
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{:?}", right.origin.xyz))
                 .actual(format!("{:?}", origin.position))
                 .tolerance(position_tolerance)
@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 ),
             };
             let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(match right.origin.quat_xyzw {
                     Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
                     None => format!("the rotation of rpy {:?}", right.origin.rpy),

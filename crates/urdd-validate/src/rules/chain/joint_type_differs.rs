@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let name = &right.name;
             let pointer = format!("/joints_in_chain/{index}/joint_type");
             let message = format!("joint {index} ({name:?}) is of another type in urdf_module");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(right.joint_type)
                 .actual(joint.joint_type)
                 .report(findings);

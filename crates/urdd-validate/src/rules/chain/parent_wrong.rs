@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "this is not the parent of link {index} ({:?}) by the joints of urdf_module",
                     link.name
                 );
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 findings.report(finding.expected(or_null(right)).actual(or_null(written)));
             }
         }

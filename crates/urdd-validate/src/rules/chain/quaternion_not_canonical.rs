@@ -20,7 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let quaternion = joint.origin.quaternion_wxyz;
         let at = |message: &str| {
             let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
-            Finding::of(module, pointer, message).actual(format!("{quaternion:?}"))
+            finding_in(module, pointer, message).actual(format!("{quaternion:?}"))
         };
         let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
         if (norm - 1.0).abs() > UNIT_NORM {

@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the root is link {root} ({name:?}), which no joint of urdf_module has as its child"
         );
-        Finding::of(module, "/root_idx", message).expected(root).actual(written).report(findings);
+        finding_in(module, "/root_idx", message).expected(root).actual(written).report(findings);
     }
     Some(())
 }

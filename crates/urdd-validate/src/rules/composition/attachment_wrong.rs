@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (module, composition, robot) = subject(context)?;
     let parts = &composition.parts;
     let mut report = |pointer: String, message: &str| {
-        Finding::of(module, pointer, message).report(findings);
+        finding_in(module, pointer, message).report(findings);
     };
     let ends = |joint: usize| {
         let joint = &robot.joints[joint];
@@ -62,7 +62,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let expected = usize::from(composition.base.is_none());
     if roots != expected {
         let message = "exactly one part without `attach`, or none if there is a base";
-        let finding = Finding::of(module, "/parts", message);
+        let finding = finding_in(module, "/parts", message);
         findings.report(finding.expected(expected).actual(roots));
     }
     Some(())

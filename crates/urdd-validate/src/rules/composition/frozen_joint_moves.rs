@@ -34,14 +34,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             let at = |key: &str| format!("/parts/{place}/frozen_joints/{idx}/{key}");
             if let Some(message) = message {
-                Finding::of(module, at("joint_idx"), message)
+                finding_in(module, at("joint_idx"), message)
                     .expected("a fixed joint of the part, after the one before")
                     .actual(format!("joint `{}`, {}", joint.name, joint.joint_type))
                     .report(findings);
             }
             let values = frozen.position.len();
             if !matches!(values, 1 | 3 | 6) {
-                let finding = Finding::of(module, at("position"), "no joint has so many DOFs");
+                let finding = finding_in(module, at("position"), "no joint has so many DOFs");
                 findings.report(finding.expected("1, 3 or 6 values").actual(values));
             }
         }

@@ -16,7 +16,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (module, composition, robot) = subject(context)?;
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
-            let finding = Finding::of(module, pointer, format!("there is no such {what}"));
+            let finding = finding_in(module, pointer, format!("there is no such {what}"));
             findings.report(finding.expected(format!("below {count}")).actual(index));
         }
     };

@@ -18,7 +18,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let (module, composition, robot) = subject(context)?;
     let mut report = |pointer: String, message: String| {
-        Finding::of(module, pointer, message).report(findings);
+        finding_in(module, pointer, message).report(findings);
     };
     let mut links: Vec<u32> = vec![0; robot.links.len()];
     let mut joints: Vec<u32> = vec![0; robot.joints.len()];

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             () => continue,
         };
         let pointer = format!("/parts/{place}/id");
-        Finding::of(module, pointer, message).actual(format!("`{}`", part.id)).report(findings);
+        finding_in(module, pointer, message).actual(format!("`{}`", part.id)).report(findings);
     }
     Some(())
 }

@@ -28,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if renamed != *name {
                 let pointer = format!("/parts/{place}/{key}/{idx}/name");
                 let message = "prefix and name are not the name in this robot";
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected(format!("`{name}`"))
                     .actual(format!("`{renamed}`"))
                     .report(findings);

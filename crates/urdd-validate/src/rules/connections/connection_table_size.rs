@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     lists.extend(tables.iter().map(|(name, rows)| (*name, rows.len())));
     let mut report = |pointer: String, message: String, size: usize| {
-        Finding::of(module, pointer, message)
+        finding_in(module, pointer, message)
             .expected(format!("{links} entries"))
             .actual(format!("{size} entries"))
             .report(findings);

@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
             );
-            Finding::of(module, format!("/{name}"), message)
+            finding_in(module, format!("/{name}"), message)
                 .expected(format!("{links} x {links} paths"))
                 .actual("null")
                 .report(findings);

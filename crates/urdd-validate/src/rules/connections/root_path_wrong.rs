@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/root_paths/{to}{place}");
                 let message =
                     format!("this is not the path from the root to link {to} ({:?})", link.name);
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 finding.expected(right).actual(written)
             });
         }

@@ -26,7 +26,7 @@ pub(super) fn report_pairs<T>(
             if let Some((place, right, written)) = fault(tree, links, entry) {
                 fold.add(|| {
                     let pointer = format!("/{name}/{i}/{j}{place}");
-                    let finding = Finding::of(module, pointer, message(links));
+                    let finding = finding_in(module, pointer, message(links));
                     finding.expected(right).actual(written)
                 });
             }

@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "{} is derived from {name}, which is not in the URDD: write that too, or leave this one out",
                 entry.entry.name
             );
-            let finding = Finding::of(entry, format!("depends_on/{place}"), message);
+            let finding = finding_in(entry, format!("depends_on/{place}"), message);
             findings.report(finding.expected(format!("a module {name}")).actual("none"));
         }
     }

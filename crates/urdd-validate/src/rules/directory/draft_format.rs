@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut is_draft = |kind, key: &str, message: &str| {
         let module = context.module(kind).filter(|module| module.is_draft);
         if let Some(module) = module {
-            let finding = Finding::of(module, "", message).actual("no such key");
+            let finding = finding_in(module, "", message).actual("no such key");
             findings.report(finding.expected(format!("key {key}")));
         }
         module.is_some()
@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let stated = entry.entry.depends_on.iter().map(String::as_str);
         if entry.kind == Some(kind) && stated.eq(names) {
             let all: Vec<&str> = kind.depends_on().iter().map(|kind| kind.name()).collect();
-            let finding = Finding::of(&entry, "depends_on", of_skips);
+            let finding = finding_in(&entry, "depends_on", of_skips);
             findings.report(finding.expected(all.join(", ")).actual(names.join(", ")));
             break;
         }

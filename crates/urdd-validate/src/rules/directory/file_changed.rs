@@ -2,11 +2,11 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use crate::finding::{KEPT_PLACES, Place};
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
 use urdd_directory::root::EntryKind;
 use urdd_document::paths;
+use urdd_findings::finding::{KEPT_PLACES, Place};
 use urdd_format::root_metadata::{FileEntry, Source};
 
 declare_rule! {

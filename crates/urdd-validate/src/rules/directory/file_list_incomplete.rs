@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut files = entry.entry.files.iter().enumerate();
         if let Some((place, file)) = files.find(|(_, file)| !entry.holds(&file.path)) {
             let message = "the file is not in the module's folder: list it with the module that it belongs to";
-            Finding::of(&entry, format!("files/{place}/path"), message)
+            finding_in(&entry, format!("files/{place}/path"), message)
                 .expected(format!("a path in {}/", entry.entry.path))
                 .actual(&file.path)
                 .report(findings);
@@ -41,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             0 => format!("{first} is not listed: add it, with size and SHA-256"),
             n => format!("{first} and {n} more are not listed: add them, with sizes and SHA-256"),
         };
-        Finding::of(&entry, "files", message)
+        finding_in(&entry, "files", message)
             .expected(format!("an entry for {first}"))
             .count(unlisted.len())
             .report(findings);

@@ -43,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             true => "the file is listed twice: list each once",
             false => "the files are not sorted by path, byte by byte",
         };
-        let finding = Finding::of(entry, format!("files/{place}/path"), message);
+        let finding = finding_in(entry, format!("files/{place}/path"), message);
         findings.report(finding.expected(format!("a path after {before}")).actual(path));
     }
     Some(())

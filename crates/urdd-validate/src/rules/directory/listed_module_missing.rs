@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 ("a file", format!("{folder} is not a folder: put the module's folder there"))
             }
         };
-        let finding = Finding::of(&entry, "path", message);
+        let finding = finding_in(&entry, "path", message);
         findings.report(finding.expected("a folder").actual(actual));
     }
     Some(())

@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             _ => continue,
         };
         let actual = if key == "path" { path } else { name };
-        let finding = Finding::of(&entry, key, message);
+        let finding = finding_in(&entry, key, message);
         findings.report(finding.expected(expected).actual(format!("{actual:?}")));
     }
     Some(())

@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "{} says {version}: write the version of the module's format into both",
                 module.file("VERSION")
             );
-            let finding = Finding::of(&entry, "version", message);
+            let finding = finding_in(&entry, "version", message);
             findings.report(finding.expected(version).actual(&entry.entry.version));
         }
     }

@@ -29,7 +29,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             true => "a module is named twice: name each once".to_owned(),
             false => format!("these are not the modules that {} is derived from", entry.entry.name),
         };
-        let mut finding = Finding::of(&entry, "depends_on", message).actual(words(&stated));
+        let mut finding = finding_in(&entry, "depends_on", message).actual(words(&stated));
         finding.place.expected = right.as_deref().map(words);
         findings.report(finding);
     }

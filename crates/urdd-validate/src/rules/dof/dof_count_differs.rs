@@ -29,7 +29,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the number of DOFs differs from place to place: {}; make them agree",
             all.collect::<Vec<_>>().join(", ")
         );
-        Finding::of(module, format!("/{name}"), message)
+        finding_in(module, format!("/{name}"), message)
             .expected(format!("{others} DOFs"))
             .actual(format!("{count} DOFs"))
             .report(findings);

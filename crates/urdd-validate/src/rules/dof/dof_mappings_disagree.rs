@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "the mappings disagree: joint {joint} ({}) is said to have DOF {dof}",
                     name(joint)
                 );
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 findings.report(finding.expected(right).actual(dof));
             }
         }
@@ -51,13 +51,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 name(joint)
             );
             let right = right.map_or(format!("{all} DOFs in all"), |right| right.to_string());
-            let finding = Finding::of(module, pointer, message);
+            let finding = finding_in(module, pointer, message);
             findings.report(finding.expected(right).actual(joint));
         }
     }
     if findings.is_empty() {
         let message = "joints have DOFs that are not listed here; list every DOF";
-        Finding::of(module, "/dof_idx_to_joint_idx_mapping", message)
+        finding_in(module, "/dof_idx_to_joint_idx_mapping", message)
             .expected(format!("{all} entries"))
             .actual(format!("{} entries", joint_of_dof.len()))
             .report(findings);

@@ -28,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/dofs/{index}/{key}");
                 let message =
                     format!("this does not describe DOF {index}, which moves joint {joint_idx}");
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 findings.report(finding.expected(right).actual(written));
             }
         };

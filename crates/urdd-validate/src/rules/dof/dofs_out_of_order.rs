@@ -23,7 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "DOF {dof} moves joint {after}, but the DOF before it moves joint {before}: number the DOFs in joint order"
             );
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("joint {before} or later"))
                 .actual(format!("joint {after}"))
                 .report(findings);
@@ -40,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             right.sort_unstable();
             let pointer = format!("/joint_idx_to_dof_idxs_mapping/{joint}");
             let message = format!("the DOFs of joint {joint} are not in ascending order");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{right:?}"))
                 .actual(format!("{written:?}"))
                 .report(findings);

@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (name, right) = (&joint.name, count(right.len()));
         let pointer = format!("/joint_idx_to_dof_idxs_mapping/{index}");
         let message = format!("joint {index} ({name:?}) is {kind} and has {right} of its own");
-        let finding = Finding::of(module, pointer, message);
+        let finding = finding_in(module, pointer, message);
         findings.report(finding.expected(right).actual(count(list.len())));
     }
     Some(())

@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if let Some(wrong) = wrong_lengths(&lists, joints) {
         let all = wrong.in_words;
         let message = format!("one entry per joint of urdf_module is needed: {all}");
-        Finding::of(module, wrong.pointer, message)
+        finding_in(module, wrong.pointer, message)
             .expected(format!("{joints} entries"))
             .actual(format!("{} entries", wrong.length))
             .report(findings);

@@ -34,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     None => ("follows no other joint; write null", "null", "a mimic"),
                     Some(_) => ("is a mimic joint; write what it follows", "a mimic", "null"),
                 };
-                let finding = Finding::of(module, pointer, format!("{joint} {message}"));
+                let finding = finding_in(module, pointer, format!("{joint} {message}"));
                 findings.report(finding.expected(expected).actual(actual));
                 continue;
             }
@@ -48,7 +48,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 right.driver,
                 robot.joints.get(right.driver)?.name
             );
-            Finding::of(module, format!("{pointer}/dof_idx"), message)
+            finding_in(module, format!("{pointer}/dof_idx"), message)
                 .expected(or_null(dof))
                 .actual(or_null(written_dof))
                 .report(findings);
@@ -60,8 +60,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !numbers_agree(right, written) {
                 let message =
                     format!("this is not the {key} with which {joint} follows its driver");
-                Finding::of(module, format!("{pointer}/{key}"), message)
-                    .numbers(right, written)
+                finding_in(module, format!("{pointer}/{key}"), message)
+                    .numbers(right, written, number_tolerance(right, written))
                     .report(findings);
             }
         }

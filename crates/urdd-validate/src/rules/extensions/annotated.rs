@@ -30,7 +30,7 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
                 value => schema_check::excerpt(value),
             });
             let message = format!("{message}{more}");
-            let mut finding = Finding::of(module, pointer, message);
+            let mut finding = finding_in(module, pointer, message);
             finding.place.actual = actual;
             findings.report(finding);
         }

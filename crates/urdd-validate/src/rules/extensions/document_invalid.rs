@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (pointer, message) in violations.found {
             let actual = document.pointer(&pointer).map(schema_check::excerpt);
             let message = format!("the value does not match schema.json: {message}{more}");
-            let mut finding = Finding::of(module, pointer, message);
+            let mut finding = finding_in(module, pointer, message);
             finding.place.actual = actual;
             findings.report(finding);
         }

@@ -2,6 +2,7 @@ use nalgebra::Isometry3;
 
 use crate::reference::{MimicDofs, Reference};
 use crate::rules::prelude::*;
+use crate::skip;
 use urdd_document::consumer;
 use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::canonical;
@@ -40,17 +41,17 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let dofs = context.dofs()?;
     let module = context.module(ModuleKind::Chain)?;
-    let modules = findings.or_skip(consumer::modules(context).ok_or(SkipReason::KinematicsOpen))?;
+    let modules = findings.or_skip(consumer::modules(context).ok_or(skip::KINEMATICS_OPEN))?;
     let mut joints = robot.joints.iter().zip(dofs.dofs_of_joint);
     let mimics =
         match joints.any(|(joint, dofs)| joint.active_mimic().is_some() && !dofs.is_empty()) {
             true => MimicDofs::Own,
             false => MimicDofs::Follow,
         };
-    let reference = Reference::new(source, mimics).map_err(SkipReason::Reference);
+    let reference = Reference::new(source, mimics).map_err(SkipReason::obstacle);
     let reference = findings.or_skip(reference)?;
     if legacy && reference.has(JointType::Planar) {
-        return findings.skip(SkipReason::LegacyCoordinates);
+        return findings.skip(skip::LEGACY_COORDINATES);
     }
     let file = module.file("module.json");
     let kinematics = match ForwardKinematics::new(&modules.chain, &modules.dof) {

@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dof = document!(context, Dof)?;
     let bounds = document!(context, Bounds)?;
     let space = ConfigurationSpace::new(dof, chain, bounds);
-    let space = findings.or_skip(space.map_err(SkipReason::kinematics))?;
+    let space = findings.or_skip(space.map_err(SkipReason::obstacle))?;
     for (place, sample) in samples.samples.iter().enumerate() {
         let expected = match (sample.kind, sample.sample_idx) {
             (ConfigurationKind::Zero, _) => space.zero(),
@@ -56,7 +56,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let kind = sample.kind;
             let pointer = format!("/samples/{place}/configuration/{dof}");
             let message = format!("in the configuration {kind} this DOF has another value");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(expected)
                 .actual(found)
                 .tolerance(tolerance)
@@ -72,7 +72,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "in the configuration {} the rotation vector that begins here has another value",
                 sample.kind
             );
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{expected:?}"))
                 .actual(format!("{found:?}"))
                 .tolerance(ROTATION)

@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         if (sample.kind, sample.sample_idx) != (kind, number) {
             let message = "a sample is in the wrong place; write Zero, Middle, Lower, Upper, then Sampled with sample_idx 0, 1, 2, …";
-            Finding::of(module, format!("/samples/{place}"), message)
+            finding_in(module, format!("/samples/{place}"), message)
                 .expected(describe(kind, number))
                 .actual(describe(sample.kind, sample.sample_idx))
                 .report(findings);
@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ] {
             if found != expected {
                 let pointer = format!("/samples/{place}/{key}");
-                Finding::of(module, pointer, format!("`{key}` needs one entry per {unit}"))
+                finding_in(module, pointer, format!("`{key}` needs one entry per {unit}"))
                     .expected(format!("{expected} entries"))
                     .actual(format!("{found} entries"))
                     .report(findings);
@@ -60,7 +60,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the configuration {missing} is missing; the first four samples are Zero, Middle, Lower, Upper"
         );
-        let finding = Finding::of(module, "/samples", message);
+        let finding = finding_in(module, "/samples", message);
         findings.report(finding.expected(missing));
     }
     Some(())

@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = document!(context, Chain)?;
     let dof = document!(context, Dof)?;
     let kinematics = ForwardKinematics::new(chain, dof);
-    let kinematics = findings.or_skip(kinematics.map_err(SkipReason::kinematics))?;
+    let kinematics = findings.or_skip(kinematics.map_err(SkipReason::obstacle))?;
     let tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (place, sample) in samples.samples.iter().enumerate() {
         let Ok(poses) = kinematics.link_poses(&sample.configuration) else {
@@ -46,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     let message = format!(
                         "the pose of link {name:?} in {kind} cannot be read as a pose: {error}"
                     );
-                    Finding::of(module, pointer, message).report(findings);
+                    finding_in(module, pointer, message).report(findings);
                     continue;
                 }
             };
@@ -57,7 +57,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "the quaternion of link {name:?} in {kind} has length {norm:?}; divide it by that"
                 );
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected("length 1")
                     .actual(norm)
                     .tolerance(UNIT_NORM)
@@ -85,7 +85,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         number(angle, 4)
                     ),
                 };
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected(describe(expected))
                     .actual(format!(
                         "position {:?}, quaternion {:?}",
@@ -98,7 +98,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "the quaternion of link {name:?} in {kind} has w < 0; negate all four numbers, which is the same rotation"
                 );
-                Finding::of(module, pointer, message).expected("w >= 0").actual(w).report(findings);
+                finding_in(module, pointer, message).expected("w >= 0").actual(w).report(findings);
             }
         }
     }

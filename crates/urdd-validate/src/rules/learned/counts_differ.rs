@@ -41,7 +41,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let tolerance = among.div_ceil(PER_TOLERANCE);
         if found.0.abs_diff(stated.0) > tolerance {
             let message = "counting these configurations again gives a different number";
-            Finding::of(module, format!("/evaluation/{key}"), message)
+            finding_in(module, format!("/evaluation/{key}"), message)
                 .expected(found)
                 .actual(stated)
                 .tolerance(f64::from(tolerance))

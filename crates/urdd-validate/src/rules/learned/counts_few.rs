@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] {
         if count.0 < EVALUATION_MIN {
             let message = format!("too few {what} to state a rate");
-            Finding::of(module, format!("/evaluation/{key}"), message)
+            finding_in(module, format!("/evaluation/{key}"), message)
                 .expected(format!("at least {EVALUATION_MIN}"))
                 .actual(count)
                 .report(findings);

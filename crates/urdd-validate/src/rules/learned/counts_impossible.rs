@@ -20,7 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let all = u64::from(stated.num_colliding.0) + u64::from(stated.num_free.0);
     if all != u64::from(EVALUATION_COUNT) {
         let message = "`num_colliding` and `num_free` together are not all configurations";
-        let finding = Finding::of(module, "/evaluation", message);
+        let finding = finding_in(module, "/evaluation", message);
         findings.report(finding.expected(EVALUATION_COUNT).actual(all));
     }
     let colliding = ("num_colliding", stated.num_colliding);
@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] {
         if count.0 > most.0 {
             let message = format!("this is more than `{what}`");
-            let finding = Finding::of(module, format!("/evaluation/{key}"), message);
+            let finding = finding_in(module, format!("/evaluation/{key}"), message);
             findings.report(finding.expected(format!("at most {most}")).actual(count));
         }
     }
@@ -48,7 +48,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     };
     let (training, calibration) = (range(&model.training), range(&model.calibration));
     let mut report = |key: &str, message: &str| {
-        Finding::of(module, format!("/{key}"), message).report(findings);
+        finding_in(module, format!("/{key}"), message).report(findings);
     };
     for (key, range) in [("training", &training), ("calibration", &calibration)] {
         if range.is_empty() {

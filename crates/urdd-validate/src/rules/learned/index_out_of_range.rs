@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
             let message = format!("there is no such {what}");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("below {count}"))
                 .actual(index)
                 .report(findings);
@@ -67,14 +67,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         if let Some((place, expected)) = fault {
             let message = "this pair is out of order";
-            let finding = Finding::of(module, format!("/{list}/{place}"), message);
+            let finding = finding_in(module, format!("/{list}/{place}"), message);
             findings.report(finding.expected(expected));
             return Some(());
         }
     }
     if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
         let message = "this pair is also in `pairs`";
-        let finding = Finding::of(module, format!("/other_pairs/{place}"), message);
+        let finding = finding_in(module, format!("/other_pairs/{place}"), message);
         findings.report(finding);
     }
     Some(())

@@ -66,7 +66,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             }
         };
-        let finding = Finding::of(module, format!("/inputs/{place}/{key}"), message);
+        let finding = finding_in(module, format!("/inputs/{place}/{key}"), message);
         findings.report(finding.expected(expected));
     }
     Some(())

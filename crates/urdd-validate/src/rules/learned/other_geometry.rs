@@ -42,7 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let expected = urdd_directory::writer::sha256(&Sha256::digest(text));
     if expected != model.trained_on {
         let message = "the model was trained on other files than those of this URDD";
-        Finding::of(module, "/trained_on", message)
+        finding_in(module, "/trained_on", message)
             .expected(expected.as_str())
             .actual(model.trained_on.as_str())
             .report(findings);

@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
             let pointer = format!("/test_vectors/{place}/clearances/{pair}");
             let message = "this is not what the network gives in this configuration";
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(expected)
                 .actual(actual)
                 .tolerance(tolerance)

@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !(bias.abs() + products.sum::<f64>()).is_finite() {
                 let pointer = format!("/layers/{place}/weights/{row}");
                 let message = "the sum of these weights may be beyond 64-bit numbers";
-                Finding::of(module, pointer, message).report(findings);
+                finding_in(module, pointer, message).report(findings);
             }
         }
         largest = vec![1.0; layer.biases.len()];

@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if !expected.contains(&pair) {
             fold.add(|| {
                 let message = format!("{} are skipped", named(pair));
-                Finding::of(module, format!("/{list}/{place}"), message)
+                finding_in(module, format!("/{list}/{place}"), message)
             });
         }
     }
@@ -48,7 +48,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for pair in expected.difference(&found) {
         fold.add(|| {
             let message = format!("{} are not skipped, and not among the pairs", named(*pair));
-            Finding::of(module, "/pairs", message)
+            finding_in(module, "/pairs", message)
         });
     }
     Some(())

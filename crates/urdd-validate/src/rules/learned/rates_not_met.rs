@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let last = first + (CONFIRMATION_COUNT - 1);
         let mut report = |key: &str, what: &str, stated: Rate, found: Rate| {
             let message = format!("{what} on sampled configurations {first} to {last} than stated");
-            Finding::of(module, format!("/evaluation/{key}"), message)
+            finding_in(module, format!("/evaluation/{key}"), message)
                 .expected(found.to_string())
                 .actual(stated.to_string())
                 .report(findings);

@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ("/test_vectors", "test vectors", MAX_VECTORS, vectors),
     ] {
         if actual > most {
-            let finding = Finding::of(module, pointer, format!("too many {what}"));
+            let finding = finding_in(module, pointer, format!("too many {what}"));
             findings.report(finding.expected(format!("at most {most}")).actual(actual));
         }
     }

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let right = expected == actual && actual > 0;
         if !right {
             let message = format!("there must be {what}, and at least one");
-            let finding = Finding::of(module, pointer, message);
+            let finding = finding_in(module, pointer, message);
             findings.report(finding.expected(expected).actual(actual));
         }
         right

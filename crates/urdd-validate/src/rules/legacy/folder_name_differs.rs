@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let folder = context.root().folder_name();
     if folder != robot.name {
         let message = "the robot's name differs from that of its folder, which mesh paths use";
-        Finding::of(module, "/name", message)
+        finding_in(module, "/name", message)
             .expected(format!("{folder:?} (the folder)"))
             .actual(format!("{:?}", robot.name))
             .report(findings);

@@ -23,7 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "joint {:?} is locked at {upper:?}; its upper bound was raised by {LEGACY_WIDENING:?}",
                 limited.joint.name
             );
-            Finding::of(module, format!("/bounds/{}/1", limited.dof), message)
+            finding_in(module, format!("/bounds/{}/1", limited.dof), message)
                 .expected(format!("{upper:?}"))
                 .actual(format!("{written:?}"))
                 .report(findings);

@@ -54,7 +54,7 @@ fn listed(
                 && entries::look(context, path).is_ok()
             {
                 let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or remove it";
-                Finding::of(module, "/files", message)
+                finding_in(module, "/files", message)
                     .expected(format!("`{path}` as `path` or in `side_files`"))
                     .actual("neither")
                     .report(findings);
@@ -74,7 +74,7 @@ fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
             && !files.contains(path)
         {
             let message = "`files` does not list this file: list it there";
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected("the path of one of `files`, or null")
                 .actual(format!("`{path}`"))
                 .report(findings);
@@ -87,7 +87,7 @@ fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
                 "`{}` is another file here than in an earlier reference",
                 reference.filename
             );
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(shown(first))
                 .actual(shown(path))
                 .report(findings);
@@ -103,7 +103,7 @@ fn used(original: &OriginalMeshesModule, module: &Module, findings: &mut Finding
         if !used.contains(carried.path.as_str()) {
             let message =
                 "no reference names this file: give the reference its path, or leave the file out";
-            Finding::of(module, format!("/files/{at}"), message)
+            finding_in(module, format!("/files/{at}"), message)
                 .expected("a file that a reference names")
                 .actual(format!("`{}`", carried.path))
                 .report(findings);
@@ -126,7 +126,7 @@ fn order(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
         });
         if let Some(at) = unsorted {
             let message = "files are sorted by path, byte by byte, each once";
-            Finding::of(module, format!("{pointer}/{}", at + 1), message)
+            finding_in(module, format!("{pointer}/{}", at + 1), message)
                 .expected(format!("a path after `{}`", list.get(at).unwrap_or(&"")))
                 .actual(format!("`{}`", list.get(at + 1).unwrap_or(&"")))
                 .report(findings);

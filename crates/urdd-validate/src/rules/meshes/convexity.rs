@@ -48,7 +48,7 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
             _ => format!("the {} of {label}", noun(kind)),
         };
         let message = format!("{which} is not a convex body: {what}");
-        let mut finding = Finding::of(module, mesh.pointer(), message)
+        let mut finding = finding_in(module, mesh.pointer(), message)
             .expected("a closed convex surface, faces counter-clockwise seen from outside")
             .actual(what)
             .tolerance(resolution)

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::views::judged::judged;
+use urdd_findings::code::Code;
 use urdd_geometry::Mesh;
 
 /// What a finding says.
@@ -49,7 +49,7 @@ pub fn report(
         };
         let label = context.link_label(hull.link);
         let words = words(&label, &point(off.place), &metres(off.distance));
-        Finding::of(module, hull.pointer(), words.message)
+        finding_in(module, hull.pointer(), words.message)
             .expected(words.expected)
             .actual(words.actual)
             .tolerance(off.tolerance)

@@ -35,7 +35,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let label = context.link_label(link);
         let mut kinds = shapes("visual", &named.visual);
         kinds.extend(shapes("collision", &named.collision));
-        let finding = |message| Finding::of(module, meshes.pointer(link), message);
+        let finding = |message| finding_in(module, meshes.pointer(link), message);
         findings.report(match wanted {
             true => finding(format!(
                 "{label} has geometry in urdf_module ({}) but no mesh here, so no program sees it: make one",

@@ -34,13 +34,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 Err(Absence::Missing) => {
                     let message =
                         format!("`{path}` is missing: restore the file, or write the module again");
-                    let finding = Finding::of(module, pointer, message);
+                    let finding = finding_in(module, pointer, message);
                     findings.report(finding.expected("a file").actual("none"));
                 }
                 // A missing sibling URDD is one mistake, however many paths lead there.
                 Err(Absence::NoSibling(name)) => {
                     let entry = gone.entry(name).or_insert_with_key(|name| {
-                        (0, Finding::of(module, pointer, no_sibling(context, name)))
+                        (0, finding_in(module, pointer, no_sibling(context, name)))
                     });
                     entry.0 += 1;
                 }

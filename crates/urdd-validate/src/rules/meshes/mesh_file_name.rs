@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 if let Some(expected) = expected.filter(|expected| path.path != expected) {
                     let label = context.link_label(link);
                     let message = format!("the file of {label} is not named after it");
-                    Finding::of(module, &path.pointer, message)
+                    finding_in(module, &path.pointer, message)
                         .expected(format!("`{expected}`"))
                         .actual(format!("`{}`", path.path))
                         .report(findings);

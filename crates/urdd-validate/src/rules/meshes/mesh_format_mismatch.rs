@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !extension.eq_ignore_ascii_case(right) {
                 let label = context.link_label(link);
                 let message = format!("for {label} this should name a .{right} file");
-                Finding::of(module, &mesh.pointer, message)
+                finding_in(module, &mesh.pointer, message)
                     .expected(format!("a path that ends in .{right}"))
                     .actual(format!("`{}`", mesh.path))
                     .report(findings);
@@ -60,7 +60,7 @@ fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut F
                 "{} does not have the formats of the other meshes: write all meshes of the module as {key}, or none",
                 context.link_label(link)
             );
-            Finding::of(module, format!("{entry}/{key}"), message)
+            finding_in(module, format!("{entry}/{key}"), message)
                 .expected(word(expected))
                 .actual(word(!expected))
                 .report(findings);
@@ -104,7 +104,7 @@ fn counts(
             context.link_label(link),
             all.join(", ")
         );
-        Finding::of(module, format!("/{key}/{link}"), message)
+        finding_in(module, format!("/{key}/{link}"), message)
             .expected(format!("{expected} {what}"))
             .actual(format!("{actual} {what}"))
             .report(findings);

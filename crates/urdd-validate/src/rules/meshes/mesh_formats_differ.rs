@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     context.link_label(mesh.link),
                     in_words(difference)
                 );
-                Finding::of(module, &file.pointer, message)
+                finding_in(module, &file.pointer, message)
                     .expected(format!("the {triangles} triangles of `{first}`"))
                     .actual(format!("`{}`", file.path))
                     .tolerance(mesh_resolution(extent(read)))

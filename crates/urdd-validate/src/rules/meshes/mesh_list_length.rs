@@ -23,7 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "one entry per link is needed, and urdf_module has {links} links: {}; write the module again",
                 wrong.in_words
             );
-            Finding::of(module, wrong.pointer, message)
+            finding_in(module, wrong.pointer, message)
                 .expected(format!("{links} entries (links of urdf_module)"))
                 .actual(format!("{} entries", wrong.length))
                 .report(findings);

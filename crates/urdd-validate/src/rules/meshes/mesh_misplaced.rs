@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
-        Finding::of(module, &wrong.pointer, message)
+        finding_in(module, &wrong.pointer, message)
             .expected(&wrong.expected)
             .actual(&wrong.actual)
             .tolerance(wrong.tolerance)

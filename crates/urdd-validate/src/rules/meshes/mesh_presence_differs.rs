@@ -36,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 (message, "a mesh", "none")
             }
         };
-        let finding = Finding::of(*module, meshes.pointer(link), message);
+        let finding = finding_in(*module, meshes.pointer(link), message);
         findings.report(finding.expected(expected).actual(actual));
     }
     Some(())

@@ -84,7 +84,7 @@ fn references(
             (None, None) => String::new(),
         };
         let message = format!("one reference for each mesh of urdf_module is needed; {first}");
-        Finding::of(module, place, message)
+        finding_in(module, place, message)
             .expected(format!("{} references", expected.len()))
             .actual(format!("{} references", actual.len()))
             .report(findings);
@@ -93,7 +93,7 @@ fn references(
     for (at, (expected, actual)) in expected.iter().zip(&actual).enumerate() {
         if expected != actual {
             let message = "this is not the mesh that urdf_module has in this place";
-            Finding::of(module, format!("/references/{at}"), message)
+            finding_in(module, format!("/references/{at}"), message)
                 .expected(shown(expected))
                 .actual(shown(actual))
                 .report(findings);
@@ -129,7 +129,7 @@ fn legacy(
                 "the URDF does not name this file as a visual mesh of {}",
                 context.link_label(link)
             );
-            Finding::of(module, &path.pointer, message)
+            finding_in(module, &path.pointer, message)
                 .expected(match expected.is_empty() {
                     true => "null: the link has no visual mesh".to_owned(),
                     false => format!("a copy of {}", expected.join(" or ")),

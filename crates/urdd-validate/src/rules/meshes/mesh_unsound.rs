@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             for file in &mesh.files {
                 if let Some(fault) = fault(file, meshes.profile) {
                     let message = format!("`{}`: {fault}", file.path);
-                    Finding::of(module, &file.pointer, message)
+                    finding_in(module, &file.pointer, message)
                         .expected(expected(file.format))
                         .actual(fault)
                         .report(findings);

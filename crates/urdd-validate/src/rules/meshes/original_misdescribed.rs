@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             Err(MeshFault::Absent(_)) => continue,
         };
         if usable != listed.usable {
-            let finding = Finding::of(module, format!("/files/{at}/usable"), message);
+            let finding = finding_in(module, format!("/files/{at}/usable"), message);
             findings.report(finding.expected(usable).actual(listed.usable));
         }
         if let Some(named) = &read.side_files
@@ -46,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 }
                 None => format!("`{path}` also names other files"),
             };
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{named:?}"))
                 .actual(format!("{:?}", listed.side_files))
                 .report(findings);

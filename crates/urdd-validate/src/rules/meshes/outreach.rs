@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::farthest;
-use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, step};
 use crate::views::judged::judged;
+use urdd_findings::code::Code;
 use urdd_geometry::Mesh;
 use urdd_geometry::surface::distinct;
 
@@ -66,7 +66,7 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
             context.link_label(piece.link),
             point(out.place),
         );
-        Finding::of(module, piece.pointer(), message)
+        finding_in(module, piece.pointer(), message)
             .expected("every vertex inside the hull")
             .actual(distance)
             .tolerance(tolerance)

@@ -57,7 +57,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "{} has {count} convex pieces here{also} and {usual} in the other modules that list them: write the link shape modules again from convex_decomposition_meshes_module",
             context.link_label(link)
         );
-        Finding::of(first.module, format!("/{}/{link}", first.key), message)
+        finding_in(first.module, format!("/{}/{link}", first.key), message)
             .expected(format!("{usual} entries"))
             .actual(format!("{count} entries"))
             .report(findings);

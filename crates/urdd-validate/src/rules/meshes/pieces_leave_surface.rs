@@ -2,11 +2,11 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::farthest;
-use crate::code::Code;
 use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use crate::views::judged::judged;
+use urdd_findings::code::Code;
 use urdd_geometry::Mesh;
 use urdd_geometry::surface::extent;
 
@@ -69,7 +69,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             context.link_label(link),
             point(bare.place)
         );
-        let mut finding = Finding::of(module, meshes.pointer(link), message)
+        let mut finding = finding_in(module, meshes.pointer(link), message)
             .expected("the whole surface of the plain mesh inside the pieces")
             .actual(format!("{distance} outside"))
             .tolerance(bare.tolerance)

@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
                 context.link_label(link)
             );
-            Finding::of(module, format!("/link_meshes/{link}/geometry"), message)
+            finding_in(module, format!("/link_meshes/{link}/geometry"), message)
                 .expected(format!("{expected:?}"))
                 .actual(format!("{:?}", mesh.geometry))
                 .report(findings);

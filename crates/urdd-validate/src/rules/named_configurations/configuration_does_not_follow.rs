@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let found = &configuration.configuration;
         let at = format!("/configurations/{place}/configuration");
         if found.len() != default.len() {
-            Finding::of(module, at, "`configuration` needs one value per DOF")
+            finding_in(module, at, "`configuration` needs one value per DOF")
                 .expected(format!("{} values", default.len()))
                 .actual(format!("{} values", found.len()))
                 .report(findings);
@@ -55,7 +55,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "`positions` does not set the DOF `{name}`, and its default value is another"
                 ),
             };
-            Finding::of(module, format!("{at}/{idx}"), message)
+            finding_in(module, format!("{at}/{idx}"), message)
                 .expected(expected)
                 .actual(found)
                 .tolerance(tolerance)

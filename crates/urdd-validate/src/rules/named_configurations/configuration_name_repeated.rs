@@ -17,7 +17,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let names = named.configurations.iter().map(|one| one.name.as_str());
     for (index, first, name) in repeated(names) {
         let pointer = format!("/configurations/{index}/name");
-        Finding::of(module, pointer, "another configuration has this name")
+        finding_in(module, pointer, "another configuration has this name")
             .expected("each name once")
             .actual(format!("`{name}`, as configuration {first}"))
             .report(findings);

@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
             let pointer = format!("/configurations/{place}/positions/{entry}/position");
             let message = format!("the limited DOF `{}` cannot be there", set.dof_name);
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(format!("{lower:?} to {upper:?}"))
                 .actual(format!("{:?}", set.position))
                 .tolerance(tolerance)

@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             };
             let pointer = format!("/configurations/{place}/positions/{entry}/dof_name");
-            Finding::of(module, pointer, message)
+            finding_in(module, pointer, message)
                 .expected(expected)
                 .actual(format!("`{name}`"))
                 .report(findings);

@@ -46,14 +46,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                             "shapes {a} and {b} are skipped in one half of the matrix only: this half is an edit, \
                              {mirror} is what the simple skips give; set both to the edit, or both back"
                         );
-                        return Finding::of(module, pointer, message)
+                        return finding_in(module, pointer, message)
                             .expected(format!("the same as at {mirror}"))
                             .actual(format!("{here}, and {there} there"));
                     }
                     let message = format!(
                         "shapes {a} and {b} have different values in the two halves of the matrix: make them equal"
                     );
-                    let finding = Finding::of(module, pointer, message)
+                    let finding = finding_in(module, pointer, message)
                         .expected(format!("{there}, as at {mirror}"))
                         .actual(here);
                     match elements {

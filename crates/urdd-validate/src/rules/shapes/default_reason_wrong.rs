@@ -64,7 +64,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} are {} apart in the default configuration, and {CONTACT} m or less is contact",
                         metres(distance)
                     );
-                    let finding = Finding::of(module, pointer, message);
+                    let finding = finding_in(module, pointer, message);
                     finding.expected(expected).actual(reason).tolerance(tolerance)
                 });
             }

@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "this is the element of shape {i} and itself, which is always {expected}"
                 );
-                let finding = Finding::of(module, format!("{}/{i}/{i}", matrix.pointer), message);
+                let finding = finding_in(module, format!("{}/{i}/{i}", matrix.pointer), message);
                 findings.report(finding.expected(expected).actual(elements.text(i, i)));
             }
         }

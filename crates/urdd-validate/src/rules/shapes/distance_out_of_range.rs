@@ -54,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "in sampled configuration {sample} the distance of shapes {a} and {b} is outside of the stated range"
                 );
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected(format!("a range that contains {distance}"))
                     .actual(format!("from {} to {}", pair.min, pair.max))
                     .tolerance(tolerance)

@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "this is not the distance of the farthest vertex of {what} of {}",
                 context.link_label(link)
             );
-            Finding::of(module, list.pointer(link, piece), message)
+            finding_in(module, list.pointer(link, piece), message)
                 .expected(expected)
                 .actual(value)
                 .tolerance(tolerance)

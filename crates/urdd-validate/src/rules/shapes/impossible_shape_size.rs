@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("{}/{field}", list.pointer(link, piece));
                 let message =
                     format!("this cannot enclose a shape of {}", context.link_label(link));
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 findings.report(finding.expected(expected).actual(actual));
             }
         }

@@ -48,14 +48,14 @@ fn wrong_size(module: &Module, matrix: &Matrix, shapes: &Shapes) -> Option<Findi
     };
     if rows.len() != size {
         let message = format!("there are {size} {what}, and {} rows here", rows.len());
-        let finding = Finding::of(module, &matrix.pointer, message);
+        let finding = finding_in(module, &matrix.pointer, message);
         let finding = finding.expected(format!("{size} rows of {size}"));
         return Some(finding.actual(format!("{} rows", rows.len())));
     }
     let row = rows.iter().position(|length| *length != size)?;
     let length = rows.get(row)?;
     let message = format!("there are {size} {what}, and {length} elements in this row");
-    let finding = Finding::of(module, format!("{}/{row}", matrix.pointer), message);
+    let finding = finding_in(module, format!("{}/{row}", matrix.pointer), message);
     let finding = finding.expected(format!("{size} elements"));
     Some(finding.actual(format!("{length} elements")))
 }

@@ -61,7 +61,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     volumes.pointer(link, piece),
                     context.link_label(link)
                 );
-                Finding::of(module, values.pointer(link, piece), message)
+                finding_in(module, values.pointer(link, piece), message)
                     .expected(expected)
                     .actual(value)
                     .tolerance(shortfall.max(tolerance))
@@ -84,7 +84,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             } else {
                 continue;
             };
-            Finding::of(module, values.pointer(link, piece), message)
+            finding_in(module, values.pointer(link, piece), message)
                 .expected(format!("from 0 to {most}"))
                 .actual(value)
                 .tolerance(tolerance)

@@ -42,7 +42,7 @@ pub fn report(
         let of_what = enclosure.of_what(context);
         let message =
             format!("the {shape} of {of_what} has {ratio:.2} times the {size} of the smallest one");
-        Finding::of(module, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .expected(format!("at most {most} times"))
             .actual(format!("{ratio:.2} times"))
             .report(findings);

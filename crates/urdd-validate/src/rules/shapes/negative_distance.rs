@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     fold.add(|| {
                         let pointer = format!("/{}/{key}/{i}/{j}", kind.key());
                         let message = "a distance is never negative: it is 0 in contact";
-                        let finding = Finding::of(module, pointer, message);
+                        let finding = finding_in(module, pointer, message);
                         finding.expected("0 or more").actual(one)
                     });
                 }

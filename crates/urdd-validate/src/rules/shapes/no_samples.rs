@@ -16,7 +16,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     if statistics.num_samples.get() == 0 {
         let message = "distances are taken over at least one sampled configuration";
-        Finding::of(module, "/num_samples", message)
+        finding_in(module, "/num_samples", message)
             .expected("1 or more")
             .actual(0)
             .report(findings);

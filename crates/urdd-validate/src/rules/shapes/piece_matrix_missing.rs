@@ -31,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "with {pieces} convex pieces the matrices over them are required, and null here: {}",
                 missing.join(", ")
             );
-            let finding = Finding::of(module, first, message).count(missing.len());
+            let finding = finding_in(module, first, message).count(missing.len());
             findings.report(finding.expected("a matrix").actual("null"));
         }
     }

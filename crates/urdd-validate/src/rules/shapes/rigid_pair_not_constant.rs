@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "shapes {a} and {b} do not move relative to each other, but have more than one distance"
                 );
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected("smallest = mean = largest")
                     .actual(format!("{}, {}, {}", pair.min, pair.mean, pair.max))
                     .tolerance(tolerance)

@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 format!("the box's side at its own {sign}{axis} is {distance} away from {what}")
             }
         };
-        Finding::of(module, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .expected("a vertex on every side")
             .actual(format!("{distance} away"))
             .tolerance(enclosure.tolerance)

@@ -25,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the {noun} leaves out a part of {what}: the vertex at {place} is {distance} outside"
         );
-        Finding::of(module, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .expected("every vertex inside")
             .actual(format!("{distance} outside"))
             .tolerance(enclosure.tolerance)

@@ -61,7 +61,7 @@ fn first_fault<T: PartialEq>(
         stated.len(),
         right.len()
     );
-    let finding = Finding::of(module, format!("{pointer}{place}"), message);
+    let finding = finding_in(module, format!("{pointer}{place}"), message);
     let finding = finding.expected(shown(right.get(at)));
     Some(finding.actual(shown(stated.get(at))))
 }

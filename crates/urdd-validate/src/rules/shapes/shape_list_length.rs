@@ -29,7 +29,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             ),
             false => format!("one entry per link is needed: {}", wrong.in_words),
         };
-        Finding::of(module, wrong.pointer, message)
+        finding_in(module, wrong.pointer, message)
             .expected(format!("{links} entries (links of urdf_module)"))
             .actual(format!("{length} entries"))
             .report(findings);

@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let label = context.link_label(link);
             let message =
                 format!("{label} has {has} in convex_hull_meshes_module, but {but} here{also}");
-            let finding = Finding::of(module, first.pointer(link, 0), message);
+            let finding = finding_in(module, first.pointer(link, 0), message);
             findings.report(finding.expected(expected).actual(actual));
         }
     }

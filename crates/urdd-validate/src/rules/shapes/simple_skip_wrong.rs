@@ -51,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let not = if skip { "not " } else { "" };
                 let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
                 let message = format!("shapes {a} and {b} are {not}to be skipped: {why}");
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 finding.expected(!skip).actual(skip)
             });
         }

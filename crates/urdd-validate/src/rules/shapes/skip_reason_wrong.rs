@@ -73,7 +73,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/reasons/{}/{i}/{j}", kind.key());
                 let message =
                     format!("for shapes {a} and {b} this is not the first reason that applies");
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected(format!("{expected:?}"))
                     .actual(format!("{reason:?}"))
             });

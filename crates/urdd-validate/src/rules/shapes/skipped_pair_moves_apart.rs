@@ -6,6 +6,7 @@ use crate::distances::poses::Poses;
 use crate::distances::shape_set::ShapeSet;
 use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
+use crate::skip;
 use crate::views::judged::JudgedShapes;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::sound_pairs;
@@ -50,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let modules = [ModuleKind::LinkShapesSimpleSkips, ModuleKind::LinkShapesSkips];
     let (_, module, document) = context.documents(&modules).next()?;
     let shapes = context.shapes()?;
-    let edited = edited(context, document).ok_or(SkipReason::EditsNotRecorded);
+    let edited = edited(context, document).ok_or(skip::EDITS_NOT_RECORDED);
     let edited = findings.or_skip(edited)?;
     let poses = findings.or_skip(Poses::new(context))?;
     let mut skipped = Vec::new();
@@ -105,7 +106,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} are skipped, and are in contact in sampled configuration {met} and {} apart in {parted}",
                         metres(*most)
                     );
-                    let finding = Finding::of(module, pointer, message);
+                    let finding = finding_in(module, pointer, message);
                     finding.expected(false).actual(true)
                 });
             }

@@ -24,7 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             words.join(", ")
         };
         let message = "name each reason once, in the order of SPEC 8.6";
-        let finding = Finding::of(module, "/skipped_reasons", message);
+        let finding = finding_in(module, "/skipped_reasons", message);
         findings.report(finding.expected(words(&ordered)).actual(words(stated)));
     }
     Some(())

@@ -68,7 +68,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
                 let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
                 let message = format!("the pair of shapes {a} and {b}: {why}");
-                let finding = Finding::of(module, pointer, message);
+                let finding = finding_in(module, pointer, message);
                 finding.expected(!skip).actual(skip)
             });
         }

@@ -1,5 +1,6 @@
 use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
+use crate::skip;
 use crate::views::judged::JudgedShapes;
 use crate::views::shape_pair::{Pair, Pairs};
 use crate::views::tangled::pairs;
@@ -74,7 +75,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "for shapes {a} and {b} this is not what the sampled configurations give{which}"
                 );
-                Finding::of(module, pointer, message)
+                finding_in(module, pointer, message)
                     .expected(expected)
                     .actual(actual)
                     .tolerance(tolerance)
@@ -83,7 +84,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
     }
     if findings.is_empty() && !left.is_empty() {
-        return findings.skip(SkipReason::NotDeep(left));
+        return findings.skip(skip::not_deep(&left));
     }
     Some(())
 }

@@ -27,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 fold.add(|| {
                     let pointer = format!("/{}/{mean_key}/{i}/{j}", kind.key());
                     let message = "the mean distance is not between the smallest and the largest";
-                    Finding::of(module, pointer, message)
+                    finding_in(module, pointer, message)
                         .expected(format!("from {} to {}", pair.min, pair.max))
                         .actual(pair.mean)
                         .tolerance(pair.tolerance)

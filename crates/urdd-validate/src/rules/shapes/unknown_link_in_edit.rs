@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (key, name) in [("link_a", &edit.link_a), ("link_b", &edit.link_b)] {
             if robot.link(name).is_none() {
                 let message = "the robot has no link of this name";
-                Finding::of(module, format!("/edits/{place}/{key}"), message)
+                finding_in(module, format!("/edits/{place}/{key}"), message)
                     .expected("the name of a link of urdf_module")
                     .actual(format!("`{name}`"))
                     .report(findings);

@@ -28,7 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let link = link.map_or("", |link| &link.name);
         let filename = excerpt(&reference.filename.as_str().into());
         let message = format!("a mesh of link `{link}` was not found and is not carried");
-        Finding::of(module, format!("/references/{index}/path"), message)
+        finding_in(module, format!("/references/{index}/path"), message)
             .expected("a file")
             .actual(format!("null for {filename} of link `{link}`"))
             .report(findings);

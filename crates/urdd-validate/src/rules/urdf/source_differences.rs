@@ -46,7 +46,7 @@ pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> 
         let line = reading
             .position(&lines, &found.source)
             .map_or(String::new(), |place| format!(" ({}, line {})", carried.path, place.line));
-        let mut finding = Finding::of(module, found.pointer, words)
+        let mut finding = finding_in(module, found.pointer, words)
             .expected(format!("{}{line}", excerpt(&found.expected)))
             .actual(excerpt(&found.actual));
         finding.tolerance = found.tolerance;

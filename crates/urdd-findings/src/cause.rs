@@ -1,0 +1,104 @@
+//! Findings that follow from others: reports leave them out where they have the cause, so that one fault gives one message.
+
+use std::collections::{HashMap, HashSet};
+
+use super::check::{Check, Outcome};
+use super::code::Code;
+use super::effect::{At, Effect};
+use super::finding::Finding;
+use super::places::{parted, retain};
+use super::skip::SkipReason;
+use urdd_format::report::{Place, Severity};
+
+/// Where a place is.
+pub fn at(place: &Place) -> Option<At> {
+    Some((place.line?.get(), place.column?.get()))
+}
+
+/// All places of a finding, each with what it says.
+pub fn said(finding: &Finding) -> impl Iterator<Item = (&Place, &str)> {
+    let all = std::iter::once(&finding.place).chain(&finding.more);
+    all.map(|place| {
+        let message = place.message.as_ref().unwrap_or(&finding.message);
+        (place, message.as_str())
+    })
+}
+
+/// What findings lead to: its severities and places, by rule and place.
+type Effects = HashMap<(Code, At), Vec<(Severity, Place)>>;
+
+/// Leaves out what follows from a reported cause. Causes name their effects, and are as severe as the worst of them. A rule
+/// with effects alone was prevented by the rule of the cause.
+pub(super) fn fold(checks: &mut [Check]) {
+    if checks.iter().all(|check| check.effects.is_empty()) {
+        return;
+    }
+    let reported: HashSet<(Code, At)> = checks.iter().flat_map(reported).collect();
+    let mut effects = Effects::new();
+    let mut prevented: HashMap<Code, Code> = HashMap::new();
+    for check in &mut *checks {
+        let mut left = std::mem::take(&mut check.effects);
+        left.retain(|one| reported.contains(&one.cause));
+        let Some(by) = left.first().map(|one| one.cause.0) else {
+            continue;
+        };
+        let rule = check.rule;
+        retain(check, SkipReason::Failed(by), |severity, place| {
+            let is_this = |one: &Effect| {
+                Some(one.at) == at(place) && place.message.as_ref() == Some(&one.message)
+            };
+            let Some(which) = left.iter().position(is_this) else {
+                return true;
+            };
+            let one = left.swap_remove(which);
+            let effect = Place {
+                message: Some(format!("{} {}: {}", rule.code, rule.name, one.message)),
+                related: Vec::new(),
+                fixes: Vec::new(),
+                ..place.clone()
+            };
+            effects.entry(one.cause).or_default().push((severity, effect));
+            false
+        });
+        if check.findings.is_empty() {
+            prevented.insert(rule.code, by);
+        }
+    }
+    for check in checks {
+        if let Outcome::Skipped(SkipReason::Failed(code)) = &mut check.outcome {
+            *code = *prevented.get(code).unwrap_or(code);
+        }
+        name_effects(check, &effects);
+    }
+}
+
+fn reported(check: &Check) -> impl Iterator<Item = (Code, At)> {
+    let places = check.findings.iter().flat_map(said);
+    places.filter_map(|(place, _)| Some((check.rule.code, at(place)?)))
+}
+
+/// Adds what findings lead to.
+fn name_effects(check: &mut Check, effects: &Effects) {
+    let code = check.rule.code;
+    if !effects.keys().any(|(cause, _)| *cause == code) {
+        return;
+    }
+    let of = |place: &Place| effects.get(&(code, at(place)?));
+    for finding in std::mem::take(&mut check.findings) {
+        let own = finding.severity.unwrap_or(check.severity);
+        let (groups, mut cut) = parted(finding, |place| {
+            let severities = of(place)?.iter().map(|(severity, _)| *severity);
+            severities.max().filter(|worst| *worst > own)
+        });
+        for (worst, mut group) in groups {
+            group.count += std::mem::take(&mut cut);
+            group.severity = worst.or(group.severity);
+            for place in std::iter::once(&mut group.place).chain(&mut group.more) {
+                let effects = of(place).into_iter().flatten();
+                let effects: Vec<Place> = effects.map(|(_, effect)| effect.clone()).collect();
+                place.related.extend(effects);
+            }
+            check.findings.push(group);
+        }
+    }
+}

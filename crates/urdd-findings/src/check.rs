@@ -1,0 +1,110 @@
+//! What became of a rule: its outcome, and what it found.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::description::Description;
+use super::effect::Effect;
+use super::finding::{Finding, Findings};
+use super::part::NotVerified;
+use super::scope::{Faulted, Scope};
+use super::skip::SkipReason;
+use super::worst::worst_first;
+use urdd_format::report::Severity;
+
+/// The outcome of a rule.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It ran and found nothing.
+    Passed,
+    /// It ran and found something.
+    Failed,
+    /// It did not run to its end, for this reason.
+    Skipped(SkipReason),
+    /// The rule itself is faulty; the message says how.
+    Crashed(String),
+}
+
+/// A rule and its outcome.
+pub struct Check {
+    /// What the rule says of itself.
+    pub rule: &'static Description,
+    /// Severity of its findings: the rule's, unless settings change it.
+    pub severity: Severity,
+    /// Its outcome.
+    pub outcome: Outcome,
+    /// Its findings.
+    pub findings: Vec<Finding>,
+    /// Which of these follow from findings of other rules.
+    pub effects: Vec<Effect>,
+    /// The parts of the robot that it did not verify.
+    pub not_verified: Vec<NotVerified>,
+    /// The parts with findings.
+    pub faulted: Faulted,
+    /// The parts that it was to judge.
+    pub scope: Scope,
+}
+
+impl Check {
+    /// What a rule found.
+    pub fn new(rule: &'static Description, outcome: Outcome, findings: Vec<Finding>) -> Self {
+        Check {
+            rule,
+            severity: rule.severity,
+            outcome,
+            findings,
+            effects: Vec::new(),
+            not_verified: Vec::new(),
+            faulted: Faulted::default(),
+            scope: Scope::default(),
+        }
+    }
+
+    /// A rule that does not run.
+    pub fn skipped(rule: &'static Description, reason: SkipReason) -> Self {
+        Check::new(rule, Outcome::Skipped(reason), Vec::new())
+    }
+
+    /// The result of a rule's check, whatever it judges. `None` from it without a reason given to [`Findings::skip`] is a
+    /// fault of the rule. Places are left as the rule gave them.
+    pub fn caught(
+        rule: &'static Description,
+        findings: &mut Findings,
+        check: impl FnOnce(&mut Findings) -> Option<()>,
+    ) -> Check {
+        let ran = catch_unwind(AssertUnwindSafe(|| check(findings)));
+        let completed = match ran {
+            Ok(completed) => completed.is_some(),
+            Err(panic) => {
+                let message = panic_message(&*panic);
+                return Check::new(rule, Outcome::Crashed(message), Vec::new());
+            }
+        };
+        let undeclared = !completed && findings.skipped().is_none();
+        if undeclared && cfg!(debug_assertions) {
+            let message =
+                format!("{} takes something that it does not declare in `needs`", rule.code);
+            return Check::new(rule, Outcome::Crashed(message), Vec::new());
+        }
+        let undeclared = || undeclared.then_some(SkipReason::UndeclaredNeed);
+        let nothing_left = || findings.scope().nothing_left().map(SkipReason::Failed);
+        let skipped = findings.skipped().cloned();
+        let skipped = skipped.or_else(undeclared).or_else(nothing_left);
+        let not_verified = findings.scope().not_verified();
+        let (scope, faulted) = (findings.scope().afresh(), findings.faulted().clone());
+        let mut found = findings.take();
+        found.iter_mut().for_each(worst_first);
+        let outcome = match (found.is_empty(), skipped) {
+            (false, _) => Outcome::Failed,
+            (true, Some(reason)) => Outcome::Skipped(reason),
+            (true, None) => Outcome::Passed,
+        };
+        Check { not_verified, scope, faulted, ..Check::new(rule, outcome, found) }
+    }
+}
+
+/// The message of a panic.
+pub(super) fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "unknown".to_owned())
+}

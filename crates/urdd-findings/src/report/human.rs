@@ -1,0 +1,303 @@
+//! The report for people: by URDD, then by module; what is wrong, where, and what to do. For many URDDs, only the
+//! summary is written: see `summary`.
+//!
+//! Text from files is escaped here, field by field: see [`urdd_format::escape`].
+
+use std::cmp::Reverse;
+use std::fmt::{self, Write};
+
+use urdd_format::escape::{self, line as safe};
+use urdd_format::readable::number;
+use urdd_format::registry::ModuleKind;
+
+use super::fill::by_reason;
+use super::style::{BOLD, DIM, GREEN, RED, Style, YELLOW, severity};
+use super::words::{list, plural, unit};
+use super::{summary, unverified};
+use crate::skip::SkipReason;
+use urdd_format::report::{
+    CheckStatus, Finding, Kind, Magnitude, Place, Report, Skipped, Status, Urdd, Verdict, WrittenAt,
+};
+
+/// Maximum number of URDDs that are shown one by one. More are summarized.
+pub const FEW: usize = 3;
+
+/// Writes the report.
+///
+/// # Errors
+/// If writing fails.
+pub fn write(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let many = report.urdds.len() > FEW;
+    for urdd in &report.urdds {
+        let unread = matches!(urdd.verdict, Verdict::Unreadable | Verdict::Incomplete);
+        let silent = style.quiet && urdd.verdict == Verdict::Pass && urdd.findings.is_empty();
+        if !silent && (!many || style.full || unread) {
+            write_urdd(urdd, style, many && !style.full, out)?;
+        }
+    }
+    if many {
+        summary::write(report, style, out)?;
+    }
+    for ignore in &report.stale_ignores {
+        let code = ignore.code.as_deref().unwrap_or("all rules");
+        writeln!(
+            out,
+            "{} the ignore of {code} at `{}` matches nothing: remove it, or correct it",
+            style.paint(YELLOW, "note:"),
+            safe(&ignore.path)
+        )?;
+    }
+    write_totals(report, style, out)
+}
+
+/// Writes one URDD; if `brief`, only why it was not fully examined.
+fn write_urdd(urdd: &Urdd, style: Style, brief: bool, out: &mut impl Write) -> fmt::Result {
+    let verdict = match urdd.verdict {
+        Verdict::Pass => style.paint(GREEN, "pass"),
+        Verdict::Fail => style.paint(RED, "FAIL"),
+        Verdict::Unreadable => style.paint(RED, "UNREADABLE"),
+        Verdict::Incomplete => style.paint(RED, "INCOMPLETE"),
+    };
+    writeln!(
+        out,
+        "{} {verdict}  {}",
+        style.paint(BOLD, safe(&urdd.path)),
+        style.paint(DIM, describe(urdd))
+    )?;
+    if let Some(reason) = &urdd.reason {
+        let what = match urdd.verdict {
+            Verdict::Unreadable => "it cannot be read: ",
+            _ => "",
+        };
+        writeln!(out, "  {what}{}", safe(reason))?;
+    }
+    if !brief {
+        write_findings(urdd, style, out)?;
+    }
+    let crashed = |check: &&CheckStatus| check.status == Status::Crashed;
+    for check in urdd.checks.iter().filter(crashed) {
+        writeln!(
+            out,
+            "  {} {} crashed and checked nothing: {}. Please report this.",
+            style.paint(RED, "crash"),
+            check.code,
+            safe(check.reason.as_deref().unwrap_or_default())
+        )?;
+    }
+    if !brief {
+        write_skipped(urdd, style, out)?;
+        let is_read = urdd.verdict != Verdict::Unreadable;
+        if style.suggests_lint && urdd.kind == Kind::Urdf && is_read {
+            let hint =
+                "this is a URDF: `urdd lint` finds more in it, `urdd generate` makes a URDD of it";
+            writeln!(out, "  {}", style.paint(DIM, hint))?;
+        }
+    }
+    writeln!(out)
+}
+
+fn write_findings(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
+    let mut above = None;
+    for finding in &urdd.findings {
+        let title = match (&finding.module, &finding.file) {
+            (Some(module), _) => module.as_str(),
+            (None, Some(file)) if urdd.kind == Kind::Urdf || file.ends_with(".urdf") => "the URDF",
+            _ => "the directory",
+        };
+        if above != Some(title) {
+            above = Some(title);
+            writeln!(out, "  {}", style.paint(BOLD, safe(title)))?;
+        }
+        write_finding(finding, style, out)?;
+    }
+    Ok(())
+}
+
+/// The robot's name and size, and the number and family of its modules.
+fn describe(urdd: &Urdd) -> String {
+    let mut parts = Vec::new();
+    if let Some(name) = &urdd.name {
+        parts.push(format!("robot {}", escape::quoted(name)));
+    }
+    let sizes = [(urdd.size.links, "link"), (urdd.size.joints, "joint"), (urdd.size.dofs, "DOF")];
+    parts.extend(sizes.into_iter().filter_map(|(size, unit)| Some(plural(size?.get(), unit))));
+    let legacy = urdd.modules.iter().any(|module| module.profile.as_deref() == Some("legacy"));
+    if !urdd.modules.is_empty() {
+        let family = if legacy { " (legacy)" } else { "" };
+        parts.push(format!("{}{family}", plural(urdd.modules.len(), "module")));
+    }
+    parts.join(", ")
+}
+
+/// Writes one finding.
+pub(super) fn write_finding(finding: &Finding, style: Style, out: &mut impl Write) -> fmt::Result {
+    let times =
+        if finding.count.get() > 1 { format!(" ({} times)", finding.count) } else { String::new() };
+    let code = style.paint(BOLD, &finding.code);
+    let word = severity(finding.severity, style);
+    writeln!(out, "    {word} {code} {}{times}", finding.name)?;
+    let mut places = finding.places.iter();
+    let first = places.next();
+    let at = first.map(|first| place(first, true)).unwrap_or_default();
+    if !at.is_empty() {
+        writeln!(out, "      {} {at}", style.paint(DIM, "at"))?;
+    }
+    if let Some(written) = first.and_then(|first| first.written_at.as_ref()) {
+        writeln!(out, "      {} {}", style.paint(DIM, "written at"), written_at(written))?;
+    }
+    writeln!(out, "      {}", safe(&finding.message))?;
+    let mut line = |label: &str, text: &str| {
+        let label = style.paint(DIM, format!("{label}:"));
+        writeln!(out, "      {label} {}", safe(text))
+    };
+    if let Some(expected) = &finding.expected {
+        line("expected", expected)?;
+    }
+    // Skips what the message already contains.
+    const WORDS: usize = 8;
+    let repeats = |actual: &&String| {
+        let said = finding.message.contains(*actual);
+        said && (finding.expected.is_none() || actual.len() > WORDS)
+    };
+    if let Some(actual) = finding.actual.as_ref().filter(|actual| !repeats(actual)) {
+        line("found", &format!("   {actual}"))?;
+    }
+    if let (Some(magnitude), true) = (&finding.magnitude, is_bare(&finding.actual)) {
+        line("off by", &format!("  {}", off_by(magnitude)))?;
+    }
+    if let Some(tolerance) = finding.tolerance {
+        line("tolerance", &number(tolerance, 2))?;
+    }
+    let shown = style.max_places.max(1);
+    for other in first.into_iter().flat_map(|first| &first.related) {
+        let at = place(other, other.file != finding.file);
+        let text = safe(other.message.as_deref().unwrap_or_default());
+        writeln!(out, "      {} {at}: {text}", style.paint(DIM, "see"))?;
+    }
+    for other in places.take(shown - 1) {
+        let at = place(other, other.file != finding.file);
+        let mut text = format!("      {} {at}", style.paint(DIM, "also"));
+        if let Some(actual) = &other.actual {
+            text += &format!(": {}", safe(actual));
+        }
+        if let (Some(magnitude), true) = (&other.magnitude, is_bare(&other.actual)) {
+            text += &format!(", off by {}", off_by(magnitude));
+        }
+        writeln!(out, "{text}")?;
+    }
+    let shown = shown.min(finding.places.len());
+    if finding.count.get() > shown {
+        let more = format!("and {} more", finding.count.get() - shown);
+        writeln!(out, "      {}", style.paint(DIM, more))?;
+    }
+    Ok(())
+}
+
+/// Whether the value found consists of numbers only, which do not show the difference.
+fn is_bare(actual: &Option<String>) -> bool {
+    let bare =
+        |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | ',' | ' ' | '[' | ']');
+    actual.as_ref().is_none_or(|actual| actual.chars().all(bare))
+}
+
+/// The difference of numbers, to four digits.
+pub(super) fn off_by(magnitude: &Magnitude) -> String {
+    let number = magnitude.value.map_or_else(|| "no number".to_owned(), |value| number(value, 4));
+    match magnitude.unit.as_str() {
+        "" => number,
+        unit => format!("{number} {unit}"),
+    }
+}
+
+/// File, line and column, pointer, and subject. Line and column are omitted within the first line of a file: in a file of
+/// one line, the pointer and the subject are more useful.
+fn place(found: &Place, with_file: bool) -> String {
+    let file = found.file.as_deref().filter(|_| with_file);
+    let mut place = safe(file.unwrap_or_default()).into_owned();
+    let pointer = found.pointer.as_deref().filter(|text| !text.is_empty());
+    if let (Some(line), Some(column)) = (found.line, found.column)
+        && (line.get() > 1 || column.get() == 1 || pointer.is_none())
+    {
+        let colon = if place.is_empty() { "" } else { ":" };
+        place.push_str(&format!("{colon}{line}:{column}"));
+    }
+    let parts = [
+        pointer.map(|pointer| safe(pointer).into_owned()),
+        found.subject.as_ref().map(|subject| format!("({})", safe(subject))),
+    ];
+    for part in parts.into_iter().flatten() {
+        let space = if place.is_empty() { "" } else { " " };
+        place.push_str(&format!("{space}{part}"));
+    }
+    place
+}
+
+/// A place in a .xacro file.
+fn written_at(written: &WrittenAt) -> String {
+    let mut place = safe(&written.file).into_owned();
+    if let (Some(line), Some(column)) = (written.line, written.column) {
+        place.push_str(&format!(":{line}:{column}"));
+    }
+    if let Some(name) = &written.macro_name {
+        place.push_str(&format!(" (macro {})", escape::quoted(name)));
+    }
+    place
+}
+
+/// What was not checked, by reason. Rules for other formats are not mentioned, nor are rules about absent modules that
+/// no class requires. Rules about other absent modules take one line.
+fn write_skipped(urdd: &Urdd, style: Style, out: &mut impl Write) -> fmt::Result {
+    let label = style.paint(DIM, "not checked:");
+    for open in &urdd.not_checked {
+        let reason = safe(&open.reason);
+        writeln!(out, "  {label} {}: {reason}", list(&open.codes))?;
+    }
+    for text in unverified::describe(urdd) {
+        writeln!(out, "  {label} {text}")?;
+    }
+    for (reason, codes) in by_reason(&urdd.checks, Skipped::Ignored) {
+        writeln!(out, "  {label} {}: {}", list(&codes), safe(reason))?;
+    }
+    let optional = ModuleKind::ALL.iter().filter(|kind| kind.is_optional());
+    let normal: Vec<_> = optional.map(|kind| Some(SkipReason::absent(*kind).to_string())).collect();
+    let absent = |check: &&CheckStatus| {
+        check.skipped == Some(Skipped::Absent) && !normal.contains(&check.reason)
+    };
+    let absent = urdd.checks.iter().filter(absent).count();
+    if absent > 0 {
+        let rules = plural(absent, "rule");
+        writeln!(out, "  {label} {rules} about modules that are not here")?;
+    }
+    Ok(())
+}
+
+fn write_totals(report: &Report, style: Style, out: &mut impl Write) -> fmt::Result {
+    let totals = &report.totals;
+    let verdicts = [
+        (report.count(Verdict::Pass), "passed"),
+        (report.count(Verdict::Fail), "failed"),
+        (report.count(Verdict::Unreadable), "unreadable"),
+        (report.count(Verdict::Incomplete), "incomplete"),
+    ];
+    let verdicts: Vec<String> = verdicts
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, word)| format!("{count} {word}"))
+        .collect();
+    writeln!(
+        out,
+        "{}: {}. {}: {}, {}, {}.",
+        style.paint(BOLD, plural(totals.urdds.get(), unit(report))),
+        verdicts.join(", "),
+        plural(totals.error.get() + totals.warning.get() + totals.info.get(), "finding"),
+        plural(totals.error.get(), "error"),
+        plural(totals.warning.get(), "warning"),
+        plural(totals.info.get(), "info"),
+    )?;
+    let findings = report.urdds.iter().flat_map(|urdd| &urdd.findings);
+    if let Some(worst) = findings.min_by_key(|finding| Reverse(finding.severity)) {
+        let hint = format!("`urdd explain {}` says more about a rule.", worst.code);
+        writeln!(out, "{}", style.paint(DIM, hint))?;
+    }
+    Ok(())
+}

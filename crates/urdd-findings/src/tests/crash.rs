@@ -1,0 +1,12 @@
+//! A crash outside of any rule.
+
+use crate::examined::Examined;
+use urdd_format::report::{Kind, Verdict};
+
+#[test]
+fn a_crash_outside_of_any_rule_is_said_of_its_urdd() {
+    let examined = Examined::caught(Kind::Urdd, "a", || panic!("at index {}", 7));
+    assert_eq!(examined.report.verdict, Verdict::Incomplete);
+    let reason = examined.report.reason.expect("a reason");
+    assert!(reason.starts_with("the program crashed: at index 7;"));
+}

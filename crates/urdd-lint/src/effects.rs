@@ -1,0 +1,209 @@
+//! Findings that are there only because of others: those that go away when misspelt names are mended, and those about a name
+//! that another rule finds wrong.
+
+use std::collections::{HashMap, HashSet};
+use std::hash::Hash;
+
+use super::offset::offset;
+use super::subject::Subject;
+use super::unknown::{Unknown, What};
+use urdd_directory::position::LineIndex;
+use urdd_findings::cause::{at, said};
+use urdd_findings::check::{Check, Outcome};
+use urdd_findings::code::Code;
+use urdd_findings::effect::{At, Effect};
+use urdd_format::report::Place;
+use urdd_xml::element::{Edit, apply};
+
+/// A rule whose findings follow from those of another at the same place.
+const AT_THE_SAME_PLACE: [(Code, Code); 2] =
+    [(Code::LNT029, Code::LNT027), (Code::LNT030, Code::LNT027)];
+
+/// A rule whose findings follow from those of another about the same link or joint: an inertia, a centre of mass or
+/// limits that are written mend both.
+const OF_ONE_PART: [(Code, Code); 7] = [
+    (Code::LNT001, Code::SRC004),
+    (Code::LNT001, Code::SRC005),
+    (Code::LNT001, Code::LNT002),
+    (Code::LNT005, Code::SRC004),
+    (Code::LNT005, Code::SRC005),
+    (Code::SRC003, Code::LNT008),
+    (Code::SRC006, Code::LNT017),
+];
+
+/// A misspelt name.
+struct Misspelling {
+    at: At,
+    subject: Option<String>,
+    meant: &'static str,
+    edits: Vec<Edit>,
+}
+
+/// Marks the findings that follow from others by where they are.
+pub fn mark(checks: &mut [Check]) {
+    for (effect, cause) in AT_THE_SAME_PLACE {
+        follow(checks, effect, cause, at);
+    }
+    for (effect, cause) in OF_ONE_PART {
+        follow(checks, effect, cause, |place| place.subject.clone());
+    }
+}
+
+/// Marks the findings that go away when misspelt names are mended. `again` runs the rules on another text; `None` if it is
+/// no XML.
+pub fn mark_misspelt(
+    urdf: &Subject,
+    checks: &mut [Check],
+    again: impl FnOnce(&str) -> Option<Vec<Check>>,
+) {
+    let misspelt: HashSet<At> =
+        reported(checks, Code::LNT040).filter_map(|(place, _)| at(place)).collect();
+    let mut misspellings = misspellings(urdf);
+    misspellings.retain(|one| misspelt.contains(&one.at));
+    if misspellings.is_empty() {
+        return;
+    }
+    let edits: Vec<Edit> = misspellings.iter().flat_map(|one| one.edits.clone()).collect();
+    let mended = apply(urdf.text, edits.clone());
+    let Some(others) = again(&mended) else {
+        return;
+    };
+    let moved = Moved::new(urdf.text, &mended, edits);
+    for check in checks.iter_mut().filter(|check| check.rule.code != Code::LNT040) {
+        let mut others = others.iter();
+        let other = others.find(|other| other.rule.code == check.rule.code);
+        let ran = |other: &&Check| matches!(other.outcome, Outcome::Passed | Outcome::Failed);
+        if let Some(other) = other.filter(ran) {
+            let gone = gone(check, other, &moved);
+            let gone = gone.into_iter().map(|(place, at, message)| Effect {
+                at,
+                cause: (Code::LNT040, cause(&misspellings, place, &message)),
+                message,
+            });
+            let gone: Vec<Effect> = gone.collect();
+            check.effects.extend(gone);
+        }
+    }
+}
+
+/// Marks the findings of a rule that follow from those of another with the same `key`.
+fn follow<K: Eq + Hash>(
+    checks: &mut [Check],
+    effect: Code,
+    cause: Code,
+    key: impl Fn(&Place) -> Option<K>,
+) {
+    let causes = reported(checks, cause).filter_map(|(place, _)| Some((key(place)?, at(place)?)));
+    let causes: HashMap<K, At> = causes.collect();
+    let effects = reported(checks, effect).filter_map(|(place, message)| {
+        Some(Effect {
+            at: at(place)?,
+            message: message.to_owned(),
+            cause: (cause, *causes.get(&key(place)?)?),
+        })
+    });
+    let effects: Vec<Effect> = effects.collect();
+    if let Some(check) = checks.iter_mut().find(|check| check.rule.code == effect) {
+        check.effects.extend(effects);
+    }
+}
+
+/// The places of a rule's findings, with what they say.
+fn reported(checks: &[Check], code: Code) -> impl Iterator<Item = (&Place, &str)> {
+    let checks = checks.iter().filter(move |check| check.rule.code == code);
+    checks.flat_map(|check| &check.findings).flat_map(said)
+}
+
+/// What is misspelt, but not what cannot be renamed: two attributes of one name are no XML.
+fn misspellings(urdf: &Subject) -> Vec<Misspelling> {
+    let mut found: Vec<Misspelling> = Vec::new();
+    let mut renamed = HashSet::new();
+    for Unknown { node, what, meant, .. } in urdf.unknown() {
+        let Some(meant) = meant else { continue };
+        let (finding, ranges) = match what {
+            What::Element => (urdf.at(node, ""), urdf.tag_names(node)),
+            What::Attribute(name) => {
+                if node.has_attribute(meant) || !renamed.insert((node.id(), meant)) {
+                    continue;
+                }
+                let range = node.attribute_node(name).map(|one| one.range_qname());
+                (urdf.at_attribute(node, name, ""), range.into_iter().collect())
+            }
+        };
+        let edits = ranges.into_iter().map(|range| Edit { range, text: meant.to_owned() });
+        let edits: Vec<Edit> = edits.collect();
+        found.extend(at(&finding.place).map(|at| Misspelling {
+            at,
+            subject: finding.place.subject,
+            meant,
+            edits,
+        }));
+    }
+    found
+}
+
+/// Places of a text in the text that edits make of it.
+struct Moved<'a> {
+    from: LineIndex<'a>,
+    text: &'a str,
+    to: LineIndex<'a>,
+    edits: Vec<Edit>,
+}
+
+impl<'a> Moved<'a> {
+    fn new(from: &'a str, to: &'a str, edits: Vec<Edit>) -> Self {
+        Moved { from: LineIndex::new(from), text: from, to: LineIndex::new(to), edits }
+    }
+
+    fn at(&self, (line, column): At) -> Option<At> {
+        let mut offset = offset(self.text, &self.from, line, column)?;
+        let before = offset;
+        for edit in self.edits.iter().filter(|edit| edit.range.start < before) {
+            offset = (offset + edit.text.len()).checked_sub(edit.range.len())?;
+        }
+        let position = self.to.position(offset);
+        Some((position.line as usize, position.column as usize))
+    }
+}
+
+/// The places of a rule's findings that are not there among the others, each with what it says. Of a link or joint, no more
+/// than it has fewer findings: one that only says something else is still there.
+fn gone<'c>(check: &'c Check, other: &Check, moved: &Moved) -> Vec<(&'c Place, At, String)> {
+    fn places(check: &Check) -> impl Iterator<Item = (&Place, &str)> {
+        check.findings.iter().flat_map(said)
+    }
+    let left: HashSet<(At, &str)> =
+        places(other).filter_map(|(place, message)| Some((at(place)?, message))).collect();
+    let mut fewer: HashMap<Option<&str>, usize> = HashMap::new();
+    for (place, _) in places(check) {
+        *fewer.entry(place.subject.as_deref()).or_default() += 1;
+    }
+    for (place, _) in places(other) {
+        let count = fewer.entry(place.subject.as_deref()).or_default();
+        *count = count.saturating_sub(1);
+    }
+    let mut gone = Vec::new();
+    for (place, message) in places(check) {
+        let Some((here, there)) = at(place).and_then(|at| Some((at, moved.at(at)?))) else {
+            continue;
+        };
+        let count = fewer.entry(place.subject.as_deref()).or_default();
+        if *count > 0 && !left.contains(&(there, message)) {
+            *count -= 1;
+            gone.push((place, here, message.to_owned()));
+        }
+    }
+    gone
+}
+
+/// The misspelling that a finding follows from: one in the same link or joint, if there is one; and one whose right name the
+/// finding mentions.
+fn cause(misspellings: &[Misspelling], place: &Place, message: &str) -> At {
+    let rank = |one: &&Misspelling| {
+        let is_near = place.subject.is_some() && one.subject == place.subject;
+        (is_near, message.contains(one.meant))
+    };
+    // The first of the best.
+    let best = misspellings.iter().rev().max_by_key(rank);
+    best.map_or((1, 1), |best| best.at)
+}

@@ -1,0 +1,283 @@
+//! The contents of a URDD, without validation.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Write};
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::parts::{self, PartInfo};
+use urdd_directory::root::ReadError;
+use urdd_document::urdd::Urdd;
+use urdd_format::dof::Quantity;
+use urdd_format::escape;
+use urdd_format::rate::Rate;
+use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::self_collision_model::ModelEvaluation;
+use urdd_validate::{ModelVerdict, verify_model};
+
+/// The contents of a URDD.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Info {
+    /// Name of the URDD in reports.
+    pub path: String,
+    /// Name of the robot.
+    pub robot_name: Option<String>,
+    /// Version of the specification that the root metadata states.
+    pub urdd_version: Option<String>,
+    /// The claimed conformance class.
+    pub conformance_class: Option<String>,
+    /// Path of the carried source URDF.
+    pub urdf: Option<String>,
+    /// Number of links.
+    pub links: Option<usize>,
+    /// Number of joints of each type.
+    pub joints: BTreeMap<String, usize>,
+    /// The degrees of freedom.
+    pub dofs: Vec<DofInfo>,
+    /// Name of the base link of a composed robot: the link that carries parts and belongs to none.
+    pub base: Option<String>,
+    /// The parts of a composed robot, as a tree.
+    pub parts: Vec<PartInfo>,
+    /// The rates of the self-collision model.
+    pub collision_model: Option<ModelInfo>,
+    /// The modules.
+    pub modules: Vec<ModuleInfo>,
+}
+
+/// A degree of freedom.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DofInfo {
+    /// Its name; for legacy modules, the name of its joint.
+    pub name: String,
+    /// `rad` or `m`, if the module states it.
+    pub unit: Option<&'static str>,
+    /// Lower and upper bound.
+    pub bounds: Option<[f64; 2]>,
+}
+
+/// The rates of a self-collision model, as its module states them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelInfo {
+    /// Share of collisions that it misses.
+    pub miss_rate: Rate,
+    /// Share of collisions near contact that it misses.
+    pub near_contact_miss_rate: Rate,
+    /// Share of free configurations that it clears.
+    pub clear_rate: Rate,
+    /// Whether a recount gives these rates; null if they were not verified.
+    pub verified: Option<bool>,
+    /// Why the rates are wrong or were not verified.
+    pub reasons: Vec<String>,
+}
+
+impl ModelInfo {
+    /// Verifies the stated rates with a recount.
+    fn new(evaluation: &ModelEvaluation, path: &Path) -> Self {
+        let (verified, reasons) = match verify_model(path) {
+            ModelVerdict::Verified => (Some(true), Vec::new()),
+            ModelVerdict::Refuted(codes) => {
+                let reasons = codes.iter().map(|code| format!("{code} found a fault"));
+                (Some(false), reasons.collect())
+            }
+            ModelVerdict::NotVerified(reasons) => (None, reasons),
+        };
+        Self {
+            miss_rate: evaluation.miss_rate(),
+            near_contact_miss_rate: evaluation.near_contact_miss_rate(),
+            clear_rate: evaluation.clear_rate(),
+            verified,
+            reasons,
+        }
+    }
+
+    fn write(&self, out: &mut impl Write) -> fmt::Result {
+        let verdict = match self.verified {
+            Some(true) => "verified",
+            Some(false) => "NOT TRUE",
+            None => "not verified",
+        };
+        let reasons = match self.reasons.is_empty() {
+            true => String::new(),
+            false => format!(": {}", safe(&self.reasons.join(", "))),
+        };
+        writeln!(out, "  model     rates {verdict}{reasons} (95 % intervals in brackets)")?;
+        writeln!(out, "            misses {} collisions", self.miss_rate)?;
+        let near = &self.near_contact_miss_rate;
+        writeln!(
+            out,
+            "            misses {near} collisions within a step of 0.05 rad or m of contact"
+        )?;
+        writeln!(out, "            clears {} free configurations", self.clear_rate)
+    }
+}
+
+/// A module.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModuleInfo {
+    /// Path of its folder.
+    pub path: String,
+    /// Its version.
+    pub version: Option<String>,
+    /// Number of its files.
+    pub files: usize,
+    /// Total size of its files, in bytes.
+    pub bytes: u64,
+    /// Why its document is unusable, if it is.
+    pub unusable: Option<String>,
+}
+
+impl Info {
+    /// Reads the URDD at `path`. `name` is its name in reports.
+    ///
+    /// # Errors
+    /// If its folder cannot be read.
+    pub fn read(path: &Path, name: &str) -> Result<Info, ReadError> {
+        let urdd = Urdd::read(path)?;
+        let robot = urdd.robot();
+        let mut joints = BTreeMap::new();
+        for joint in robot.iter().flat_map(|robot| &robot.joints) {
+            *joints.entry(joint.joint_type.to_string()).or_insert(0) += 1;
+        }
+        let metadata = urdd.metadata();
+        let composition = match urdd.document(ModuleKind::Composition) {
+            Some(ModuleDocument::Composition(composition)) => Some(composition),
+            _ => None,
+        };
+        let model = match urdd.document(ModuleKind::SelfCollisionModel) {
+            Some(ModuleDocument::SelfCollisionModel(model)) => {
+                Some(ModelInfo::new(&model.evaluation, path))
+            }
+            _ => None,
+        };
+        Ok(Info {
+            path: name.to_owned(),
+            robot_name: robot
+                .map(|robot| robot.name.clone())
+                .or_else(|| metadata.map(|m| m.robot_name.clone())),
+            urdd_version: metadata.map(|metadata| metadata.urdd_version.to_string()),
+            conformance_class: metadata.map(|metadata| metadata.conformance_class.to_string()),
+            urdf: urdd.urdf().ok().map(|urdf| urdf.path.clone()),
+            links: robot.map(|robot| robot.links.len()),
+            joints,
+            dofs: dofs(&urdd),
+            base: composition.and_then(|of| parts::base(of.base.as_ref(), robot)),
+            parts: composition.map_or_else(Vec::new, |of| parts::tree(&of.parts, robot)),
+            collision_model: model,
+            modules: urdd
+                .modules()
+                .map(|module| {
+                    let entries = || urdd.listing().below(&module.folder);
+                    let is_file = |path: &str| urdd.listing().has_file(path);
+                    ModuleInfo {
+                        path: module.folder.clone(),
+                        version: module.version.clone(),
+                        files: entries().filter(|entry| is_file(&entry.path)).count(),
+                        bytes: entries().map(|entry| entry.size).sum(),
+                        unusable: module.unusable().map(|why| why.to_string()),
+                    }
+                })
+                .collect(),
+        })
+    }
+}
+
+fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
+    let Some(dofs) = urdd.dofs() else {
+        return Vec::new();
+    };
+    let bounds = urdd.bounds();
+    let described = match urdd.document(ModuleKind::Dof) {
+        Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
+        _ => None,
+    };
+    let name_of_joint = |dof: usize| {
+        let joint = dofs.joint_of_dof.get(dof)?;
+        Some(urdd.robot()?.joints.get(joint.get())?.name.clone())
+    };
+    (0..dofs.joint_of_dof.len())
+        .map(|dof| {
+            let description = described.and_then(|list| list.get(dof));
+            DofInfo {
+                name: description
+                    .map(|description| description.name.clone())
+                    .or_else(|| name_of_joint(dof))
+                    .unwrap_or_else(|| format!("DOF {dof}")),
+                unit: description.map(|description| match description.quantity {
+                    Quantity::Angle => "rad",
+                    Quantity::Length => "m",
+                }),
+                bounds: bounds.and_then(|bounds| bounds.bounds.get(dof).copied()),
+            }
+        })
+        .collect()
+}
+
+fn safe(text: &str) -> String {
+    escape::line(text).into_owned()
+}
+
+/// The width of the longest of these names, in characters.
+fn widest<'a>(names: impl Iterator<Item = &'a String>) -> usize {
+    let widths = names.map(|name| safe(name).chars().count());
+    widths.max().unwrap_or(0)
+}
+
+/// Writes the contents of a URDD for people.
+///
+/// # Errors
+/// If writing fails.
+pub fn write(info: &Info, out: &mut impl Write) -> fmt::Result {
+    let or = |text: &Option<String>, without: &str| safe(text.as_deref().unwrap_or(without));
+    writeln!(out, "{}", safe(&info.path))?;
+    writeln!(out, "  robot     {}", or(&info.robot_name, "not known"))?;
+    match (&info.urdd_version, &info.conformance_class) {
+        (Some(version), Some(class)) => {
+            writeln!(out, "  format    URDD {}, class {class}", safe(version))?
+        }
+        _ => writeln!(out, "  format    no root metadata")?,
+    }
+    writeln!(out, "  source    {}", or(&info.urdf, "no URDF is carried"))?;
+    let links = info.links.map(|links| links.to_string());
+    writeln!(out, "  links     {}", or(&links, "not known"))?;
+    let joints = info.joints.iter().map(|(kind, n)| format!("{n} {kind}"));
+    let joints: Vec<String> = joints.collect();
+    let joints = (!joints.is_empty()).then(|| joints.join(", "));
+    writeln!(out, "  joints    {}", or(&joints, "none"))?;
+    writeln!(out, "  DOFs      {}", info.dofs.len())?;
+    let width = widest(info.dofs.iter().map(|dof| &dof.name));
+    for (index, dof) in info.dofs.iter().enumerate() {
+        let unit = dof.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+        let bounds = dof
+            .bounds
+            .map(|[lower, upper]| format!("  [{lower}, {upper}]{unit}"))
+            .unwrap_or_default();
+        writeln!(out, "    {index:>3}  {:width$}{bounds}", safe(&dof.name))?;
+    }
+    if let Some(model) = &info.collision_model {
+        model.write(out)?;
+    }
+    if !info.parts.is_empty() {
+        let base = info.base.as_deref().map(|base| format!("on {}", safe(base)));
+        writeln!(out, "{}", format!("  parts     {}", base.unwrap_or_default()).trim_end())?;
+        parts::write(&info.parts, "    ", out)?;
+    }
+    writeln!(out, "  modules   {}", info.modules.len())?;
+    let width = widest(info.modules.iter().map(|module| &module.path));
+    for module in &info.modules {
+        let version = safe(module.version.as_deref().unwrap_or("-"));
+        let unusable = module
+            .unusable
+            .as_ref()
+            .map(|reason| format!("  ({})", safe(reason)))
+            .unwrap_or_default();
+        writeln!(
+            out,
+            "    {:width$}  {version:6}  {:>4} files  {:>9} kB{unusable}",
+            safe(&module.path),
+            module.files,
+            module.bytes.div_ceil(1000)
+        )?;
+    }
+    Ok(())
+}
