@@ -5,7 +5,7 @@ use urdd_export::ExportError;
 use urdd_format::escape::line;
 use urdd_generate::combine::{CombineError, PartFault};
 use urdd_generate::fault::Fault;
-use urdd_generate::{EditsFault, GenerateError};
+use urdd_generate::{EditsFault, GenerateError, SourceError};
 use urdd_robot::RobotError;
 
 /// The pointer to a full report.
@@ -37,7 +37,7 @@ pub fn of_robot(error: &RobotError) -> String {
 /// The message of a generation error.
 pub fn of_generate(error: &GenerateError) -> String {
     match error {
-        GenerateError::Refused { file, faults } => {
+        GenerateError::Source(SourceError::Refused { file, faults }) => {
             let file = line(file);
             let each = faults.iter().map(|placed| {
                 let fault = of_fault(&placed.fault);

@@ -32,7 +32,7 @@ pub fn diff(
         let mut options = Options { without_findings: !findings, ..Options::default() };
         options.urdf.packages = packages;
         options.urdf.allowed_folders = allowed_folders;
-        options.urdf.cancellation = cancellation.clone();
+        options.cancellation = cancellation.clone();
         let (before, after) = (Side::open(&before, &options)?, Side::open(&after, &options)?);
         Ok(report::json(&compare(&before, &after, tolerance)))
     })?;

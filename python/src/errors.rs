@@ -2,8 +2,8 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use urdd_generate::GenerateError;
 use urdd_generate::combine::CombineError;
+use urdd_generate::{GenerateError, SourceError};
 use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
@@ -127,7 +127,7 @@ fn placed<'py>(py: Python<'py>, places: Vec<Place>) -> Bound<'py, PyAny> {
 fn places_of(error: &GenerateError) -> Vec<Place> {
     let mut places = Vec::new();
     match error {
-        GenerateError::Refused { file, faults } => {
+        GenerateError::Source(SourceError::Refused { file, faults }) => {
             places.extend(faults.iter().map(|fault| {
                 (file.clone(), fault.line, fault.column, advice::of_fault(&fault.fault))
             }))

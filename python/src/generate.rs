@@ -13,7 +13,8 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::registry::ModuleKind;
 use urdd_generate::batch::caught;
 use urdd_generate::{
-    Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings, XacroSettings,
+    Generated, MeshFormats, Packages, Pieces, Progress, Selection, Settings, SourceSettings,
+    XacroSettings,
 };
 
 use crate::errors::of_generate;
@@ -69,7 +70,16 @@ impl Options {
         let has = |word: &str| self.mesh_formats.iter().any(|format| format == word);
         Ok(Settings {
             selection,
-            packages,
+            source: SourceSettings {
+                packages,
+                allowed_folders,
+                xacro: XacroSettings {
+                    expand_urdf: self.xacro,
+                    arguments: self.xacro_arguments,
+                    time_limit: Duration::from_secs_f64(self.xacro_timeout),
+                },
+                ..SourceSettings::default()
+            },
             preferred_geometry: match self.geometry.as_str() {
                 "visual" => GeometryKind::Visual,
                 "collision" => GeometryKind::Collision,
@@ -79,16 +89,10 @@ impl Options {
                 }
             },
             mesh_formats: MeshFormats { stl: has("stl"), obj: has("obj") },
-            allowed_folders,
             pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
             model_effort: Default::default(),
             skipped_reasons: skip.transpose()?,
-            xacro: XacroSettings {
-                expand_urdf: self.xacro,
-                arguments: self.xacro_arguments,
-                time_limit: Duration::from_secs_f64(self.xacro_timeout),
-            },
             strict: self.strict,
             drop_edits: self.drop_edits,
             force: self.force,

@@ -11,9 +11,9 @@ use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
 use super::validated_parts::ValidatedParts;
-use urdd_generate::batch::Job;
 use urdd_generate::combine::{Recipe, check_parts, combine};
-use urdd_generate::process;
+use urdd_source::process;
+use urdd_source::robots::Job;
 
 /// Exit status: the robots could not be combined.
 const FAILED: u8 = 1;

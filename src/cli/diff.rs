@@ -72,7 +72,8 @@ pub fn run(arguments: &DiffArguments) -> ExitCode {
 fn diff(arguments: &DiffArguments) -> Result<u8, String> {
     let signals = Signals::listen().map_err(|error| error.to_string())?;
     let options = Options {
-        urdf: arguments.packages.settings(&signals)?,
+        urdf: arguments.packages.settings()?,
+        cancellation: signals.cancellation(),
         without_findings: arguments.no_findings,
     };
     let open = |path: &PathBuf| {

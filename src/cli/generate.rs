@@ -12,9 +12,10 @@ use super::output;
 use super::signals::Signals;
 use super::xacro;
 use urdd_format::escape;
-use urdd_generate::batch::{self, Job, Shard};
-use urdd_generate::process;
+use urdd_generate::batch::{self, Shard};
 use urdd_generate::{MAX_SOURCE_BYTES, Settings, generate_text};
+use urdd_source::process;
+use urdd_source::robots::{self, Job};
 
 /// Exit status: a robot could not be generated.
 const FAILED: u8 = 1;
@@ -65,7 +66,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     let pool = arguments.making.pool()?;
     // A panic is caught and reported; the default hook would print it as well.
     std::panic::set_hook(Box::new(|_| {}));
-    let is_batch = batch::is_batch(&robots);
+    let is_batch = robots::is_batch(&robots);
     if is_batch && robots.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
         return Err(
             "`-` cannot be part of a batch: it reads one robot from standard input".to_owned()
@@ -78,7 +79,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
     );
     let failed = if is_batch {
         let mut jobs =
-            batch::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
+            robots::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
         check_used(arguments, &settings, jobs.iter().map(|job| job.source.as_path()))?;
         if let Some(shard) = arguments.shard {
             jobs = shard.of(jobs);
@@ -119,7 +120,7 @@ fn check_used<'a>(
     let is_expanded = |path: &Path| {
         arguments.making.xacro.xacro || path.extension().is_some_and(|ending| ending == "xacro")
     };
-    match settings.xacro.arguments.first() {
+    match settings.source.xacro.arguments.first() {
         Some(unused) if !sources.into_iter().any(is_expanded) => Err(format!(
             "`{}` is an argument for xacro, but no .xacro file is given; `--xacro` also expands macros in .urdf files",
             escape::line(unused)

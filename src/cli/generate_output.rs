@@ -10,10 +10,11 @@ use serde_json::{Value, json};
 use super::output;
 use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
-use urdd_generate::batch::{Job, Observer};
+use urdd_generate::batch::Observer;
 use urdd_generate::combine::{CombineError, Combined};
 use urdd_generate::note::{Note, NoteKind};
-use urdd_generate::{GenerateError, Generated, Progress};
+use urdd_generate::{GenerateError, Generated, Progress, SourceError};
+use urdd_source::robots::Job;
 
 /// Maximum number of notes of a kind that are printed individually.
 const MOST_TOLD: usize = 3;
@@ -178,10 +179,9 @@ impl Observer for Printer {
 fn message(error: &GenerateError) -> String {
     let text = error.to_string();
     match error {
-        GenerateError::Refused { .. }
+        GenerateError::Source(SourceError::Refused { .. } | SourceError::Xacro { .. })
         | GenerateError::Outside { .. }
-        | GenerateError::Strict { .. }
-        | GenerateError::Xacro { .. } => text,
+        | GenerateError::Strict { .. } => text,
         _ => escape::line(&text).into_owned(),
     }
 }
@@ -335,7 +335,7 @@ fn note_as_json(note: &Note) -> Value {
 
 fn faults(error: &GenerateError) -> Vec<Value> {
     let faults = match error {
-        GenerateError::Refused { faults, .. } => faults.as_slice(),
+        GenerateError::Source(SourceError::Refused { faults, .. }) => faults.as_slice(),
         _ => &[],
     };
     let told = faults.iter().map(|placed| {

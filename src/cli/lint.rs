@@ -78,7 +78,7 @@ fn lint(arguments: &LintArguments, color: Color) -> Result<u8, String> {
     let baseline = arguments.baseline.as_deref().or(usual.as_deref());
     let mut settings = LintSettings {
         report: file.settings,
-        source: arguments.packages.settings(&signals)?,
+        source: arguments.packages.settings()?,
         baseline: baseline.map(read_baseline).transpose()?,
         without_meshes: false,
     };

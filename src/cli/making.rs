@@ -166,7 +166,10 @@ impl MakingArguments {
             pieces: Pieces { most: self.pieces, tolerance: self.piece_tolerance },
             num_samples: self.samples,
             model_effort: Effort::default(),
-            xacro: self.xacro.settings(xacro_arguments),
+            source: urdd_source::Settings {
+                xacro: self.xacro.settings(xacro_arguments),
+                ..self.packages.settings()?
+            },
             strict: self.strict,
             drop_edits: self.drop_edits,
             skipped_reasons: self.skip.as_ref().map(|skip| {
@@ -174,7 +177,8 @@ impl MakingArguments {
                 reasons.map(SkippedReason::from).collect()
             }),
             force: self.force,
-            ..self.packages.settings(signals)?
+            cancellation: signals.cancellation(),
+            ..Settings::default()
         })
     }
 }

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::signals::Signals;
 use urdd_format::escape;
-use urdd_generate::{Packages, Settings};
+use urdd_source::{Packages, Settings};
 
 /// Where the mesh files of a URDF are.
 #[derive(Args)]
@@ -23,7 +22,7 @@ pub(super) struct PackageArguments {
 
 impl PackageArguments {
     /// Settings that use them; the others are the defaults.
-    pub(super) fn settings(&self, signals: &Signals) -> Result<Settings, String> {
+    pub(super) fn settings(&self) -> Result<Settings, String> {
         let mut packages = Packages::from_environment(|name| std::env::var_os(name));
         for argument in &self.packages {
             let added = packages.add(argument);
@@ -37,7 +36,6 @@ impl PackageArguments {
         Ok(Settings {
             packages,
             allowed_folders: self.allowed_folders.clone(),
-            cancellation: signals.cancellation(),
             ..Settings::default()
         })
     }

@@ -16,9 +16,10 @@ use super::signals::Signals;
 use super::xacro::{self, XacroArguments};
 use urdd_directory::discover::DiscoverError;
 use urdd_format::escape;
-use urdd_generate::batch::{self, BatchError, Job};
-use urdd_generate::{Settings, process};
+use urdd_generate::Settings;
 use urdd_robot::Robot;
+use urdd_source::process;
+use urdd_source::robots::{self, BatchError, Job};
 use urdd_view::{
     Collection, ExportError, Live, Server, Shown, Source, Temporary, export, may_hold_page,
     page_with,
@@ -95,8 +96,12 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
     process::adopt_orphans();
     let (paths, xacro_arguments) = xacro::split(&arguments.paths);
     let settings = Settings {
-        xacro: arguments.xacro.settings(xacro_arguments),
-        ..arguments.packages.settings(&signals).map_err(usage)?
+        source: urdd_source::Settings {
+            xacro: arguments.xacro.settings(xacro_arguments),
+            ..arguments.packages.settings().map_err(usage)?
+        },
+        cancellation: signals.cancellation(),
+        ..Settings::default()
     };
     // Generated URDDs exist as long as this value.
     let temporary = Temporary::begin(&std::env::temp_dir()).map_err(usage)?;
@@ -216,7 +221,7 @@ fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Fai
     let ending = path.extension().unwrap_or_default();
     let is_source = is_xacro(path) || ending.eq_ignore_ascii_case("urdf");
     if is_source && path.is_file() {
-        let mut jobs = batch::jobs(&[path.to_owned()]).map_err(usage)?;
+        let mut jobs = robots::jobs(&[path.to_owned()]).map_err(usage)?;
         for job in &mut jobs {
             // Often the file is `robot.urdf`, and the folder has the robot's name.
             if job.name == "robot"
@@ -233,7 +238,7 @@ fn add(path: &Path, with_xacro: bool, collection: &Collection) -> Result<(), Fai
         Err(DiscoverError::NoUrdd { .. }) if path.is_dir() => {}
         other => return other.map_err(usage),
     }
-    let mut jobs = batch::jobs(&[path.to_owned()]).map_err(|error| match error {
+    let mut jobs = robots::jobs(&[path.to_owned()]).map_err(|error| match error {
         BatchError::Empty { path } => usage(format!(
             "{path}: there is no URDD, and no .urdf or .urdf.xacro file, at any depth"
         )),

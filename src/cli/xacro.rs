@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::Args;
 
-use urdd_generate::XacroSettings;
+use urdd_source::XacroSettings;
 
 /// How xacro files are expanded.
 #[derive(Args)]

@@ -5,8 +5,8 @@
 
 use std::time::{Duration, Instant};
 
-use urdd_generate::read_urdf;
 use urdd_geometry::read::{Fault, MeshError, Scene, read};
+use urdd_source::read_urdf;
 use urdd_validate::settings::Settings;
 use urdd_validate::urdf_text;
 

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use crate::printed_codes::Scan;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_generate::process::{Ended, PAUSE, Running};
+use urdd_source::process::{Ended, PAUSE, Running};
 use urdd_validate::code::Code;
 
 /// Length of the output tail that is kept, bytes.

@@ -61,8 +61,7 @@ fn validation(
     if options.without_findings {
         return Ok(None);
     }
-    let settings =
-        Settings { cancellation: options.urdf.cancellation.clone(), ..Settings::default() };
+    let settings = Settings { cancellation: options.cancellation.clone(), ..Settings::default() };
     let run = validate(&settings).map_err(|error| match error {
         ValidateError::Discover(error) => DiffError::Discover(error),
         _ => DiffError::Cancelled,

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::dof_state::DofState;
 use crate::shapes::Shapes;
+use urdd_directory::cancellation::Cancellation;
 use urdd_directory::discover::DiscoverError;
 use urdd_document::pose::has_quaternions;
 use urdd_document::robot::Robot;
@@ -13,14 +14,16 @@ use urdd_format::escape;
 use urdd_format::index::Count;
 use urdd_format::report::{self, Kind};
 use urdd_format::urdf::UrdfModule;
-use urdd_generate::{GenerateError, Settings as UrdfSettings};
+use urdd_source::{Settings as SourceSettings, SourceError};
 use urdd_xml::other_parts::OtherParts;
 
 /// How robots are compared.
 #[derive(Debug, Default)]
 pub struct Options {
-    /// Where the meshes of URDFs are: packages and allowed folders. The other settings have no effect.
-    pub urdf: UrdfSettings,
+    /// Where the meshes of URDFs are, and how xacro files are expanded.
+    pub urdf: SourceSettings,
+    /// Cancellation.
+    pub cancellation: Cancellation,
     /// Whether to leave out findings.
     pub without_findings: bool,
 }
@@ -60,7 +63,7 @@ pub enum DiffError {
     },
     /// The URDF cannot be read or is not a valid robot.
     #[error("{0}")]
-    Urdf(GenerateError),
+    Urdf(SourceError),
     /// Validation was cancelled.
     #[error("stopped before it was finished")]
     Cancelled,

@@ -7,7 +7,7 @@ use crate::shapes::shapes;
 use crate::side::{DiffError, Options, Side};
 use urdd_document::robot::of_urdf;
 use urdd_format::report::Kind;
-use urdd_generate::open_source;
+use urdd_source::SourceMeshes;
 use urdd_xml::other_parts::other_parts;
 
 /// Opens a URDF and reads its meshes.
@@ -15,7 +15,8 @@ use urdd_xml::other_parts::other_parts;
 /// # Errors
 /// If it cannot be read or is not a valid robot.
 pub(super) fn open(path: &Path, shown: String, options: &Options) -> Result<Side, DiffError> {
-    let source = open_source(path, &options.urdf).map_err(DiffError::Urdf)?;
+    let source =
+        SourceMeshes::open(path, &options.urdf, &options.cancellation).map_err(DiffError::Urdf)?;
     let view = of_urdf(&source.robot);
     let files = source.meshes.iter().map(|mesh| {
         let place = (mesh.link, mesh.geometry, mesh.element);

@@ -1,13 +1,13 @@
 //! `chain_module` from the robot: SPEC 6.3.
 
-use super::pose;
-use super::urdf::{Tree, written_axis};
 use urdd_format::chain::{ChainModule, JointInChain, LinkInChain};
 use urdd_format::index::{JointIdx, LinkIdx};
 use urdd_format::urdf::UrdfModule;
 use urdd_kinematics::has_axis;
 use urdd_kinematics::pose::from_isometry;
 use urdd_kinematics::rotation::unit_axis;
+use urdd_source::origin;
+use urdd_source::urdf::{Tree, written_axis};
 
 /// Builds the module.
 pub fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
@@ -22,7 +22,7 @@ pub fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
             children_link_idxs: Vec::new(),
         })
         .collect();
-    let quaternions = pose::has_quaternions(robot.version.as_deref());
+    let quaternions = origin::has_quaternions(robot.version.as_deref());
     let mut joints = Vec::with_capacity(robot.joints.len());
     for ((joint_idx, joint), [parent, child]) in (0..).zip(&robot.joints).zip(&tree.ends) {
         let joint_idx = JointIdx(joint_idx);
@@ -40,7 +40,7 @@ pub fn chain_module(robot: &UrdfModule, tree: &Tree) -> ChainModule {
             child_link_name: joint.child.link.clone(),
             child_link_idx: child_idx,
             joint_type: joint.joint_type,
-            origin: from_isometry(&pose::of(joint.origin.as_ref(), quaternions)),
+            origin: from_isometry(&origin::of(joint.origin.as_ref(), quaternions)),
             axis: axis.map(|axis| axis.into_inner().into()),
         });
     }

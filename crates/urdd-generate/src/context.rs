@@ -2,16 +2,12 @@
 
 use super::donor::edits::{Decisions, Edits};
 use super::error::GenerateError;
-use super::fault::Fault;
 use super::kinematics_samples::SamplesError;
 use super::meshes::names::mesh_files;
 use super::named::Named;
-use super::note::{Note, NoteKind};
 use super::progress::Progress;
 use super::settings::Settings;
 use super::shapes::statistics::Kinematics;
-use super::source::Source;
-use super::urdf::shortened;
 use super::{bounds, chain, dof, kinematics_samples};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
@@ -22,6 +18,10 @@ use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
 use urdd_kinematics::ConfigurationError;
+use urdd_source::Source;
+use urdd_source::fault::Fault;
+use urdd_source::note::{Note, NoteKind};
+use urdd_source::urdf::shortened;
 
 /// What all stages may use.
 pub(crate) struct Context<'a> {
@@ -68,7 +68,7 @@ impl<'a> Context<'a> {
         progress: &'a dyn Progress,
     ) -> Result<Self, GenerateError> {
         let reading = &source.reading;
-        let refused = |fault| source.refused(fault);
+        let refused = |fault| GenerateError::from(source.refused(fault));
         let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
         let chain = chain::chain_module(&reading.robot, &reading.tree);
         let bounds = bounds::bounds_module(&reading.robot, &dof);

@@ -1,10 +1,10 @@
 //! `dof_module` from the robot: SPEC 6.2.
 
-use super::fault::Fault;
-use super::urdf::Tree;
 use urdd_format::dof::{Dof, DofModule, Quantity, ResolvedMimic};
 use urdd_format::index::{Count, DofIdx, JointIdx};
 use urdd_format::urdf::{JointType, UrdfModule};
+use urdd_source::fault::Fault;
+use urdd_source::urdf::Tree;
 
 const TRANSLATIONS: [(&str, Quantity); 3] = [
     ("/trans_x", Quantity::Length),

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::fault::PlacedFault;
-use super::note::Note;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::position::Position;
 use urdd_directory::staging::StagingError;
 use urdd_format::escape;
+use urdd_source::SourceError;
+use urdd_source::note::Note;
 
 /// Maximum number of faults of a file that are shown one by one.
 const MOST_SHOWN: usize = 5;
@@ -19,22 +19,9 @@ const MOST_SHOWN: usize = 5;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// The source cannot be read.
-    #[error("{file}: cannot be read: {reason}")]
-    Read {
-        /// The file, as the user named it.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-    /// The source is not a valid robot description.
-    #[error("{}", FaultLines(file, faults))]
-    Refused {
-        /// The file, as the user named it.
-        file: String,
-        /// What is wrong with it, in the order of the file; never empty.
-        faults: Vec<PlacedFault>,
-    },
+    /// The source cannot be read, or is not a valid robot description.
+    #[error(transparent)]
+    Source(SourceError),
     /// The URDF names files outside its folders; it must not make the user publish them.
     #[error("{}", OutsideMeshes(file, meshes))]
     Outside {
@@ -64,22 +51,6 @@ pub enum GenerateError {
         lost: &'static str,
         /// Why they would be lost.
         fault: EditsFault,
-    },
-    /// A xacro file, but no xacro program on the PATH.
-    #[error(
-        "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
-    )]
-    NoXacro {
-        /// The file, as the user named it.
-        file: String,
-    },
-    /// The xacro program failed.
-    #[error("{file}: `xacro` could not expand it: {reason}")]
-    Xacro {
-        /// The file, as the user named it.
-        file: String,
-        /// The last lines of the program's output.
-        reason: String,
     },
     /// The output would replace its own source.
     #[error("{file}: it is in the output folder {}, which would be replaced; give another output folder", target.display())]
@@ -124,6 +95,15 @@ impl From<StagingError> for GenerateError {
     }
 }
 
+impl From<SourceError> for GenerateError {
+    fn from(error: SourceError) -> Self {
+        match error {
+            SourceError::Cancelled => GenerateError::Cancelled,
+            error => GenerateError::Source(error),
+        }
+    }
+}
+
 impl From<Cancelled> for GenerateError {
     fn from(_: Cancelled) -> Self {
         GenerateError::Cancelled
@@ -139,13 +119,10 @@ impl GenerateError {
     /// A machine-readable code for the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
-            GenerateError::Read { .. } => "unreadable",
-            GenerateError::Refused { .. } => "refused",
+            GenerateError::Source(error) => error.code(),
             GenerateError::Outside { .. } => "outside",
             GenerateError::Strict { .. } => "strict",
             GenerateError::Edits { .. } => "edits",
-            GenerateError::NoXacro { .. } => "no-xacro",
-            GenerateError::Xacro { .. } => "xacro-failed",
             GenerateError::SourceInTarget { .. } => "source-in-output",
             GenerateError::Write(_) => "not-written",
             GenerateError::Cancelled => "cancelled",
@@ -243,28 +220,5 @@ impl fmt::Display for Assumptions<'_> {
             writeln!(f, "and {} more", self.0.len() - MOST_SHOWN)?;
         }
         f.write_str("nothing was written: --strict allows no assumption that changes the robot")
-    }
-}
-
-/// Formats the faults of a file, one per line.
-struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
-
-impl fmt::Display for FaultLines<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let FaultLines(file, faults) = self;
-        // One line per fault: a name must not add line breaks.
-        let file = escape::line(file);
-        for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
-            if number > 0 {
-                f.write_str("\n")?;
-            }
-            let (line, column) = (placed.line, placed.column);
-            let fault = placed.fault.to_string();
-            write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
-        }
-        if faults.len() > MOST_SHOWN {
-            write!(f, "\n{file}: and {} more such faults", faults.len() - MOST_SHOWN)?;
-        }
-        Ok(())
     }
 }

@@ -9,7 +9,6 @@ use super::context::Context;
 use super::error::GenerateError;
 use super::made::{Digests, Made, made};
 use super::meshes::written::WrittenMesh;
-use super::note::NoteKind;
 use crate::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
 use urdd_directory::writer::sha256;
 use urdd_format::chain::ChainModule;
@@ -23,6 +22,7 @@ use urdd_format::self_collision_model::{AngleInput, LengthInput, ModelInput, Rot
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::BodyPairs;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
+use urdd_source::note::NoteKind;
 
 /// Distances are clipped at this fraction of the largest distance between two hulls.
 const CLIP: f64 = 1.0 / 16.0;

@@ -20,7 +20,6 @@
 
 // Hidden modules are public for `tests/`.
 pub mod batch;
-mod bounded;
 mod bounds;
 #[doc(hidden)]
 pub mod chain;
@@ -29,13 +28,11 @@ mod composed;
 #[doc(hidden)]
 pub mod connections;
 mod context;
-mod cycles;
 #[doc(hidden)]
 pub mod distinct;
 mod dof;
 mod donor;
 mod error;
-pub mod fault;
 mod inputs;
 mod kinematics_samples;
 mod learned;
@@ -47,11 +44,6 @@ mod metadata;
 mod modules;
 mod named;
 mod named_configurations;
-pub mod note;
-#[doc(hidden)]
-pub mod pose;
-#[doc(hidden)]
-pub mod process;
 mod product;
 mod progress;
 mod robot;
@@ -63,34 +55,20 @@ mod shape_stages;
 #[doc(hidden)]
 pub mod shapes;
 mod size;
-mod source;
-mod source_meshes;
 mod stages;
 pub mod train;
-#[doc(hidden)]
-pub mod urdf;
 
-pub use bounded::MAX_SOURCE_BYTES;
 pub(crate) use composed::Composed;
 pub use error::{EditsFault, GenerateError, OutsideMesh};
-#[doc(hidden)]
-pub use meshes::package::package_name;
-pub use meshes::{MeshCount, PackagePathError, Packages};
+pub use meshes::MeshCount;
 pub use modules::MadeModule;
-pub(crate) use pose::{has_quaternions, of as origin_pose};
 pub use progress::Progress;
 pub(crate) use robot::generate_composed;
 pub use robot::{Generated, generate, generate_text};
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, Pieces, Settings};
 pub(crate) use size::MOST_LINKS;
-pub use source::XacroSettings;
-#[doc(hidden)]
-pub use source::includes::included;
-#[doc(hidden)]
-pub use source::read_urdf;
-#[doc(hidden)]
-pub use source_meshes::{
-    MissingMesh, OtherCase, SourceMesh, SourceMeshes, SourceText, open_source, open_source_text,
-    read_source, well_formed,
+pub use urdd_source::{
+    Files, MAX_SOURCE_BYTES, PackagePathError, Packages, Settings as SourceSettings, SourceError,
+    XacroSettings, fault, note,
 };

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::error::GenerateError;
-use super::note::Note;
 use urdd_directory::document::Document;
+use urdd_source::note::Note;
 
 /// The SHA-256 of each file that was written or kept, by its path.
 pub(super) type Digests = HashMap<String, String>;

@@ -9,7 +9,6 @@ use super::error::GenerateError;
 use super::inputs;
 use super::made::{Digests, Made, MadeFile};
 use super::metadata::{self, Entry, MODULE_VERSION};
-use super::note::Note;
 use super::product::{Load, Product};
 use super::settings::Settings;
 use urdd_directory::document::Document;
@@ -17,6 +16,7 @@ use urdd_directory::root::Root;
 use urdd_directory::writer::Writer;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::FileEntry;
+use urdd_source::note::Note;
 
 /// A module of a generated URDD.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::error::GenerateError;
 use super::made::{Made, made};
-use super::note::NoteKind;
 use urdd_format::named_configurations::NamedConfigurationsModule;
+use urdd_source::note::NoteKind;
 
 /// The module.
 pub(super) fn named_configurations(context: &Context) -> Result<Made, GenerateError> {

@@ -11,18 +11,17 @@ use super::error::GenerateError;
 use super::meshes::MeshCount;
 use super::metadata;
 use super::modules::{MadeModule, Modules, check_assumptions};
-use super::note::{Note, NoteKind};
 use super::progress::Progress;
 use super::settings::Settings;
-use super::source::{self, Source};
 use super::{size, stages};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
-use urdd_directory::path::portable;
 use urdd_directory::root::Root;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
 use urdd_format::root_metadata::{self, ConformanceClass};
+use urdd_source::Source;
+use urdd_source::note::{Note, NoteKind};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
@@ -64,7 +63,7 @@ pub fn generate(
 ) -> Result<Generated, GenerateError> {
     let path = source;
     progress.reads(path);
-    let source = source::load(path, &settings.xacro, &settings.packages, &settings.cancellation)?;
+    let source = urdd_source::load(path, &settings.source, &settings.cancellation)?;
     make(Some(path), &source, None, target, settings, progress)
 }
 
@@ -81,7 +80,7 @@ pub fn generate_text(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
-    let source = source::load_text(urdf, shown, folder)?;
+    let source = urdd_source::load_text(urdf, shown, folder, &settings.source)?;
     make(None, &source, None, target, settings, progress)
 }
 
@@ -97,10 +96,11 @@ pub fn generate_composed(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Generated, GenerateError> {
-    let mut source = source::load_text(urdf, &composed.shown, &composed.folder)?;
+    let mut source =
+        urdd_source::load_text(urdf, &composed.shown, &composed.folder, &settings.source)?;
     // No hidden file, and no option of a command.
     let name = source.reading.robot.name.trim_start_matches(['.', '-']);
-    source.file_name = portable(&format!("{}.urdf", if name.is_empty() { "robot" } else { name }));
+    source.file_name = urdd_source::file_name(name);
     make(None, &source, Some(composed), target, settings, progress)
 }
 

@@ -1,10 +1,6 @@
 //! Settings of the generator.
 
-use std::path::PathBuf;
-
-use super::meshes::package::Packages;
 use super::selection::Selection;
-use super::source::xacro::XacroSettings;
 use crate::train::Effort;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
@@ -16,10 +12,8 @@ use urdd_format::meshes::GeometryKind;
 pub struct Settings {
     /// The modules to generate.
     pub selection: Selection,
-    /// The folders of packages.
-    pub packages: Packages,
-    /// Folders, besides those of the robot and its packages, from which mesh files may be read.
-    pub allowed_folders: Vec<PathBuf>,
+    /// Where packages and meshes are, and how xacro files are expanded.
+    pub source: urdd_source::Settings,
     /// The geometry that link meshes are built from. A link without it uses the other kind.
     pub preferred_geometry: GeometryKind,
     /// The file formats of derived meshes.
@@ -31,8 +25,6 @@ pub struct Settings {
     /// The reasons for which pairs are skipped. `None` keeps those of the URDD that is replaced, or uses the usual ones
     /// for a new URDD.
     pub skipped_reasons: Option<Vec<SkippedReason>>,
-    /// How xacro files are expanded.
-    pub xacro: XacroSettings,
     /// Whether a missing mesh, or any assumption that changes the robot, is an error.
     pub strict: bool,
     /// Whether to drop the skip edits and the named configurations of the URDD that is replaced.
@@ -92,14 +84,12 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             selection: Selection::all(),
-            packages: Packages::none(),
-            allowed_folders: Vec::new(),
+            source: urdd_source::Settings::default(),
             preferred_geometry: GeometryKind::Visual,
             mesh_formats: MeshFormats::default(),
             pieces: Pieces::default(),
             num_samples: 1000,
             skipped_reasons: None,
-            xacro: XacroSettings::default(),
             strict: false,
             drop_edits: false,
             force: false,

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::context::Context;
 use super::error::GenerateError;
 use super::made::{Made, made, made_with, streamed};
-use super::note::NoteKind;
 use super::shape_documents;
 use super::shapes::approximations::approximations;
 use super::shapes::max_distances::max_distances;
@@ -18,6 +17,7 @@ use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
 use urdd_format::registry::ModuleKind;
 use urdd_format::skips::skips_module;
 use urdd_geometry::hull::HullError;
+use urdd_source::note::NoteKind;
 
 /// `known` are the boxes and spheres that a donor has: of the hulls, then of the pieces.
 pub(super) fn boxes_and_spheres(

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::Vector3;
 
 use super::error::GenerateError;
-use super::fault::Fault;
-use super::source::Source;
 use urdd_geometry::read::Part;
+use urdd_source::Source;
+use urdd_source::fault::Fault;
 
 /// Maximum number of links. The matrix of lowest common ancestors grows with its square.
 pub const MOST_LINKS: usize = 2_000;
@@ -48,7 +48,7 @@ pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
     } else {
         return Ok(());
     };
-    Err(source.refused(fault))
+    Err(source.refused(fault).into())
 }
 
 /// Counts the triangles of links before they are built: even a tiny URDF can reference a mesh or a sphere many times.

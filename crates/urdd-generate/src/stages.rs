@@ -11,11 +11,11 @@ use super::made::{Made, made, streamed};
 use super::meshes::MeshCount;
 use super::modules::Modules;
 use super::named_configurations::named_configurations;
-use super::note::NoteKind;
 use super::shapes::ConvexMeshes;
 use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::registry::ModuleKind as Kind;
+use urdd_source::note::NoteKind;
 
 /// Runs every stage, in the order of the specification. Returns how the mesh references were resolved.
 pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount, GenerateError> {

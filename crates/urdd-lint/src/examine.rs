@@ -18,7 +18,7 @@ use urdd_findings::selection::Codes;
 use urdd_findings::skip::SkipReason;
 use urdd_format::index::Count;
 use urdd_format::report::{Place, StaleIgnore};
-use urdd_generate::{SourceMeshes, open_source_text, well_formed};
+use urdd_source::{SourceMeshes, well_formed};
 use urdd_validate::examine_urdf;
 
 /// The family of this crate's rules.
@@ -85,7 +85,8 @@ pub fn examined(
 impl<'a> Job<'a> {
     /// The robot with its mesh files, or why there is none. `checks` are those of the validator.
     fn source(self, checks: &[Check]) -> Result<SourceMeshes, SkipReason> {
-        let source = open_source_text(self.text, self.name, self.folder, &self.settings.source);
+        let source =
+            SourceMeshes::of_text(self.text, self.name, self.folder, &self.settings.source);
         source.map_err(|error| refusal(&error, checks))
     }
 

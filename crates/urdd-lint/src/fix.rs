@@ -84,7 +84,8 @@ fn mended(
     settings: &LintSettings,
     target: impl Fn(&Path) -> Option<Result<PathBuf, LeftAlone>>,
 ) -> Option<Mended> {
-    let read = urdd_generate::read_source(path, &settings.source).ok()?;
+    let read =
+        urdd_source::read_source(path, &settings.source, &settings.report.cancellation).ok()?;
     let size = read.text.len() + BYTE_ORDER_MARK.len();
     let before = String::from_utf8(regular::read(path, size as u64).ok()?).ok()?;
     let mark = if before.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK } else { "" };

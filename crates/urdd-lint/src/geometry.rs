@@ -14,9 +14,9 @@ use urdd_document::robot::{Element, Robot};
 use urdd_findings::part::Why;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::Geometry;
-use urdd_generate::{SourceMesh, SourceMeshes};
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::read::{Format, Note, Scene};
+use urdd_source::{SourceMesh, SourceMeshes};
 
 /// Maximum number of corners that are placed for one robot: it may name one large mesh very often.
 const MAX_CORNERS: usize = 10_000_000;

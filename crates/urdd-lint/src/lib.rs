@@ -49,8 +49,8 @@ use urdd_directory::cancellation::Cancelled;
 use urdd_findings::examined::Examined;
 use urdd_findings::run::Run;
 use urdd_format::report::{Kind, StaleIgnore, Verdict};
-use urdd_generate::batch::{BatchError, jobs};
-use urdd_generate::{SourceText, included, read_source};
+use urdd_source::robots::{BatchError, jobs};
+use urdd_source::{SourceText, included, read_source};
 use written::Sources;
 
 /// Why a run has no result.
@@ -159,7 +159,7 @@ fn lint_file(path: &Path, given: &[PathBuf], settings: &LintSettings) -> Linted 
     let (seen, name) = (seen_from(path, given), stems(path).1);
     let (mut stale, mut text) = (Vec::new(), None);
     let mut examined = Examined::caught(Kind::Urdf, &seen, || {
-        let read = match read_source(path, &settings.source) {
+        let read = match read_source(path, &settings.source, &settings.report.cancellation) {
             Ok(read) => read,
             Err(error) => {
                 return Ok(Examined::without_checks(
@@ -197,7 +197,7 @@ fn of_source(
     let (mut examined, unused) = examined(&read.text, &name, &read.folder, settings);
     let mut checks = examined.checks.iter();
     if read.is_expanded && checks.any(|check| !check.findings.is_empty()) {
-        let mut files = included(path, &settings.source);
+        let mut files = included(path, &settings.source, &settings.report.cancellation);
         files.extend(path.canonicalize());
         Sources::read(&files, &read.folder).place(&mut examined.checks);
     }

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
 use urdd_findings::skip::SkipReason;
-use urdd_generate::GenerateError;
-use urdd_generate::fault::Fault;
+use urdd_source::SourceError;
+use urdd_source::fault::Fault;
 
 /// The file has xacro macros, which were not expanded.
 pub const NOT_EXPANDED: SkipReason = SkipReason::Obstacle(Cow::Borrowed(
@@ -21,9 +21,9 @@ pub fn refused(why: &str) -> SkipReason {
 }
 
 /// The rule that says why the reader refused a URDF, among those that the validator ran; the reader's own words if none does.
-pub fn refusal(error: &GenerateError, checks: &[Check]) -> SkipReason {
+pub fn refusal(error: &SourceError, checks: &[Check]) -> SkipReason {
     let fault = match error {
-        GenerateError::Refused { faults, .. } => faults.first().map(|placed| &placed.fault),
+        SourceError::Refused { faults, .. } => faults.first().map(|placed| &placed.fault),
         _ => None,
     };
     let failed = |code: &Code| {

@@ -25,7 +25,7 @@ use urdd_format::index::Count;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::report::{Fix, TextEdit};
 use urdd_format::urdf::JointType;
-use urdd_generate::{SourceMesh, SourceMeshes};
+use urdd_source::{SourceMesh, SourceMeshes};
 use urdd_xml::element::{children, name};
 
 /// A URDF, its XML, the robot that it describes and its mesh files.

@@ -6,7 +6,7 @@ use super::elements::text;
 use super::named_file::NamedFile;
 use super::subject::Subject;
 use urdd_findings::finding::Findings;
-use urdd_generate::MissingMesh;
+use urdd_source::MissingMesh;
 
 /// A texture of a material.
 pub struct Texture<'a> {

@@ -8,7 +8,7 @@ use lsp_types::DiagnosticSeverity;
 
 use crate::diagnostics::{Found, diagnostic};
 use crate::document::Snapshot;
-use urdd_generate::package_name;
+use urdd_source::{Files, package_name};
 
 /// An element that includes a file.
 struct Include {
@@ -82,6 +82,6 @@ fn named(name: &str, folder: &Path, packages: &[(String, &Path)]) -> Option<Path
 
 /// The packages that contain a folder: others may be anywhere.
 fn own_packages(folder: &Path) -> Vec<(String, &Path)> {
-    let named = |above| Some((package_name(above)?, above));
+    let named = |above| Some((package_name(above, &Files::Disk)?, above));
     folder.ancestors().filter_map(named).collect()
 }

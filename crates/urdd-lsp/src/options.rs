@@ -7,8 +7,8 @@ use std::time::Duration;
 use serde_json::Value;
 
 use urdd_directory::cancellation::Cancellation;
-use urdd_generate::Packages;
 use urdd_lint::LintSettings;
+use urdd_source::Packages;
 
 /// How long after a change findings are computed, unless the user sets another time.
 const DEBOUNCE: Duration = Duration::from_millis(150);
@@ -65,7 +65,6 @@ impl Options {
                 _ => value,
             }
         });
-        settings.source.cancellation = cancellation.clone();
         settings.report.cancellation = cancellation.clone();
         settings
     }

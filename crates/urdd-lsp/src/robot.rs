@@ -8,7 +8,7 @@ use urdd_document::pose::unit;
 use urdd_document::robot::{Joint, Origin, Robot, of_urdf};
 use urdd_document::tree::Tree;
 use urdd_format::urdf::JointType;
-use urdd_generate::{Settings, SourceMeshes, open_source_text};
+use urdd_source::{Settings, SourceMeshes};
 
 /// How many mimics in a row are followed: more go in a circle.
 const MOST_MIMICS: usize = 100;
@@ -28,7 +28,7 @@ pub struct RobotModel {
 impl RobotModel {
     /// The robot of a URDF; `None` if it describes none.
     pub fn new(text: &str, name: &str, folder: &Path, settings: &Settings) -> Option<Self> {
-        let source = open_source_text(text, name, folder, settings).ok()?;
+        let source = SourceMeshes::of_text(text, name, folder, settings).ok()?;
         let robot = of_urdf(&source.robot);
         let tree = Tree::new(&robot);
         let poses = tree.as_ref().map(|tree| poses(&robot, tree));

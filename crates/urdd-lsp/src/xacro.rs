@@ -15,8 +15,8 @@ use crate::project::Project;
 use urdd_findings::check::Check;
 use urdd_findings::finding::Finding;
 use urdd_format::report::{Place, WrittenAt};
-use urdd_generate::read_source;
 use urdd_lint::lint_source;
+use urdd_source::read_source;
 
 /// What is wrong with the text as it is.
 pub fn of_text(snapshot: &Snapshot) -> Vec<Found> {
@@ -36,14 +36,15 @@ pub fn of_files(snapshot: &Snapshot, project: &Project) -> Vec<Found> {
     let Some(path) = path.filter(|_| !is_part(snapshot)) else {
         return found;
     };
-    let read = match read_source(path, &project.settings.source) {
-        Ok(read) => read,
-        Err(error) => {
-            let message = error.to_string();
-            found.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &message));
-            return found;
-        }
-    };
+    let read =
+        match read_source(path, &project.settings.source, &project.settings.report.cancellation) {
+            Ok(read) => read,
+            Err(error) => {
+                let message = error.to_string();
+                found.push(at_the_top(snapshot, DiagnosticSeverity::ERROR, &message));
+                return found;
+            }
+        };
     // Macros alone make no robot.
     if !read.text.contains("<link") {
         return found;

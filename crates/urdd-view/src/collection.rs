@@ -54,7 +54,7 @@ impl Source {
         let mut settings = all.clone();
         for package in &self.packages {
             // A folder that is gone: its meshes are not found, and the page says so.
-            let _ = settings.packages.add(package);
+            let _ = settings.source.packages.add(package);
         }
         settings
     }

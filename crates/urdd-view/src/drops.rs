@@ -20,7 +20,7 @@ use crate::reply::Reply;
 use crate::save::Failure;
 use urdd_directory::limits::{MAX_FOLDER_DEPTH, MAX_NAME_BYTES, MAX_PART_BYTES};
 use urdd_directory::path;
-use urdd_generate::batch;
+use urdd_source::robots;
 
 /// Maximum size of one drop, bytes.
 pub const MAX_BODY: u64 = 256 << 20;
@@ -188,7 +188,7 @@ fn sources(
     with_xacro: bool,
     wanted: &dyn Fn() -> Result<(), Failure>,
 ) -> Result<Vec<(String, Source)>, Failure> {
-    let mut jobs = batch::jobs(&[folder.to_owned()])
+    let mut jobs = robots::jobs(&[folder.to_owned()])
         .map_err(|_| (400, "there is no .urdf or .urdf.xacro file".to_owned()))?;
     if !with_xacro {
         jobs.retain(|job| job.source.extension().is_none_or(|it| it != "xacro"));

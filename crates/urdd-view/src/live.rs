@@ -17,8 +17,10 @@ use crate::revision;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::root::Root;
 use urdd_format::registry::ModuleKind;
-use urdd_generate::batch::{Job, Observer, caught};
-use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings, included};
+use urdd_generate::batch::{Observer, caught};
+use urdd_generate::{GenerateError, Generated, Progress, Selection, Settings};
+use urdd_source::included;
+use urdd_source::robots::Job;
 
 /// How often the files are compared.
 const PAUSE: Duration = Duration::from_millis(200);
@@ -164,7 +166,7 @@ impl Live<'_> {
         });
         let settings = robot.source.settings(self.settings);
         let mut files = files.into_inner().unwrap_or_else(PoisonError::into_inner);
-        for file in included(&robot.job.source, &settings) {
+        for file in included(&robot.job.source, &settings.source, &settings.cancellation) {
             let word = revision::of_file(&file);
             files.entry(file).or_insert(word);
         }

@@ -101,7 +101,7 @@ fn report_on_source(collection: &Collection, source: &Source) -> Result<String, 
     });
     let settings = LintSettings {
         report: Settings { cancellation: all.cancellation.clone(), ..project.report },
-        source: source.settings(all),
+        source: source.settings(all).source,
         baseline,
         ..LintSettings::default()
     };

@@ -17,7 +17,7 @@ use crate::cli::signals::Signals;
 use urdd_conformance::skips::{self, Skip};
 use urdd_directory::regular;
 use urdd_format::escape;
-use urdd_generate::process;
+use urdd_source::process;
 use urdd_validate::report;
 
 /// Maximum size of a skip list, in bytes.

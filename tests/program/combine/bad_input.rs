@@ -283,7 +283,7 @@ fn no_path_is_recorded_of_parts_from_elsewhere() {
     std::fs::copy(ours("gripper"), folder.path().join("gripper.urdf")).expect("a file");
     let text = recipe(&[(ours("gripper").to_str().expect("a path"), "../gripper.urdf")]);
     let mut settings = core();
-    settings.allowed_folders.push(folder.path().to_owned());
+    settings.source.allowed_folders.push(folder.path().to_owned());
     let (made, target) = put_together(&text, &recipes, &settings).expect("a robot");
     let names: Vec<&str> = (made.composition.parts.iter()).map(|part| part.name.as_str()).collect();
     assert_eq!(names, ["six_axis_arm", "gripper"]);

@@ -57,7 +57,7 @@ fn a_recipe_takes_parts_from_its_own_folder() {
         let look = |path: &Path| -> Result<Vec<String>, _> { panic!("{} is read", path.display()) };
         assert!(check_parts(&recipe, &core(), look).is_err());
         let mut settings = core();
-        settings.allowed_folders.push(outside.clone());
+        settings.source.allowed_folders.push(outside.clone());
         put_together(&one(source), &repository, &settings).expect("it is allowed");
         fs::remove_dir_all(repository.join("cell")).expect("a folder");
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use urdd_generate::combine::{CombineError, Combined, Recipe, combine};
-use urdd_generate::{Selection, Settings};
+use urdd_generate::{Selection, Settings, SourceSettings};
 
 /// The path of one of our robots.
 pub fn ours(name: &str) -> PathBuf {
@@ -23,7 +23,10 @@ pub fn core() -> Settings {
 /// The usual settings, with which a recipe may use our robots as parts.
 pub fn with_ours() -> Settings {
     Settings {
-        allowed_folders: vec![ours("gripper").parent().expect("a folder").to_owned()],
+        source: SourceSettings {
+            allowed_folders: vec![ours("gripper").parent().expect("a folder").to_owned()],
+            ..SourceSettings::default()
+        },
         ..Settings::default()
     }
 }

@@ -6,8 +6,9 @@ use std::sync::Mutex;
 
 use serde_json::Value;
 use urdd_format::registry::ModuleKind;
-use urdd_generate::batch::{Job, Observer, Shard, jobs};
+use urdd_generate::batch::{Observer, Shard};
 use urdd_generate::{GenerateError, Generated, Progress, Settings};
+use urdd_source::robots::{Job, jobs};
 
 use crate::generate::{findings_of, urdd};
 

@@ -8,7 +8,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
 use urdd_generate::note::NoteKind;
-use urdd_generate::{GenerateError, Generated, Selection, Settings, generate};
+use urdd_generate::{GenerateError, Generated, Selection, Settings, SourceSettings, generate};
 
 use crate::generate::{ascii_stl, bytes_below, findings_of, read_json, urdd};
 
@@ -71,7 +71,10 @@ fn made(
     let target = machine.join("out");
     let settings = Settings {
         selection: Selection::parse(["original_meshes"]).unwrap(),
-        allowed_folders: allowed.iter().map(|path| machine.join(path)).collect(),
+        source: SourceSettings {
+            allowed_folders: allowed.iter().map(|path| machine.join(path)).collect(),
+            ..SourceSettings::default()
+        },
         ..Settings::default()
     };
     let made = generate(&source, &target, &settings, &());

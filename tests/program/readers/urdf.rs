@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 use urdd_directory::position::LineIndex;
-use urdd_generate::fault::Fault;
-use urdd_generate::{GenerateError, read_urdf};
+use urdd_source::fault::Fault;
+use urdd_source::{SourceError, read_urdf};
 use urdd_validate::urdf_text::{self, Reading, compare};
 
 /// What the generator accepts and carries, the validator reads without a problem, and as the same robot; it needs no
@@ -64,8 +64,8 @@ fn check(reading: &Reading, text: &str) {
 }
 
 /// Whether the error is about the robot rather than about its notation.
-fn is_the_robots(error: &GenerateError) -> bool {
-    let GenerateError::Refused { faults, .. } = error else {
+fn is_the_robots(error: &SourceError) -> bool {
+    let SourceError::Refused { faults, .. } = error else {
         return false;
     };
     faults.iter().any(|placed| {

@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use urdd_directory::cancellation::Cancellation;
-use urdd_generate::batch::{Job, Observer};
+use urdd_generate::batch::Observer;
 use urdd_generate::{GenerateError, Generated, Progress, Settings};
+use urdd_source::robots::Job;
 use urdd_view::{Collection, Live, Source};
 
 use super::asking::Running;

@@ -11,8 +11,8 @@ use super::recipe::{JointDescription, Part, Recipe, Word};
 use super::recipe_fault::{RecipeFault, joint_type_word};
 use super::rewrite::Rewritten;
 use super::trim::Trim;
-use crate::has_quaternions;
 use urdd_format::urdf::Material;
+use urdd_source::origin::has_quaternions;
 use urdd_xml::number::numbers;
 
 /// A loaded part and the selection of what is kept of it.

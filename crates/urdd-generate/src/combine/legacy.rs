@@ -11,11 +11,11 @@ use roxmltree::Document;
 use super::document::document;
 use super::error::PartFault;
 use super::names::mesh_edits;
-use crate::{MAX_SOURCE_BYTES, read_urdf};
 use urdd_directory::root::Root;
 use urdd_format::legacy::plain_meshes::PlainMeshesModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::{Geometry, Link, Mesh};
+use urdd_source::{MAX_SOURCE_BYTES, read_urdf};
 use urdd_xml::element::{Edit, apply, attribute, children};
 use urdd_xml::{Kind, parse};
 

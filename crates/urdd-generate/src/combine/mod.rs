@@ -37,14 +37,15 @@ use self::compose::Taken;
 use self::meshes::Meshes;
 use self::names::LeftAlone;
 use self::rewrite::{Rewrite, Rewritten};
-use crate::note::{self as generated, NoteKind};
 use crate::{
     Composed, GenerateError, Generated, MOST_LINKS, Progress, Settings, generate_composed,
-    has_quaternions, read_urdf,
 };
 use urdd_format::composition::{CompositionModule, PartSource};
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::Geometry;
+use urdd_source::note::{self as generated, NoteKind};
+use urdd_source::origin::has_quaternions;
+use urdd_source::read_urdf;
 
 pub use check_parts::check_parts;
 pub use error::{CombineError, PartFault};
@@ -138,7 +139,7 @@ pub fn combine(
     let urdf = compose::urdf(recipe, &parts, &rewritten)?;
     settings.cancellation.check()?;
     let robot = read_urdf(urdf.as_bytes(), &recipe.name.text);
-    let robot = robot.map_err(|error| CombineError::Generate { id: None, error })?;
+    let robot = robot.map_err(|error| CombineError::Generate { id: None, error: error.into() })?;
     let composition = record::composition(recipe, &parts, &robot.robot)?;
 
     let mut settings = settings.clone();

@@ -12,8 +12,7 @@ use super::document::{bytes, document, parsed};
 use super::error::{CombineError, PartFault};
 use super::legacy;
 use super::sources::{Source, SourceKind};
-use crate::note::Note;
-use crate::{MAX_SOURCE_BYTES, Selection, Settings, generate, generate_text, read_urdf};
+use crate::{Selection, Settings, generate, generate_text};
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::regular;
 use urdd_directory::root::{ReadError, Root};
@@ -25,6 +24,8 @@ use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{self, RootMetadata};
 use urdd_format::urdf::UrdfModule;
+use urdd_source::note::Note;
+use urdd_source::{MAX_SOURCE_BYTES, read_urdf};
 
 /// A loaded part.
 #[derive(Debug)]

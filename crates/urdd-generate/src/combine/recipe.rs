@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use super::error::{CombineError, PartFault};
 use super::recipe_fault::RecipeFault;
-use crate::MAX_SOURCE_BYTES;
 use urdd_directory::path::portable;
 use urdd_directory::position::Position;
 use urdd_format::nearest::nearest;
 use urdd_format::urdf::{JointType, Limit};
+use urdd_source::MAX_SOURCE_BYTES;
 
 /// Maximum size of a recipe in bytes.
 pub const MAX_RECIPE_BYTES: u64 = 1 << 20;

@@ -7,7 +7,7 @@ use super::error::CombineError;
 use super::recipe::{Recipe, Word};
 use super::recipe_fault::RecipeFault;
 use crate::MOST_LINKS;
-use crate::cycles::cycles;
+use urdd_source::cycles;
 
 /// Maximum length of a robot's name in bytes: files are named after it.
 const MAX_NAME_BYTES: usize = 200;

@@ -10,7 +10,7 @@ use super::frozen;
 use super::names::{self, LeftAlone, NamePlace, Named, escaped, mesh_edits};
 use super::part::Loaded;
 use super::trim::Trim;
-use crate::has_quaternions;
+use urdd_source::origin::has_quaternions;
 use urdd_xml::element::{Edit, apply, attribute, children, name_at};
 use urdd_xml::{Kind, parse};
 

@@ -65,7 +65,7 @@ impl Recipe {
         let nothing = |_| PartFault::Missing("nothing is there".to_owned());
         let path = source.canonicalize().map_err(nothing)?;
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.clone());
-        let allowed = settings.allowed_folders.iter();
+        let allowed = settings.source.allowed_folders.iter();
         let mut allowed = allowed.filter_map(|folder| folder.canonicalize().ok());
         if !path.starts_with(&folder) && !allowed.any(|folder| path.starts_with(folder)) {
             let shown = |path: &Path| path.display().to_string();
@@ -77,7 +77,7 @@ impl Recipe {
         }
         let kind = source_kind(&path)?;
         let is_xacro = path.extension().is_some_and(|ending| ending == "xacro");
-        match kind == SourceKind::Urdf && is_xacro && !settings.xacro.expand_urdf {
+        match kind == SourceKind::Urdf && is_xacro && !settings.source.xacro.expand_urdf {
             true => Err(PartFault::Xacro),
             false => Ok(Source { path, kind }),
         }

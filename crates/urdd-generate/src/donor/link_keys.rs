@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use serde_json::{Value, json};
 
-use crate::pose::has_quaternions;
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::urdf::{Geometry, Material, UrdfModule};
+use urdd_source::origin::has_quaternions;
 
 /// For each link, a key that is equal for equal plain meshes: the contents of its elements, with the content of mesh
 /// files instead of their names. `digest` returns the SHA-256 of a file of the URDD. `None` if a file is unknown.

@@ -8,8 +8,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
-use super::roots::Place;
 use urdd_directory::path::portable;
+use urdd_source::roots::Place;
 
 /// File names relative to `meshes/`, with forward slashes.
 pub(crate) struct Layout {

@@ -6,21 +6,20 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::inspect::{Inspected, inspect};
 use super::layout::Layout;
-use super::resolve::{FoundMesh, NotFound, resolve};
-use super::roots::{Place, Roots};
 use crate::error::{GenerateError, OutsideMesh};
-use crate::note::{Note, NoteKind};
 use crate::progress::Progress;
 use crate::settings::Settings;
-use crate::source::Source;
 use urdd_format::index::{ElementIdx, LinkIdx};
-use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
 use urdd_format::registry::ModuleKind;
-use urdd_format::urdf::{Geometry, UrdfModule};
 use urdd_geometry::read::Scene;
+use urdd_source::Source;
+use urdd_source::inspect::{Inspected, inspect};
+use urdd_source::named;
+use urdd_source::note::{Note, NoteKind};
+use urdd_source::resolve::{FoundMesh, NotFound, resolve};
+use urdd_source::roots::{Place, Roots};
 
 /// The module and its files.
 #[derive(Debug)]
@@ -46,14 +45,6 @@ pub struct MeshCount {
     pub not_usable: usize,
 }
 
-/// A mesh reference in the URDF.
-pub(crate) struct Named<'a> {
-    pub link: usize,
-    pub geometry: GeometryKind,
-    pub element: usize,
-    pub filename: &'a str,
-}
-
 /// Builds the module.
 ///
 /// # Errors
@@ -64,8 +55,8 @@ pub(crate) fn original_meshes(
     progress: &dyn Progress,
 ) -> Result<OriginalMeshes, GenerateError> {
     let named = named(&source.reading.robot);
-    let packages = &settings.packages;
-    let roots = Roots::new(&source.folder, packages, &settings.allowed_folders);
+    let packages = &settings.source.packages;
+    let roots = Roots::new(&source.folder, &settings.source);
     let mut found_files: BTreeMap<&str, Result<FoundMesh, NotFound>> = BTreeMap::new();
     // The distinct names in the order of the URDF, each with its first position.
     let mut names: Vec<(&str, (u32, u32))> = Vec::new();
@@ -270,21 +261,4 @@ impl<'a> Notes<'a> {
         let problem = format!("{what} is outside of the URDF's folder and package, at {path}");
         self.note(NoteKind::Outside, place, problem, &assumed);
     }
-}
-
-/// The mesh references of a robot: links in order, visual before collision, elements in order.
-pub(crate) fn named(robot: &UrdfModule) -> Vec<Named<'_>> {
-    let mut named = Vec::new();
-    for (link, of) in robot.links.iter().enumerate() {
-        let visual = of.visual.iter().map(|visual| visual.geometry.as_ref());
-        let collision = of.collision.iter().map(|collision| collision.geometry.as_ref());
-        let visual = visual.enumerate().map(|found| (GeometryKind::Visual, found));
-        let collision = collision.enumerate().map(|found| (GeometryKind::Collision, found));
-        for (geometry, (element, found)) in visual.chain(collision) {
-            if let Some(Geometry::Mesh(mesh)) = found {
-                named.push(Named { link, geometry, element, filename: &mesh.filename });
-            }
-        }
-    }
-    named
 }

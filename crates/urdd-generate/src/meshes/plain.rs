@@ -5,8 +5,6 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use crate::fault::Fault;
-use crate::pose;
 use crate::size::{TriangleBudget, check_resolved};
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
@@ -15,6 +13,8 @@ use urdd_geometry::Mesh;
 use urdd_geometry::mesh::placement;
 use urdd_geometry::primitives;
 use urdd_geometry::read::{Part, Scene};
+use urdd_source::fault::Fault;
+use urdd_source::origin;
 
 /// The geometry of a link: its triangles by colour, in the link's frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +57,7 @@ pub(crate) fn link_geometries(
         GeometryKind::Visual => GeometryKind::Collision,
         GeometryKind::Collision => GeometryKind::Visual,
     };
-    let quaternions = pose::has_quaternions(robot.version.as_deref());
+    let quaternions = origin::has_quaternions(robot.version.as_deref());
     let budget = TriangleBudget::default();
     let links: Vec<_> = robot.links.iter().enumerate().collect();
     let geometries: Vec<Result<Option<LinkGeometry>, Fault>> = links
@@ -165,7 +165,7 @@ fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<P
         (Some(Geometry::Sphere(of)), _) => (vec![primitives::sphere(of.radius).into()], [1.0; 3]),
     };
     let color = color(element.material, materials);
-    let pose = pose::of(element.origin, quaternions);
+    let pose = origin::of(element.origin, quaternions);
     let rotation = pose.rotation.to_rotation_matrix();
     let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
     let place = placement(scale, rows, pose.translation.vector.into());

@@ -5,7 +5,7 @@ use urdd_format::connections::ConnectionsModule;
 use urdd_format::index::LinkIdx;
 use urdd_generate::chain::chain_module;
 use urdd_generate::connections::*;
-use urdd_generate::urdf;
+use urdd_source::urdf;
 
 /// Links in a line; the file lists them from the far end to the root.
 fn line(links: usize) -> ConnectionsModule {

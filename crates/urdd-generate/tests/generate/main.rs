@@ -6,8 +6,6 @@
 mod connections;
 mod distinct;
 mod meshes_names;
-mod meshes_sniff;
-mod pose;
 mod shape_documents;
 mod shapes_rounding;
 mod train_calibration;

@@ -5,7 +5,7 @@ use crate::subject::Subject;
 use crate::textures::textures;
 use urdd_findings::description::Severity;
 use urdd_findings::finding::Findings;
-use urdd_generate::OtherCase;
+use urdd_source::resolve::OtherCase;
 
 declare_lint! {
     /// A mesh or texture is not there, but a file whose path differs in the case of letters is.

@@ -2,7 +2,7 @@
 
 use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-use crate::error::GenerateError;
+use crate::error::SourceError;
 use crate::note::{Note, NoteKind};
 
 /// The text of a file, and whether its bytes can be stored unchanged. SPEC 6.1.8 requires UTF-8; a byte order mark is
@@ -11,7 +11,7 @@ pub(super) fn decode(
     bytes: &[u8],
     shown: &str,
     notes: &mut Vec<Note>,
-) -> Result<(String, bool), GenerateError> {
+) -> Result<(String, bool), SourceError> {
     let (bytes, mark) = match Encoding::for_bom(bytes) {
         Some((encoding, length)) => (&bytes[length..], Some(encoding)),
         None => (bytes, None),
@@ -54,7 +54,7 @@ pub(super) fn decode(
         }
         None => {
             if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-                return Err(GenerateError::Read {
+                return Err(SourceError::Read {
                     file: shown.to_owned(),
                     reason: format!("it is not a text file: its byte {at} is 0; give a URDF"),
                 });
@@ -66,7 +66,7 @@ pub(super) fn decode(
     };
     let (text, had_errors) = encoding.decode_without_bom_handling(bytes);
     if had_errors {
-        return Err(GenerateError::Read {
+        return Err(SourceError::Read {
             file: shown.to_owned(),
             reason: format!("it is not valid {}; save it as UTF-8", encoding.name()),
         });

@@ -10,7 +10,7 @@ use super::reading::Reading;
 use super::xml::{self, Element};
 use crate::fault::Fault;
 use crate::note::{NoteKind, Remark};
-use crate::pose::{from_xyzw, has_quaternions};
+use crate::origin::{from_xyzw, has_quaternions};
 use urdd_format::urdf as v1;
 use urdd_xml::element::Edit;
 
@@ -297,7 +297,7 @@ fn absent(element: &str, attribute: &str) -> String {
 }
 
 /// Shortens text for a message.
-pub(crate) fn shortened(text: &str) -> String {
+pub fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     let mut short: String = text.chars().take(LONGEST).collect();
     if short.len() < text.len() {

@@ -14,8 +14,8 @@ use std::time::Duration;
 use tempfile::TempDir;
 
 use crate::bounded::{MAX_SOURCE_BYTES, read_up_to};
-use crate::error::GenerateError;
-use crate::meshes::package::Packages;
+use crate::error::SourceError;
+use crate::packages::Packages;
 use crate::process::{Ended, Running};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
 
@@ -59,8 +59,8 @@ pub(super) fn expand(
     settings: &XacroSettings,
     packages: &Packages,
     cancellation: &Cancellation,
-) -> Result<String, GenerateError> {
-    let failed = |reason: String| GenerateError::Xacro { file: shown.to_owned(), reason };
+) -> Result<String, SourceError> {
+    let failed = |reason: String| SourceError::Xacro { file: shown.to_owned(), reason };
     // An absolute path cannot be mistaken for an option.
     let path = path.canonicalize().map_err(|error| failed(error.to_string()))?;
     let given = PackageIndex::new(packages).map_err(|error| failed(error.to_string()))?;
@@ -68,7 +68,7 @@ pub(super) fn expand(
     command.arg(&path).args(&settings.arguments);
     given.tell(&mut command);
     let mut running = Running::start(command).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => GenerateError::NoXacro { file: shown.to_owned() },
+        ErrorKind::NotFound => SourceError::NoXacro { file: shown.to_owned() },
         _ => failed(error.to_string()),
     })?;
     let (Some(output), Some(words)) = running.streams() else {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
+use crate::origin::*;
 use urdd_format::urdf::Origin;
-use urdd_generate::pose::*;
 
 fn rotation(origin: &Origin, version: &str) -> [f64; 4] {
     let pose = of(Some(origin), has_quaternions(Some(version)));

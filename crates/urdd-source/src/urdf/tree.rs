@@ -14,7 +14,7 @@ pub struct Tree {
 }
 
 /// The axis of SPEC 5.7, not normalised.
-pub(crate) fn written_axis(joint: &Joint) -> [f64; 3] {
+pub fn written_axis(joint: &Joint) -> [f64; 3] {
     let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
     axis.unwrap_or([1.0, 0.0, 0.0])
 }

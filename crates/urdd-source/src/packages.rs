@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use urdd_directory::regular;
+use super::files::Files;
 
 /// Maximum depth of the search for packages below `ROS_PACKAGE_PATH`.
 const CRAWL_DEPTH: usize = 5;
@@ -86,26 +85,32 @@ impl Packages {
     }
 
     /// The packages named by the user, and their folders.
-    pub(crate) fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
+    pub fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
         let given = self.given.iter();
         given.map(|(name, path)| (name.as_str(), path.as_path()))
     }
 
     /// Candidate folders for a package, the likeliest first. A folder given by the user is the only candidate.
-    pub(super) fn folders(&self, name: &str, urdf_folder: &Path, is_model: bool) -> Vec<PathBuf> {
+    pub(super) fn folders(
+        &self,
+        name: &str,
+        urdf_folder: &Path,
+        is_model: bool,
+        files: &Files,
+    ) -> Vec<PathBuf> {
         if let Some(path) = self.given.get(name) {
             return vec![path.clone()];
         }
         let mut folders = Vec::new();
         // The URDF's own package, found by its package.xml or its folder name, or a package next to it.
         for above in urdf_folder.ancestors() {
-            if package_name(above).as_deref() == Some(name) || is_named(above, name) {
+            if package_name(above, files).as_deref() == Some(name) || is_named(above, name) {
                 folders.push(above.to_owned());
             }
             folders.push(above.join(name));
         }
         for folder in &self.ros_package_path {
-            if package_name(folder).as_deref() == Some(name) || is_named(folder, name) {
+            if package_name(folder, files).as_deref() == Some(name) || is_named(folder, name) {
                 folders.push(folder.clone());
             }
             folders.push(folder.join(name));
@@ -120,11 +125,11 @@ impl Packages {
     }
 
     /// Searches deep below `ROS_PACKAGE_PATH`, as ROS does. Slow, so only used when everything else has failed.
-    pub(super) fn crawl(&self, name: &str) -> Option<PathBuf> {
+    pub(super) fn crawl(&self, name: &str, files: &Files) -> Option<PathBuf> {
         let mut looked = 0;
         self.ros_package_path
             .iter()
-            .find_map(|folder| crawl(folder, name, CRAWL_DEPTH, &mut looked))
+            .find_map(|folder| crawl(folder, name, CRAWL_DEPTH, &mut looked, files))
     }
 }
 
@@ -133,8 +138,8 @@ fn is_named(folder: &Path, name: &str) -> bool {
 }
 
 /// The name in a folder's `package.xml`, if that is there and is well-formed.
-pub fn package_name(folder: &Path) -> Option<String> {
-    let bytes = regular::read(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
+pub fn package_name(folder: &Path, files: &Files) -> Option<String> {
+    let bytes = files.read(&folder.join("package.xml"), MAX_PACKAGE_XML).ok()?;
     let text = String::from_utf8(bytes).ok()?;
     let document = urdd_xml::parse(&text, urdd_xml::Kind::Other).ok()?;
     let mut elements = document.root_element().children();
@@ -142,24 +147,26 @@ pub fn package_name(folder: &Path) -> Option<String> {
     Some(name.text()?.trim().to_owned())
 }
 
-fn crawl(folder: &Path, name: &str, depth: usize, looked: &mut usize) -> Option<PathBuf> {
+fn crawl(
+    folder: &Path,
+    name: &str,
+    depth: usize,
+    looked: &mut usize,
+    files: &Files,
+) -> Option<PathBuf> {
     *looked += 1;
-    if *looked > MOST_FOLDERS || folder.join("CATKIN_IGNORE").exists() {
+    if *looked > MOST_FOLDERS || files.exists(&folder.join("CATKIN_IGNORE")) {
         return None;
     }
-    match package_name(folder) {
+    match package_name(folder, files) {
         Some(found) if found == name => return Some(folder.to_owned()),
         // Packages are not nested.
         Some(_) => return None,
         None if depth == 0 => return None,
         None => {}
     }
-    let mut below: Vec<PathBuf> = fs::read_dir(folder)
-        .ok()?
-        .flatten()
-        .map(|entry| entry.path())
-        .filter(|path| path.is_dir())
-        .collect();
+    let below = files.names(folder).into_iter().map(|name| folder.join(name));
+    let mut below: Vec<PathBuf> = below.filter(|path| files.is_dir(path)).collect();
     below.sort();
-    below.iter().find_map(|folder| crawl(folder, name, depth - 1, looked))
+    below.iter().find_map(|folder| crawl(folder, name, depth - 1, looked, files))
 }

@@ -11,7 +11,7 @@ const MOST_PREFIXES: usize = 32;
 /// Repairs nearly well-formed XML: white space before the declaration, an invalid XML version in it (Bullet writes
 /// `0.0`), trailing NUL bytes (from C strings), and undeclared prefixes (in files for old versions of Gazebo). Returns
 /// the text, the remarks, and the number of lines removed from its start.
-pub(crate) fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
+pub fn mend_xml(text: String) -> (String, Vec<Remark>, u32) {
     let mut remarks = Vec::new();
     let mut first_line = 0;
     let mut text = text;

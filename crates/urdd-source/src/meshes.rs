@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::error::GenerateError;
-use super::meshes::inspect::inspect;
-use super::meshes::original::named;
-use super::meshes::package::Packages;
-pub use super::meshes::resolve::OtherCase;
-use super::meshes::resolve::{FoundMesh, NotFound, resolve};
-use super::meshes::roots::{Place, Roots};
+use super::error::SourceError;
+use super::inspect::inspect;
+use super::load::{self, Source};
+use super::named::named;
+use super::packages::Packages;
+use super::resolve::{FoundMesh, NotFound, OtherCase, resolve};
+use super::roots::{Place, Roots};
 use super::settings::Settings;
-use super::source::repair::mend_xml;
-use super::source::{self, Source};
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::urdf::UrdfModule;
 use urdd_geometry::read::Scene;
@@ -78,18 +77,35 @@ impl From<NotFound> for MissingMesh {
     }
 }
 
-/// The text of a URDF file as an author sees it.
-#[derive(Debug, Clone)]
-pub struct SourceText {
-    /// The text: of the file, or what xacro made of it. Nothing is repaired.
-    pub text: String,
-    /// Whether it was expanded.
-    pub is_expanded: bool,
-    /// The folder that relative names refer to, with symbolic links resolved.
-    pub folder: PathBuf,
-}
-
 impl SourceMeshes {
+    /// Opens a description and finds its mesh files.
+    ///
+    /// # Errors
+    /// If it cannot be read or is not a valid robot. A missing mesh is not an error.
+    pub fn open(
+        path: &Path,
+        settings: &Settings,
+        cancellation: &Cancellation,
+    ) -> Result<SourceMeshes, SourceError> {
+        Ok(with_meshes(load::load(path, settings, cancellation)?, settings))
+    }
+
+    /// As [`SourceMeshes::open`], from a text. Relative names refer to `folder`; `shown` names it in errors.
+    ///
+    /// # Errors
+    /// If it is not a valid robot.
+    pub fn of_text(
+        text: &str,
+        shown: &str,
+        folder: &Path,
+        settings: &Settings,
+    ) -> Result<SourceMeshes, SourceError> {
+        // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
+        let folder = settings.files.canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        let source = load::load_text_in(text.as_bytes().to_owned(), shown, folder)?;
+        Ok(with_meshes(source, settings))
+    }
+
     /// Reads a file of [`SourceMeshes::meshes`].
     ///
     /// # Errors
@@ -109,62 +125,9 @@ impl SourceMeshes {
     }
 }
 
-/// Opens a URDF and finds its mesh files, in the folders where [`generate`](super::generate) finds them.
-///
-/// # Errors
-/// If the URDF cannot be read or is not a valid robot. A missing mesh is not an error.
-pub fn open_source(path: &Path, settings: &Settings) -> Result<SourceMeshes, GenerateError> {
-    let packages = &settings.packages;
-    let source = source::load(path, &settings.xacro, packages, &settings.cancellation)?;
-    Ok(with_meshes(source, settings))
-}
-
-/// As [`open_source`], from a text. Relative names refer to `folder`; `shown` names it in errors.
-///
-/// # Errors
-/// If it is not a valid robot.
-pub fn open_source_text(
-    text: &str,
-    shown: &str,
-    folder: &Path,
-    settings: &Settings,
-) -> Result<SourceMeshes, GenerateError> {
-    // An editor's file may be in a folder that is not there yet, or not any more: then its meshes are missing.
-    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    let source = source::load_text_in(text.as_bytes().to_owned(), shown, folder)?;
-    Ok(with_meshes(source, settings))
-}
-
-/// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
-/// 6.1.8.
-pub fn well_formed(text: &str) -> (String, u32) {
-    let (text, _, lines) = mend_xml(text.to_owned());
-    (text, lines)
-}
-
-/// Reads the text of a URDF, or expands a xacro file to one.
-///
-/// # Errors
-/// If it cannot be read or expanded.
-pub fn read_source(path: &Path, settings: &Settings) -> Result<SourceText, GenerateError> {
-    let shown = path.display().to_string();
-    let packages = &settings.packages;
-    let found = source::find(path, &shown)?;
-    let read = source::read(
-        path,
-        &shown,
-        &found.bytes,
-        &settings.xacro,
-        packages,
-        &settings.cancellation,
-        &mut Vec::new(),
-    )?;
-    Ok(SourceText { text: read.text, is_expanded: read.is_expanded, folder: found.folder })
-}
-
 fn with_meshes(source: Source, settings: &Settings) -> SourceMeshes {
     let packages = &settings.packages;
-    let roots = Roots::new(&source.folder, packages, &settings.allowed_folders);
+    let roots = Roots::new(&source.folder, settings);
     let mut found: BTreeMap<&str, Result<FoundMesh, MissingMesh>> = BTreeMap::new();
     let mut meshes = Vec::new();
     for mesh in named(&source.reading.robot) {

@@ -9,7 +9,7 @@ mod link;
 mod materials;
 mod numbers;
 mod reader;
-pub(crate) use reader::shortened;
+pub use reader::shortened;
 mod reading;
 mod tree;
 mod xml;
@@ -17,8 +17,8 @@ mod xml;
 use super::fault::{Fault, PlacedFault};
 use urdd_directory::position;
 
-pub(crate) use reading::Reading;
-pub(crate) use tree::{Tree, written_axis};
+pub use reading::Reading;
+pub use tree::{Tree, written_axis};
 
 /// Reads a URDF. A robot without a name is named `file_stem`.
 ///

@@ -2,7 +2,7 @@
 
 /// The cycles of `next`, in the order in which walks from 0, 1, … meet them. Each begins where its walk enters it; those
 /// that only lead into a cycle are not part of it. Visits nothing twice.
-pub(crate) fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
+pub fn cycles(next: &[Option<usize>]) -> Vec<Vec<usize>> {
     // For each, the walk that visited it first. A walk that meets itself has found a cycle.
     let mut walk_of = vec![usize::MAX; next.len()];
     let mut found = Vec::new();

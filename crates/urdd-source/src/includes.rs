@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
+use crate::files::Files;
 use crate::process::{Ended, Running};
 use crate::settings::Settings;
-use crate::source::xacro::PackageIndex;
+use crate::xacro::PackageIndex;
+use urdd_directory::cancellation::Cancellation;
 
 /// Maximum length of the list, bytes, and maximum number of files.
 const MAX_LIST: u64 = 1 << 20;
@@ -16,11 +18,14 @@ const MAX_FILES: usize = 2000;
 const ENDINGS: &[&str] = &["xacro", "yaml", "yml", "urdf", "xml"];
 
 /// The files that xacro reads for a robot: what `xacro --deps` lists. If it fails, as for a broken file, or names cannot
-/// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros.
-pub fn included(file: &Path, settings: &Settings) -> Vec<PathBuf> {
+/// be told apart, the xacro and YAML files of the robot's package. None for a URDF without macros, or in memory.
+pub fn included(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Vec<PathBuf> {
+    if !matches!(settings.files, Files::Disk) {
+        return Vec::new();
+    }
     let is_xacro = file.extension().is_some_and(|ending| ending == "xacro");
     match is_xacro || settings.xacro.expand_urdf && has_macros(file) {
-        true => listed(file, settings).unwrap_or_else(|| beside(file)),
+        true => listed(file, settings, cancellation).unwrap_or_else(|| beside(file)),
         false => Vec::new(),
     }
 }
@@ -29,7 +34,7 @@ fn has_macros(file: &Path) -> bool {
     std::fs::read_to_string(file).is_ok_and(|text| text.contains("<xacro:"))
 }
 
-fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
+fn listed(file: &Path, settings: &Settings, cancellation: &Cancellation) -> Option<Vec<PathBuf>> {
     let mut command = Command::new("xacro");
     command.arg("--deps").arg(file.canonicalize().ok()?);
     command.args(&settings.xacro.arguments);
@@ -47,7 +52,7 @@ fn listed(file: &Path, settings: &Settings) -> Option<Vec<PathBuf>> {
     let output = read(output.map(|stream| Box::new(stream) as _));
     read(errors.map(|stream| Box::new(stream) as _));
     let limit = settings.xacro.time_limit;
-    let ended = running.wait(limit, &settings.cancellation, || false).ok()?;
+    let ended = running.wait(limit, cancellation, || false).ok()?;
     if !matches!(ended, Ended::Itself(status) if status.success()) {
         return None;
     }

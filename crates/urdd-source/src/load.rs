@@ -1,33 +1,30 @@
 //! Reads the source file: yields the robot and the text that the URDD stores.
 
-mod decode;
-pub(crate) mod includes;
-pub(crate) mod repair;
-pub(crate) mod xacro;
-
 use std::path::{Path, PathBuf};
 
 use super::bounded::MAX_SOURCE_BYTES;
-use super::error::GenerateError;
+use super::decode;
+use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
-use super::meshes::package::Packages;
+use super::files::Files;
 use super::note::{Note, Remark};
+use super::repair;
+use super::settings::Settings;
 use super::urdf::{self, Reading};
+use super::xacro;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::path::portable;
 use urdd_directory::position::LineIndex;
-use urdd_directory::regular;
 use urdd_format::urdf::UrdfModule;
 
 use urdd_xml::element::apply;
-pub use xacro::XacroSettings;
 
 /// Maximum number of repair rounds; one is enough unless this program has a bug.
 const MOST_ROUNDS: usize = 4;
 
 /// A source after reading.
 #[derive(Debug)]
-pub(crate) struct Source {
+pub struct Source {
     /// The file, as the user named it.
     pub shown: String,
     /// The folder of the file; relative mesh names refer to it.
@@ -48,8 +45,8 @@ pub(crate) struct Source {
 
 impl Source {
     /// An error that concerns the whole robot.
-    pub fn refused(&self, fault: Fault) -> GenerateError {
-        GenerateError::Refused {
+    pub fn refused(&self, fault: Fault) -> SourceError {
+        SourceError::Refused {
             file: self.shown.clone(),
             faults: vec![PlacedFault { line: 1, column: 1, fault }],
         }
@@ -60,76 +57,89 @@ impl Source {
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot.
-pub(crate) fn load(
+pub fn load(
     path: &Path,
-    xacro: &XacroSettings,
-    packages: &Packages,
+    settings: &Settings,
     cancellation: &Cancellation,
-) -> Result<Source, GenerateError> {
-    let shown = path.display().to_string();
-    let File { bytes, canonical, folder } = find(path, &shown)?;
+) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
-    let read = read(path, &shown, &bytes, xacro, packages, cancellation, &mut notes)?;
-    let names = names(&canonical);
+    let read = read(path, settings, cancellation, &mut notes)?;
+    let names = names(&read.canonical);
     let text = (read.text, read.is_verbatim);
-    source(shown, folder, names, bytes, text, notes)
+    source(read.shown, read.folder, names, read.bytes, text, notes)
 }
 
-/// A file on disk.
-pub(crate) struct File {
-    /// Its bytes.
-    pub bytes: Vec<u8>,
-    /// Its path, and that of its folder, with symbolic links resolved.
-    pub canonical: PathBuf,
+/// The text of a description as an author sees it.
+#[derive(Debug, Clone)]
+pub struct SourceText {
+    /// The text: of the file, or what xacro made of it. Nothing is repaired.
+    pub text: String,
+    /// Whether it was expanded.
+    pub is_expanded: bool,
+    /// The folder that relative names refer to, with symbolic links resolved.
     pub folder: PathBuf,
 }
 
-/// Reads a file.
+/// Reads the text of a URDF, or expands a xacro file to one.
 ///
 /// # Errors
-/// If it cannot be read, or is too large.
-pub(crate) fn find(path: &Path, shown: &str) -> Result<File, GenerateError> {
-    let unreadable = |reason: String| GenerateError::Read { file: shown.to_owned(), reason };
-    let bytes = regular::read(path, MAX_SOURCE_BYTES);
-    let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
-    let canonical = path.canonicalize().map_err(|error| unreadable(error.to_string()))?;
-    let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
-    Ok(File { bytes, canonical, folder })
+/// If it cannot be read or expanded.
+pub fn read_source(
+    path: &Path,
+    settings: &Settings,
+    cancellation: &Cancellation,
+) -> Result<SourceText, SourceError> {
+    let read = read(path, settings, cancellation, &mut Vec::new())?;
+    Ok(SourceText { text: read.text, is_expanded: read.is_expanded, folder: read.folder })
 }
 
-/// A text before it is repaired.
-pub(crate) struct Read {
-    pub text: String,
-    /// Whether it is an exact decoding of the bytes.
-    pub is_verbatim: bool,
+/// A file before it is repaired.
+struct Read {
+    shown: String,
+    /// Its bytes.
+    bytes: Vec<u8>,
+    /// Its path, and that of its folder, with symbolic links resolved.
+    canonical: PathBuf,
+    folder: PathBuf,
+    text: String,
+    /// Whether the text is an exact decoding of the bytes.
+    is_verbatim: bool,
     /// Whether xacro made it.
-    pub is_expanded: bool,
+    is_expanded: bool,
 }
 
 /// Decodes the bytes of a file, and expands them where they are macros.
-///
-/// # Errors
-/// If it is no text, or xacro fails.
-pub(crate) fn read(
+fn read(
     path: &Path,
-    shown: &str,
-    bytes: &[u8],
-    xacro: &XacroSettings,
-    packages: &Packages,
+    settings: &Settings,
     cancellation: &Cancellation,
     notes: &mut Vec<Note>,
-) -> Result<Read, GenerateError> {
-    let (text, is_verbatim) = decode::decode(bytes, shown, notes)?;
+) -> Result<Read, SourceError> {
+    let shown = path.display().to_string();
+    let unreadable = |reason: String| SourceError::Read { file: shown.clone(), reason };
+    let bytes = settings.files.read(path, MAX_SOURCE_BYTES);
+    let bytes = bytes.map_err(|error| unreadable(error.to_string()))?;
+    let canonical = settings.files.canonicalize(path);
+    let canonical = canonical.map_err(|error| unreadable(error.to_string()))?;
+    let folder = canonical.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
+    let (text, is_verbatim) = decode::decode(&bytes, &shown, notes)?;
     // The user's name for the file decides, not the target of a symbolic link.
     let is_xacro_file = path.extension().is_some_and(|extension| extension == "xacro");
-    let is_expanded = is_xacro_file || (xacro.expand_urdf && text.contains("<xacro:"));
+    let is_expanded = is_xacro_file || (settings.xacro.expand_urdf && text.contains("<xacro:"));
     Ok(Read {
-        text: match is_expanded {
-            true => xacro::expand(path, shown, xacro, packages, cancellation)?,
-            false => text,
+        text: match (is_expanded, &settings.files) {
+            (true, Files::Disk) => {
+                xacro::expand(path, &shown, &settings.xacro, &settings.packages, cancellation)?
+            }
+            (true, Files::Memory(_)) => return Err(SourceError::NoXacro { file: shown }),
+            (false, _) => text,
         },
         is_verbatim: is_verbatim && !is_expanded,
         is_expanded,
+        shown,
+        bytes,
+        canonical,
+        folder,
     })
 }
 
@@ -137,15 +147,16 @@ pub(crate) fn read(
 ///
 /// # Errors
 /// If it is not a valid robot.
-pub(crate) fn load_text(
+pub fn load_text(
     bytes: Vec<u8>,
     shown: &str,
     folder: &Path,
-) -> Result<Source, GenerateError> {
-    let folder = folder.canonicalize().map_err(|error| GenerateError::Read {
-        file: shown.to_owned(),
-        reason: error.to_string(),
-    })?;
+    settings: &Settings,
+) -> Result<Source, SourceError> {
+    let folder = settings
+        .files
+        .canonicalize(folder)
+        .map_err(|error| SourceError::Read { file: shown.to_owned(), reason: error.to_string() })?;
     load_text_in(bytes, shown, folder)
 }
 
@@ -153,15 +164,11 @@ pub(crate) fn load_text(
 ///
 /// # Errors
 /// If it is not a valid robot.
-pub(crate) fn load_text_in(
-    bytes: Vec<u8>,
-    shown: &str,
-    folder: PathBuf,
-) -> Result<Source, GenerateError> {
+pub fn load_text_in(bytes: Vec<u8>, shown: &str, folder: PathBuf) -> Result<Source, SourceError> {
     let shown = shown.to_owned();
     if bytes.len() as u64 > MAX_SOURCE_BYTES {
         let limit = MAX_SOURCE_BYTES >> 20;
-        return Err(GenerateError::Read {
+        return Err(SourceError::Read {
             file: shown,
             reason: format!("it is longer than {limit} MiB"),
         });
@@ -181,7 +188,7 @@ fn source(
     bytes: Vec<u8>,
     (text, mut is_verbatim): (String, bool),
     mut notes: Vec<Note>,
-) -> Result<Source, GenerateError> {
+) -> Result<Source, SourceError> {
     let (name, file_name) = names;
     let mended = mend(text, &name, &shown, &mut notes)?;
     is_verbatim &= mended.is_verbatim;
@@ -200,7 +207,7 @@ fn source(
     })
 }
 
-/// A robot as read by [`generate`](super::generate).
+/// A robot, read from memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SourceRobot {
     /// The content of its `urdf_module`.
@@ -217,7 +224,7 @@ pub struct SourceRobot {
 ///
 /// # Errors
 /// If it cannot be read or is not a valid robot.
-pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, GenerateError> {
+pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
     let mut notes = Vec::new();
     let (text, is_verbatim) = decode::decode(bytes, name, &mut notes)?;
     let mended = mend(text, name, name, &mut notes)?;
@@ -246,7 +253,7 @@ fn mend(
     name: &str,
     shown: &str,
     notes: &mut Vec<Note>,
-) -> Result<Mended, GenerateError> {
+) -> Result<Mended, SourceError> {
     let (mut text, remarks, first_line) = repair::mend_xml(text);
     let mut is_verbatim = remarks.is_empty();
     place(&remarks, &text, shown, first_line, notes);
@@ -257,7 +264,7 @@ fn mend(
             for placed in &mut faults {
                 placed.line += first_line;
             }
-            GenerateError::Refused { file: shown.to_owned(), faults }
+            SourceError::Refused { file: shown.to_owned(), faults }
         };
         let reading = urdf::read(&text, name).map_err(refused)?;
         if mesh_places.is_none() {
@@ -282,7 +289,7 @@ fn mend(
         text = apply(&text, reading.edits);
     }
     let reason = "the repaired URDF needs repairs again";
-    Err(GenerateError::internal(shown, reason))
+    Err(SourceError::Internal { file: shown.to_owned(), reason: reason.to_owned() })
 }
 
 fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mut Vec<Note>) {
@@ -300,6 +307,13 @@ fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mu
     }));
 }
 
+/// A text with what keeps it from being XML mended, and the number of lines that this takes from its beginning. See SPEC
+/// 6.1.8.
+pub fn well_formed(text: &str) -> (String, u32) {
+    let (text, _, lines) = repair::mend_xml(text.to_owned());
+    (text, lines)
+}
+
 /// The file name without its extensions, and the file name in the URDD.
 fn names(path: &Path) -> (String, String) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -308,6 +322,10 @@ fn names(path: &Path) -> (String, String) {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
     let stem = if stem.is_empty() { "robot" } else { stem };
-    let file_name = portable(&format!("{stem}.urdf"));
-    (stem.to_owned(), file_name)
+    (stem.to_owned(), file_name(stem))
+}
+
+/// The name of a robot's file in its URDD.
+pub fn file_name(stem: &str) -> String {
+    portable(&format!("{}.urdf", if stem.is_empty() { "robot" } else { stem }))
 }

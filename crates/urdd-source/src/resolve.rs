@@ -1,11 +1,11 @@
 //! Resolves a mesh file name of a URDF to a file.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
 
-use super::package::Packages;
+use super::files::Files;
+use super::packages::Packages;
 use super::roots::{Place, Roots};
 use urdd_format::escape;
 
@@ -18,7 +18,7 @@ const MOST_PARTS: usize = 32;
 
 /// A resolved mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct FoundMesh {
+pub struct FoundMesh {
     /// The file with symbolic links resolved, so that two names for one file are equal.
     pub file: PathBuf,
     /// The allowed folder that contains it.
@@ -29,7 +29,7 @@ pub(crate) struct FoundMesh {
 
 /// Why no mesh file was found.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct NotFound {
+pub struct NotFound {
     /// The places that were tried, each with the reason if it is known.
     pub tried: Vec<String>,
     /// A hint for the user.
@@ -58,7 +58,8 @@ impl NotFound {
         NotFound { hint: Some(hint.to_owned()), ..NotFound::default() }
     }
 
-    pub(crate) fn in_words(&self) -> String {
+    /// The places and the hint, for people.
+    pub fn in_words(&self) -> String {
         let mut words = String::new();
         if !self.tried.is_empty() {
             words = format!("tried {}", self.tried[..self.tried.len().min(MOST_TOLD)].join(", "));
@@ -80,7 +81,7 @@ impl NotFound {
 ///
 /// # Errors
 /// If there is none: the places that were searched.
-pub(crate) fn resolve(
+pub fn resolve(
     filename: &str,
     urdf_folder: &Path,
     packages: &Packages,
@@ -177,8 +178,9 @@ impl Search<'_> {
             self.not_found.hint.get_or_insert(words);
             return None;
         }
-        let folders = packages.folders(package, urdf_folder, is_model);
-        let folders = folders.into_iter().filter(|folder| folder.is_dir());
+        let files = self.roots.files();
+        let folders = packages.folders(package, urdf_folder, is_model, files);
+        let folders = folders.into_iter().filter(|folder| files.is_dir(folder));
         let mut folders: Vec<PathBuf> = folders.collect();
         folders.dedup();
         for folder in &folders {
@@ -187,7 +189,7 @@ impl Search<'_> {
                 return found;
             }
         }
-        if let Some(folder) = packages.crawl(package) {
+        if let Some(folder) = packages.crawl(package, files) {
             let found = self.try_file(&folder, rest, Some((package, &folder)));
             if found.is_some() {
                 return found;
@@ -218,30 +220,26 @@ impl Search<'_> {
         package: Option<(&str, &Path)>,
     ) -> Option<FoundMesh> {
         let path = folder.join(name);
-        match fs::metadata(&path) {
-            Ok(metadata) if metadata.is_file() => {
-                let file = path.canonicalize().ok()?;
-                if let Some(place) = self.roots.place(&file, package) {
-                    let assumed = None;
-                    return Some(FoundMesh { file, place, assumed });
-                }
-                self.not_found.outside.get_or_insert(file);
+        let files = self.roots.files();
+        if files.is_file(&path) {
+            let file = files.canonicalize(&path).ok()?;
+            if let Some(place) = self.roots.place(&file, package) {
+                return Some(FoundMesh { file, place, assumed: None });
             }
-            Ok(_) => {}
-            Err(_) => {
-                if let Some(near) = other_case(folder, name) {
-                    let hint = format!("there is {}, whose case differs", near.file.display());
-                    self.not_found.hint.get_or_insert(hint);
-                    self.not_found.other_case.get_or_insert(Box::new(near));
-                }
-            }
+            self.not_found.outside.get_or_insert(file);
+        } else if !files.exists(&path)
+            && let Some(near) = other_case(folder, name, files)
+        {
+            let hint = format!("there is {}, whose case differs", near.file.display());
+            self.not_found.hint.get_or_insert(hint);
+            self.not_found.other_case.get_or_insert(Box::new(near));
         }
         let mut tried = path.display().to_string();
-        if path.is_dir() {
+        if files.is_dir(&path) {
             tried += ", which is a folder";
-        } else if path.exists() && !path.is_file() {
+        } else if files.exists(&path) && !files.is_file(&path) {
             tried += ", which is not a regular file";
-        } else if path.is_symlink() && !path.exists() {
+        } else if files.is_dangling(&path) {
             tried += ", a link that leads nowhere";
         }
         if !self.not_found.tried.contains(&tried) {
@@ -258,7 +256,7 @@ fn is_package_name(word: &str) -> bool {
 }
 
 /// The file in a folder whose path differs from a name only in case.
-fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
+fn other_case(folder: &Path, name: &str, files: &Files) -> Option<OtherCase> {
     let mut folder = folder.to_owned();
     let mut parts: Vec<Component> = Path::new(name).components().collect();
     if Path::new(name).is_absolute() {
@@ -274,7 +272,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
     for part in parts {
         let mut next = Vec::new();
         for (folder, written) in near {
-            for name in alike(&folder, part)? {
+            for name in alike(&folder, part, files)? {
                 let slash = if written.is_empty() { "" } else { "/" };
                 next.push((folder.join(&name), format!("{written}{slash}{name}")));
             }
@@ -283,7 +281,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
         next.truncate(MOST_ALIKE);
         near = next;
     }
-    near.retain(|(path, _)| path.exists() && !path.is_dir());
+    near.retain(|(path, _)| files.exists(path) && !files.is_dir(path));
     let is_only = near.len() == 1 && !is_cut;
     let (file, written) = near.into_iter().next()?;
     Some(OtherCase { file, written, is_only })
@@ -291,7 +289,7 @@ fn other_case(folder: &Path, name: &str) -> Option<OtherCase> {
 
 /// The names in a folder that differ from a part of a path in case at most, that part itself first. `None` if a path does not
 /// go on with it.
-fn alike(folder: &Path, part: Component) -> Option<Vec<String>> {
+fn alike(folder: &Path, part: Component, files: &Files) -> Option<Vec<String>> {
     let name = match part {
         Component::Normal(name) => name.to_str()?,
         Component::ParentDir => return Some(vec!["..".to_owned()]),
@@ -299,8 +297,7 @@ fn alike(folder: &Path, part: Component) -> Option<Vec<String>> {
         Component::RootDir | Component::Prefix(_) => return None,
     };
     let lower = name.to_lowercase();
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let names = files.names(folder).into_iter().filter_map(|name| name.into_string().ok());
     let mut names: Vec<String> = names.filter(|other| other.to_lowercase() == lower).collect();
     names.sort_by_key(|other| (other != name, other.clone()));
     Some(names)

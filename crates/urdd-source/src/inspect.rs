@@ -8,12 +8,11 @@ use std::sync::Arc;
 use super::roots::{Place, Roots};
 use super::sniff;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
-use urdd_directory::regular;
 use urdd_geometry::read::{Format, NoteCode, Scene, read};
 
 /// A mesh file after inspection. A file is opened only once: the inspected bytes are those that are stored.
 #[derive(Debug, Clone)]
-pub(crate) struct Inspected {
+pub struct Inspected {
     /// The file's bytes; `None` if it cannot be read or is not a mesh, and is thus not stored.
     pub bytes: Option<Arc<Vec<u8>>>,
     /// The stored files that the mesh references (`.mtl`, `.bin`, textures).
@@ -28,8 +27,10 @@ pub(crate) struct Inspected {
 
 /// A file that a mesh references.
 #[derive(Debug, Clone)]
-pub(crate) struct SideFile {
+pub struct SideFile {
+    /// Its bytes.
     pub bytes: Arc<Vec<u8>>,
+    /// The allowed folder that contains it.
     pub place: Place,
 }
 
@@ -40,7 +41,7 @@ const SIDE_FILES: &[&str] = &[
 ];
 
 /// Inspects a mesh file.
-pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
+pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
     let unusable = |bytes: Option<Vec<u8>>, why: String| Inspected {
         bytes: bytes.map(Arc::new),
         side_files: BTreeMap::new(),
@@ -48,7 +49,7 @@ pub(crate) fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
         left_out: Vec::new(),
         remarks: Vec::new(),
     };
-    let bytes = match regular::read(mesh, MAX_DOCUMENT_BYTES) {
+    let bytes = match roots.files().read(mesh, MAX_DOCUMENT_BYTES) {
         Ok(bytes) => bytes,
         Err(why) => return unusable(None, why.to_string()),
     };
@@ -153,10 +154,10 @@ impl Beside<'_> {
             return Err("whose path is not relative to the mesh's own folder".to_owned());
         }
         let folder = self.mesh.parent().ok_or_else(missing)?;
-        let file = folder.join(name).canonicalize().map_err(|_| missing())?;
+        let file = self.roots.files().canonicalize(&folder.join(name)).map_err(|_| missing())?;
         // Check the target of symbolic links: a harmless link name may lead to any file.
         let extension = extension(&file).unwrap_or_default();
-        if !file.is_file() || !SIDE_FILES.contains(&extension.as_str()) {
+        if !self.roots.files().is_file(&file) || !SIDE_FILES.contains(&extension.as_str()) {
             return Err("which is not a kind of file that meshes use".to_owned());
         }
         let package = match self.place {
@@ -169,7 +170,7 @@ impl Beside<'_> {
                 file.display()
             ));
         };
-        let bytes = regular::read(&file, MAX_DOCUMENT_BYTES);
+        let bytes = self.roots.files().read(&file, MAX_DOCUMENT_BYTES);
         let bytes = bytes.map_err(|why| format!("which cannot be read: {why}"))?;
         let bytes = Arc::new(bytes);
         Ok((file, SideFile { bytes, place }))

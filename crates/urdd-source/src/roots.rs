@@ -5,14 +5,17 @@
 
 use std::path::{Path, PathBuf};
 
-use super::package::{Packages, package_name};
+use super::files::Files;
+use super::packages::package_name;
+use super::settings::Settings;
 
 /// Names of folders for URDFs, which are siblings of `meshes` in a robot's folder.
 const URDF_FOLDERS: &[&str] = &["urdf", "urdfs", "robots", "robot", "xacro"];
 
 /// The allowed folders, with symbolic links resolved.
 #[derive(Debug)]
-pub(crate) struct Roots {
+pub struct Roots {
+    files: Files,
     /// The URDF's folder, or the robot's folder that contains it.
     own: PathBuf,
     /// Packages named by the user.
@@ -23,7 +26,7 @@ pub(crate) struct Roots {
 
 /// The folder from which a file is read.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Place {
+pub enum Place {
     /// A package: its name and folder.
     Package(String, PathBuf),
     /// The robot's own folder.
@@ -34,32 +37,45 @@ pub(crate) enum Place {
 
 impl Roots {
     /// The folders for a URDF in a folder (symbolic links resolved).
-    pub(crate) fn new(urdf_folder: &Path, packages: &Packages, allowed: &[PathBuf]) -> Self {
-        let canonical = |path: &PathBuf| path.canonicalize().ok();
-        let given = packages.given().filter_map(|(name, path)| {
-            let path = path.canonicalize().ok()?;
+    pub fn new(urdf_folder: &Path, settings: &Settings) -> Self {
+        let files = &settings.files;
+        let given = settings.packages.given().filter_map(|(name, path)| {
+            let path = files.canonicalize(path).ok()?;
             Some((name.to_owned(), path))
         });
+        let allowed = settings.allowed_folders.iter();
         Roots {
-            own: own_folder(urdf_folder),
+            own: match files {
+                Files::Disk => own_folder(urdf_folder, files),
+                // All of it was given.
+                Files::Memory(_) => PathBuf::from("/"),
+            },
             given: given.collect(),
-            allowed: allowed.iter().filter_map(canonical).collect(),
+            allowed: allowed.filter_map(|path| files.canonicalize(path).ok()).collect(),
+            files: files.clone(),
         }
+    }
+
+    /// Where the files are.
+    pub fn files(&self) -> &Files {
+        &self.files
     }
 
     /// The place of a file (symbolic links resolved), or `None` if it may not be read. `package` is the package named
     /// in the reference, and the folder found for it.
-    pub(crate) fn place(&self, file: &Path, package: Option<(&str, &Path)>) -> Option<Place> {
+    pub fn place(&self, file: &Path, package: Option<(&str, &Path)>) -> Option<Place> {
         if let Some((name, folder)) = package
-            && let Ok(folder) = folder.canonicalize()
+            && let Ok(folder) = self.files.canonicalize(folder)
         {
-            let is_package = package_name(&folder).as_deref() == Some(name);
+            let is_package = package_name(&folder, &self.files).as_deref() == Some(name);
             if file.starts_with(&folder) && (is_package || !is_broad(&folder)) {
                 return Some(Place::Package(name.to_owned(), folder));
             }
             // Installed packages may contain symbolic links to their source files.
             let mut above = file.ancestors().skip(1);
-            if let Some(source) = above.find(|above| package_name(above).as_deref() == Some(name)) {
+            if let Some(source) =
+                above.find(|above| package_name(above, &self.files).as_deref() == Some(name))
+            {
                 return Some(Place::Package(name.to_owned(), source.to_owned()));
             }
         }
@@ -76,15 +92,15 @@ impl Roots {
     }
 
     /// Whether a file is in the robot's own folder.
-    pub(crate) fn is_own(&self, file: &Path) -> bool {
+    pub fn is_own(&self, file: &Path) -> bool {
         file.starts_with(&self.own)
     }
 }
 
 /// The package that contains the folder, otherwise the parent of a folder such as `urdf/`, otherwise the folder itself.
-fn own_folder(urdf_folder: &Path) -> PathBuf {
+fn own_folder(urdf_folder: &Path, files: &Files) -> PathBuf {
     let mut above = urdf_folder.ancestors();
-    if let Some(package) = above.find(|above| package_name(above).is_some()) {
+    if let Some(package) = above.find(|above| package_name(above, files).is_some()) {
         return package.to_owned();
     }
     let is_urdf_folder = |folder: &&Path| {

@@ -1,0 +1,106 @@
+//! Why a description could not be read.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use super::fault::PlacedFault;
+use urdd_directory::cancellation::Cancelled;
+use urdd_format::escape;
+
+/// Maximum number of faults of a file that are shown one by one.
+const MOST_SHOWN: usize = 5;
+
+/// Why a description could not be read. `file` is the file as the user named it.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// It cannot be read.
+    #[error("{file}: cannot be read: {reason}")]
+    Read {
+        /// The file.
+        file: String,
+        /// Why.
+        reason: String,
+    },
+    /// It is not a valid robot description.
+    #[error("{}", FaultLines(file, faults))]
+    Refused {
+        /// The file.
+        file: String,
+        /// What is wrong with it, in the order of the file; never empty.
+        faults: Vec<PlacedFault>,
+    },
+    /// A xacro file, but no xacro program on the PATH.
+    #[error(
+        "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
+    )]
+    NoXacro {
+        /// The file.
+        file: String,
+    },
+    /// The xacro program failed.
+    #[error("{file}: `xacro` could not expand it: {reason}")]
+    Xacro {
+        /// The file.
+        file: String,
+        /// The last lines of the program's output.
+        reason: String,
+    },
+    /// Reading was cancelled.
+    #[error("stopped before it was finished; nothing was changed")]
+    Cancelled,
+    /// A bug in this program.
+    #[error(
+        "{file}: the reader failed: {reason}; this is a bug in the program, please report it with the file"
+    )]
+    Internal {
+        /// The file.
+        file: String,
+        /// What happened.
+        reason: String,
+    },
+}
+
+impl From<Cancelled> for SourceError {
+    fn from(_: Cancelled) -> Self {
+        SourceError::Cancelled
+    }
+}
+
+impl SourceError {
+    /// A machine-readable code for the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            SourceError::Read { .. } => "unreadable",
+            SourceError::Refused { .. } => "refused",
+            SourceError::NoXacro { .. } => "no-xacro",
+            SourceError::Xacro { .. } => "xacro-failed",
+            SourceError::Cancelled => "cancelled",
+            SourceError::Internal { .. } => "internal",
+        }
+    }
+}
+
+/// Formats the faults of a file, one per line.
+struct FaultLines<'a>(&'a str, &'a [PlacedFault]);
+
+impl fmt::Display for FaultLines<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let FaultLines(file, faults) = self;
+        // One line per fault: a name must not add line breaks.
+        let file = escape::line(file);
+        for (number, placed) in faults.iter().take(MOST_SHOWN).enumerate() {
+            if number > 0 {
+                f.write_str("\n")?;
+            }
+            let (line, column) = (placed.line, placed.column);
+            let fault = placed.fault.to_string();
+            write!(f, "{file}:{line}:{column}: {}", escape::line(&fault))?;
+        }
+        if faults.len() > MOST_SHOWN {
+            write!(f, "\n{file}: and {} more such faults", faults.len() - MOST_SHOWN)?;
+        }
+        Ok(())
+    }
+}

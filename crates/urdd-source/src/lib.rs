@@ -1,0 +1,46 @@
+//! Internal to urdd; no stability promise.
+//!
+//! A robot description as its author has it: a URDF, or a xacro file that makes one, and the mesh files that it names.
+//! [`load`] reads one, [`SourceMeshes`] also finds and reads its meshes, [`robots`] finds descriptions below folders. Files
+//! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
+
+mod bounded;
+mod cycles;
+mod decode;
+mod error;
+pub mod fault;
+mod files;
+mod includes;
+pub mod inspect;
+mod load;
+mod meshes;
+mod named;
+pub mod note;
+pub mod origin;
+mod packages;
+pub mod process;
+mod repair;
+pub mod resolve;
+pub mod robots;
+pub mod roots;
+mod settings;
+mod sniff;
+#[cfg(test)]
+mod tests;
+pub mod urdf;
+mod xacro;
+
+pub use bounded::MAX_SOURCE_BYTES;
+pub use cycles::cycles;
+pub use error::SourceError;
+pub use files::{Files, MemoryFault};
+pub use includes::included;
+pub use load::{
+    Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,
+    well_formed,
+};
+pub use meshes::{MissingMesh, SourceMesh, SourceMeshes};
+pub use named::{NamedMesh, named};
+pub use packages::{PackagePathError, Packages, package_name};
+pub use settings::Settings;
+pub use xacro::XacroSettings;

@@ -1,0 +1,20 @@
+//! How a description is found and read.
+
+use std::path::PathBuf;
+
+use super::files::Files;
+use super::packages::Packages;
+use super::xacro::XacroSettings;
+
+/// How a description is found and read. By default, with only the packages around it, from the disk.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// The folders of packages.
+    pub packages: Packages,
+    /// Folders, besides those of the robot and its packages, from which mesh files may be read.
+    pub allowed_folders: Vec<PathBuf>,
+    /// How xacro files are expanded.
+    pub xacro: XacroSettings,
+    /// Where files are.
+    pub files: Files,
+}

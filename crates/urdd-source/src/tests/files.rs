@@ -1,0 +1,115 @@
+//! Descriptions in memory are read as those on the disk.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::{Files, MemoryFault, Settings, SourceError, SourceMeshes, package_name};
+use urdd_directory::cancellation::Cancellation;
+use urdd_directory::read_error::ReadError;
+
+/// A triangle of area 1/2.
+const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+const PACKAGE: &str = "<package><name>arm_description</name></package>";
+
+fn urdf(meshes: &[&str]) -> String {
+    let visual =
+        |name: &&str| format!("<visual><geometry><mesh filename=\"{name}\"/></geometry></visual>");
+    let visuals: String = meshes.iter().map(visual).collect();
+    format!("<robot name=\"arm\"><link name=\"base\">{visuals}</link></robot>")
+}
+
+fn memory(files: &[(&str, &str)]) -> Result<Files, MemoryFault> {
+    let file = |(path, text): &(&str, &str)| ((*path).to_owned(), Arc::from(text.as_bytes()));
+    Files::in_memory(files.iter().map(file))
+}
+
+fn open(files: &[(&str, &str)], path: &str) -> SourceMeshes {
+    let settings = Settings { files: memory(files).expect("files"), ..Settings::default() };
+    SourceMeshes::open(Path::new(path), &settings, &Cancellation::default()).expect("a robot")
+}
+
+#[test]
+fn names_lead_where_they_lead_on_a_disk() {
+    let names = [
+        "../meshes/a.stl",
+        "package://arm_description/meshes/a.stl",
+        "file:///arm/meshes/a.stl",
+        "../Meshes/a.stl",
+        "../meshes/b.stl",
+        "../../../etc/passwd",
+    ];
+    let text = urdf(&names);
+    let files = [
+        ("arm/package.xml", PACKAGE),
+        ("arm/urdf/arm.urdf", text.as_str()),
+        ("arm/meshes/a.stl", STL),
+    ];
+    let source = open(&files, "arm/urdf/arm.urdf");
+    let found: Vec<_> = source.meshes.iter().map(|mesh| mesh.file.as_ref().ok()).collect();
+    let mesh = Path::new("/arm/meshes/a.stl").to_owned();
+    assert_eq!(found, [Some(&mesh), Some(&mesh), Some(&mesh), None, None, None]);
+    assert_eq!(source.read(&mesh).expect("a mesh").triangle_count(), 1);
+    let other = source.meshes[3].file.as_ref().expect_err("another case");
+    assert_eq!(other.other_case.as_ref().expect("a file").file, Path::new("/arm/meshes/a.stl"));
+    assert_eq!(
+        package_name(Path::new("/arm"), &memory(&files).unwrap()).unwrap(),
+        "arm_description"
+    );
+}
+
+#[test]
+fn the_same_files_on_a_disk_give_the_same() {
+    let text = urdf(&["../meshes/a.stl", "package://arm_description/meshes/a.stl", "c.stl"]);
+    let files = [
+        ("arm/package.xml", PACKAGE),
+        ("arm/urdf/arm.urdf", text.as_str()),
+        ("arm/meshes/a.stl", STL),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    for (path, text) in files {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    let of = |source: &SourceMeshes, root: &Path| {
+        let file = |mesh: &crate::SourceMesh| {
+            let file = mesh.file.as_ref().ok();
+            file.map(|file| file.strip_prefix(root).expect("inside").to_owned())
+        };
+        source.meshes.iter().map(file).collect::<Vec<_>>()
+    };
+    let path = folder.path().join("arm/urdf/arm.urdf");
+    let on_disk = SourceMeshes::open(&path, &Settings::default(), &Cancellation::default());
+    let on_disk = on_disk.expect("a robot");
+    let in_memory = open(&files, "arm/urdf/arm.urdf");
+    let root = folder.path().canonicalize().unwrap();
+    assert_eq!(of(&on_disk, &root), of(&in_memory, Path::new("/")));
+    assert_eq!(on_disk.robot, in_memory.robot);
+}
+
+#[test]
+fn a_set_has_bounds_and_no_path_out_of_it() {
+    for path in ["", "..", "../a", "a/../../b", "."] {
+        assert_eq!(memory(&[(path, "")]).unwrap_err(), MemoryFault::Path(path.to_owned()));
+    }
+    let files = memory(&[("a/./b/../c.stl", "1234")]).unwrap();
+    let at = |path: &str| files.read(Path::new(path), 4).map_err(|error| error.to_string());
+    assert_eq!(at("/a/c.stl").unwrap(), b"1234");
+    assert_eq!(at("a/c.stl").unwrap(), b"1234");
+    assert_eq!(at("a").unwrap_err(), ReadError::NotAFile.to_string());
+    assert_eq!(at("b").unwrap_err(), ReadError::Missing.to_string());
+    assert_eq!(files.read(Path::new("a/c.stl"), 3), Err(ReadError::TooLong { limit: 3 }));
+    assert!(files.is_dir(Path::new("/a")) && !files.is_dir(Path::new("/a/c.stl")));
+    assert_eq!(files.names(Path::new("/")), ["a"]);
+    let many = (0..=20_000).map(|k| (format!("{k}"), Arc::from(&b""[..])));
+    assert_eq!(Files::in_memory(many).unwrap_err(), MemoryFault::TooMany);
+}
+
+#[test]
+fn xacro_does_not_run_on_a_set() {
+    let settings =
+        Settings { files: memory(&[("a.xacro", "<robot/>")]).unwrap(), ..Settings::default() };
+    let error =
+        SourceMeshes::open(Path::new("a.xacro"), &settings, &Cancellation::default()).unwrap_err();
+    assert!(matches!(error, SourceError::NoXacro { .. }), "{error}");
+}

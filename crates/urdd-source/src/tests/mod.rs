@@ -1,0 +1,8 @@
+//! The tests of this crate.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod files;
+mod origin;
+mod sniff;
