@@ -1,6 +1,7 @@
 // Bundles the page into crates/urdd-view/dist/, each file compressed by brotli, with a stamp of what it was made from.
 //
 //     node build.mjs [URDD_WASM ROBOT_WASM [FOLDER]]
+//     node build.mjs --current     only says whether crates/urdd-view/dist is of these sources: exit status 0, otherwise 1
 //
 // URDD_WASM is the module that `cargo build --profile wasm -p urdd-wasm --target wasm32-unknown-unknown` makes; ROBOT_WASM, for
 // a page in one file, the one that it makes with `--no-default-features`: without the validator. FOLDER is crates/urdd-view/dist
@@ -18,6 +19,13 @@ const repository = join(here, "..");
 const dist = process.argv[4] ?? join(repository, "crates/urdd-view/dist");
 const wasm = process.argv[2] ?? join(repository, "target/wasm32-unknown-unknown/wasm/urdd_wasm.wasm");
 const robot = process.argv[3] ?? join(repository, "target/wasm32-unknown-unknown/wasm/robot.wasm");
+
+if (process.argv[2] === "--current") {
+  const made = readFileSync(join(repository, "crates/urdd-view/dist/stamp"), "utf8").trim();
+  const current = made === stamp();
+  console.log(`crates/urdd-view/dist is of ${current ? "these" : "other"} sources`);
+  process.exit(current ? 0 : 1);
+}
 
 const common = {
   bundle: true,
@@ -54,8 +62,8 @@ for (const [name, bytes] of Object.entries(files)) {
 console.log(`the page without robots and wasm: ${page} bytes compressed`);
 writeFileSync(join(dist, "stamp"), `${stamp()}\n`);
 
-/** SHA-256 of all that the bundle is made from: tests/program/page_bundle.rs computes it too. */
-export function stamp() {
+/** SHA-256 of all that the bundle is made from. */
+function stamp() {
   const roots = ["page/src", "wasm/src", "crates"];
   const single = [
     "Cargo.lock",

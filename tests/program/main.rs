@@ -21,7 +21,6 @@ mod links;
 mod lint;
 mod lsp;
 mod new_extension;
-mod page_bundle;
 mod printing;
 mod producers_agree;
 mod program;

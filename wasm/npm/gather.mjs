@@ -13,7 +13,12 @@ const repository = join(here, "../..");
 writeFileSync(
   join(here, "urdd.wasm"),
   brotliDecompressSync(
-    readFileSync(join(repository, "crates/urdd-view/dist/urdd.wasm.br")),
+    readFileSync(
+      join(
+        process.env.URDD_DIST ?? join(repository, "crates/urdd-view/dist"),
+        "urdd.wasm.br",
+      ),
+    ),
   ),
 );
 for (const licence of ["LICENSE-MIT", "LICENSE-APACHE"])

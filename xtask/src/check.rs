@@ -63,15 +63,9 @@ const TESTS: &[(&str, &str)] = &[
     ("links::", "mend the link: the file or heading that it names is not there"),
     ("security_doc::", "see the message"),
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
-    (
-        PAGE,
-        "needs Node, npm and the target wasm32-unknown-unknown: .ci/page, and commit crates/urdd-view/dist. Without them say so in the pull request; a maintainer does it",
-    ),
 ];
 
 const UPDATE: &str = "cargo xtask update, and read what it wrote";
-/// If it fails, a maintainer can fix it: the failure is only noted.
-const PAGE: &str = "page_bundle::";
 
 /// Folders and files in which a scaffold leaves a TODO.
 const SCAFFOLDED: &[&str] =
@@ -125,10 +119,7 @@ pub fn run(root: &Path) -> Result<bool, String> {
         for (test, message) in failures {
             let known = TESTS.iter().find(|(start, _)| test.starts_with(start));
             let remedy = known.map_or("see the message", |(_, remedy)| remedy);
-            match test.starts_with(PAGE) {
-                true => println!("\nnote: crates/urdd-view/dist is stale\n  {remedy}"),
-                false => fault(test, &message, remedy),
-            }
+            fault(test, &message, remedy);
         }
     }
     match faults {
