@@ -1,12 +1,13 @@
 //! Writes files, and returns their entries for `urdd.json`.
 
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use super::document::Document;
+use super::source::Growing;
 use super::staging::StagingError;
 use super::take;
 use urdd_format::hexadecimal::hexadecimal;
@@ -14,17 +15,22 @@ use urdd_format::index::Count;
 use urdd_format::registry::ModuleKind;
 use urdd_format::root_metadata::{self, FileEntry};
 
-/// Writes the files of a URDD into a folder.
+/// Writes the files of a URDD into a folder, or into memory.
 #[derive(Debug, Clone)]
 pub struct Writer {
     root: PathBuf,
+    memory: Option<Growing>,
 }
 
 impl Writer {
-    /// A writer into `root`, which must exist.
+    /// A writer into the folder `root`, which must exist.
     pub fn new(root: &Path) -> Self {
-        let root = root.to_owned();
-        Self { root }
+        Self { root: root.to_owned(), memory: None }
+    }
+
+    /// A writer into memory.
+    pub fn in_memory(files: Growing) -> Self {
+        Self { root: PathBuf::new(), memory: Some(files) }
     }
 
     /// Writes a file. `path` is relative to the root, with forward slashes.
@@ -32,8 +38,7 @@ impl Writer {
     /// # Errors
     /// If it cannot be written.
     pub fn file(&self, path: &str, bytes: &[u8]) -> Result<FileEntry, StagingError> {
-        let mut file = self.create(path)?;
-        self.check(path, file.write_all(bytes))?;
+        self.written(path, |out| out.write_all(bytes))?;
         Ok(entry(path, bytes.len() as u64, Sha256::digest(bytes).as_slice()))
     }
 
@@ -44,17 +49,18 @@ impl Writer {
     pub fn copy(&self, from: &Path, path: &str) -> Result<FileEntry, StagingError> {
         let unread = |error| StagingError::Read { path: from.to_owned(), error };
         let mut source = File::open(from).map_err(unread)?;
-        let mut file = self.create(path)?;
+        let mut out = self.create(path)?;
         let (mut hasher, mut size) = (Sha256::new(), 0);
         let mut piece = vec![0; 1 << 16];
         loop {
             let read = source.read(&mut piece).map_err(unread)?;
             if read == 0 {
+                self.end(path, out);
                 return Ok(entry(path, size, hasher.finalize().as_slice()));
             }
             size += read as u64;
             hasher.update(&piece[..read]);
-            self.check(path, file.write_all(&piece[..read]))?;
+            self.check(path, out.write_all(&piece[..read]))?;
         }
     }
 
@@ -79,8 +85,8 @@ impl Writer {
         let folder = kind.folder();
         Ok(vec![
             self.file(&format!("{folder}/VERSION"), format!("{version}\n").as_bytes())?,
-            self.document(&format!("{folder}/module.json"), document, Document::json)?,
-            self.document(&format!("{folder}/module.yaml"), document, Document::yaml)?,
+            self.document(&format!("{folder}/module.json"), document, |of, out| of.json(out))?,
+            self.document(&format!("{folder}/module.yaml"), document, |of, out| of.yaml(out))?,
         ])
     }
 
@@ -91,27 +97,45 @@ impl Writer {
         document: &Document,
         emit: fn(&Document, &mut Sink) -> std::fmt::Result,
     ) -> Result<FileEntry, StagingError> {
-        let mut sink = Sink {
-            file: self.create(path)?,
-            waiting: String::with_capacity(2 * WRITTEN_AT_ONCE),
-            hasher: Sha256::new(),
-            size: 0,
-            error: None,
-        };
-        let emitted = emit(document, &mut sink).and_then(|()| sink.flush());
-        let result = match (sink.error.take(), emitted) {
-            // The sink stores the I/O error.
-            (Some(error), _) => Err(error),
-            (None, Err(error)) => Err(std::io::Error::other(error)),
-            (None, Ok(())) => Ok(()),
-        };
-        self.check(path, result)?;
-        Ok(entry(path, sink.size, sink.hasher.finalize().as_slice()))
+        let (mut hasher, mut size) = (Sha256::new(), 0);
+        self.written(path, |out| {
+            let waiting = String::with_capacity(2 * WRITTEN_AT_ONCE);
+            let mut sink = Sink { out, waiting, hasher: &mut hasher, size: &mut size, error: None };
+            let emitted = emit(document, &mut sink).and_then(|()| sink.flush());
+            match (sink.error.take(), emitted) {
+                // The sink stores the I/O error.
+                (Some(error), _) => Err(error),
+                (None, Err(error)) => Err(io::Error::other(error)),
+                (None, Ok(())) => Ok(()),
+            }
+        })?;
+        Ok(entry(path, size, hasher.finalize().as_slice()))
     }
 
-    fn create(&self, path: &str) -> Result<File, StagingError> {
+    fn written(
+        &self,
+        path: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), StagingError> {
+        let mut out = self.create(path)?;
+        self.check(path, write(&mut out))?;
+        self.end(path, out);
+        Ok(())
+    }
+
+    fn create(&self, path: &str) -> Result<Out, StagingError> {
+        if self.memory.is_some() {
+            return Ok(Out::Memory(Vec::new()));
+        }
         let place = self.place(path)?;
-        File::create(&place).map_err(|error| StagingError::Write { path: place, error })
+        let file = File::create(&place);
+        file.map(Out::File).map_err(|error| StagingError::Write { path: place, error })
+    }
+
+    fn end(&self, path: &str, out: Out) {
+        if let (Some(files), Out::Memory(bytes)) = (&self.memory, out) {
+            files.add(path, bytes);
+        }
     }
 
     /// The path on disk. Creates its parent folder.
@@ -124,7 +148,7 @@ impl Writer {
         Ok(place)
     }
 
-    fn check(&self, path: &str, result: std::io::Result<()>) -> Result<(), StagingError> {
+    fn check(&self, path: &str, result: io::Result<()>) -> Result<(), StagingError> {
         result.map_err(|error| StagingError::Write { path: self.root.join(path), error })
     }
 }
@@ -132,21 +156,43 @@ impl Writer {
 /// Number of bytes hashed and written at once.
 const WRITTEN_AT_ONCE: usize = 1 << 16;
 
-/// A buffered, hashing text sink for a file.
-pub struct Sink {
-    file: File,
-    waiting: String,
-    hasher: Sha256,
-    size: u64,
-    error: Option<std::io::Error>,
+/// A file that is written.
+enum Out {
+    File(File),
+    Memory(Vec<u8>),
 }
 
-impl Sink {
+impl Write for Out {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Out::File(file) => file.write(bytes),
+            Out::Memory(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Out::File(file) => file.flush(),
+            Out::Memory(_) => Ok(()),
+        }
+    }
+}
+
+/// A buffered, hashing text sink for a file.
+struct Sink<'a> {
+    out: &'a mut dyn Write,
+    waiting: String,
+    hasher: &'a mut Sha256,
+    size: &'a mut u64,
+    error: Option<io::Error>,
+}
+
+impl Sink<'_> {
     fn flush(&mut self) -> std::fmt::Result {
         let bytes = self.waiting.as_bytes();
         self.hasher.update(bytes);
-        self.size += bytes.len() as u64;
-        let written = self.file.write_all(bytes);
+        *self.size += bytes.len() as u64;
+        let written = self.out.write_all(bytes);
         self.waiting.clear();
         written.map_err(|error| {
             self.error = Some(error);
@@ -155,7 +201,7 @@ impl Sink {
     }
 }
 
-impl std::fmt::Write for Sink {
+impl std::fmt::Write for Sink<'_> {
     fn write_str(&mut self, text: &str) -> std::fmt::Result {
         self.waiting.push_str(text);
         match self.waiting.len() < WRITTEN_AT_ONCE {

@@ -64,11 +64,11 @@ pub use meshes::MeshCount;
 pub use modules::MadeModule;
 pub use progress::Progress;
 pub(crate) use robot::generate_composed;
-pub use robot::{Generated, generate, generate_text};
+pub use robot::{Generated, UrddFiles, generate, generate_in_memory, generate_text};
 pub use selection::{Selection, UnknownModule};
 pub use settings::{MeshFormats, Pieces, Settings};
 pub(crate) use size::MOST_LINKS;
 pub use urdd_source::{
-    Files, MAX_SOURCE_BYTES, PackagePathError, Packages, Settings as SourceSettings, SourceError,
-    XacroSettings, fault, note,
+    Files as SourceFiles, MAX_SOURCE_BYTES, PackagePathError, Packages, Settings as SourceSettings,
+    SourceError, XacroSettings, fault, note,
 };

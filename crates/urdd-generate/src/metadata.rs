@@ -81,20 +81,20 @@ pub(super) fn class(made: &[Entry]) -> ConformanceClass {
 /// Builds the document. `extensions` are the entries of modules unknown to this program.
 pub(super) fn document(
     robot_name: &str,
-    source: FileEntry,
-    found: Option<FileEntry>,
-    made: Vec<Entry>,
+    source: &FileEntry,
+    found: Option<&FileEntry>,
+    made: &[Entry],
     extensions: Vec<Value>,
 ) -> Result<Value, GenerateError> {
     let metadata = RootMetadata {
         urdd_version: version(SPEC_VERSION),
         robot_name: robot_name.to_owned(),
-        conformance_class: class(&made),
+        conformance_class: class(made),
         generator: Some(Generator {
             name: GENERATOR.to_owned(),
             version: PROGRAM_VERSION.to_owned(),
         }),
-        source: Some(Source::Urdf(source)),
+        source: Some(Source::Urdf(source.clone())),
         modules: made.iter().map(|entry| entry.module.clone()).collect(),
     };
     let to_value = |value| {
@@ -108,7 +108,7 @@ pub(super) fn document(
     }
     if let Some(modules) = document["modules"].as_array_mut() {
         for (module, entry) in modules.iter_mut().zip(made) {
-            if let Some(inputs) = entry.inputs {
+            if let Some(inputs) = &entry.inputs {
                 module[INPUTS_KEY] = json!(inputs);
             }
         }

@@ -1,7 +1,11 @@
 //! Generates the URDD of one robot.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::Value;
 
 use super::composed::Composed;
 use super::context::Context;
@@ -17,15 +21,19 @@ use super::{size, stages};
 use urdd_directory::canonical;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::root::Root;
+use urdd_directory::source::Growing;
 use urdd_directory::staging::{Staging, StagingError};
 use urdd_directory::writer::Writer;
-use urdd_format::root_metadata::{self, ConformanceClass};
+use urdd_format::root_metadata::{self, ConformanceClass, FileEntry};
 use urdd_source::Source;
 use urdd_source::note::{Note, NoteKind};
 
 /// Sizes and hashes refer to bytes: Git must not convert line endings.
 const GIT_ATTRIBUTES: &str = "# The hashes in urdd.json are of these very bytes.\n* -text\n";
 const GIT_ATTRIBUTES_FILE: &str = ".gitattributes";
+
+/// The bytes of each file of a URDD, by path relative to its root.
+pub type UrddFiles = BTreeMap<String, Arc<[u8]>>;
 
 /// A generated URDD.
 #[derive(Debug, Clone, PartialEq)]
@@ -104,6 +112,81 @@ pub fn generate_composed(
     make(None, &source, Some(composed), target, settings, progress)
 }
 
+/// Generates the URDD of a URDF in memory, where [`Settings::source`] says that its files are: nothing is written to the
+/// disk, and no URDD is replaced.
+///
+/// # Errors
+/// Those of [`generate`].
+pub fn generate_in_memory(
+    source: &Path,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Result<(Generated, UrddFiles), GenerateError> {
+    progress.reads(source);
+    let source = urdd_source::load(source, &settings.source, &settings.cancellation)?;
+    size::check(&source)?;
+    check_assumptions(&source.notes, settings)?;
+    let context = Context::new(&source, settings, None, Decisions::default(), progress)?;
+    let files = Growing::default();
+    let writer = Writer::in_memory(files.clone());
+    let written = write(&context, None, &writer, Root::of(files.clone()))?;
+    writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
+    let text = written.metadata(&source.reading.robot.name, Vec::new())?;
+    writer.file(ROOT_METADATA, text.as_bytes())?;
+    Ok((written.generated(&context, true), files.files()))
+}
+
+/// The modules and the source of a URDD that is being made.
+struct Written {
+    entries: Vec<metadata::Entry>,
+    made: Vec<MadeModule>,
+    meshes: MeshCount,
+    notes: Vec<Note>,
+    carried: FileEntry,
+    found: Option<FileEntry>,
+}
+
+/// Writes the modules and the source.
+fn write(
+    context: &Context,
+    replaced: Option<&Donor>,
+    writer: &Writer,
+    root: Root,
+) -> Result<Written, GenerateError> {
+    let source = context.source;
+    let mut modules = Modules::new(context, replaced, writer, root);
+    let meshes = stages::run(context, &mut modules)?;
+    let Modules { entries, made, notes, .. } = modules;
+    let carried = writer.file(&source.file_name, &source.carried)?;
+    let found_name = format!("{}.as-found", source.file_name);
+    let found = source.found.as_deref().map(|bytes| writer.file(&found_name, bytes));
+    Ok(Written { entries, made, meshes, notes, carried, found: found.transpose()? })
+}
+
+impl Written {
+    /// The text of `urdd.json`.
+    fn metadata(&self, robot: &str, extensions: Vec<Value>) -> Result<String, GenerateError> {
+        let Written { carried, found, entries, .. } = self;
+        let document = metadata::document(robot, carried, found.as_ref(), entries, extensions)?;
+        Ok(canonical::json_string(&document))
+    }
+
+    fn generated(self, context: &Context, changed: bool) -> Generated {
+        let robot = &context.source.reading.robot;
+        Generated {
+            robot_name: robot.name.clone(),
+            num_links: robot.links.len(),
+            num_joints: robot.joints.len(),
+            num_dofs: context.dof.dofs.len(),
+            class: metadata::class(&self.entries),
+            modules: self.made,
+            changed,
+            meshes: self.meshes,
+            notes: [context.source.notes.clone(), self.notes].concat(),
+        }
+    }
+}
+
 fn make(
     path: Option<&Path>,
     source: &Source,
@@ -134,23 +217,17 @@ fn make(
 
     let composition = composed.map(|composed| &composed.composition);
     let context = Context::new(source, settings, composition, decisions, progress)?;
-    let writer = Writer::new(staging.content());
-    let root = Root::open_folder(staging.content()).map_err(|error| {
-        let content = staging.content().display().to_string();
-        GenerateError::internal(&content, error)
-    })?;
-    let mut modules = Modules::new(&context, replaced, &writer, root);
-    let meshes = stages::run(&context, &mut modules)?;
-    let Modules { entries, made, mut notes, .. } = modules;
-
-    let carried = writer.file(&source.file_name, &source.carried)?;
-    let found_name = format!("{}.as-found", source.file_name);
-    let found = source.found.as_deref().map(|bytes| writer.file(&found_name, bytes));
+    let content = staging.content();
+    let writer = Writer::new(content);
+    let root = Root::open_folder(content);
+    let root =
+        root.map_err(|error| GenerateError::internal(&content.display().to_string(), error))?;
+    let mut written = write(&context, replaced, &writer, root)?;
     if target.is_dir() {
-        others::carry_over(target, replaced, staging.content())?;
-        let kinds: Vec<_> = made.iter().map(|module| module.kind).collect();
-        for kind in others::left_behind(staging.content(), &kinds) {
-            notes.push(Note {
+        others::carry_over(target, replaced, content)?;
+        let kinds: Vec<_> = written.made.iter().map(|module| module.kind).collect();
+        for kind in others::left_behind(content, &kinds) {
+            written.notes.push(Note {
                 kind: NoteKind::LeftBehind,
                 file: target.join(kind.folder()).display().to_string(),
                 line: 0,
@@ -163,36 +240,18 @@ fn make(
             });
         }
     }
-    if !staging.content().join(GIT_ATTRIBUTES_FILE).exists() {
+    if !content.join(GIT_ATTRIBUTES_FILE).exists() {
         writer.file(GIT_ATTRIBUTES_FILE, GIT_ATTRIBUTES.as_bytes())?;
     }
-    let robot = &source.reading.robot;
-    let class = metadata::class(&entries);
-    let document = metadata::document(
-        &robot.name,
-        carried,
-        found.transpose()?,
-        entries,
-        others::extensions(replaced, staging.content()),
-    )?;
-    let text = canonical::json_string(&document);
+    let extensions = others::extensions(replaced, content);
+    let text = written.metadata(&source.reading.robot.name, extensions)?;
     writer.file(ROOT_METADATA, text.as_bytes())?;
-    let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &made));
+    let changed = !replaced.is_some_and(|replaced| is_same(replaced, target, &text, &written.made));
     settings.cancellation.check()?;
     if changed {
         staging.commit()?;
     }
-    Ok(Generated {
-        robot_name: robot.name.clone(),
-        num_links: robot.links.len(),
-        num_joints: robot.joints.len(),
-        num_dofs: context.dof.dofs.len(),
-        class,
-        modules: made,
-        changed,
-        meshes,
-        notes: [source.notes.clone(), notes].concat(),
-    })
+    Ok(written.generated(&context, changed))
 }
 
 /// Checks that the source is outside the target.

@@ -3,6 +3,7 @@
 mod archive;
 mod disk;
 mod disk_source;
+mod growing;
 mod memory;
 mod snapshot;
 mod stamp;
@@ -20,6 +21,7 @@ use super::read_error::ReadError;
 
 pub use archive::{Archive, is_archive};
 pub use disk::{Disk, is_urdd};
+pub use growing::Growing;
 pub use memory::Memory;
 pub use stamp::Stamp;
 

@@ -5,6 +5,7 @@
 
 mod connections;
 mod distinct;
+mod in_memory;
 mod meshes_names;
 mod shape_documents;
 mod shapes_rounding;
