@@ -93,8 +93,12 @@ class Coal:
         self.overlaps = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(
             self.model, self.geometry, self.overlapping
         )
-        self.touch = self.geometry.createData()
-        self.broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, self.touch)
+        self.touch, self.broad = self.asked()
+
+    def asked(self) -> tuple[Any, Any]:
+        """The pairs of the geometry as it is now, and their broad phase."""
+        touch = self.geometry.createData()
+        return touch, pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, touch)
 
     def q(self, q: Any) -> Any:
         return self.peer.configuration(q)
@@ -117,11 +121,10 @@ class Coal:
 
     def around(self) -> None:
         """Takes the obstacles that were added, and leaves out the pairs of the robot itself."""
-        self.touch = self.geometry.createData()
+        self.touch, self.broad = self.asked()
         for k, pair in enumerate(self.geometry.collisionPairs):
             if pair.second < len(self.names):
                 self.touch.deactivateCollisionPair(k)
-        self.broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, self.touch)
 
     def penetrations(self, q: Any) -> None:
         pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.overlapping, q)
@@ -324,8 +327,7 @@ def plans(name: str, robot: urdd.Robot, queries: int) -> list[str]:
     at = [pinocchio.SE3(np.eye(3), np.array(place)) for place in ([0, 0, -0.05], [0.45, 0.1, 0.6])]
     peer.add(coal.Box(2, 2, 0.1), at[0], still)
     peer.add(coal.Sphere(0.15), at[1], [])
-    touch = peer.geometry.createData()
-    broad = pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(peer.model, peer.geometry, touch)
+    peer.touch, peer.broad = peer.asked()
     space = base.RealVectorStateSpace(robot.num_dofs)
     bounds = base.RealVectorBounds(robot.num_dofs)
     for dof, (low, high) in enumerate(robot.bounds.tolist()):
@@ -334,9 +336,7 @@ def plans(name: str, robot: urdd.Robot, queries: int) -> list[str]:
     space.setBounds(bounds)
 
     def is_valid(state: Any) -> bool:
-        q = peer.q([state[k] for k in range(robot.num_dofs)])
-        pinocchio.updateGeometryPlacements(peer.model, peer.data, peer.geometry, touch, q)
-        return not pinocchio.computeCollisions(peer.model, peer.data, broad, q, True)
+        return not peer.in_collision(peer.q([state[k] for k in range(robot.num_dofs)]))
 
     def by_ompl(start: Any, goal: Any) -> bool:
         setup = geometric.SimpleSetup(space)

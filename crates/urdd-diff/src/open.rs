@@ -1,15 +1,17 @@
 //! Opens a robot of either kind, and validates it.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::side::{DiffError, Options, Side};
 use crate::{side_urdd, side_urdf};
 use urdd_directory::discover::{Found, discover};
 use urdd_directory::root::{ReadError, Root};
+use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_format::report;
 use urdd_validate::settings::Settings;
-use urdd_validate::{Run, ValidateError, validate, validate_source};
+use urdd_validate::{Run, ValidateError, validate, validate_loaded};
 
 impl Side {
     /// Opens a URDF (a file whose name ends in `.urdf`), or a URDD: a folder or a zip archive.
@@ -46,10 +48,10 @@ impl Side {
             return Err(failed(error));
         }
         // All that is compared is of one moment, also where a program writes to the folder meanwhile.
-        let root = Root::open(path).map_err(|error| failed(&error))?.kept();
-        let urdd = Urdd::of(root.clone()).map_err(|error| failed(&error))?;
-        let mut side = side_urdd::open(urdd, shown)?;
-        side.validation = validation(options, |settings| validate_source(root, name, settings))?;
+        let loaded = Root::open(path).and_then(|root| Loaded::read(root.kept()));
+        let loaded = Arc::new(loaded.map_err(|error| failed(&error))?);
+        let mut side = side_urdd::open(Urdd::new(Arc::clone(&loaded)), shown)?;
+        side.validation = validation(options, |settings| validate_loaded(loaded, name, settings))?;
         Ok(side)
     }
 }

@@ -59,6 +59,7 @@ pub use urdd_findings::run::Run;
 pub use urdd_findings::{code, report, selection, settings, settings_file};
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 use thiserror::Error;
@@ -68,8 +69,9 @@ use self::rule::Rule;
 use self::settings::Settings;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::discover::{DiscoverError, discover};
-use urdd_directory::root::Root;
+use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Source;
+use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_findings::bound;
 use urdd_findings::examined::{Examined, blank};
@@ -148,10 +150,29 @@ pub fn validate_source(
     name: &str,
     settings: &Settings,
 ) -> Result<Run, ValidateError> {
-    let root = Root::of(source);
-    let mut examined = Examined::caught(Kind::Urdd, name, || {
-        Ok(examine(Urdd::of(root)?, name, settings, &rules::all()))
-    });
+    run_of(name, settings, || Urdd::of(Root::of(source)))
+}
+
+/// As [`validate_source`], of a URDD that is loaded.
+///
+/// # Errors
+/// Like [`validate_source`].
+#[doc(hidden)]
+pub fn validate_loaded(
+    loaded: Arc<Loaded>,
+    name: &str,
+    settings: &Settings,
+) -> Result<Run, ValidateError> {
+    run_of(name, settings, || Ok(Urdd::new(loaded)))
+}
+
+fn run_of(
+    name: &str,
+    settings: &Settings,
+    load: impl FnOnce() -> Result<Urdd, ReadError>,
+) -> Result<Run, ValidateError> {
+    let mut examined =
+        Examined::caught(Kind::Urdd, name, || Ok(examine(load()?, name, settings, &rules::all())));
     settings.cancellation.check()?;
     bound::trim(&mut examined.checks, bound::of_each(1));
     let folders = vec![PathBuf::from(name)];

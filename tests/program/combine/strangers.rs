@@ -312,8 +312,7 @@ fn every_text_in_a_recipe_stays_a_text() {
     let folder = testkit::temporary::folder();
     let folder = folder.path();
     fs::write(folder.join("two.urdf"), TWO).expect("a file");
-    let places = 0..5;
-    let cases = places.flat_map(|place| texts().into_iter().map(move |text| (place, text)));
+    let cases = (0..5).flat_map(|place| texts().into_iter().map(move |text| (place, text)));
     let mut held = 0;
     for (place, text) in testkit::trials::sample(cases, 17) {
         let mut recipe = NAMED.to_owned();
@@ -333,7 +332,7 @@ fn every_text_in_a_recipe_stays_a_text() {
                 let document = parsed(&urdf);
                 let elements = document.descendants().filter(|node| node.is_element());
                 let names: Vec<&str> =
-                    elements.clone().filter_map(|node| node.attribute("name")).collect();
+                    elements.filter_map(|node| node.attribute("name")).collect();
                 assert!(names.iter().any(|name| name.contains(&text)), "{text:?}: {urdf}");
                 // The robot, the base, two links of each part; a joint to each link but the base.
                 assert_eq!(names.len(), 1 + 5 + 4, "{text:?}: {urdf}");
