@@ -95,9 +95,12 @@ class Coal:
         )
         self.touch, self.broad = self.asked()
 
-    def asked(self) -> tuple[Any, Any]:
-        """The pairs of the geometry as it is now, and their broad phase."""
+    def asked(self, is_around: bool = False) -> tuple[Any, Any]:
+        """The pairs of the geometry as it is now, or of those only the ones with obstacles, and their broad phase."""
         touch = self.geometry.createData()
+        for k, pair in enumerate(self.geometry.collisionPairs):
+            if is_around and pair.second < len(self.names):
+                touch.deactivateCollisionPair(k)
         return touch, pinocchio.BroadPhaseManager_DynamicAABBTreeCollisionManager(self.model, self.geometry, touch)
 
     def q(self, q: Any) -> Any:
@@ -121,10 +124,7 @@ class Coal:
 
     def around(self) -> None:
         """Takes the obstacles that were added, and leaves out the pairs of the robot itself."""
-        self.touch, self.broad = self.asked()
-        for k, pair in enumerate(self.geometry.collisionPairs):
-            if pair.second < len(self.names):
-                self.touch.deactivateCollisionPair(k)
+        self.touch, self.broad = self.asked(is_around=True)
 
     def penetrations(self, q: Any) -> None:
         pinocchio.updateGeometryPlacements(self.model, self.data, self.geometry, self.overlapping, q)
