@@ -39,7 +39,17 @@ pub mod transform;
 pub mod trials;
 pub mod urdf_to_core;
 
-/// The root folder of the repository.
-pub fn repository() -> &'static std::path::Path {
-    std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The root folder of the repository: of the one that Cargo runs tests of, though it may have built them in another one.
+pub fn repository() -> &'static Path {
+    static ROOT: OnceLock<PathBuf> = OnceLock::new();
+    ROOT.get_or_init(|| {
+        let package = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+        let package = package.unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+        let mut above = package.ancestors();
+        let root = above.find(|folder| folder.join("SPEC.md").is_file());
+        root.expect("a folder with SPEC.md").to_owned()
+    })
 }

@@ -10,7 +10,7 @@ use urdd_generate::{Settings, generate};
 
 /// The URDFs of the project's robots.
 pub fn our_robots() -> Vec<(String, PathBuf)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/robots");
+    let folder = crate::repository().join("conformance/robots");
     let entries = std::fs::read_dir(folder).expect("our robots");
     let mut robots: Vec<(String, PathBuf)> = entries
         .map(|entry| entry.expect("an entry").path())

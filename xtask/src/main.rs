@@ -6,7 +6,7 @@ mod new_rule;
 mod source;
 mod update;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -50,8 +50,9 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
     // For tests: the root of another copy of the source.
     let (plain, mut options) = arguments(words)?;
     let given = options.remove("--root").map(PathBuf::from);
-    let root =
-        given.unwrap_or_else(|| Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).into());
+    // Cargo says which clone it runs in; the program may have been built in another one.
+    let here = || Some(PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR")?).join(".."));
+    let root = given.or_else(here).ok_or("run it as `cargo xtask`")?;
     let plain: Vec<&str> = plain.iter().map(String::as_str).collect();
     let text = match (command, plain.as_slice()) {
         ("check", []) => return check::run(&root),

@@ -331,8 +331,7 @@ fn every_text_in_a_recipe_stays_a_text() {
                 let urdf = String::from_utf8_lossy(urdf).into_owned();
                 let document = parsed(&urdf);
                 let elements = document.descendants().filter(|node| node.is_element());
-                let names: Vec<&str> =
-                    elements.filter_map(|node| node.attribute("name")).collect();
+                let names: Vec<&str> = elements.filter_map(|node| node.attribute("name")).collect();
                 assert!(names.iter().any(|name| name.contains(&text)), "{text:?}: {urdf}");
                 // The robot, the base, two links of each part; a joint to each link but the base.
                 assert_eq!(names.len(), 1 + 5 + 4, "{text:?}: {urdf}");
