@@ -10,7 +10,6 @@ use super::generate_output::Printer;
 use super::making::MakingArguments;
 use super::output;
 use super::signals::Signals;
-use super::validated_parts::ValidatedParts;
 use urdd_generate::combine::{Recipe, check_parts, combine};
 use urdd_source::process;
 use urdd_source::robots::Job;
@@ -60,10 +59,9 @@ pub struct CombineArguments {
     #[arg(long, requires = "at")]
     name: Option<String>,
 
-    /// Validates the parts even if this program found them free of errors before, and remembers nothing. Otherwise the
-    /// user's cache folder holds a hash of each part that passed.
-    #[arg(long)]
-    no_cache: bool,
+    /// Has no effect: parts are always validated. Up to 1.2, parts that passed were remembered without it.
+    #[arg(long = "no-cache", hide = true)]
+    _no_cache: bool,
 
     #[command(flatten)]
     making: MakingArguments,
@@ -88,10 +86,6 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let source = arguments.from.as_ref().or(arguments.sources.first());
     let job =
         Job { source: source.cloned().unwrap_or_default(), name: target.display().to_string() };
-    let validated = match arguments.no_cache {
-        true => ValidatedParts::none(),
-        false => ValidatedParts::new(|name| std::env::var_os(name)),
-    };
     let mut unsaid = Vec::new();
     let recipe = match (arguments.sources.as_slice(), &arguments.at) {
         ([], _) => Recipe::of_legacy(&job.source).map(|(recipe, notes)| {
@@ -121,8 +115,8 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
         let progress = printer.begin_robot(&job);
         pool.install(|| {
             settings.cancellation = signals.cancellation();
-            let validate = |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
-            let find_errors = |part: &Path| validated.find_errors(part, validate);
+            let find_errors =
+                |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
             made.notes.splice(..0, unsaid);

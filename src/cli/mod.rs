@@ -27,7 +27,6 @@ mod signals;
 mod skips;
 mod srdf_file;
 mod validate;
-mod validated_parts;
 mod view;
 mod words;
 mod xacro;

@@ -7,8 +7,6 @@ use std::process::{Command, Output};
 pub fn output(arguments: &[&str], folder: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_urdd"))
         .args(arguments)
-        // No test reads or changes the user's cache.
-        .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .env("TMPDIR", testkit::temporary::place())
         .current_dir(folder)
         .output()

@@ -61,51 +61,6 @@ fn a_part_that_does_not_pass_is_refused_unless_asked() {
     assert_eq!((status, said.as_str()), (0, ""));
 }
 
-/// A part that passed is remembered in the user's cache folder, until its content changes; the result is the same.
-#[test]
-fn parts_that_passed_are_remembered_by_content() {
-    let folder = testkit::temporary::folder();
-    let folder = folder.path();
-    let gripper = ours("gripper");
-    let run = |arguments: &[&str]| {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_urdd"))
-            .args([arguments, &CORE].concat())
-            .env("XDG_CACHE_HOME", folder.join("cache"))
-            .current_dir(folder)
-            .output();
-        let output = output.expect("the program");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        (output.status.code(), said)
-    };
-    let passed = (Some(0), String::new());
-    for name in ["arm", "g"] {
-        let source = gripper.to_str().expect("a path");
-        assert_eq!(run(&["generate", source, "-o", name]), passed);
-    }
-    let combine = |output: &str, more: &[&str]| {
-        let all = ["combine", "arm", "g", "--at", "grasp_frame", "-o", output];
-        run(&[&all[..], more].concat())
-    };
-    let cache = folder.join("cache/urdd/validated_parts.txt");
-    let lines = || std::fs::read_to_string(&cache).map(|text| text.lines().count());
-    assert_eq!(combine("without", &["--no-cache"]), passed);
-    assert!(lines().is_err());
-    assert_eq!(combine("first", &[]), passed);
-    assert_eq!(lines().expect("the cache"), 2);
-    assert_eq!(combine("second", &[]), passed);
-    assert_eq!(lines().expect("the cache"), 2);
-    let made = |name: &str| testkit::files::below(&folder.join(name));
-    assert!(made("without").len() > 10 && made("without") == made("first"));
-    assert_eq!(made("first"), made("second"));
-    // A bound that differs from the joint's.
-    let bounds = folder.join("g/bounds_module/module.json");
-    let text = std::fs::read_to_string(&bounds).expect("a file");
-    std::fs::write(&bounds, text.replace('4', "5")).expect("a file");
-    let (status, said) = combine("third", &[]);
-    assert!(status == Some(1) && said.contains("BND"), "{said}");
-    assert_eq!(lines().expect("the cache"), 2);
-}
-
 #[test]
 fn results_are_told_as_json() {
     let folder = testkit::temporary::folder();

@@ -54,7 +54,6 @@ pub fn findings_of(urdd: &Path) -> Vec<(String, String, String)> {
 pub fn urdd(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
     command.args(arguments);
-    command.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
     for name in ["ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "GAZEBO_MODEL_PATH"] {
         command.env_remove(name);
     }
