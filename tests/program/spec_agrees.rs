@@ -1,20 +1,20 @@
 //! SPEC.md and the rules agree, both ways: every code in SPEC.md is a rule of that clause, and every rule is in the
 //! clause that it names.
 
-mod annex;
 mod example;
+mod fields;
 mod values;
 
 use std::collections::BTreeMap;
 use std::fs;
 
+use urdd_findings::code::{Code, RETIRED};
 use urdd_findings::description::Severity;
 use urdd_format::registry::{ModuleKind, SPEC_VERSION};
-use urdd_validate::code::Code;
 use urdd_validate::rules;
 
 fn spec() -> String {
-    fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md")).expect("SPEC.md")
+    fs::read_to_string(testkit::repository().join("SPEC.md")).expect("SPEC.md")
 }
 
 /// For each `[CODE]` of the text, the clauses that contain it and the sentence before it.
@@ -122,39 +122,51 @@ fn the_table_of_modules_is_the_registry() {
 
 const END: &str = "<!-- end -->";
 
-/// Where SPEC.md is written by this test, and what.
-fn written() -> [(&'static str, String); 2] {
-    let mark = "tests/program/spec_agrees.rs: begin -->\n";
-    assert!(spec().matches(mark).count() == 2, "two parts are written");
+/// What this test writes: the file, the mark before it, and the text.
+fn written() -> [(&'static str, &'static str, String); 2] {
     [
         (
+            "docs/fields.md",
             "<!-- made from the schemas by tests/program/spec_agrees.rs: begin -->\n",
-            format!("\n{}", annex::tables()),
+            format!("\n{}", fields::tables()),
         ),
         (
-            "<!-- made from examples/annex_b by tests/program/spec_agrees.rs: begin -->\n",
-            example::text(),
+            "docs/codes.md",
+            "<!-- made from the rules by tests/program/spec_agrees.rs: begin -->\n",
+            codes_table(),
         ),
     ]
 }
 
+/// Annex B.
+fn codes_table() -> String {
+    let mut text = "\n| code | severity | clause | name |\n|---|---|---|---|\n".to_owned();
+    for rule in rules::all() {
+        let (severity, clause) = (rule.severity.as_str(), rule.clause.unwrap_or_default());
+        text += &format!("| {} | {severity} | {clause} | `{}` |\n", rule.code, rule.name);
+    }
+    for retired in RETIRED {
+        text += &format!("| {} | retired | | {} |\n", retired.code, retired.reason);
+    }
+    text + "\n"
+}
+
 /// `URDD_UPDATE=1 cargo test --test program spec_agrees` writes the annexes.
 #[test]
-fn the_tables_of_fields_and_the_example_are_the_files() {
-    let mut text = spec();
-    for (mark, expected) in written() {
+fn the_annexes_are_the_schemas_and_the_rules() {
+    for (file, mark, expected) in written() {
+        let path = testkit::repository().join(file);
+        let text = fs::read_to_string(&path).expect("an annex");
         let begin = text.find(mark).expect("the annex begins") + mark.len();
         let end = begin + text[begin..].find(END).expect("the annex ends");
         if std::env::var_os("URDD_UPDATE").is_some() {
-            text = format!("{}{expected}{}", &text[..begin], &text[end..]);
+            let text = format!("{}{expected}{}", &text[..begin], &text[end..]);
+            fs::write(&path, text).expect("written");
             continue;
         }
         assert!(
             text[begin..end] == expected,
-            "an annex of SPEC.md is not what the files say: run URDD_UPDATE=1 cargo test --test program spec_agrees\n{mark}"
+            "{file} is not what the files say: run URDD_UPDATE=1 cargo test --test program spec_agrees"
         );
-    }
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/SPEC.md"), text).expect("written");
     }
 }

@@ -14,7 +14,7 @@ cargo xtask check
     What you forgot, after a rule, a module or a message: each with its remedy.
 
 cargo xtask update
-    Writes again what is generated: cases, schemas, annex A of SPEC.md, snapshots, counts, types for Python.
+    Writes again what is generated: cases, schemas, annexes of SPEC.md, snapshots, counts, types for Python.
 
 cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
     Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.

@@ -258,10 +258,10 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
 
 fn rule(code: &str, name: &str, severity: &str, clause: &str, module: Option<&str>) -> String {
     // Rules about unusual robots judge the source.
-    let (judges, need) = match (module, code.starts_with("SRC")) {
-        (Some(room), _) => ("", format!("ModuleV1(Kind::{})", camel(room))),
-        (None, true) => ("judges Source, ", "SourceRobot".to_owned()),
-        (None, false) => ("", "Module(Kind::Urdf)".to_owned()),
+    let need = match (module, code.starts_with("SRC")) {
+        (Some(room), _) => format!("ModuleV1(Kind::{})", camel(room)),
+        (None, true) => "SourceRobot".to_owned(),
+        (None, false) => "Module(Kind::Urdf)".to_owned(),
     };
     let look = match module {
         Some(room) => format!(
@@ -284,7 +284,7 @@ declare_rule! {{
     ///
     /// TODO: why it matters, and what to do.
     {code} "{name}", {severity}, clause "{clause}", since "1.0.0",
-    phase References, {judges}needs [{need}],
+    phase References, needs [{need}],
 }}
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {{

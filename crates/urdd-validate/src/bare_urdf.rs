@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::engine::{Outcomes, run_all};
-use super::rule::{Judges, Need, Rule};
+use super::rule::{Need, Rule};
 use super::rules;
+use super::two_robots::Judges;
 use urdd_directory::discover::Found;
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::source::Memory;
@@ -112,7 +113,7 @@ fn is_for_urdf(rule: &Rule) -> bool {
                 | Need::Legacy
         )
     };
-    match rule.judges {
+    match Judges::of(rule) {
         Judges::Robot | Judges::Source => true,
         Judges::AsItStands | Judges::Derived => {
             let urdf = |need: &Need| matches!(need, Need::CarriedUrdf | Need::UrdfFile);

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::context::Context;
 use urdd_findings::code::Code;
-use urdd_findings::description::{Consequence, Description, Phase};
+use urdd_findings::description::{Consequence, Description};
 use urdd_findings::finding::Findings;
 use urdd_findings::part::PartKind;
 use urdd_format::registry::ModuleKind;
@@ -62,30 +62,6 @@ impl Need {
     }
 }
 
-/// What a rule judges. This decides which of the two descriptions of the robot it uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Judges {
-    /// Files, texts, a module on its own, or a module against the URDF. Runs once.
-    AsItStands,
-    /// Whether the robot is valid: a tree of links, mimics that can be resolved. Runs for both descriptions, because
-    /// other rules depend on it.
-    Robot,
-    /// The robot itself, whatever the modules contain. Uses the source if it is readable.
-    Source,
-    /// Data derived from the robot. A fault counts only if both descriptions give it.
-    Derived,
-}
-
-impl Judges {
-    /// The default for rules of a phase.
-    pub const fn by_phase(phase: Phase) -> Judges {
-        match phase {
-            Phase::Files | Phase::Syntax | Phase::Schema => Judges::AsItStands,
-            _ => Judges::Derived,
-        }
-    }
-}
-
 /// Rules that find unsound parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parts {
@@ -99,8 +75,6 @@ pub struct Parts {
 pub struct Rule {
     /// What it says of itself.
     pub description: Description,
-    /// What it judges.
-    pub judges: Judges,
     /// What it needs.
     pub needs: &'static [Need],
     /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
@@ -139,7 +113,7 @@ macro_rules! declare_rule {
     (
         $(#[doc = $doc:literal])+
         $code:ident $name:literal, $severity:ident, clause $clause:literal, since $since:literal,
-        phase $phase:ident, $(judges $judges:ident,)? $(consequence $consequence:ident,)?
+        phase $phase:ident, $(consequence $consequence:ident,)?
         needs [$($need:expr),* $(,)?] $(,)?
     ) => {
         /// The rule of this file. A `static` of the module would be compiled into whatever does not use it, too.
@@ -172,12 +146,6 @@ macro_rules! declare_rule {
                         phase: urdd_findings::description::Phase::$phase,
                         doc: &[$($doc),+],
                     },
-                    judges: [
-                        $($crate::rule::Judges::$judges,)?
-                        $crate::rule::Judges::by_phase(
-                            urdd_findings::description::Phase::$phase,
-                        ),
-                    ][0],
                     needs: &[$($need),*],
                     check,
                 }

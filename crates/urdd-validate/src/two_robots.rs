@@ -15,11 +15,43 @@ use std::collections::{HashMap, HashSet};
 
 use super::context::Context;
 use super::engine::{Outcomes, judge, judge_into, run_all};
-use super::rule::{Judges, Rule};
+use super::rule::{Need, Rule};
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
+use urdd_findings::description::Phase;
 use urdd_findings::finding::Findings;
 use urdd_findings::skip::SkipReason;
+
+/// What a rule judges, and so which of the two descriptions it uses.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Judges {
+    /// Files, texts, a module on its own, or a module against the URDF. Runs once.
+    AsItStands,
+    /// Whether the robot is valid: a tree of links, mimics that can be resolved. Runs for both descriptions, because
+    /// other rules depend on it.
+    Robot,
+    /// The robot itself, whatever the modules contain. Uses the source if it is readable.
+    Source,
+    /// Data derived from the robot. A fault counts only if both descriptions give it.
+    Derived,
+}
+
+impl Judges {
+    /// What a rule judges, by what it needs.
+    pub(super) fn of(rule: &Rule) -> Judges {
+        let needs = |wanted: Need| rule.needs.contains(&wanted);
+        match (rule.phase, rule.code.family()) {
+            (Phase::Files | Phase::Syntax | Phase::Schema, _) => Judges::AsItStands,
+            _ if needs(Need::CarriedUrdf) || needs(Need::UrdfFile) => Judges::AsItStands,
+            _ if needs(Need::SourceRobot) => Judges::Source,
+            (_, "URD") => Judges::Robot,
+            // The meshes that urdf_module names, and the columns of a module that say the same.
+            (_, "SRC") => Judges::AsItStands,
+            _ if rule.code == Code::BND002 => Judges::AsItStands,
+            _ => Judges::Derived,
+        }
+    }
+}
 
 /// Runs rules on a URDD. The checks are ordered by code.
 pub(super) fn run(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
@@ -33,7 +65,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
     let Some(by_urdf) = context.by_urdf() else {
         return run_all(context, rules.to_vec(), &mut outcomes);
     };
-    let of = |kind: Judges| rules.iter().copied().filter(move |rule| rule.judges == kind);
+    let of = |kind: Judges| rules.iter().copied().filter(move |rule| Judges::of(rule) == kind);
     let once = of(Judges::AsItStands).chain(of(Judges::Robot)).chain(of(Judges::Derived));
     let once = once.collect();
     let mut checks = run_all(context, once, &mut outcomes);

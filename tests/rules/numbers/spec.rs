@@ -7,11 +7,11 @@ use std::path::Path;
 use super::list;
 use super::not_limits::NOT_LIMITS;
 
-/// The text of each clause before Annex A, white space as single spaces. Formulas, which are indented, are left out.
+/// The text of each clause before the annexes, white space as single spaces. Formulas, which are indented, are left out.
 fn clauses() -> BTreeMap<String, String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("SPEC.md");
     let text = fs::read_to_string(path).expect("SPEC.md");
-    let text = text.split("\n## Annex A").next().expect("a text");
+    let text = text.split("\n## Annexes").next().expect("a text");
     let mut clauses: BTreeMap<String, String> = BTreeMap::new();
     let mut clause = String::new();
     for line in text.lines() {

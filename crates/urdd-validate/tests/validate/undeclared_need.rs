@@ -9,7 +9,7 @@ use urdd_findings::finding::Findings;
 use urdd_findings::skip::SkipReason;
 use urdd_validate::code::Code;
 use urdd_validate::context::Context;
-use urdd_validate::rule::{Judges, Need, Rule};
+use urdd_validate::rule::{Need, Rule};
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 
@@ -24,7 +24,6 @@ static FORGETFUL: Rule = Rule {
         phase: Phase::References,
         doc: &[" Takes a module that it does not need."],
     },
-    judges: Judges::AsItStands,
     needs: &[],
     check: |context, _| {
         context.document(urdd_format::registry::ModuleKind::Composition)?;

@@ -10,7 +10,7 @@ declare_rule! {
     /// Write all three lists from the limits of the joints (SPEC 6.5.2, and 6.5.3 for DOFs without limits):
     /// these decide which of the two is right, and the finding is at the other.
     BND002 "bounds-columns-differ", Error, clause "6.5.1", since "0.1.0",
-    phase References, judges AsItStands, needs [Module(Kind::Bounds), Passed(BND001)],
+    phase References, needs [Module(Kind::Bounds), Passed(BND001)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

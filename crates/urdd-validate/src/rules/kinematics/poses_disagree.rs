@@ -21,7 +21,7 @@ declare_rule! {
     /// The finding names the first joint, from the root outwards, at which the two differ. Write the
     /// modules again from the carried URDF, or carry the URDF from which they were written.
     KIN001 "poses-disagree", Error, clause "9.1", since "0.1.0",
-    phase Kinematics, judges AsItStands,
+    phase Kinematics,
     needs [
         CarriedUrdf, Module(Kind::Urdf), Module(Kind::Chain), Module(Kind::Dof),
         Passed(URD001), ROBOT_SOUND, Passed(URD009), Passed(URD012), Passed(URD010), Passed(CHN002), Passed(CHN003), Passed(CHN006),

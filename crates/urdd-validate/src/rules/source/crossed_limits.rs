@@ -8,7 +8,7 @@ declare_rule! {
     ///
     /// Swap or correct `lower` and `upper` in the URDF, and write the URDD again.
     SRC001 "crossed-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot],
+    phase References, needs [SourceRobot],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -12,7 +12,7 @@ declare_rule! {
     ///
     /// Compute the tensor again, correct the URDF, and write the URDD again.
     SRC005 "inertia-breaks-the-triangle-inequality", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot],
+    phase References, needs [SourceRobot],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -17,7 +17,7 @@ declare_rule! {
     /// Compute the tensor again (about the centre of mass, in the axes of the inertial's origin),
     /// correct the URDF, and write the URDD again.
     SRC004 "inertia-not-positive-definite", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot, ROBOT_SOUND],
+    phase References, needs [SourceRobot, ROBOT_SOUND],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

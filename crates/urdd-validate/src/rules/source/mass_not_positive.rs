@@ -13,7 +13,7 @@ declare_rule! {
     /// Give the link its mass in the URDF, or remove the `<inertial>` of a link that is only a frame.
     /// Then write the URDD again.
     SRC003 "mass-not-positive", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot, ROBOT_SOUND],
+    phase References, needs [SourceRobot, ROBOT_SOUND],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

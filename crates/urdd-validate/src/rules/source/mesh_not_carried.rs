@@ -11,7 +11,7 @@ declare_rule! {
     /// Give the producer the folder of the package, or remove the element from the URDF. Then write the
     /// URDD again.
     SRC007 "mesh-not-carried", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges AsItStands, needs [
+    phase References, needs [
         Module(Kind::Urdf), Module(Kind::OriginalMeshes), Version1, NotFailed(MSH012), ModuleV1(Kind::OriginalMeshes),
     ],
 }

@@ -12,7 +12,7 @@ declare_rule! {
     /// Narrow the driver's limits, widen the mimic's, or correct `multiplier` and `offset`, in the
     /// URDF, and write the URDD again.
     SRC002 "mimic-leaves-its-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)],
+    phase References, needs [SourceRobot, Passed(URD008), Passed(URD009), Passed(URD012)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -12,7 +12,7 @@ declare_rule! {
     /// Write the joint's real limits into the URDF, or leave both attributes out. Then write the URDD
     /// again.
     SRC009 "no-effort-and-no-speed", Warning, clause "6.1.7", since "0.2.0",
-    phase References, judges Source, needs [SourceRobot, Version1],
+    phase References, needs [SourceRobot, Version1],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -11,7 +11,7 @@ declare_rule! {
     /// Write `<limit lower=… upper=… effort=… velocity=…/>` in the URDF, or make the joint
     /// `continuous` where it turns without end. Then write the URDD again.
     SRC006 "joint-without-limits", Warning, clause "6.1.7", since "0.1.0",
-    phase References, judges Source, needs [SourceRobot, Version1],
+    phase References, needs [SourceRobot, Version1],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -13,7 +13,7 @@ declare_rule! {
     /// Keep one of them in the URDF; write several shapes as several `<visual>` or `<collision>`
     /// elements. Then write the URDD again.
     SRC008 "repeated-element", Warning, clause "6.1.8", since "0.1.0",
-    phase References, judges AsItStands, needs [CarriedUrdf, Passed(URD011)],
+    phase References, needs [CarriedUrdf, Passed(URD011)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

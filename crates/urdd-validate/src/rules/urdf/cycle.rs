@@ -11,7 +11,7 @@ declare_rule! {
     /// Swap parent and child of one of the joints, or remove the joint, in the URDF. Then write the URDD
     /// again.
     URD006 "links-in-a-circle", Error, clause "6.1.4", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

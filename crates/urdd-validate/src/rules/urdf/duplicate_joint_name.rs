@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Give every joint a different name in the URDF, and write the URDD again.
     URD003 "duplicate-joint-name", Error, clause "6.1.3", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf)],
+    phase References, needs [Module(Kind::Urdf)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -18,7 +18,7 @@ declare_rule! {
     /// Write `urdf_module`, and what is derived from it, again from the URDF that is carried; or
     /// carry the URDF from which the module was written.
     URD001 "joints-not-the-urdfs", Error, clause "6.1.2", since "0.1.0",
-    phase References, judges AsItStands, needs [
+    phase References, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003), ROBOT_SOUND,
         Passed(URD005), Passed(URD007), Passed(URD008), Passed(URD009), Passed(URD010), Passed(URD012),
     ],

@@ -17,7 +17,7 @@ declare_rule! {
     /// Write `urdf_module`, and what is derived from it, again from the URDF that is carried; or
     /// carry the URDF from which the module was written.
     URD013 "links-not-the-urdfs", Error, clause "6.1.2", since "0.1.0",
-    phase References, judges AsItStands, consequence WrongPlace, needs [
+    phase References, consequence WrongPlace, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
     ],
 }

@@ -12,7 +12,7 @@ declare_rule! {
     /// Write `urdf_module` again from the URDF that is carried, or carry the URDF from which the module
     /// was written.
     URD014 "materials-not-the-urdfs", Error, clause "6.1.2", since "0.2.0",
-    phase References, judges AsItStands, consequence Appearance, needs [
+    phase References, consequence Appearance, needs [
         Module(Kind::Urdf), CarriedUrdf, Passed(URD011), Passed(URD002), Passed(URD003),
     ],
 }

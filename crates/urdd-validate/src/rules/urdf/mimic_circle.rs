@@ -10,7 +10,7 @@ declare_rule! {
     ///
     /// Remove the `<mimic>` of the joint that is driven, in the URDF, and write the URDD again.
     URD009 "mimics-in-a-circle", Error, clause "6.1.5", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD008)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD008)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

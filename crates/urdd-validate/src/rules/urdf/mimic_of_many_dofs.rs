@@ -9,7 +9,7 @@ declare_rule! {
     /// Take the `<mimic>` out of the joint, or write the joint as several joints of one DOF, in the
     /// URDF, and write the URDD again.
     URD012 "mimic-of-many-dofs", Error, clause "6.1.5", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD008)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD008)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -12,7 +12,7 @@ declare_rule! {
     /// Connect the parts by joints (a fixed one will do) in the URDF, or make each a robot of its
     /// own. Then write the URDD again.
     URD004 "not-one-root", Error, clause "6.1.4", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD005)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD005)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

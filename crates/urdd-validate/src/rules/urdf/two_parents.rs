@@ -11,7 +11,7 @@ declare_rule! {
     /// Keep one of the joints in the URDF. Write the other as a constraint, in an element for the
     /// program that solves it (`<gazebo>`, `<loop_joint>`). Then write the URDD again.
     URD005 "link-with-two-parents", Error, clause "6.1.4", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD003), Passed(URD007)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Correct the name, or add the link, in the URDF, and write the URDD again.
     URD007 "unknown-link", Error, clause "6.1.4", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD002)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD002)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

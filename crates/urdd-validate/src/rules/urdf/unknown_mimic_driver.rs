@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Correct `joint` of the `<mimic>`, or remove the `<mimic>`, in the URDF. Then write the URDD again.
     URD008 "unknown-mimic-driver", Error, clause "6.1.5", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf), Passed(URD003)],
+    phase References, needs [Module(Kind::Urdf), Passed(URD003)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

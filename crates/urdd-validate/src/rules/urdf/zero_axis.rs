@@ -9,7 +9,7 @@ declare_rule! {
     ///
     /// Give the joint an axis in the URDF (without one it is `1 0 0`), and write the URDD again.
     URD010 "zero-axis", Error, clause "6.1.6", since "0.1.0",
-    phase References, judges Robot, needs [Module(Kind::Urdf)],
+    phase References, needs [Module(Kind::Urdf)],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {

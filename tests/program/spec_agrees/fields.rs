@@ -1,4 +1,4 @@
-//! The field tables of SPEC.md, generated from the published schemas, so that the two cannot differ.
+//! The field tables, Annex A of SPEC.md, generated from the published schemas, so that the two cannot differ.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -24,7 +24,7 @@ pub fn tables() -> String {
         }
         let schema = subject.schema(Variant::Strict);
         let title = if subject.name() == "root_metadata" { "urdd.json" } else { subject.name() };
-        let _ = writeln!(text, "### `{title}` {}\n", subject.version());
+        let _ = writeln!(text, "## `{title}` {}\n", subject.version());
         object(&schema, &schema, &mut text);
         for (name, definition) in definitions(&schema) {
             // What several modules share appears with the first.
