@@ -3,7 +3,8 @@
 
     .ci/ledger.py [--tests LOG] [--program FILE] [--keep NAME]
 
-By crate: lines of Rust (with blanks and comments; files in `tests` folders apart), seconds of its test programs, summed
+By crate: lines of Rust (with blanks and comments; tests apart: files in `tests` folders or of that name, and what stands
+behind `#[cfg(test)]`), seconds of its test programs, summed
 as `cargo test` prints them in LOG, and bytes of functions and data in FILE, a program with symbols (`nm`), by the first
 crate of ours that a symbol names: a generic function counts for the crate whose types it is compiled for. What a crate
 weighs is compared with the last entry of `benches/ledger.json`; `--keep` adds an entry. A growth by more than a tenth
@@ -23,6 +24,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FILE = ROOT / "benches/ledger.json"
 COLUMNS = ("lines", "test_lines", "test_seconds", "bytes")
+# Tests at the end of the file that they test.
+TESTS = re.compile(r"\n#\[cfg\(test\)\]\n(?:#\[.*\]\n)*mod \w+ \{\n")
 Weights = dict[str, dict[str, float]]
 
 
@@ -53,8 +56,12 @@ def lines(weights: Weights) -> None:
         if path in generated:
             weights["(generated)"]["lines"] += count
         elif suffix == ".rs":
-            test = "tests" in path.split("/")[:-1] or path.startswith("testkit/")
-            weights[crate_of(path)]["test_lines" if test else "lines"] += count
+            parts = pathlib.PurePath(path).parts
+            inside = TESTS.split(file.read_text(), maxsplit=1)
+            test = "tests" in parts[:-1] or parts[-1] == "tests.rs" or parts[0] == "testkit"
+            own = 0 if test else len(inside[0].splitlines())
+            weights[crate_of(path)]["lines"] += own
+            weights[crate_of(path)]["test_lines"] += count - own
         else:
             weights[f"({path.split('/')[0]}, other languages)"]["lines"] += count
 
