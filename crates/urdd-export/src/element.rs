@@ -152,8 +152,11 @@ impl Element {
         self.children.push(Child::Raw(text.into()));
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.children.is_empty()
+    /// Adds a child element, unless it contains nothing.
+    pub fn push_filled(&mut self, child: Element) {
+        if !child.children.is_empty() {
+            self.push(child);
+        }
     }
 
     /// Serializes the element alone.

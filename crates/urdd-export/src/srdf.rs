@@ -51,7 +51,7 @@ fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
 
 /// The basis of the reasons: the shapes and the number of samples.
 pub(super) fn basis(subject: &Subject) -> Result<String, RobotError> {
-    let shapes = subject.options.shapes;
+    let shapes = subject.shapes;
     Ok(match subject.robot.num_samples()? {
         Some(samples) => {
             format!("Reasons by {shapes}; Always and Never by {samples} sampled configurations.")

@@ -8,6 +8,7 @@ use super::error::{ExportError, Note};
 use super::inertia::held;
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::options::MeshOptions;
 use super::other_attributes;
 use super::output::Files;
 use super::subject::Subject;
@@ -45,18 +46,19 @@ pub(super) fn empty_robot(subject: &Subject) -> Element {
 pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
+    meshes: &MeshOptions,
     shapes: Vec<Vec<LinkShape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
     if shapes.iter().all(Vec::is_empty) {
-        notes.push(Note::NoShapes(subject.options.shapes));
+        notes.push(Note::NoShapes(subject.shapes));
     }
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
-    let friction = subject.options.friction().filter(|_| geometry == Geometry::Drake);
-    let mut files = MeshFiles::new(subject);
+    let friction = subject.friction().filter(|_| geometry == Geometry::Drake);
+    let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
-    let each = each.zip(shapes.into_iter().zip(looks(subject, notes)?));
+    let each = each.zip(shapes.into_iter().zip(looks(subject, meshes, notes)?));
     for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
         let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
         other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);

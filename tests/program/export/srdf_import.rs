@@ -136,8 +136,7 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     let robot = Robot::open(&urdd).expect("a robot");
     let imported = import_srdf(&robot, &text, false).expect("edits");
     assert_eq!((imported.added, imported.already), (3, 1));
-    let made =
-        urdd_export::export(&robot, urdd_export::Format::Srdf, &urdd_export::Options::default());
+    let made = super::export(&robot, urdd_export::Format::Srdf, &urdd_export::Choices::default());
     let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::options::DrakeOptions;
 use super::other_attributes;
 use super::output::Export;
 use super::parts::Taken;
@@ -21,12 +22,12 @@ use urdd_xml::other_parts::Owner;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export, ExportError> {
     let urdf = &subject.urdf;
     let mut robot = empty_robot(subject).with("xmlns:drake", "http://drake.mit.edu");
     let mut notes = Vec::new();
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
-    let (links, mut files) = links(subject, Geometry::Drake, shapes, &mut notes)?;
+    let shapes = subject.shapes_by_link()?;
+    let (links, mut files) = links(subject, Geometry::Drake, &options.meshes, shapes, &mut notes)?;
     let joints = joints::joints(subject, &mut notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
@@ -56,9 +57,8 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         notes.push(Note::Robot(WORLD));
     }
     notes.extend(subject.notes());
-    let what =
-        format!("Collision geometry, and pairs that are filtered: {}.", subject.options.shapes);
-    files.extend(package::files(subject)?);
+    let what = format!("Collision geometry, and pairs that are filtered: {}.", subject.shapes);
+    files.extend(package::files(subject, options)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }

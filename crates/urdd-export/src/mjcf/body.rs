@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::super::options::MjcfOptions;
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
@@ -21,6 +22,7 @@ const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it 
 /// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
+    options: &'a MjcfOptions,
     shapes: Vec<Vec<LinkShape>>,
     looks: Vec<Vec<Look>>,
     /// Bounding boxes, to replace flat shapes, by link and piece.
@@ -38,9 +40,9 @@ pub(super) struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
-        let kind = subject.options.shapes;
-        let shapes = subject.shapes_by_link(kind)?;
+    pub fn new(subject: &'a Subject<'a>, options: &'a MjcfOptions) -> Result<Self, ExportError> {
+        let kind = subject.shapes;
+        let shapes = subject.shapes_by_link()?;
         let boxes = match kind {
             ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
             ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
@@ -53,10 +55,11 @@ impl<'a> Bodies<'a> {
         let (inertials, balanced) = inertia::inertials(subject, &mut notes);
         Ok(Bodies {
             subject,
+            options,
             shapes,
-            looks: looks(subject, &mut notes)?,
+            looks: looks(subject, &options.meshes, &mut notes)?,
             boxes,
-            files: MeshFiles::new(subject),
+            files: MeshFiles::new(subject, &options.meshes),
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
@@ -133,7 +136,7 @@ impl<'a> Bodies<'a> {
         for joint in joints {
             element.push(joint);
         }
-        if let Some(site) = frames::site(subject, link) {
+        if let Some(site) = frames::site(subject, self.options.sensors, link) {
             element.push(site);
         }
         for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {

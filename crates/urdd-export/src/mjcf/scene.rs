@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3};
 
 use super::super::element::Element;
 use super::super::error::ExportError;
+use super::super::options::MjcfOptions;
 use super::super::output::Files;
 use super::super::subject::Subject;
 use urdd_robot::{LinkShape, Solid};
@@ -20,12 +21,12 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    pub fn new(subject: &Subject) -> Result<Self, ExportError> {
+    pub fn new(subject: &Subject, options: &MjcfOptions) -> Result<Self, ExportError> {
         let mut stand = Stand { base_height: 0.0, floor: 0.0, shapes: Vec::new() };
         let is_free = subject.has_free_base();
-        if is_free || subject.options.mjcf.scene {
+        if is_free || options.scene_of.is_some() {
             let zero = subject.robot.configurations()?.zero();
-            stand.shapes = subject.robot.shapes(subject.options.shapes)?;
+            stand.shapes = subject.robot.shapes(subject.shapes)?;
             let up = stand.height(subject, &zero)?;
             match is_free {
                 true => stand.base_height = up,
@@ -69,15 +70,11 @@ fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
     }
 }
 
-/// The scene's file, if one is asked for.
-pub(super) fn scene(subject: &Subject, stand: &Stand) -> Result<Files, ExportError> {
-    let file = subject.options.file.as_ref();
-    let Some(file) = file.filter(|_| subject.options.mjcf.scene) else {
-        return Ok(Files::new());
-    };
+/// The scene that includes a file.
+pub(super) fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportError> {
     let stem = file.strip_suffix(".xml").unwrap_or(file);
     let mut root = Element::new("mujoco").with("model", format!("{} scene", subject.urdf.name));
-    root.push(Element::new("include").with("file", file.as_str()));
+    root.push(Element::new("include").with("file", file));
     let headlight = Element::new("headlight")
         .with("diffuse", "0.6 0.6 0.6")
         .with("ambient", "0.3 0.3 0.3")

@@ -4,6 +4,7 @@ use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::groups::joints_of;
 use super::super::names::FileNames;
+use super::super::options::MoveitOptions;
 use super::super::setup::{Members, Setup};
 use super::super::subject::Subject;
 use urdd_format::named_configurations::NamedConfiguration;
@@ -12,6 +13,7 @@ use urdd_xml::number::number;
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {
     pub subject: &'a Subject<'a>,
+    pub options: &'a MoveitOptions,
     pub setup: &'a Setup,
     /// The name of files.
     pub name: String,
@@ -23,10 +25,15 @@ pub(super) struct Config<'a> {
 }
 
 impl<'a> Config<'a> {
-    pub fn new(subject: &'a Subject<'a>, setup: &'a Setup) -> Result<Self, ExportError> {
+    pub fn new(
+        subject: &'a Subject<'a>,
+        options: &'a MoveitOptions,
+        setup: &'a Setup,
+    ) -> Result<Self, ExportError> {
         let groups = 0..setup.groups.len();
         Ok(Config {
             subject,
+            options,
             setup,
             name: FileNames::default().of(&subject.urdf.name),
             joints: groups.map(|group| joints_of(setup, group, subject)).collect(),

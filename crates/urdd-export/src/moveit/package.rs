@@ -37,7 +37,7 @@ fn package(config: &Config) -> String {
     let text = |name: &'static str, text: &str| Element::new(name).containing(text);
     let robot = &config.subject.urdf.name;
     let mut package = Element::new("package").with("format", "3");
-    package.push(text("name", config.subject.options.package()));
+    package.push(text("name", &config.options.package));
     package.push(text("version", "0.1.0"));
     package.push(text("description", &format!("MoveIt 2 configuration of {robot}, made by urdd")));
     package.push(text("maintainer", "you").with("email", "you@example.com"));
@@ -53,9 +53,9 @@ fn package(config: &Config) -> String {
 fn cmake(config: &Config) -> String {
     let mut text = format!(
         "cmake_minimum_required(VERSION 3.10.2)\nproject({})\nfind_package(ament_cmake REQUIRED)\n\nament_package()\n\n",
-        config.subject.options.package()
+        &config.options.package
     );
-    let meshes = config.subject.options.mesh_folder.rsplit('/').next();
+    let meshes = config.options.meshes.folder.rsplit('/').next();
     for folder in ["launch", "config"].into_iter().chain(meshes) {
         // CMake's escapes in a quoted argument.
         let folder = folder.replace('\\', "\\\\").replace('"', "\\\"").replace('$', "\\$");
@@ -71,7 +71,7 @@ fn launch(config: &Config) -> String {
     let names: Vec<String> = names.iter().map(|name| python(name)).collect();
     let root = &config.subject.links[config.subject.tree.root];
     let replaced = [
-        ("PACKAGE", python(config.subject.options.package())),
+        ("PACKAGE", python(&config.options.package)),
         ("ROBOT", python(&config.subject.urdf.name)),
         ("URDF", python(&format!("config/{}.urdf", config.name))),
         ("SRDF", python(&format!("config/{}.srdf", config.name))),

@@ -183,9 +183,7 @@ fn fill(
     if let Some(velocity) = positive(source.and_then(|limit| limit.velocity)) {
         limit.push(text("velocity", velocity));
     }
-    if !limit.is_empty() {
-        axis.push(limit);
-    }
+    axis.push_filled(limit);
     if let Some(of) = &joint.dynamics {
         let mut dynamics = Element::new("dynamics");
         if let Some(damping) = positive(of.damping) {
@@ -194,9 +192,7 @@ fn fill(
         if let Some(friction) = positive(of.friction) {
             dynamics.push(text("friction", friction));
         }
-        if !dynamics.is_empty() {
-            axis.push(dynamics);
-        }
+        axis.push_filled(dynamics);
     }
     if let Some(mimic) = &joint.mimic {
         *has_mimics = true;

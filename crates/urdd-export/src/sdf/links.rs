@@ -6,6 +6,7 @@ use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::inertia::held;
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
+use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
@@ -28,18 +29,19 @@ const IMPOSSIBLE: &str = "moments of inertia that no body has, which SDF refuses
 /// The links in link order, then those between the parts of joints; and the files that they reference.
 pub(super) fn links(
     subject: &Subject,
+    meshes: &MeshOptions,
     joints: &Joints,
     gazebo: &Gazebo,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    let shapes = subject.shapes_by_link()?;
     if shapes.iter().all(Vec::is_empty) {
-        notes.push(Note::NoShapes(subject.options.shapes));
+        notes.push(Note::NoShapes(subject.shapes));
     }
-    let mut files = MeshFiles::new(subject);
+    let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
     let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
-    let each = shapes.into_iter().zip(looks(subject, notes)?);
+    let each = shapes.into_iter().zip(looks(subject, meshes, notes)?);
     for (link, (shapes, looks)) in each.enumerate() {
         let view = &subject.view.links[link];
         let joint = subject.tree.parent_joint[link];
@@ -183,7 +185,7 @@ fn collision(
         }
     };
     collision.push(Element::new("geometry").holding(geometry));
-    if let Some(friction) = subject.options.friction().map(number) {
+    if let Some(friction) = subject.friction().map(number) {
         let ode = ["mu", "mu2"].map(|name| Element::new(name).containing(&friction));
         let ode = ode.into_iter().fold(Element::new("ode"), Element::holding);
         let friction = Element::new("friction").holding(ode);

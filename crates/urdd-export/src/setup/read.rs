@@ -35,16 +35,18 @@ impl Setup {
         named.with_file_name(format!("{stem}.export.toml"))
     }
 
-    /// Reads the file for a URDD, if there is one.
+    /// Reads a file, or without one that beside the URDD, if it is there.
     ///
     /// # Errors
     /// If there is one that cannot be read or is wrong: see [`Setup::from_toml`].
-    pub fn beside(urdd: &Path, robot: &Robot) -> Result<Option<Setup>, SetupError> {
-        let file = Setup::path(urdd);
-        match file.symlink_metadata() {
-            Ok(_) => Setup::read(&file, robot).map(Some),
-            Err(_) => Ok(None),
-        }
+    pub fn find(
+        file: Option<&Path>,
+        urdd: &Path,
+        robot: &Robot,
+    ) -> Result<Option<Setup>, SetupError> {
+        let beside = || Some(Setup::path(urdd)).filter(|file| file.symlink_metadata().is_ok());
+        let file = file.map(Path::to_owned).or_else(beside);
+        file.map(|file| Setup::read(&file, robot)).transpose()
     }
 
     /// Reads a file.

@@ -27,7 +27,7 @@ pub(super) mod urdf;
 use rayon::prelude::*;
 
 use super::error::ExportError;
-use super::options::SphereBudget;
+use super::options::{SphereBudget, SphereOptions};
 use super::subject::Subject;
 use fit::Limits;
 use frame::Point;
@@ -71,21 +71,21 @@ struct Model {
 }
 
 impl Model {
-    fn new(subject: &Subject) -> Result<Self, ExportError> {
-        let kind = subject.options.shapes;
+    fn new(subject: &Subject, options: &SphereOptions) -> Result<Self, ExportError> {
+        let kind = options.shapes;
         if !matches!(kind, ShapeKind::Pieces | ShapeKind::Hulls) {
             return Err(ExportError::SpheresOf(kind));
         }
-        let pairs = Pairs::new(subject, subject.robot.shapes(kind)?)?;
-        let limits = limits(subject.options.spheres, pairs.links.len());
+        let pairs = Pairs::new(subject, options.reasons.as_deref())?;
+        let limits = limits(options.budget, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);
         let surface: Vec<Vec<Point>> =
             (pairs.pieces.par_iter()).map(|pieces| surface::points(pieces, count)).collect();
-        let numbers = Numbers::new(subject.options.samples, &pairs, per_link);
+        let numbers = Numbers::new(options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
-        let (spheres, near) = match subject.options.cover {
-            true => (covering(subject, &pairs), false),
+        let (spheres, near) = match options.cover {
+            true => (covering(options.budget, &pairs), false),
             false => fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?,
         };
         let measured = measure(subject.robot, &pairs, &spheres, &ignored, &numbers, near)?;
@@ -120,13 +120,13 @@ fn limits(budget: SphereBudget, links: usize) -> Limits {
     }
 }
 
-fn covering(subject: &Subject, pairs: &Pairs) -> Spheres {
+fn covering(budget: SphereBudget, pairs: &Pairs) -> Spheres {
     let vertices = |pieces: &Vec<urdd_geometry::Mesh>| {
         let each = pieces.iter();
         each.map(|mesh| mesh.vertices.clone()).collect()
     };
     let links: Vec<Vec<Vec<Point>>> = pairs.pieces.iter().map(vertices).collect();
-    let covers = cover::cover(&links, subject.options.spheres).into_iter();
+    let covers = cover::cover(&links, budget).into_iter();
     let sphere = |sphere: urdd_geometry::bounding_sphere::BoundingSphere| Sphere {
         centre: sphere.centre,
         radius: sphere.radius,

@@ -164,7 +164,7 @@ fn rates_json(rates: SphereRates) -> Value {
 /// The note for the user: that there is nothing to fit to, or that the spheres are not good enough for planning.
 pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
     if model.links.is_empty() {
-        return Some(Note::NoShapes(subject.options.shapes));
+        return Some(Note::NoShapes(subject.shapes));
     }
     if model.measured.is_good() {
         return None;
