@@ -8,8 +8,9 @@ use urdd_robot::ShapeKind;
 
 use super::format::Format;
 use super::options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, MoveitOptions,
-    Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions, UrdfOptions,
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
+    UrdfOptions,
 };
 use super::setup::Setup;
 
@@ -115,11 +116,9 @@ impl Choices {
                 Options::Urdf(UrdfOptions { shapes: self.shapes, meshes: self.meshes() })
             }
             Format::Drake => Options::Drake(DrakeOptions {
-                pairs: self.pairs(),
-                meshes: self.meshes(),
+                model: self.model(),
                 package: self.package.clone(),
                 file: self.file(),
-                setup: self.setup.clone(),
             }),
             Format::Mjcf => Options::Mjcf(MjcfOptions {
                 shapes: self.shapes,
@@ -143,26 +142,22 @@ impl Choices {
                 meshes: self.meshes(),
             }),
             Format::Moveit => {
+                let mut model = self.model();
                 let package = self.package.clone().or_else(|| self.package_of_output());
-                let folder = package.as_ref().map(|package| format!("package://{package}/meshes"));
-                let folder = self.mesh_folder.clone().or(folder);
-                Options::Moveit(MoveitOptions {
-                    pairs: self.pairs(),
-                    meshes: MeshOptions {
-                        folder: folder.unwrap_or_else(|| "meshes".to_owned()),
-                        ..self.meshes()
-                    },
-                    package: package.unwrap_or_else(|| Self::PACKAGE.to_owned()),
-                    setup: self.setup.clone(),
-                })
+                if let (Some(package), None) = (&package, &self.mesh_folder) {
+                    model.meshes.folder = format!("package://{package}/meshes");
+                }
+                let package = package.unwrap_or_else(|| Self::PACKAGE.to_owned());
+                Options::Moveit(MoveitOptions { model, package })
             }
-            Format::Sdf => Options::Sdf(SdfOptions {
-                pairs: self.pairs(),
-                meshes: self.meshes(),
-                floating_base: self.floating_base,
-                setup: self.setup.clone(),
-            }),
+            Format::Sdf => {
+                Options::Sdf(SdfOptions { model: self.model(), floating_base: self.floating_base })
+            }
         })
+    }
+
+    fn model(&self) -> ModelOptions {
+        ModelOptions { pairs: self.pairs(), meshes: self.meshes(), setup: self.setup.clone() }
     }
 
     fn pairs(&self) -> PairOptions {

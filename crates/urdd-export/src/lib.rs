@@ -64,11 +64,13 @@ pub mod simplify;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
+mod srdf_document;
 mod srdf_import;
 mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
+mod template;
 mod textures;
 mod urdf;
 mod urdf_elements;
@@ -82,18 +84,20 @@ pub use carried::carried_table;
 pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use format::Format;
-pub use groups::{GroupFault, JointGroup, SrdfGroupsError, joint_groups_of_srdf};
+pub use groups::{JointGroup, joint_groups_of_srdf};
 pub use options::{
-    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, MoveitOptions,
-    Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions, UrdfOptions,
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
+    UrdfOptions,
 };
 pub use output::Export;
 pub use pairs::Contacts;
-pub use setup::{Setup, SetupError, SetupFault};
+pub use setup::{Setup, SetupError};
 pub use spheres::SphereRates;
-pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
-pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
-pub use states_import::{ImportedStates, StateFault, StatesError, import_states};
+pub use srdf_document::SrdfError;
+pub use srdf_import::{ImportedSkips, import_srdf};
+pub use srdf_merge::{MergedSrdf, merge_srdf};
+pub use states_import::{ImportedStates, import_states};
 
 use subject::Subject;
 

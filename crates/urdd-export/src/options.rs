@@ -40,13 +40,13 @@ impl Options {
         match self {
             Options::Srdf(of) => (Format::Srdf, of.shapes, None),
             Options::Urdf(of) => (Format::Urdf, of.shapes, None),
-            Options::Drake(of) => (Format::Drake, of.pairs.shapes, of.setup.as_ref()),
+            Options::Drake(of) => (Format::Drake, of.model.pairs.shapes, of.model.setup.as_ref()),
             Options::Mjcf(of) => (Format::Mjcf, of.shapes, of.setup.as_ref()),
             Options::Curobo(of) => (Format::Curobo, of.spheres.shapes, of.setup.as_ref()),
             Options::Foam(of) => (Format::Foam, of.shapes, None),
             Options::Spherized(of) => (Format::Spherized, of.spheres.shapes, None),
-            Options::Moveit(of) => (Format::Moveit, of.pairs.shapes, of.setup.as_ref()),
-            Options::Sdf(of) => (Format::Sdf, of.pairs.shapes, of.setup.as_ref()),
+            Options::Moveit(of) => (Format::Moveit, of.model.pairs.shapes, of.model.setup.as_ref()),
+            Options::Sdf(of) => (Format::Sdf, of.model.pairs.shapes, of.model.setup.as_ref()),
         }
     }
 }
@@ -130,19 +130,26 @@ pub struct UrdfOptions {
     pub meshes: MeshOptions,
 }
 
-/// Options of URDF for Drake.
+/// Options of formats that have a whole robot, with pairs of links.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DrakeOptions {
-    /// The shapes, and the pairs that are filtered.
+pub struct ModelOptions {
+    /// The shapes, and the pairs that are disabled.
     pub pairs: PairOptions,
     /// The mesh files.
     pub meshes: MeshOptions,
+    /// What the URDD does not say.
+    pub setup: Option<Setup>,
+}
+
+/// Options of URDF for Drake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrakeOptions {
+    /// The robot.
+    pub model: ModelOptions,
     /// The name of a ROS package, for a `package.xml` and a model directive beside the file.
     pub package: Option<String>,
     /// The name of the file, which the model directive refers to.
     pub file: Option<String>,
-    /// What the URDD does not say.
-    pub setup: Option<Setup>,
 }
 
 /// Options of MJCF.
@@ -226,28 +233,20 @@ pub struct SpherizedOptions {
     pub meshes: MeshOptions,
 }
 
-/// Options of MoveIt's configuration.
+/// Options of MoveIt's configuration. Without a setup, it is guessed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MoveitOptions {
-    /// The shapes, and the pairs that are disabled.
-    pub pairs: PairOptions,
-    /// The mesh files.
-    pub meshes: MeshOptions,
+    /// The robot.
+    pub model: ModelOptions,
     /// The name of the package.
     pub package: String,
-    /// What the URDD does not say. Without it, it is guessed.
-    pub setup: Option<Setup>,
 }
 
 /// Options of SDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SdfOptions {
-    /// The shapes, and the pairs that are filtered.
-    pub pairs: PairOptions,
-    /// The mesh files.
-    pub meshes: MeshOptions,
-    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
+    /// The robot.
+    pub model: ModelOptions,
+    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless the setup says that it moves.
     pub floating_base: bool,
-    /// What the URDD does not say.
-    pub setup: Option<Setup>,
 }

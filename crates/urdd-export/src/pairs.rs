@@ -114,10 +114,7 @@ pub(super) fn pairs(
     let places = skips.places();
     for i in 0..places.len() {
         for j in i + 1..places.len() {
-            let (first, second) = match places[i].0 < places[j].0 {
-                true => (i, j),
-                false => (j, i),
-            };
+            let (first, second) = if places[i].0 < places[j].0 { (i, j) } else { (j, i) };
             let links = [places[first].0, places[second].0];
             if links[0] == links[1] {
                 continue;

@@ -132,10 +132,7 @@ impl Surface {
                 )?
             }
         };
-        Ok(match found.indices.is_empty() {
-            true => self.indices.clone(),
-            false => found.indices,
-        })
+        Ok(if found.indices.is_empty() { self.indices.clone() } else { found.indices })
     }
 
     /// The greatest sampled distance between this surface and a simplified one, m.

@@ -18,9 +18,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
 
 /// Adds the pairs that need no check.
 pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
-    for pair in subject.disabled() {
-        robot.push(disabled(subject, pair));
-    }
+    robot.extend(subject.disabled().map(|pair| disabled(subject, pair)));
 }
 
 fn disabled(subject: &Subject, pair: &LinkPair) -> Element {

@@ -63,11 +63,11 @@ impl<'a> Subject<'a> {
         let mut is_floating = given.is_some_and(|setup| setup.floating.value);
         let pairs = match options {
             Options::Srdf(of) => link_pairs(robot, of)?,
-            Options::Drake(of) => link_pairs(robot, &of.pairs)?,
-            Options::Moveit(of) => link_pairs(robot, &of.pairs)?,
+            Options::Drake(of) => link_pairs(robot, &of.model.pairs)?,
+            Options::Moveit(of) => link_pairs(robot, &of.model.pairs)?,
             Options::Sdf(of) => {
                 is_floating |= of.floating_base;
-                link_pairs(robot, &of.pairs)?
+                link_pairs(robot, &of.model.pairs)?
             }
             // MJCF handles pairs of pieces exactly.
             Options::Mjcf(of) => {
@@ -152,9 +152,8 @@ impl<'a> Subject<'a> {
     pub fn notes(&self) -> Vec<Note> {
         let contacts = |pair: &&LinkPair| {
             let counted = pair.mixed.as_ref().and_then(|mixed| mixed.contacts);
-            Reverse(counted.map_or(0, |contacts| match pair.disabled {
-                true => contacts.checked,
-                false => contacts.skipped,
+            Reverse(counted.map_or(0, |contacts| {
+                if pair.disabled { contacts.checked } else { contacts.skipped }
             }))
         };
         let mut pairs: Vec<&LinkPair> = self.pairs.iter().collect();

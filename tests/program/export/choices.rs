@@ -34,7 +34,7 @@ fn names_follow_the_output() {
         panic!("options of MoveIt");
     };
     assert_eq!(moveit.package, "my_robot_v1_2");
-    assert_eq!(moveit.meshes.folder, "package://my_robot_v1_2/meshes");
+    assert_eq!(moveit.model.meshes.folder, "package://my_robot_v1_2/meshes");
     let Ok(Options::Urdf(urdf)) = choices.options(Format::Urdf) else {
         panic!("options of URDF");
     };
@@ -43,7 +43,7 @@ fn names_follow_the_output() {
         panic!("options of MoveIt");
     };
     assert_eq!(
-        (moveit.package.as_str(), moveit.meshes.folder.as_str()),
+        (moveit.package.as_str(), moveit.model.meshes.folder.as_str()),
         (Choices::PACKAGE, "meshes")
     );
 }

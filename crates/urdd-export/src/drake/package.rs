@@ -14,9 +14,8 @@ pub(super) fn files(subject: &Subject, options: &DrakeOptions) -> Result<Files, 
         return Ok(Files::new());
     };
     check_package(package)?;
-    let description = Element::new("package")
-        .with("format", "3")
-        .holding(Element::new("name").containing(package));
+    let description =
+        Element::new("package").with("format", "3").holding(Element::text("name", package));
     let robot = &subject.urdf.name;
     let mut model = vec![
         ("name".to_owned(), Yaml::text(robot)),

@@ -68,13 +68,14 @@ pub(super) fn actuators(
         });
     }
     let bandwidth = number(bandwidth);
+    let computed = |gains: &str| {
+        format!(
+            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: {gains}. They are not tuned, except those that a person set."
+        )
+    };
     let said = match kind {
-        ActuatorKind::Position => format!(
-            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: kp = I w^2, kv = 2 I w. They are not tuned, except those that a person set."
-        ),
-        ActuatorKind::Velocity => format!(
-            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: kv = I w. They are not tuned, except those that a person set."
-        ),
+        ActuatorKind::Position => computed("kp = I w^2, kv = 2 I w"),
+        ActuatorKind::Velocity => computed("kv = I w"),
         ActuatorKind::Motor => " Actuators take torques and forces, N m and N.".to_owned(),
     };
     Ok(Actuators { element, said })

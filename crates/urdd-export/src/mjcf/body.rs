@@ -76,9 +76,10 @@ impl<'a> Bodies<'a> {
         let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
         // From the leaves up, to avoid deep recursion for long chains.
         for &link in self.subject.tree.order.iter().rev() {
-            let mut element = match self.subject.is_world(link) {
-                true => world.clone(),
-                false => self.frame(link, base_height),
+            let mut element = if self.subject.is_world(link) {
+                world.clone()
+            } else {
+                self.frame(link, base_height)
             };
             self.fill(link, &mut element)?;
             for joint in &self.subject.tree.child_joints[link] {
@@ -105,9 +106,10 @@ impl<'a> Bodies<'a> {
     fn frame(&self, link: usize, base_height: f64) -> Element {
         let body = Element::new("body").with("name", self.subject.links[link].as_str());
         let Some(joint) = self.subject.tree.parent_joint[link] else {
-            return match self.subject.has_free_base() {
-                true => body.with("pos", numbers(&[0.0, 0.0, base_height])),
-                false => body,
+            return if self.subject.has_free_base() {
+                body.with("pos", numbers(&[0.0, 0.0, base_height]))
+            } else {
+                body
             };
         };
         let origin = &self.subject.view.joints[joint].origin;
@@ -133,12 +135,8 @@ impl<'a> Bodies<'a> {
             let name = subject.names.taken.clone().free(FLOATING_BASE.to_owned());
             element.push(Element::new("freejoint").with("name", name));
         }
-        for joint in joints {
-            element.push(joint);
-        }
-        if let Some(site) = frames::site(subject, self.options.sensors, link) {
-            element.push(site);
-        }
+        element.extend(joints);
+        element.extend(frames::site(subject, self.options.sensors, link));
         for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
@@ -184,10 +182,8 @@ impl<'a> Bodies<'a> {
             }
             Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.piece);
-                let format = match surface::fits_stl(&mesh) {
-                    true => MeshFormat::Stl,
-                    false => MeshFormat::Obj,
-                };
+                let format =
+                    if surface::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
                 let path = self.files.add(link, &what, mesh, format)?;
                 let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::element::Element;
 use super::super::error::ExportError;
-use super::super::names::check_names;
+use super::super::names::{ANOTHER, check_names};
 use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
 use super::scene::Stand;
@@ -25,7 +25,7 @@ pub(super) fn keyframes(
     let mut keyframes = Element::new("keyframe");
     let named = subject.robot.named_configurations()?;
     let names = named.iter().map(|named| named.name.as_str());
-    check_names(subject.format, "configuration", names)?;
+    check_names(subject.format, "configuration", names, ANOTHER)?;
     let is_away = |joint| subject.locked_at(joint).is_some_and(|position| position != 0.0);
     let is_needed = actuators.is_some()
         || subject.has_free_base()
@@ -35,9 +35,10 @@ pub(super) fn keyframes(
         keyframes.push(keyframe(subject, DEFAULT, actuators, &zero, stand.base_height)?);
     }
     for named in named {
-        let height = match subject.has_free_base() {
-            true => stand.height(subject, &named.configuration)?,
-            false => 0.0,
+        let height = if subject.has_free_base() {
+            stand.height(subject, &named.configuration)?
+        } else {
+            0.0
         };
         let name = named.name.as_str();
         keyframes.push(keyframe(subject, name, actuators, &named.configuration, height)?);

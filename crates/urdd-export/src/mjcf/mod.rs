@@ -115,9 +115,7 @@ fn contact(subject: &Subject) -> Element {
             pairs.extend(mixed.checked.iter().map(geoms));
         }
     }
-    for pair in pairs {
-        contact.push(pair);
-    }
+    contact.extend(pairs);
     contact
 }
 

@@ -88,8 +88,7 @@ impl<'a> Config<'a> {
 
     /// Simulated hardware that does what it is told, for the launch file.
     pub fn hardware(&self) -> Element {
-        let text = |name: &'static str, text: &str| Element::new(name).containing(text);
-        let plugin = text("plugin", "mock_components/GenericSystem");
+        let plugin = Element::text("plugin", "mock_components/GenericSystem");
         let mut hardware = Element::new("ros2_control")
             .with("name", "mock_hardware")
             .with("type", "system")
@@ -101,7 +100,7 @@ impl<'a> Config<'a> {
                 let initial = number(self.position(configuration, joint));
                 let position = Element::new("state_interface")
                     .with("name", "position")
-                    .holding(text("param", &initial).with("name", "initial_value"));
+                    .holding(Element::text("param", &initial).with("name", "initial_value"));
                 let velocity = Element::new("state_interface").with("name", "velocity");
                 let command = Element::new("command_interface").with("name", "position");
                 let joint = Element::new("joint").with("name", self.joint(joint));

@@ -23,7 +23,7 @@ pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Expor
     let setup = subject.setup(&mut notes)?;
     let config = Config::new(subject, options, &setup)?;
     let shapes = subject.shapes_by_link()?;
-    let (mut robot, meshes) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
+    let (mut robot, meshes) = urdf::robot(subject, &options.model.meshes, shapes, &mut notes)?;
     if !config.has_hardware() {
         robot.push(config.hardware());
     }

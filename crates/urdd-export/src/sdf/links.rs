@@ -74,8 +74,8 @@ pub(super) fn links(
             visual.push(Element::new("geometry").holding(mesh(&path)));
             if let Some(rgba) = rgba {
                 let colour = numbers(&rgba);
-                let ambient = Element::new("ambient").containing(&colour);
-                let diffuse = Element::new("diffuse").containing(&colour);
+                let ambient = Element::text("ambient", &colour);
+                let diffuse = Element::text("diffuse", &colour);
                 visual.push(Element::new("material").holding(ambient).holding(diffuse));
             }
             gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
@@ -111,7 +111,7 @@ fn touch(link: &mut Element, collisions: &[String]) {
         {
             contact.remove("collision");
             for name in collisions {
-                contact.push(Element::new("collision").containing(name));
+                contact.push(Element::text("collision", name));
             }
         }
     }
@@ -148,16 +148,16 @@ fn light() -> Element {
 fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
     let mut tensor = Element::new("inertia");
     for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].into_iter().zip(inertia) {
-        tensor.push(Element::new(name).containing(&number(value)));
+        tensor.push(Element::text(name, &number(value)));
     }
     Element::new("inertial")
-        .holding(Element::new("pose").containing(pose))
-        .holding(Element::new("mass").containing(&number(mass)))
+        .holding(Element::text("pose", pose))
+        .holding(Element::text("mass", &number(mass)))
         .holding(tensor)
 }
 
 fn mesh(path: &str) -> Element {
-    Element::new("mesh").holding(Element::new("uri").containing(path))
+    Element::new("mesh").holding(Element::text("uri", path))
 }
 
 fn collision(
@@ -176,17 +176,17 @@ fn collision(
         Solid::Box { pose, half_extents } => {
             collision.push(placed(&pose));
             let size = half_extents.map(|half| 2.0 * half.max(HALF_THICKNESS));
-            Element::new("box").holding(Element::new("size").containing(&numbers(&size)))
+            Element::new("box").holding(Element::text("size", &numbers(&size)))
         }
         Solid::Sphere { centre, radius } => {
             collision.push(placed(&Isometry3::translation(centre[0], centre[1], centre[2])));
             let radius = number(radius.max(HALF_THICKNESS));
-            Element::new("sphere").holding(Element::new("radius").containing(&radius))
+            Element::new("sphere").holding(Element::text("radius", &radius))
         }
     };
     collision.push(Element::new("geometry").holding(geometry));
     if let Some(friction) = subject.friction().map(number) {
-        let ode = ["mu", "mu2"].map(|name| Element::new(name).containing(&friction));
+        let ode = ["mu", "mu2"].map(|name| Element::text(name, &friction));
         let ode = ode.into_iter().fold(Element::new("ode"), Element::holding);
         let friction = Element::new("friction").holding(ode);
         collision.push(Element::new("surface").holding(friction));
@@ -198,5 +198,5 @@ fn placed(pose: &Isometry3<f64>) -> Element {
     let rotation = pose.rotation.to_rotation_matrix();
     let mut values = pose.translation.vector.as_slice().to_vec();
     values.extend(to_rpy(rotation.matrix()));
-    Element::new("pose").containing(&numbers(&values))
+    Element::text("pose", &numbers(&values))
 }

@@ -28,7 +28,8 @@ pub(super) fn export(subject: &Subject, options: &SdfOptions) -> Result<Export, 
     let mut taken = subject.names.taken.clone();
     gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
     let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
-    let (links, files) = links::links(subject, &options.meshes, &joints, &gazebo, &mut notes)?;
+    let (links, files) =
+        links::links(subject, &options.model.meshes, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
             notes.push(Note::Robot(WORLD));
@@ -39,16 +40,12 @@ pub(super) fn export(subject: &Subject, options: &SdfOptions) -> Result<Export, 
     if !is_world && !subject.is_floating {
         let name = joints.taken.free("world_fixed".to_owned());
         let world = Element::new("joint").with("name", name).with("type", "fixed");
-        let parent = Element::new("parent").containing("world");
-        let child = Element::new("child").containing(&subject.links[root]);
+        let parent = Element::text("parent", "world");
+        let child = Element::text("child", &subject.links[root]);
         model.push(world.holding(parent).holding(child));
     }
-    for element in joints.elements {
-        model.push(element);
-    }
-    for group in drake::groups(subject, &mut joints.taken) {
-        model.push(group);
-    }
+    model.extend(joints.elements);
+    model.extend(drake::groups(subject, &mut joints.taken));
     if subject.disabled().next().is_some() {
         notes.push(Note::Robot(GAZEBO));
     }

@@ -56,10 +56,7 @@ impl Guesser<'_> {
         let legs: Vec<usize> = roots.iter().copied().filter(|root| self.is_leg(*root)).collect();
         let legs = if legs.len() > 1 { legs } else { Vec::new() };
         for root in roots {
-            match legs.contains(&root) {
-                true => self.leg(root),
-                false => self.limb(root),
-            }
+            if legs.contains(&root) { self.leg(root) } else { self.limb(root) }
         }
     }
 
@@ -163,17 +160,16 @@ impl Guesser<'_> {
             "{} at the root link that lead down, as others do",
             joints(self.chains.all[chain].joints.len())
         );
-        let members = match self.chains.all[chain].children.is_empty() {
-            true => {
-                let of = &self.chains.all[chain];
-                let tip = self.structure.fixed_to(of.last);
-                let tip = tip.into_iter().max_by(|a, b| {
-                    let depth = |link: usize| -self.poses[link].translation.z;
-                    depth(*a).total_cmp(&depth(*b))
-                });
-                Members::Chain { base: of.base, tip: tip.unwrap_or(of.last) }
-            }
-            false => self.moving(&self.chains.joints_from(chain)),
+        let members = if self.chains.all[chain].children.is_empty() {
+            let of = &self.chains.all[chain];
+            let tip = self.structure.fixed_to(of.last);
+            let tip = tip.into_iter().max_by(|a, b| {
+                let depth = |link: usize| -self.poses[link].translation.z;
+                depth(*a).total_cmp(&depth(*b))
+            });
+            Members::Chain { base: of.base, tip: tip.unwrap_or(of.last) }
+        } else {
+            self.moving(&self.chains.joints_from(chain))
         };
         self.push(&name, members, false, &why);
     }
@@ -292,9 +288,10 @@ impl Guesser<'_> {
     /// A chain of few joints.
     fn small(&mut self, chain: usize, kind: &str, driven: usize) {
         let name = self.named(chain, kind);
-        let after = match self.chains.all[chain].children.is_empty() {
-            true => "none after them",
-            false => "other chains begin at their end",
+        let after = if self.chains.all[chain].children.is_empty() {
+            "none after them"
+        } else {
+            "other chains begin at their end"
         };
         let why = format!("{} in a row, and {after}", joints(driven));
         let of = &self.chains.all[chain];

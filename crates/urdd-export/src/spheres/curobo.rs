@@ -246,9 +246,10 @@ impl Arm {
         // cuRobo has one limit for all joints, or one for each.
         let each = |of: &dyn Fn(usize) -> Option<f64>, default: f64| {
             let values = self.active.iter().map(|joint| of(*joint).unwrap_or(default));
-            match self.active.iter().any(|joint| of(*joint).is_some()) {
-                true => Yaml::numbers(&values.collect::<Vec<_>>()),
-                false => Yaml::number(default),
+            if self.active.iter().any(|joint| of(*joint).is_some()) {
+                Yaml::numbers(&values.collect::<Vec<_>>())
+            } else {
+                Yaml::number(default)
             }
         };
         let limit = |joint: usize| subject.urdf.joints[joint].limit.as_ref();

@@ -140,9 +140,10 @@ pub fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
     let (mut missed, mut false_contacts) = (colliding, 0);
     let mut best = (f64::INFINITY, 0.0);
     for (place, sample) in order.iter().enumerate() {
-        match samples[*sample].collides() {
-            true => missed -= 1,
-            false => false_contacts += 1,
+        if samples[*sample].collides() {
+            missed -= 1
+        } else {
+            false_contacts += 1
         }
         let gap = gaps[*sample];
         let next = order.get(place + 1).map_or(limit, |next| gaps[*next]);

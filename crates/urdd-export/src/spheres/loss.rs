@@ -152,9 +152,10 @@ impl Goal<'_> {
             ignored[*pair as usize] |= *gap <= 0.0 && !touches[*pair as usize];
         }
         let looked = |(sample, near): (usize, Vec<(u32, f64)>)| {
-            let pairs = match self.samples[sample].collides() {
-                true => self.samples[sample].touching.clone(),
-                false => near.into_iter().map(|(pair, _)| pair).collect(),
+            let pairs = if self.samples[sample].collides() {
+                self.samples[sample].touching.clone()
+            } else {
+                near.into_iter().map(|(pair, _)| pair).collect()
             };
             let pairs = pairs.into_iter().filter(|pair| !ignored[*pair as usize]);
             Looked { sample, pairs: pairs.collect() }
@@ -209,9 +210,10 @@ impl Goal<'_> {
             } else {
                 looked.pairs.retain(|pair| {
                     let links = self.pairs[*pair as usize];
-                    let gap = match model.may_be_near(placed, links, far) {
-                        true => model.gap(sample, placed, links, far),
-                        false => far,
+                    let gap = if model.may_be_near(placed, links, far) {
+                        model.gap(sample, placed, links, far)
+                    } else {
+                        far
                     };
                     if gap < margin {
                         add(placed, *pair, margin);

@@ -35,7 +35,7 @@ pub use judge::SphereRates;
 use measure::{Measured, Numbers, measure};
 use model::{Sphere, Spheres};
 use pairs::Pairs;
-use samples::{Ask, Region, Sample, sample, samples};
+use samples::{Ask, Region, Sample, Sampler};
 use urdd_robot::{RobotError, ShapeKind};
 
 const AUTO_PER_LINK: usize = 12;
@@ -84,9 +84,10 @@ impl Model {
             (pairs.pieces.par_iter()).map(|pieces| surface::points(pieces, count)).collect();
         let numbers = Numbers::new(options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
-        let (spheres, near) = match options.cover {
-            true => (covering(options.budget, &pairs), false),
-            false => fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?,
+        let (spheres, near) = if options.cover {
+            (covering(options.budget, &pairs), false)
+        } else {
+            fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?
         };
         let measured = measure(subject.robot, &pairs, &spheres, &ignored, &numbers, near)?;
         let mut written = Vec::new();
@@ -144,40 +145,38 @@ fn fitted(
     ignored: &mut [bool],
     limits: Limits,
 ) -> Result<(Spheres, bool), RobotError> {
-    let robot = subject.robot;
+    let sampler = Sampler { robot: subject.robot, pairs };
     let mut near = false;
     let mut known: Vec<Sample> = Vec::new();
     if !pairs.checked.is_empty() {
-        let zero = robot.configurations()?.zero();
-        known.push(sample(robot, pairs, &zero, Ask::Pairs)?);
+        known.push(sampler.zero(Ask::Pairs)?);
         let some = numbers.fit / 10;
-        let take = |region, first, count| samples(robot, pairs, region, first, count, Ask::Pairs);
+        let take = |region, first, count| sampler.samples(region, first, count, Ask::Pairs);
         let first = Numbers::FIT;
         known.extend(take(Region::Bounds, first, some)?);
         let free = known.iter().filter(|sample| !sample.collides()).count();
         near = (free as f64) < FEW_FREE * known.len() as f64;
-        known.extend(match near {
-            true => take(Region::NearDefault, first, numbers.fit - some)?,
-            false => take(Region::Bounds, first + some as u64, numbers.fit - some)?,
+        known.extend(if near {
+            take(Region::NearDefault, first, numbers.fit - some)?
+        } else {
+            take(Region::Bounds, first + some as u64, numbers.fit - some)?
         });
     }
     let mut to_balance = Vec::new();
     if let Some(default) = known.first() {
-        let region = match near {
-            true => Region::NearDefault,
-            false => Region::Bounds,
-        };
+        let region = if near { Region::NearDefault } else { Region::Bounds };
         let (first, count) = (Numbers::GROW, numbers.grow);
-        to_balance = samples(robot, pairs, region, first, count, Ask::Any)?;
+        to_balance = sampler.samples(region, first, count, Ask::Any)?;
         to_balance.insert(0, default.clone());
     }
     let mut best: Option<(f64, Spheres, Vec<bool>)> = None;
     for steps in fit::CONTACT_STEP {
         let mut own = ignored.to_vec();
         let mut spheres = fit::fit(surface, &known, &pairs.checked, &mut own, limits, steps);
-        let worse = match to_balance.is_empty() {
-            true => 0.0,
-            false => balance(&mut spheres, surface, pairs, &mut own, &known, &to_balance),
+        let worse = if to_balance.is_empty() {
+            0.0
+        } else {
+            balance(&mut spheres, surface, pairs, &mut own, &known, &to_balance)
         };
         if best.as_ref().is_none_or(|best| worse < best.0) {
             best = Some((worse, spheres, own));

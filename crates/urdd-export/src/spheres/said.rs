@@ -56,13 +56,14 @@ impl Model {
         let outside = stands.iter().map(|stand| stand.outside).fold(0.0, f64::max);
         let held: usize = stands.iter().map(|stand| stand.held[0]).sum();
         let points: usize = stands.iter().map(|stand| stand.held[1]).sum();
-        lines.push(match covers {
-            true => "The spheres of a link hold all of its convex pieces.".to_owned(),
-            false => format!(
+        lines.push(if covers {
+            "The spheres of a link hold all of its convex pieces.".to_owned()
+        } else {
+            format!(
                 "The spheres are fitted and do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
                 100.0 * held as f64 / points.max(1) as f64,
                 1000.0 * outside
-            ),
+            )
         });
         lines.extend(self.measured.said());
         if self.ignored_as_never > 0 {

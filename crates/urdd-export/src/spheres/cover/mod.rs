@@ -27,10 +27,9 @@ pub(super) fn cover(
     links: &[Vec<Vec<[f64; 3]>>],
     budget: SphereBudget,
 ) -> Vec<Vec<BoundingSphere>> {
-    let cells = links.iter().map(|pieces| match pieces.is_empty() {
-        true => Vec::new(),
-        false => vec![Cell::new(pieces)],
-    });
+    let cells = links
+        .iter()
+        .map(|pieces| if pieces.is_empty() { Vec::new() } else { vec![Cell::new(pieces)] });
     let mut links: Vec<Cover> = cells.map(Cover::new).collect();
     let per_link = match budget {
         SphereBudget::Auto => Some(AUTO),
@@ -65,10 +64,7 @@ fn share(links: &mut [Cover], count: usize) {
             break;
         }
         let most = links[link].best.len() + left;
-        wastes[link] = match links[link].cut(most) {
-            true => links[link].waste(),
-            false => 0.0,
-        };
+        wastes[link] = if links[link].cut(most) { links[link].waste() } else { 0.0 };
     }
 }
 
@@ -117,7 +113,7 @@ fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
         apart.sqrt() + a.radius <= b.radius
     };
     for cell in cells {
-        let sphere = cell.sphere();
+        let sphere = cell.sphere;
         if !spheres.iter().any(|other| inside(&sphere, other)) {
             spheres.retain(|other| !inside(other, &sphere));
             spheres.push(sphere);
