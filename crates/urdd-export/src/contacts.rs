@@ -47,8 +47,7 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
         Err(RobotError::Missing(_)) => return Ok(()),
         other => other?,
     };
-    let samples = robot.num_samples()?.unwrap_or(USUAL_SAMPLES);
-    let samples = samples.min(MAX_SAMPLES);
+    let samples = robot.num_samples()?.unwrap_or(USUAL_SAMPLES).min(MAX_SAMPLES);
     let sampled: Vec<f64> =
         (0..u64::from(samples)).flat_map(|k| configurations.random(k)).collect();
     let contacts = |checked: bool| -> Result<HashMap<[usize; 2], usize>, RobotError> {
@@ -56,8 +55,7 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
             shapes.sort_unstable();
             of_shapes.get(&shapes) == Some(&checked)
         };
-        let proximity = robot.proximity_of(kind, is_wanted)?;
-        let found = proximity.contacts_of_links(&sampled)?.into_iter();
+        let found = robot.proximity_of(kind, is_wanted)?.contacts_of_links(&sampled)?.into_iter();
         Ok(found
             .map(|(mut links, count)| {
                 links.sort_unstable();

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use quick_xml::escape::escape;
 use roxmltree::{Attribute, Node};
 use urdd_xml::element::name;
+use urdd_xml::number::number;
 
 use urdd_format::escape::is_hidden;
 
@@ -129,6 +130,15 @@ impl Element {
             Some(value) => self.with(key, value),
             None => self,
         }
+    }
+
+    /// Adds numbers as attributes, where there are any.
+    pub fn with_numbers(
+        self,
+        values: impl IntoIterator<Item = (&'static str, Option<f64>)>,
+    ) -> Self {
+        let each = values.into_iter();
+        each.fold(self, |element, (key, value)| element.with_some(key, value.map(number)))
     }
 
     /// Adds a child element.

@@ -239,8 +239,7 @@ fn some(links: &[String]) -> String {
 }
 
 fn all(names: &[String]) -> String {
-    let names = names.iter().map(|name| format!("`{}`", name.escape_debug()));
-    names.collect::<Vec<_>>().join(", ")
+    names.iter().map(|name| format!("`{}`", name.escape_debug())).collect::<Vec<_>>().join(", ")
 }
 
 fn mixed(

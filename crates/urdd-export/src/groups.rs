@@ -28,8 +28,7 @@ impl Setup {
     pub fn joint_groups(&self, robot: &Robot) -> Result<Vec<JointGroup>, ExportError> {
         let structure = Structure::new(robot)?;
         structure.check(&self.of)?;
-        let groups = self.groups.iter().enumerate();
-        let groups = groups.map(|(place, group)| {
+        let groups = self.groups.iter().enumerate().map(|(place, group)| {
             let joints = joints_of(self, place, &structure);
             JointGroup::of(&group.value.name, joints, robot, &structure)
         });

@@ -31,8 +31,7 @@ pub struct ImportedSkips {
 pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, SrdfError> {
     let srdf = Srdf::of(text, &robot.description()?.name)?;
     let links = robot.link_names()?;
-    let names = links.iter().map(String::as_str).zip(0..);
-    let by_name: HashMap<&str, usize> = names.collect();
+    let by_name: HashMap<&str, usize> = links.iter().map(String::as_str).zip(0..).collect();
     let link = |node: Node, attribute: &str| {
         let name = srdf.attribute(node, attribute)?;
         let known = by_name.get(name).copied();

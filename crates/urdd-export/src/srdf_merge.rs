@@ -60,8 +60,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
     if gone.iter().map(|pair| &old[pair.range()]).eq(pairs.iter().copied()) {
         return Ok(merged(old.to_owned()));
     }
-    let lines = pairs.iter().map(|pair| format!("{margin}{pair}{newline}"));
-    let lines: String = lines.collect();
+    let lines: String = pairs.iter().map(|pair| format!("{margin}{pair}{newline}")).collect();
     // An empty element has no end tag to insert before.
     let range = robot.range();
     let end = old[range.clone()].rfind("</").map(|end| range.start + end);

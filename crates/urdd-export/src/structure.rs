@@ -76,8 +76,7 @@ impl Structure {
 
     /// The moving joints that are attached to a link or to what is fixed to it, in joint order.
     pub fn joints_after(&self, link: usize) -> Vec<usize> {
-        let links = self.fixed_to(link).into_iter();
-        let joints = links.flat_map(|link| &self.tree.child_joints[link]);
+        let joints = self.fixed_to(link).into_iter().flat_map(|link| &self.tree.child_joints[link]);
         let mut joints: Vec<usize> =
             joints.copied().filter(|joint| self.view.joints[*joint].num_dofs() > 0).collect();
         joints.sort_unstable();

@@ -110,8 +110,7 @@ impl<'a> Subject<'a> {
 
     /// What a person set for the actuator of a joint.
     pub fn gains(&self, joint: usize) -> JointGains {
-        let gains = self.given.and_then(|setup| setup.gains.joints.get(&joint));
-        gains.copied().unwrap_or_default()
+        self.given.and_then(|setup| setup.gains.joints.get(&joint)).copied().unwrap_or_default()
     }
 
     /// The coefficient of friction of all shapes, if a person set one.

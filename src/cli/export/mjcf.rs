@@ -46,12 +46,8 @@ fn bandwidth(word: &str) -> Result<f64, String> {
 
 impl MjcfArguments {
     pub(super) fn choose(&self, choices: &mut Choices) {
-        choices.actuators = match self.actuators {
-            Actuators::None => None,
-            Actuators::Position => Some(ActuatorKind::Position),
-            Actuators::Velocity => Some(ActuatorKind::Velocity),
-            Actuators::Motor => Some(ActuatorKind::Motor),
-        };
+        let word = self.actuators.to_possible_value();
+        choices.actuators = word.and_then(|word| ActuatorKind::named(word.get_name()));
         choices.bandwidth = self.bandwidth;
         choices.sensors = self.sensors;
         choices.scene = self.scene;

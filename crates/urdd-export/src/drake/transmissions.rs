@@ -64,8 +64,7 @@ pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> 
         notes.extend(reason.map(|reason| Note::Element { element, reason }));
         reason.is_none()
     };
-    let texts = texts.iter().filter(|text| is_kept(text)).cloned();
-    let texts = texts.collect();
+    let texts = texts.iter().filter(|text| is_kept(text)).cloned().collect();
     let [actuators, transmissions] = [&actuators, &transmissions].map(Taken::new);
     Kept { texts, actuated, actuators, transmissions }
 }

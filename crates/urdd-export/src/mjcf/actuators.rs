@@ -52,8 +52,7 @@ pub(super) fn actuators(
         let actuator = actuator.with("joint", joint.name.as_str());
         element.push(match kind {
             ActuatorKind::Position => {
-                let range = joint.position_limits();
-                let range = range.filter(|(lower, upper)| lower < upper);
+                let range = joint.position_limits().filter(|(lower, upper)| lower < upper);
                 actuator
                     .with("kp", gain(chosen.kp, inertia * frequency * frequency))
                     .with("kv", gain(chosen.kv, 2.0 * inertia * frequency))

@@ -51,8 +51,7 @@ impl Stand {
 fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
     match solid {
         Solid::Mesh(mesh) => {
-            let vertices = mesh.vertices.iter();
-            let heights = vertices.map(|vertex| (pose * Point3::from(*vertex)).z);
+            let heights = mesh.vertices.iter().map(|vertex| (pose * Point3::from(*vertex)).z);
             heights.fold(f64::INFINITY, f64::min)
         }
         Solid::Box { pose: own, half_extents } => {

@@ -180,8 +180,7 @@ fn fill(
         }
         None => {}
     }
-    let source = joint.limit.as_ref();
-    let each = source.map(|of| [("effort", of.effort), ("velocity", of.velocity)]);
+    let each = joint.limit.as_ref().map(|of| [("effort", of.effort), ("velocity", of.velocity)]);
     limit.extend(each.into_iter().flatten().filter_map(positive));
     axis.push_filled(limit);
     if let Some(of) = &joint.dynamics {

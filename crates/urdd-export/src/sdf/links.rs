@@ -10,7 +10,7 @@ use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
-use super::super::urdf_elements::HALF_THICKNESS;
+use super::super::urdf_elements::{HALF_THICKNESS, INERTIA};
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
 use urdd_document::robot::Inertial;
@@ -147,7 +147,7 @@ fn light() -> Element {
 
 fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
     let mut tensor = Element::new("inertia");
-    for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].into_iter().zip(inertia) {
+    for (name, value) in INERTIA.into_iter().zip(inertia) {
         tensor.push(Element::text(name, &number(value)));
     }
     Element::new("inertial")

@@ -138,8 +138,7 @@ impl Guesser<'_> {
         let of = &self.chains.all[chain];
         let first = self.structure.tree.joint_links[of.joints[0]].1;
         let after = |link: usize| {
-            let links = self.structure.links_after(link).into_iter();
-            links.map(height).fold(f64::INFINITY, f64::min)
+            self.structure.links_after(link).into_iter().map(height).fold(f64::INFINITY, f64::min)
         };
         match self.part_of(chain) {
             Some(Part::Leg) => true,
@@ -162,8 +161,7 @@ impl Guesser<'_> {
         );
         let members = if self.chains.all[chain].children.is_empty() {
             let of = &self.chains.all[chain];
-            let tip = self.structure.fixed_to(of.last);
-            let tip = tip.into_iter().max_by(|a, b| {
+            let tip = self.structure.fixed_to(of.last).into_iter().max_by(|a, b| {
                 let depth = |link: usize| -self.poses[link].translation.z;
                 depth(*a).total_cmp(&depth(*b))
             });
@@ -242,8 +240,7 @@ impl Guesser<'_> {
         all.extend(after);
         all.sort_unstable();
         let names = |joints: &[usize]| -> Vec<String> {
-            let names = joints.iter().map(|joint| self.structure.view.joints[*joint].name.clone());
-            names.collect()
+            joints.iter().map(|joint| self.structure.view.joints[*joint].name.clone()).collect()
         };
         let is_single = |finger: &usize| self.chains.joints_from(*finger).len() == 1;
         let is_gripper = fingers.iter().all(is_single)

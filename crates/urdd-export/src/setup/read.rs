@@ -83,8 +83,7 @@ impl Setup {
             .iter()
             .map(|named| named.name.as_str().to_owned())
             .collect();
-        let reader = Reader { structure: &structure, configurations: &configurations };
-        let setup = reader.setup(file);
+        let setup = Reader { structure: &structure, configurations: &configurations }.setup(file);
         setup.map_err(|(at, reason)| refused(Some(at), reason))
     }
 }

@@ -70,9 +70,8 @@ impl Setup {
             }
         }
         let curobo = &self.curobo;
-        let locked = curobo.locked.iter();
         let locked: Vec<String> =
-            locked.map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
+            curobo.locked.iter().map(|(of, at)| format!("{} = {}", joint(of), real(*at))).collect();
         let locked = (!locked.is_empty()).then(|| format!("{{ {} }}", locked.join(", ")));
         let bandwidth = self.gains.bandwidth.unwrap_or(MjcfOptions::BANDWIDTH);
         let floating = format!("{}floating = {}", guess(&self.floating.why), self.floating.value);

@@ -70,8 +70,7 @@ pub(super) fn gaps(
 }
 
 fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
-    let each = pairs.iter().copied().enumerate();
-    each.filter(|(number, _)| !ignored[*number]).collect()
+    pairs.iter().copied().enumerate().filter(|(number, _)| !ignored[*number]).collect()
 }
 
 /// Counts results, given the minimum distances from `gaps`.
@@ -152,8 +151,7 @@ pub fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         if threshold <= -limit || threshold >= limit || next <= gap {
             continue;
         }
-        let rates = SphereRates { colliding, missed, free, false_contacts };
-        let worse = rates.worse();
+        let worse = SphereRates { colliding, missed, free, false_contacts }.worse();
         if worse < best.0 {
             best = (worse, threshold);
         }

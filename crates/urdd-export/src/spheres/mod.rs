@@ -123,16 +123,10 @@ fn limits(budget: SphereBudget, links: usize) -> Limits {
 
 fn covering(budget: SphereBudget, pairs: &Pairs) -> Spheres {
     let vertices = |pieces: &Vec<urdd_geometry::Mesh>| {
-        let each = pieces.iter();
-        each.map(|mesh| mesh.vertices.clone()).collect()
+        pieces.iter().map(|mesh| mesh.vertices.clone()).collect()
     };
     let links: Vec<Vec<Vec<Point>>> = pairs.pieces.iter().map(vertices).collect();
-    let covers = cover::cover(&links, budget).into_iter();
-    let sphere = |sphere: urdd_geometry::bounding_sphere::BoundingSphere| Sphere {
-        centre: sphere.centre,
-        radius: sphere.radius,
-    };
-    covers.map(|own| own.into_iter().map(sphere).collect()).collect()
+    cover::cover(&links, budget)
 }
 
 /// Fits spheres that give the same collision results as the exact shapes. Also returns whether the fit used
@@ -223,8 +217,7 @@ fn balance(
         let goal = fit::Goal { surface, samples: known, pairs: checked, size: limit };
         goal.look(spheres, ignored, f64::MIN_POSITIVE);
         if !known[0].collides() {
-            let left = checked.iter().zip(&*ignored);
-            let left = left.filter(|(_, ignored)| !**ignored);
+            let left = checked.iter().zip(&*ignored).filter(|(_, ignored)| !**ignored);
             let left: Vec<[usize; 2]> = left.map(|(pair, _)| *pair).collect();
             model::part(spheres, &left, &known[0], APART * limit);
         }

@@ -75,8 +75,7 @@ impl Pairs {
 
     /// The indices of the pairs in contact, ascending. `poses` are those of all links of the robot.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
-        let found = self.exact.touching(poses);
-        found.into_iter().filter_map(|pair| u32::try_from(pair).ok()).collect()
+        self.exact.touching(poses).into_iter().filter_map(|pair| u32::try_from(pair).ok()).collect()
     }
 
     /// Whether any pair is in contact.

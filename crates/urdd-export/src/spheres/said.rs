@@ -6,7 +6,7 @@ use super::super::Note;
 use super::super::subject::Subject;
 use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use super::measure::{Measured, Numbers};
-use super::model::Sphere;
+use super::model::{Sphere, distance};
 use super::{Model, Point};
 use urdd_format::escape;
 use urdd_format::rate::interval;
@@ -30,7 +30,7 @@ pub(super) struct Stand {
 
 impl Stand {
     pub fn new(spheres: &[Sphere], surface: &[Point]) -> Self {
-        let off = |p: &Point| spheres.iter().map(|s| s.to(*p)).fold(f64::INFINITY, f64::min);
+        let off = |p: &Point| spheres.iter().map(|s| distance(s, *p)).fold(f64::INFINITY, f64::min);
         let offs: Vec<f64> = surface.iter().map(off).filter(|off| off.is_finite()).collect();
         let far = || offs.iter().map(|off| off.abs());
         Stand {

@@ -15,6 +15,7 @@ use super::super::options::SphereBudget;
 use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::vector::{norm, sub};
 
 /// Maximum number of cuts per requested sphere: some cuts do not add a sphere.
 const CUTS: usize = 4;
@@ -109,8 +110,7 @@ impl Cover {
 fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     let mut spheres: Vec<BoundingSphere> = Vec::new();
     let inside = |a: &BoundingSphere, b: &BoundingSphere| {
-        let apart: f64 = (0..3).map(|axis| (a.centre[axis] - b.centre[axis]).powi(2)).sum();
-        apart.sqrt() + a.radius <= b.radius
+        norm(sub(a.centre, b.centre)) + a.radius <= b.radius
     };
     for cell in cells {
         let sphere = cell.sphere;
