@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 
 from . import _urdd
 
-__all__ = ["ExportOptions", "GenerateOptions", "InverseOptions", "MakingOptions", "ValidateOptions", "options_of", "whole", "words"]
+__all__ = [
+    "ExportOptions",
+    "GenerateOptions",
+    "InverseOptions",
+    "MakingOptions",
+    "ValidateOptions",
+    "options_of",
+    "whole",
+    "words",
+]
 
 
 class MakingOptions(TypedDict, total=False):
