@@ -1,14 +1,14 @@
 //! Exports.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use urdd_export::{
-    ActuatorKind, Detail, ExportError, Format, MjcfOptions, Options, Setup, SetupError,
-    SphereBudget, joint_groups_of_srdf,
+    ActuatorKind, Choices, Detail, ExportError, Format, Setup, SetupError, SphereBudget,
+    joint_groups_of_srdf,
 };
 
 use crate::advice;
@@ -20,14 +20,10 @@ use crate::work;
 /// The text, its path in a folder, the other files by path, notes, and the report.
 type Made<'py> = (String, Option<String>, Vec<(String, Bound<'py, PyBytes>)>, Vec<String>, String);
 
-/// A robot in another format, in memory.
-#[pyfunction]
-#[allow(clippy::too_many_arguments)]
-pub fn export<'py>(
-    py: Python<'py>,
-    robot: &Robot,
-    format: &str,
-    shapes: &str,
+/// The options of `urdd.export`, which checks their types.
+#[derive(FromPyObject)]
+pub struct Options {
+    shapes: String,
     reasons: Option<Vec<String>>,
     keep_pairs: bool,
     spheres: Option<usize>,
@@ -36,78 +32,72 @@ pub fn export<'py>(
     samples: usize,
     visuals: bool,
     detail: Option<f64>,
-    mesh_folder: String,
-    actuators: Option<&str>,
+    mesh_folder: Option<String>,
+    actuators: Option<String>,
     bandwidth: Option<f64>,
     floating_base: bool,
     sensors: bool,
     scene: bool,
-    file: Option<String>,
+    output: Option<PathBuf>,
     setup: Option<PathBuf>,
     package: Option<String>,
     robot_file: Option<String>,
+}
+
+impl Options {
+    fn choices(self, py: Python<'_>, urdd: &Path, robot: &urdd_robot::Robot) -> PyResult<Choices> {
+        let setup = Setup::find(self.setup.as_deref(), urdd, robot);
+        let reasons = self.reasons.map(|words| {
+            let each = words.iter().map(|word| skipped_reason(word));
+            each.collect::<Result<Vec<_>, _>>()
+        });
+        let detail = match self.detail {
+            None => Detail::Full,
+            Some(ratio) if ratio < 1.0 => Detail::Ratio(ratio),
+            Some(count) => Detail::Triangles(count as usize),
+        };
+        let kind = self.shapes.parse::<urdd_robot::ShapeKind>();
+        let actuator = |word: String| {
+            let words = ActuatorKind::ALL.iter().map(|kind| kind.word());
+            ActuatorKind::named(&word).ok_or_else(|| none_of("are no actuators", &word, words))
+        };
+        Ok(Choices {
+            shapes: kind.map_err(|error| of_robot(py, &error.into()))?,
+            reasons: reasons.transpose().map_err(PyValueError::new_err)?,
+            keep_pairs: self.keep_pairs,
+            spheres: SphereBudget::new(self.spheres, self.total_spheres),
+            cover: self.cover,
+            samples: self.samples,
+            visuals: self.visuals.then_some(detail),
+            mesh_folder: self.mesh_folder,
+            output: self.output,
+            package: self.package,
+            robot_file: self.robot_file,
+            floating_base: self.floating_base,
+            actuators: self.actuators.map(actuator).transpose()?,
+            bandwidth: self.bandwidth,
+            sensors: self.sensors,
+            scene: self.scene,
+            setup: setup.map_err(|error| of_setup(py, error))?,
+        })
+    }
+}
+
+/// A robot in another format, in memory.
+#[pyfunction]
+pub fn export<'py>(
+    py: Python<'py>,
+    robot: &Robot,
+    format: &str,
+    options: Options,
 ) -> PyResult<Made<'py>> {
-    let format = match format {
-        "srdf" => Format::Srdf,
-        "urdf" => Format::Urdf,
-        "drake" => Format::Drake,
-        "mjcf" => Format::Mjcf,
-        "curobo" => Format::Curobo,
-        "foam" => Format::Foam,
-        "spherized" => Format::Spherized,
-        "moveit" => Format::Moveit,
-        "sdf" => Format::Sdf,
-        other => {
-            return Err(PyValueError::new_err(format!(
-                "there is no format `{}`; there are: srdf, urdf, drake, mjcf, curobo, foam, spherized, moveit, sdf",
-                other.escape_debug()
-            )));
-        }
-    };
-    let reasons = reasons.map(|words| {
-        let each = words.iter().map(|word| skipped_reason(word));
-        each.collect::<Result<Vec<_>, _>>()
-    });
+    let words = Format::ALL.iter().map(|format| format.word());
+    let format = Format::named(format).ok_or_else(|| none_of("is no format", format, words))?;
     let path = robot.path.clone();
     let robot = Arc::clone(robot.read(py)?);
-    let setup = match setup {
-        Some(file) => Setup::read(&file, &robot).map(Some),
-        None => Setup::beside(&path, &robot),
-    };
-    let detail = match detail {
-        None => Detail::Full,
-        Some(ratio) if ratio < 1.0 => Detail::Ratio(ratio),
-        Some(count) => Detail::Triangles(count as usize),
-    };
-    let options = Options {
-        shapes: shapes
-            .parse::<urdd_robot::ShapeKind>()
-            .map_err(|error| of_robot(py, &error.into()))?,
-        reasons: reasons.transpose().map_err(PyValueError::new_err)?,
-        keep_pairs,
-        spheres: match (total_spheres, spheres) {
-            (Some(count), _) => SphereBudget::Total(count),
-            (None, Some(count)) => SphereBudget::PerLink(count),
-            (None, None) => SphereBudget::default(),
-        },
-        cover,
-        samples,
-        visuals,
-        detail,
-        mesh_folder,
-        mjcf: MjcfOptions {
-            actuators: actuators.map(actuator_kind).transpose()?,
-            bandwidth,
-            sensors,
-            scene,
-        },
-        file,
-        package,
-        robot_file,
-        floating_base,
-        setup: setup.map_err(|error| of_setup(py, error))?,
-    };
-    let made = work::run(py, move |_| urdd_export::export(&robot, format, &options))?;
+    let options = options.choices(py, &path, &robot)?.options(format);
+    let options = options.map_err(|misfit| PyValueError::new_err(misfit.to_string()))?;
+    let made = work::run(py, move |_| urdd_export::export(&robot, &options))?;
     let made = made.map_err(|error| of_export(py, error))?;
     let files = made.files.iter();
     Ok((
@@ -140,10 +130,7 @@ pub fn joint_groups(
                 .map_err(|error| failed(format!("{}: {error}", shown.escape_debug())))?
         }
         file => {
-            let setup = match file {
-                Some(file) => Setup::read(&file, &robot).map(Some),
-                None => Setup::beside(&path, &robot),
-            };
+            let setup = Setup::find(file.as_deref(), &path, &robot);
             let groups = setup.map_err(|error| of_setup(py, error))?;
             let groups = groups.map_or_else(|| Setup::guess(&robot), Ok);
             let groups = groups.and_then(|setup| setup.joint_groups(&robot));
@@ -167,14 +154,7 @@ fn of_export(py: Python<'_>, error: ExportError) -> PyErr {
     }
 }
 
-fn actuator_kind(word: &str) -> PyResult<ActuatorKind> {
-    match word {
-        "position" => Ok(ActuatorKind::Position),
-        "velocity" => Ok(ActuatorKind::Velocity),
-        "motor" => Ok(ActuatorKind::Motor),
-        other => Err(PyValueError::new_err(format!(
-            "there are no actuators `{}`; there are: position, velocity, motor",
-            other.escape_debug()
-        ))),
-    }
+fn none_of(what: &str, word: &str, words: impl Iterator<Item = &'static str>) -> PyErr {
+    let (word, words) = (word.escape_debug(), words.collect::<Vec<_>>().join(", "));
+    PyValueError::new_err(format!("there {what} `{word}`; there are: {words}"))
 }

@@ -9,7 +9,8 @@ use super::other_attributes::is_kept;
 use super::output::Export;
 use super::subject::Subject;
 use urdd_format::escape;
-use urdd_format::urdf::{Joint, JointType, Link};
+use urdd_format::urdf::{Joint, JointType, Limit, Link};
+use urdd_xml::other_parts::OtherPart;
 
 /// How a format carries something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,134 +53,93 @@ const NO_JERK: How = Otherwise("acceleration; Drake ignores jerk");
 const PNG: How = Otherwise("JPEG as PNG");
 const IGNORED: How = Otherwise("written, and ignored by Drake");
 
-/// SRDF, URDF, Drake, MJCF, cuRobo, Foam, spherized, MoveIt, SDF.
+impl Feature {
+    /// What every URDF has in the same way, whichever shapes it has; what Drake, MJCF and SDF make of it; and what other
+    /// formats leave to the URDF.
+    const fn new(
+        name: &'static str,
+        count: fn(&Subject) -> usize,
+        [urdf, drake, mjcf, sdf]: [How; 4],
+    ) -> Self {
+        let e = Elsewhere;
+        Feature { name, count, by_format: [e, urdf, drake, mjcf, e, e, urdf, urdf, sdf] }
+    }
+
+    /// The same, but for cuRobo.
+    const fn with_curobo(mut self, curobo: How) -> Self {
+        self.by_format[4] = curobo;
+        self
+    }
+}
+
 const TABLE: [Feature; 21] = [
-    Feature {
-        name: "masses and inertias",
-        count: |of| links(of, |link| link.inertial.is_some()),
-        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "colours of visual geometry",
-        count: |of| links(of, |link| !link.visual.is_empty()),
-        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: TEXTURES,
-        // `textures` counts what became of them.
-        count: |_| 0,
-        by_format: [Elsewhere, Yes, PNG, PNG, Elsewhere, Elsewhere, Yes, Yes, PNG],
-    },
-    Feature {
-        name: "textures that the URDF itself names",
-        count: |of| links(of, has_texture),
-        by_format: [Elsewhere, No, No, No, Elsewhere, Elsewhere, No, No, No],
-    },
-    Feature {
-        name: "limits of position",
-        count: |of| of.view.joints.iter().filter(|joint| joint.position_limits().is_some()).count(),
-        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "limits of effort and velocity",
-        count: |of| {
-            joints(of, |joint| {
-                joint
-                    .limit
-                    .as_ref()
-                    .is_some_and(|limit| limit.effort.is_some() || limit.velocity.is_some())
-            })
-        },
-        by_format: [Elsewhere, Yes, Yes, EFFORT, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "limits of acceleration and jerk",
-        count: |of| {
-            joints(of, |joint| {
-                joint
-                    .limit
-                    .as_ref()
-                    .is_some_and(|limit| limit.acceleration.is_some() || limit.jerk.is_some())
-            })
-        },
-        by_format: [Elsewhere, Yes, NO_JERK, No, CUROBO, Elsewhere, Yes, Yes, No],
-    },
-    Feature {
-        name: "damping and friction of joints",
-        count: |of| joints(of, |joint| joint.dynamics.is_some()),
-        by_format: [Elsewhere, Yes, NO_FRICTION, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "safety controllers and calibrations",
-        count: |of| {
-            joints(of, |joint| joint.safety_controller.is_some() || joint.calibration.is_some())
-        },
-        by_format: [Elsewhere, Yes, IGNORED, No, Elsewhere, Elsewhere, Yes, Yes, No],
-    },
-    Feature {
-        name: "mimic joints",
-        count: |of| of.mimics.by_joint.iter().flatten().count(),
-        by_format: [Elsewhere, Yes, Yes, MIMIC, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "joints with the name of a link",
-        count: |of| {
-            let links: HashSet<&String> = of.links.iter().collect();
-            joints(of, |joint| links.contains(&joint.name))
-        },
-        by_format: [Elsewhere, Yes, Yes, Yes, Yes, Elsewhere, Yes, Yes, RENAMED],
-    },
-    Feature {
-        name: "planar joints",
-        count: |of| joints(of, |joint| joint.joint_type == JointType::Planar),
-        by_format: [Elsewhere, Yes, Yes, PLANAR, Elsewhere, Elsewhere, Yes, Yes, CHAIN],
-    },
-    Feature {
-        name: "floating joints",
-        count: |of| joints(of, |joint| joint.joint_type == JointType::Floating),
-        by_format: [Elsewhere, Yes, CHAIN, SLIDES, Elsewhere, Elsewhere, Yes, Yes, CHAIN],
-    },
-    Feature {
-        name: "spherical joints",
-        count: |of| joints(of, |joint| joint.joint_type == JointType::Spherical),
-        by_format: [Elsewhere, Yes, Yes, Yes, Elsewhere, Elsewhere, Yes, Yes, Yes],
-    },
-    Feature {
-        name: "names of visual and collision elements",
-        count: |of| {
-            let names = |link: &Link| {
-                let visuals = link.visual.iter().filter(|visual| visual.name.is_some()).count();
-                visuals + link.collision.iter().filter(|it| it.name.is_some()).count()
-            };
-            of.urdf.links.iter().map(names).sum()
-        },
-        by_format: [Elsewhere, NAMES, NAMES, No, Elsewhere, Elsewhere, NAMES, NAMES, No],
-    },
-    Feature {
-        name: "attributes that URDF does not define, outside of shapes and materials",
-        count: |of| of.other_parts.values().flatten().filter(|part| is_kept(part)).count(),
-        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
-    },
-    Feature {
-        name: "what URDF does not define in shapes, materials, limits and the like",
-        count: |of| of.other_parts.values().flatten().filter(|part| !is_kept(part)).count(),
-        by_format: [Elsewhere, No, No, No, Elsewhere, Elsewhere, No, No, No],
-    },
-    Feature {
-        name: "`<gazebo>` elements",
-        count: |of| of.urdf.unknown_elements.iter().filter(|text| is_gazebo(text)).count(),
-        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, GAZEBO],
-    },
-    Feature {
-        name: "other elements that URDF does not define, such as transmissions",
-        count: |of| {
-            let of_links = of.urdf.links.iter().map(|link| link.unknown_elements.len());
-            let of_joints = of.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
-            let of_robot = of.urdf.unknown_elements.iter().filter(|text| !is_gazebo(text));
-            of_links.chain(of_joints).sum::<usize>() + of_robot.count()
-        },
-        by_format: [Elsewhere, Yes, Yes, No, Elsewhere, Elsewhere, Yes, Yes, No],
-    },
+    Feature::new("masses and inertias", |of| links(of, |it| it.inertial.is_some()), [Yes; 4]),
+    Feature::new(
+        "colours of visual geometry",
+        |of| links(of, |it| !it.visual.is_empty()),
+        [Yes; 4],
+    ),
+    // `textures` counts what became of them.
+    Feature::new(TEXTURES, |_| 0, [Yes, PNG, PNG, PNG]),
+    Feature::new("textures that the URDF itself names", |of| links(of, has_texture), [No; 4]),
+    Feature::new("limits of position", limited, [Yes; 4]),
+    Feature::new(
+        "limits of effort and velocity",
+        |of| limits(of, |it| it.effort.or(it.velocity)),
+        [Yes, Yes, EFFORT, Yes],
+    ),
+    Feature::new(
+        "limits of acceleration and jerk",
+        |of| limits(of, |it| it.acceleration.or(it.jerk)),
+        [Yes, NO_JERK, No, No],
+    )
+    .with_curobo(CUROBO),
+    Feature::new(
+        "damping and friction of joints",
+        |of| joints(of, |it| it.dynamics.is_some()),
+        [Yes, NO_FRICTION, Yes, Yes],
+    ),
+    Feature::new(
+        "safety controllers and calibrations",
+        |of| joints(of, |it| it.safety_controller.is_some() || it.calibration.is_some()),
+        [Yes, IGNORED, No, No],
+    ),
+    Feature::new(
+        "mimic joints",
+        |of| of.mimics.by_joint.iter().flatten().count(),
+        [Yes, Yes, MIMIC, Yes],
+    ),
+    Feature::new("joints with the name of a link", namesakes, [Yes, Yes, Yes, RENAMED])
+        .with_curobo(Yes),
+    Feature::new("planar joints", |of| typed(of, JointType::Planar), [Yes, Yes, PLANAR, CHAIN]),
+    Feature::new(
+        "floating joints",
+        |of| typed(of, JointType::Floating),
+        [Yes, CHAIN, SLIDES, CHAIN],
+    ),
+    Feature::new("spherical joints", |of| typed(of, JointType::Spherical), [Yes; 4]),
+    Feature::new("names of visual and collision elements", named_shapes, [NAMES, NAMES, No, No]),
+    Feature::new(
+        "attributes that URDF does not define, outside of shapes and materials",
+        |of| others(of, is_kept),
+        [Yes, Yes, No, No],
+    ),
+    Feature::new(
+        "what URDF does not define in shapes, materials, limits and the like",
+        |of| others(of, |part| !is_kept(part)),
+        [No; 4],
+    ),
+    Feature::new(
+        "`<gazebo>` elements",
+        |of| of.urdf.unknown_elements.iter().filter(|text| is_gazebo(text)).count(),
+        [Yes, Yes, No, GAZEBO],
+    ),
+    Feature::new(
+        "other elements that URDF does not define, such as transmissions",
+        other_elements,
+        [Yes, Yes, No, No],
+    ),
+    // By format, in the order of `Format::ALL`.
     Feature {
         name: "pairs that need no collision check",
         count: |of| of.disabled().count(),
@@ -207,6 +167,42 @@ fn links(subject: &Subject, has: impl Fn(&Link) -> bool) -> usize {
 
 fn joints(subject: &Subject, has: impl Fn(&Joint) -> bool) -> usize {
     subject.urdf.joints.iter().filter(|joint| has(joint)).count()
+}
+
+fn typed(subject: &Subject, joint_type: JointType) -> usize {
+    joints(subject, |joint| joint.joint_type == joint_type)
+}
+
+fn limits(subject: &Subject, has: impl Fn(&Limit) -> Option<f64>) -> usize {
+    joints(subject, |joint| joint.limit.as_ref().and_then(&has).is_some())
+}
+
+fn limited(subject: &Subject) -> usize {
+    subject.view.joints.iter().filter(|joint| joint.position_limits().is_some()).count()
+}
+
+fn namesakes(subject: &Subject) -> usize {
+    let links: HashSet<&String> = subject.links.iter().collect();
+    joints(subject, |joint| links.contains(&joint.name))
+}
+
+fn named_shapes(subject: &Subject) -> usize {
+    let names = |link: &Link| {
+        let visuals = link.visual.iter().filter(|visual| visual.name.is_some()).count();
+        visuals + link.collision.iter().filter(|it| it.name.is_some()).count()
+    };
+    subject.urdf.links.iter().map(names).sum()
+}
+
+fn others(subject: &Subject, is_wanted: impl Fn(&OtherPart) -> bool) -> usize {
+    subject.other_parts.values().flatten().filter(|part| is_wanted(part)).count()
+}
+
+fn other_elements(subject: &Subject) -> usize {
+    let of_links = subject.urdf.links.iter().map(|link| link.unknown_elements.len());
+    let of_joints = subject.urdf.joints.iter().map(|joint| joint.unknown_elements.len());
+    let of_robot = subject.urdf.unknown_elements.iter().filter(|text| !is_gazebo(text));
+    of_links.chain(of_joints).sum::<usize>() + of_robot.count()
 }
 
 fn has_texture(link: &Link) -> bool {

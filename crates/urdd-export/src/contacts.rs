@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::options::Options;
+use super::options::PairOptions;
 use super::pairs::{Contacts, LinkPair, pairs};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_robot::{Robot, RobotError, ShapeKind};
@@ -12,13 +12,13 @@ const USUAL_SAMPLES: u32 = 1_000;
 /// Maximum number of sampled configurations to evaluate.
 const MAX_SAMPLES: u32 = 10_000;
 
-/// Every pair of links with shapes, sorted by index, as a link-level format represents it, given [`Options::shapes`],
-/// [`Options::reasons`] and [`Options::keep_pairs`]. [`super::Note::of_pair`] describes the loss.
-///
-/// # Errors
-/// If the skips or the shapes are missing or unusable.
-pub fn link_pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
-    let mut pairs = pairs(robot, options)?;
+/// Every pair of links with shapes, sorted by index, as a link-level format represents it.
+pub(super) fn link_pairs(
+    robot: &Robot,
+    options: &PairOptions,
+) -> Result<Vec<LinkPair>, RobotError> {
+    let reasons = options.reasons.as_deref();
+    let mut pairs = pairs(robot, options.shapes, reasons, options.keep_pairs)?;
     count(robot, options.shapes, &mut pairs)?;
     Ok(pairs)
 }
@@ -47,8 +47,7 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
         Err(RobotError::Missing(_)) => return Ok(()),
         other => other?,
     };
-    let samples = robot.num_samples()?.unwrap_or(USUAL_SAMPLES);
-    let samples = samples.min(MAX_SAMPLES);
+    let samples = robot.num_samples()?.unwrap_or(USUAL_SAMPLES).min(MAX_SAMPLES);
     let sampled: Vec<f64> =
         (0..u64::from(samples)).flat_map(|k| configurations.random(k)).collect();
     let contacts = |checked: bool| -> Result<HashMap<[usize; 2], usize>, RobotError> {
@@ -56,8 +55,7 @@ fn count(robot: &Robot, kind: ShapeKind, pairs: &mut [LinkPair]) -> Result<(), R
             shapes.sort_unstable();
             of_shapes.get(&shapes) == Some(&checked)
         };
-        let proximity = robot.proximity_of(kind, is_wanted)?;
-        let found = proximity.contacts_of_links(&sampled)?.into_iter();
+        let found = robot.proximity_of(kind, is_wanted)?.contacts_of_links(&sampled)?.into_iter();
         Ok(found
             .map(|(mut links, count)| {
                 links.sort_unstable();

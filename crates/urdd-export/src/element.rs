@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use quick_xml::escape::escape;
 use roxmltree::{Attribute, Node};
 use urdd_xml::element::name;
+use urdd_xml::number::number;
 
 use urdd_format::escape::is_hidden;
 
@@ -59,7 +60,7 @@ impl Element {
     }
 
     /// The characters that it contains, without white space around them.
-    pub fn text(&self) -> &str {
+    pub fn own_text(&self) -> &str {
         match &self.children[..] {
             [Child::Text(text)] => text.trim(),
             _ => "",
@@ -131,6 +132,15 @@ impl Element {
         }
     }
 
+    /// Adds numbers as attributes, where there are any.
+    pub fn with_numbers(
+        self,
+        values: impl IntoIterator<Item = (&'static str, Option<f64>)>,
+    ) -> Self {
+        let each = values.into_iter();
+        each.fold(self, |element, (key, value)| element.with_some(key, value.map(number)))
+    }
+
     /// Adds a child element.
     pub fn holding(mut self, child: Element) -> Self {
         self.push(child);
@@ -152,8 +162,21 @@ impl Element {
         self.children.push(Child::Raw(text.into()));
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.children.is_empty()
+    /// An element that contains characters alone.
+    pub fn text(name: &'static str, text: &str) -> Self {
+        Element { children: vec![Child::Text(text.to_owned())], ..Element::new(name) }
+    }
+
+    /// Adds child elements.
+    pub fn extend(&mut self, children: impl IntoIterator<Item = Element>) {
+        self.children.extend(children.into_iter().map(Child::Element));
+    }
+
+    /// Adds a child element, unless it contains nothing.
+    pub fn push_filled(&mut self, child: Element) {
+        if !child.children.is_empty() {
+            self.push(child);
+        }
     }
 
     /// Serializes the element alone.
@@ -170,10 +193,7 @@ impl Element {
 
     /// As [`Element::document`]; `of` gives what is written for a text.
     pub(super) fn document_with(&self, comments: &[String], of: fn(&str) -> String) -> String {
-        let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
-        for comment in comments {
-            text += &self::comment(comment);
-        }
+        let mut text = head(comments);
         self.write(&mut text, 0, of);
         text
     }
@@ -202,6 +222,12 @@ impl Element {
         }
         *text += &format!("{margin}</{}>\n", self.name);
     }
+}
+
+/// The head of a document, with comments.
+pub(super) fn head(comments: &[String]) -> String {
+    let comments = comments.iter().map(|text| comment(text));
+    String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n") + &comments.collect::<String>()
 }
 
 /// A comment on its own line, valid for any text: without `--` (XML 1.0, production 15), without a `-` at the end, and

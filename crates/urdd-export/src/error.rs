@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::format::Format;
 use super::pairs::{Contacts, LinkPair};
+use urdd_format::nearest::nearest;
 use urdd_geometry::write::WriteError;
 use urdd_robot::{RobotError, ShapeKind};
 
@@ -59,6 +60,15 @@ pub enum ExportError {
         /// Why.
         error: WriteError,
     },
+}
+
+/// The error for a name that is not among the known ones.
+pub(super) fn unknown<'n>(
+    what: &'static str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+) -> RobotError {
+    RobotError::Unknown { what, name: name.to_owned(), nearest: nearest(known, name) }
 }
 
 fn article(what: &str) -> &'static str {
@@ -229,8 +239,7 @@ fn some(links: &[String]) -> String {
 }
 
 fn all(names: &[String]) -> String {
-    let names = names.iter().map(|name| format!("`{}`", name.escape_debug()));
-    names.collect::<Vec<_>>().join(", ")
+    names.iter().map(|name| format!("`{}`", name.escape_debug())).collect::<Vec<_>>().join(", ")
 }
 
 fn mixed(
@@ -241,9 +250,10 @@ fn mixed(
 ) -> String {
     let [a, b] = links.each_ref().map(|name| name.escape_debug());
     let all = checked + skipped;
-    let (done, count) = match disabled {
-        true => ("disabled", format!("checks {checked}")),
-        false => ("checked", format!("skips {skipped}")),
+    let (done, count) = if disabled {
+        ("disabled", format!("checks {checked}"))
+    } else {
+        ("checked", format!("skips {skipped}"))
     };
     let text = format!(
         "links `{a}` and `{b}` are {done} as a whole, though the URDD {count} of the {all} pairs of their pieces"

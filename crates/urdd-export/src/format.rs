@@ -37,18 +37,33 @@ impl Format {
         Format::Sdf,
     ];
 
+    /// Its word for users, and its name in messages and comments.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Format::Srdf => ("srdf", "SRDF"),
+            Format::Urdf => ("urdf", "URDF"),
+            Format::Drake => ("drake", "URDF for Drake"),
+            Format::Mjcf => ("mjcf", "MJCF"),
+            Format::Curobo => ("curobo", "cuRobo's YAML"),
+            Format::Foam => ("foam", "Foam's JSON"),
+            Format::Spherized => ("spherized", "URDF with spheres"),
+            Format::Moveit => ("moveit", "MoveIt's configuration"),
+            Format::Sdf => ("sdf", "SDF"),
+        }
+    }
+
     /// Its name in messages and comments.
     pub fn name(self) -> &'static str {
-        match self {
-            Format::Srdf => "SRDF",
-            Format::Urdf => "URDF",
-            Format::Drake => "URDF for Drake",
-            Format::Mjcf => "MJCF",
-            Format::Curobo => "cuRobo's YAML",
-            Format::Foam => "Foam's JSON",
-            Format::Spherized => "URDF with spheres",
-            Format::Moveit => "MoveIt's configuration",
-            Format::Sdf => "SDF",
-        }
+        self.words().1
+    }
+
+    /// Its word on the command line and in Python.
+    pub fn word(self) -> &'static str {
+        self.words().0
+    }
+
+    /// The format of a word.
+    pub fn named(word: &str) -> Option<Format> {
+        Format::ALL.iter().copied().find(|format| format.word() == word)
     }
 }

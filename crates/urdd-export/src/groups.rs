@@ -2,16 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use roxmltree::{Document, Node};
-use thiserror::Error;
+use roxmltree::Node;
 
-use super::error::ExportError;
-use super::nested::within;
+use super::error::{ExportError, unknown};
+use super::nested::{contains_itself, within};
 use super::setup::{Members, Setup};
-use super::srdf_merge::{SrdfError, elements, parse_of};
+use super::srdf_document::{Srdf, SrdfError};
 use super::structure::Structure;
-use urdd_format::nearest::nearest;
-use urdd_robot::{Robot, RobotError};
+use urdd_robot::Robot;
 
 /// A group of joints that a planner moves together.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,8 +28,7 @@ impl Setup {
     pub fn joint_groups(&self, robot: &Robot) -> Result<Vec<JointGroup>, ExportError> {
         let structure = Structure::new(robot)?;
         structure.check(&self.of)?;
-        let groups = self.groups.iter().enumerate();
-        let groups = groups.map(|(place, group)| {
+        let groups = self.groups.iter().enumerate().map(|(place, group)| {
             let joints = joints_of(self, place, &structure);
             JointGroup::of(&group.value.name, joints, robot, &structure)
         });
@@ -64,13 +61,13 @@ impl JointGroup {
 ///
 /// # Errors
 /// If the text is not an SRDF of the robot, or a group names what there is not, or contains itself.
-pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>, SrdfGroupsError> {
+pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>, SrdfError> {
     let structure = Structure::new(robot)?;
-    let document = parse_of(text, &structure.view.name)?;
-    let tables: Vec<Node> = elements(document.root_element(), "group").collect();
+    let srdf = Srdf::of(text, &structure.view.name)?;
+    let tables: Vec<Node> = srdf.elements("group").collect();
     let name = |node: &Node| node.attribute("name").unwrap_or_default().to_owned();
     let names: Vec<String> = tables.iter().map(name).collect();
-    let reader = Reader { structure: &structure, names: &names, document: &document };
+    let reader = Reader { structure: &structure, names: &names, srdf: &srdf };
     let mut own = Vec::new();
     for table in &tables {
         own.push(reader.members(*table)?);
@@ -79,7 +76,7 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
     all.map(|(place, _)| {
         let inner = |group: usize| own[group].1.as_slice();
         let groups = within(place, own.len(), inner)
-            .ok_or_else(|| reader.wrong(tables[place], GroupFault::Cycle(names[place].clone())))?;
+            .ok_or_else(|| srdf.wrong(tables[place], contains_itself(&names[place])))?;
         let joints = groups.iter().flat_map(|group| own[*group].0.iter().copied());
         let joints: BTreeSet<usize> = joints.collect();
         Ok(JointGroup::of(&names[place], joints, robot, &structure)?)
@@ -90,12 +87,12 @@ pub fn joint_groups_of_srdf(robot: &Robot, text: &str) -> Result<Vec<JointGroup>
 struct Reader<'a, 't> {
     structure: &'a Structure,
     names: &'a [String],
-    document: &'a Document<'t>,
+    srdf: &'a Srdf<'t>,
 }
 
 impl Reader<'_, '_> {
     /// The joints and the groups of a group.
-    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), SrdfGroupsError> {
+    fn members(&self, table: Node) -> Result<(Vec<usize>, Vec<usize>), SrdfError> {
         let (mut joints, mut groups) = (Vec::new(), Vec::new());
         let view = &self.structure.view;
         let tree = &self.structure.tree;
@@ -111,7 +108,8 @@ impl Reader<'_, '_> {
                 "chain" => {
                     let [base, tip] = [link("base_link")?, link("tip_link")?];
                     if base != tip && self.structure.between(base, tip).is_empty() {
-                        return Err(self.wrong(node, GroupFault::NoChain));
+                        let reason = "the base of this chain is not above its tip";
+                        return Err(self.srdf.wrong(node, reason));
                     }
                     joints.extend(self.structure.between(base, tip));
                 }
@@ -132,55 +130,12 @@ impl Reader<'_, '_> {
         what: &'static str,
         attribute: &str,
         mut names: impl Iterator<Item = &'n str> + Clone,
-    ) -> Result<usize, SrdfGroupsError> {
+    ) -> Result<usize, SrdfError> {
         let name = node.attribute(attribute).unwrap_or_default();
         let all = names.clone();
-        names.position(|known| known == name).ok_or_else(|| {
-            let unknown =
-                RobotError::Unknown { what, name: name.to_owned(), nearest: nearest(all, name) };
-            self.wrong(node, GroupFault::Unknown(unknown))
-        })
+        let found = names.position(|known| known == name);
+        found.ok_or_else(|| self.srdf.wrong(node, unknown(what, name, all)))
     }
-
-    fn wrong(&self, node: Node, fault: GroupFault) -> SrdfGroupsError {
-        let line = self.document.text_pos_at(node.range().start).row;
-        SrdfGroupsError::Element { line, fault }
-    }
-}
-
-/// Errors of [`joint_groups_of_srdf`].
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SrdfGroupsError {
-    /// Not an SRDF, or the SRDF of another robot.
-    #[error(transparent)]
-    Srdf(#[from] SrdfError),
-    /// A query on the robot failed.
-    #[error(transparent)]
-    Robot(#[from] ExportError),
-    /// An element of a group is wrong.
-    #[error("line {line}: {fault}")]
-    Element {
-        /// The line, from 1.
-        line: u32,
-        /// What is wrong.
-        fault: GroupFault,
-    },
-}
-
-/// What is wrong with a group of an SRDF.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum GroupFault {
-    /// A link, a joint or a group that there is not: [`RobotError::Unknown`].
-    #[error(transparent)]
-    Unknown(RobotError),
-    /// The base of a chain is not above its tip.
-    #[error("the base of this chain is not above its tip")]
-    NoChain,
-    /// A group contains itself.
-    #[error("the group `{}` contains itself", .0.escape_debug())]
-    Cycle(String),
 }
 
 /// The joints of a group that move it, in joint order: none that are fixed or follow others.

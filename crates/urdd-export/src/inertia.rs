@@ -25,9 +25,10 @@ pub fn held(inertia: [f64; 6], positive: bool) -> Option<[f64; 6]> {
     let is_diagonal = [xy, xz, yz] == [0.0; 3];
     // As readers of a diagonal inertia compute it.
     let is_exact = xx + yy >= zz && yy + zz >= xx && zz + xx >= yy && xx.min(yy).min(zz) >= 0.0;
-    let is_right = match is_diagonal {
-        true => is_exact && !(positive && least <= 0.0),
-        false => least.min(room) >= FOUND * most,
+    let is_right = if is_diagonal {
+        is_exact && !(positive && least <= 0.0)
+    } else {
+        least.min(room) >= FOUND * most
     };
     if is_right {
         return Some(inertia);

@@ -18,8 +18,7 @@ const SEVERAL: &str =
 /// The joints of the robot, in URDF order.
 pub(super) fn joints(subject: &Subject, notes: &mut Vec<Note>) -> Vec<Joint> {
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
-    let each = subject.urdf.joints.iter().zip(&subject.view.joints);
-    let each = each.zip(&subject.mimics.by_joint);
+    let each = subject.urdf.joints.iter().zip(&subject.view.joints).zip(&subject.mimics.by_joint);
     let joint = |((source, view), resolved): ((&Joint, &View), &Option<Resolved>)| {
         let mut joint = source.clone();
         joint.origin = (joint.origin.as_ref())

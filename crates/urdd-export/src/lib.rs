@@ -16,7 +16,7 @@
 //! | [`Format::Sdf`] | Gazebo, Drake | links, joints, our shapes as collisions, collision filters for Drake |
 //!
 //! ```
-//! use urdd_export::{Format, Options, export};
+//! use urdd_export::{Choices, Format, export};
 //! use urdd_robot::Robot;
 //!
 //! # let folder = tempfile::tempdir()?;
@@ -24,13 +24,14 @@
 //! # let path = folder.path().join("gripper");
 //! # urdd_generate::generate(urdf.as_ref(), &path, &Default::default(), &())?;
 //! let robot = Robot::open(&path)?;
-//! let srdf = export(&robot, Format::Srdf, &Options::default())?;
+//! let srdf = export(&robot, &Choices::default().options(Format::Srdf)?)?;
 //! assert!(srdf.text.contains("<disable_collisions "));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 // Hidden modules are public for `tests/`.
 mod carried;
+mod choices;
 mod contacts;
 mod drake;
 #[doc(hidden)]
@@ -63,11 +64,13 @@ pub mod simplify;
 #[doc(hidden)]
 pub mod spheres;
 mod srdf;
+mod srdf_document;
 mod srdf_import;
 mod srdf_merge;
 mod states_import;
 mod structure;
 mod subject;
+mod template;
 mod textures;
 mod urdf;
 mod urdf_elements;
@@ -78,18 +81,23 @@ pub mod yaml;
 use urdd_robot::Robot;
 
 pub use carried::carried_table;
-pub use contacts::link_pairs;
+pub use choices::{Choices, Misfit};
 pub use error::{ExportError, Note};
 pub use format::Format;
-pub use groups::{GroupFault, JointGroup, SrdfGroupsError, joint_groups_of_srdf};
-pub use options::{ActuatorKind, Detail, MjcfOptions, Options, SphereBudget};
+pub use groups::{JointGroup, joint_groups_of_srdf};
+pub use options::{
+    ActuatorKind, CuroboOptions, Detail, DrakeOptions, MeshOptions, MjcfOptions, ModelOptions,
+    MoveitOptions, Options, PairOptions, SdfOptions, SphereBudget, SphereOptions, SpherizedOptions,
+    UrdfOptions,
+};
 pub use output::Export;
-pub use pairs::{Contacts, LinkPair, MixedPair};
-pub use setup::{Setup, SetupError, SetupFault};
+pub use pairs::Contacts;
+pub use setup::{Setup, SetupError};
 pub use spheres::SphereRates;
-pub use srdf_import::{ImportError, ImportedSkips, import_srdf};
-pub use srdf_merge::{MergedSrdf, SrdfError, merge_srdf};
-pub use states_import::{ImportedStates, StateFault, StatesError, import_states};
+pub use srdf_document::SrdfError;
+pub use srdf_import::{ImportedSkips, import_srdf};
+pub use srdf_merge::{MergedSrdf, merge_srdf};
+pub use states_import::{ImportedStates, import_states};
 
 use subject::Subject;
 
@@ -97,19 +105,19 @@ use subject::Subject;
 ///
 /// # Errors
 /// If a required module is missing or unusable, and in the other cases of [`ExportError`].
-pub fn export(robot: &Robot, format: Format, options: &Options) -> Result<Export, ExportError> {
-    let mut subject = Subject::new(robot, format, options)?;
+pub fn export(robot: &Robot, options: &Options) -> Result<Export, ExportError> {
+    let mut subject = Subject::new(robot, options)?;
     subject.lost = carried::lost(&subject);
-    let mut made = match format {
-        Format::Srdf => srdf::export(&subject),
-        Format::Urdf => urdf::export(&subject),
-        Format::Drake => drake::export(&subject),
-        Format::Mjcf => mjcf::export(&subject),
-        Format::Curobo => spheres::curobo::export(&subject),
-        Format::Foam => spheres::foam::export(&subject),
-        Format::Spherized => spheres::urdf::export(&subject),
-        Format::Moveit => moveit::export(&subject),
-        Format::Sdf => sdf::export(&subject),
+    let mut made = match options {
+        Options::Srdf(_) => srdf::export(&subject),
+        Options::Urdf(of) => urdf::export(&subject, of),
+        Options::Drake(of) => drake::export(&subject, of),
+        Options::Mjcf(of) => mjcf::export(&subject, of),
+        Options::Curobo(of) => spheres::curobo::export(&subject, of),
+        Options::Foam(of) => spheres::foam::export(&subject, of),
+        Options::Spherized(of) => spheres::urdf::export(&subject, of),
+        Options::Moveit(of) => moveit::export(&subject, of),
+        Options::Sdf(of) => sdf::export(&subject, of),
     }?;
     made.notes.extend(subject.lost.clone());
     made.report = carried::report(&subject, &made);

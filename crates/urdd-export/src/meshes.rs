@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::names::FileNames;
+use super::options::MeshOptions;
 use super::simplify::simplify_all;
 use super::subject::Subject;
 use super::textures::{Image, Images};
@@ -38,13 +39,15 @@ impl MeshFormat {
 /// Files by path. Equal content shares one file.
 pub(super) struct MeshFiles<'a> {
     subject: &'a Subject<'a>,
+    folder: &'a str,
     names: FileNames,
     by_content: HashMap<Vec<u8>, String>,
 }
 
 impl<'a> MeshFiles<'a> {
-    pub fn new(subject: &'a Subject<'a>) -> Self {
-        MeshFiles { subject, names: FileNames::default(), by_content: HashMap::new() }
+    pub fn new(subject: &'a Subject<'a>, meshes: &'a MeshOptions) -> Self {
+        let (names, by_content) = (FileNames::default(), HashMap::new());
+        MeshFiles { subject, folder: &meshes.folder, names, by_content }
     }
 
     /// Adds a mesh and returns its file's path, relative to the text.
@@ -96,7 +99,7 @@ impl<'a> MeshFiles<'a> {
             return path.clone();
         }
         let name = self.names.of(&format!("{}_{what}", self.subject.links[link]));
-        let folder = &self.subject.options.mesh_folder;
+        let folder = self.folder;
         let slash = if folder.is_empty() { "" } else { "/" };
         let path = format!("{folder}{slash}{name}.{ending}");
         self.by_content.insert(bytes, path.clone());
@@ -121,12 +124,13 @@ pub(super) struct Look {
 /// The visual geometry of all links, by link, simplified where that is asked for.
 pub(super) fn looks(
     subject: &Subject,
+    meshes: &MeshOptions,
     notes: &mut Vec<Note>,
 ) -> Result<Vec<Vec<Look>>, ExportError> {
     let mut looks: Vec<Vec<Look>> = subject.links.iter().map(|_| Vec::new()).collect();
-    if !subject.options.visuals {
+    let Some(detail) = meshes.visuals else {
         return Ok(looks);
-    }
+    };
     let mut images = Images::new(subject);
     let mut textured: HashMap<usize, Vec<Part>> = HashMap::new();
     for visual in subject.robot.textured_visuals()? {
@@ -153,6 +157,6 @@ pub(super) fn looks(
     }
     notes.extend(images.notes());
     let parts = looks.iter_mut().flatten().map(|look| &mut look.part);
-    notes.extend(simplify_all(parts.collect(), subject.options.detail));
+    notes.extend(simplify_all(parts.collect(), detail));
     Ok(looks)
 }

@@ -21,63 +21,49 @@ const OMPL: [&str; 4] =
 /// An error if the format cannot represent a name of the robot, a link or a joint.
 pub(super) fn check(format: Format, robot: &Robot, tree: &Tree) -> Result<(), ExportError> {
     one(format, "robot", &robot.name)?;
-    let mut links = HashSet::new();
-    for (index, link) in robot.links.iter().enumerate() {
-        one(format, "link", &link.name)?;
-        let is_inner_world = link.name == "world" && index != tree.root;
-        let reason = match format {
-            _ if !links.insert(link.name.as_str()) => "two links have it",
-            Format::Mjcf if is_inner_world => {
-                "MuJoCo has a body of that name, which only the root can use"
-            }
-            Format::Sdf if is_inner_world => {
-                "SDF has a frame of that name, which only the root can use"
-            }
-            Format::Drake if is_inner_world => {
-                "Drake has a body of that name, which only the root can use"
-            }
-            _ => continue,
-        };
-        return Err(error(format, "link", &link.name, reason));
+    let links = robot.links.iter().map(|link| link.name.as_str());
+    check_names(format, "link", links, "two links have it")?;
+    let inner = robot.links.iter().enumerate().filter(|(index, _)| *index != tree.root);
+    let reason = match format {
+        Format::Mjcf => "MuJoCo has a body of that name, which only the root can use",
+        Format::Sdf => "SDF has a frame of that name, which only the root can use",
+        Format::Drake => "Drake has a body of that name, which only the root can use",
+        _ => "",
+    };
+    if !reason.is_empty() && inner.map(|(_, link)| &link.name).any(|name| name == "world") {
+        return Err(error(format, "link", "world", reason));
     }
-    let mut joints = HashSet::new();
-    for joint in &robot.joints {
-        one(format, "joint", &joint.name)?;
-        if !joints.insert(joint.name.as_str()) {
-            return Err(error(format, "joint", &joint.name, "two joints have it"));
-        }
-    }
-    Ok(())
+    let joints = robot.joints.iter().map(|joint| joint.name.as_str());
+    check_names(format, "joint", joints, "two joints have it")
 }
 
-/// An error if generated names duplicate each other or a name of the robot.
+/// An error if the format cannot represent names, or two are the same, for which `twice` is the reason.
+pub(super) fn check_names<'n>(
+    format: Format,
+    what: &'static str,
+    names: impl Iterator<Item = &'n str> + Clone,
+    twice: &'static str,
+) -> Result<(), ExportError> {
+    names.clone().try_for_each(|name| one(format, what, name))?;
+    check_unique(format, what, names, twice)
+}
+
+/// An error if two names are the same, for which `twice` is the reason.
 pub fn check_unique<'n>(
     format: Format,
     what: &'static str,
     names: impl IntoIterator<Item = &'n str>,
+    twice: &'static str,
 ) -> Result<(), ExportError> {
     let mut seen = HashSet::new();
     match names.into_iter().find(|name| !seen.insert(*name)) {
-        Some(name) => Err(error(format, what, name, TWICE)),
+        Some(name) => Err(error(format, what, name, twice)),
         None => Ok(()),
     }
 }
 
-/// An error if the format cannot represent names that a person chose, or two are the same.
-pub(super) fn check_names<'n>(
-    format: Format,
-    what: &'static str,
-    names: impl IntoIterator<Item = &'n str>,
-) -> Result<(), ExportError> {
-    let mut seen = HashSet::new();
-    for name in names {
-        one(format, what, name)?;
-        if !seen.insert(name) {
-            return Err(error(format, what, name, "another one has it"));
-        }
-    }
-    Ok(())
-}
+/// Why names that a person chose must differ.
+pub(super) const ANOTHER: &str = "another one has it";
 
 /// An error if ROS does not take the name of a package (REP 144): small letters, digits and `_`, a letter first.
 pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
@@ -88,8 +74,6 @@ pub(super) fn check_package(name: &str) -> Result<(), ExportError> {
         _ => Err(ExportError::Package(name.to_owned())),
     }
 }
-
-const TWICE: &str = "Drake gives it to the frame of a joint";
 
 pub fn one(format: Format, what: &'static str, name: &str) -> Result<(), ExportError> {
     let is_xml = !matches!(format, Format::Curobo | Format::Foam);

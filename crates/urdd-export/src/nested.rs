@@ -23,3 +23,8 @@ pub(super) fn within<'a>(
     }
     Some(found)
 }
+
+/// What is wrong with a group that contains itself.
+pub(super) fn contains_itself(group: &str) -> String {
+    format!("the group `{}` contains itself", group.escape_debug())
+}

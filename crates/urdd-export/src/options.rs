@@ -1,79 +1,78 @@
-//! Options of an export.
+//! Options of exports, by format.
 
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::ShapeKind;
 
-use super::setup::{JointGains, Setup};
+use super::format::Format;
+use super::setup::Setup;
 
-/// Options of an export.
+/// A format and its options. [`Choices::options`](super::Choices::options) makes it of what a person chose.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub enum Options {
+    /// [`Format::Srdf`].
+    Srdf(PairOptions),
+    /// [`Format::Urdf`].
+    Urdf(UrdfOptions),
+    /// [`Format::Drake`].
+    Drake(DrakeOptions),
+    /// [`Format::Mjcf`].
+    Mjcf(MjcfOptions),
+    /// [`Format::Curobo`].
+    Curobo(CuroboOptions),
+    /// [`Format::Foam`].
+    Foam(SphereOptions),
+    /// [`Format::Spherized`].
+    Spherized(SpherizedOptions),
+    /// [`Format::Moveit`].
+    Moveit(MoveitOptions),
+    /// [`Format::Sdf`].
+    Sdf(SdfOptions),
+}
+
+impl Options {
+    /// The format.
+    pub fn format(&self) -> Format {
+        self.common().0
+    }
+
+    /// The format, the shapes that approximate links, and what the URDD does not say.
+    pub(super) fn common(&self) -> (Format, ShapeKind, Option<&Setup>) {
+        match self {
+            Options::Srdf(of) => (Format::Srdf, of.shapes, None),
+            Options::Urdf(of) => (Format::Urdf, of.shapes, None),
+            Options::Drake(of) => (Format::Drake, of.model.pairs.shapes, of.model.setup.as_ref()),
+            Options::Mjcf(of) => (Format::Mjcf, of.shapes, of.setup.as_ref()),
+            Options::Curobo(of) => (Format::Curobo, of.spheres.shapes, of.setup.as_ref()),
+            Options::Foam(of) => (Format::Foam, of.shapes, None),
+            Options::Spherized(of) => (Format::Spherized, of.spheres.shapes, None),
+            Options::Moveit(of) => (Format::Moveit, of.model.pairs.shapes, of.model.setup.as_ref()),
+            Options::Sdf(of) => (Format::Sdf, of.model.pairs.shapes, of.model.setup.as_ref()),
+        }
+    }
+}
+
+/// Options of formats that list pairs of links that need no check: all options of SRDF.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairOptions {
     /// The shapes that approximate links: the collision geometry, and the shapes of the pairs.
     pub shapes: ShapeKind,
     /// The reasons for which pairs are disabled; `None` for those of the URDD. The user's edits apply in either case.
     pub reasons: Option<Vec<SkippedReason>>,
-    /// Whether a link-level format checks a pair of links of which the URDD skips some pairs of pieces and checks
-    /// others. Otherwise the pair is disabled, since pieces that are always in contact would collide in every
-    /// configuration.
+    /// Whether a pair of links is checked of which the URDD skips some pairs of pieces and checks others. Otherwise the
+    /// pair is disabled, since pieces that are always in contact would collide in every configuration.
     pub keep_pairs: bool,
-    /// Number of spheres, for the sphere formats.
-    pub spheres: SphereBudget,
-    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
-    /// the shapes.
-    pub cover: bool,
-    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
-    pub samples: usize,
-    /// Whether to add visual geometry: the plain meshes by colour, besides the shapes.
-    pub visuals: bool,
-    /// How much of it: fewer triangles for simulators.
-    pub detail: Detail,
+}
+
+/// Options of mesh files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshOptions {
+    /// Visual geometry: the plain meshes by colour, besides the shapes. `None` leaves it out.
+    pub visuals: Option<Detail>,
     /// The folder of the mesh files, relative to the text: without a trailing `/`, and empty for the same folder.
-    pub mesh_folder: String,
-    /// The name of the exported file, which others that are written beside it refer to: a scene of MJCF, a model directive
-    /// of Drake.
-    pub file: Option<String>,
-    /// The name of a ROS package: of MoveIt's configuration, by default [`Options::PACKAGE`]; or of a file for Drake, which
-    /// then comes with a `package.xml` and a model directive.
-    pub package: Option<String>,
-    /// The path of a URDF, for cuRobo's whole robot file. Otherwise, only what belongs to spheres is written.
-    pub robot_file: Option<String>,
-    /// Whether the root link of an MJCF or SDF moves freely. Otherwise it is fixed to the world, unless
-    /// [`Options::setup`] says that it moves.
-    pub floating_base: bool,
-    /// What the URDD does not say. Without it, formats that need it guess.
-    pub setup: Option<Setup>,
-    /// What MJCF alone has.
-    pub mjcf: MjcfOptions,
+    pub folder: String,
 }
 
-impl Options {
-    /// The name of the package of a configuration of MoveIt.
-    pub const PACKAGE: &str = "robot_moveit_config";
-
-    /// What a person set for the actuator of a joint.
-    pub(super) fn gains(&self, joint: usize) -> JointGains {
-        let setup = self.setup.as_ref();
-        let gains = setup.and_then(|setup| setup.gains.joints.get(&joint));
-        gains.copied().unwrap_or_default()
-    }
-
-    /// The coefficient of friction of all shapes, if a person set one.
-    pub(super) fn friction(&self) -> Option<f64> {
-        self.setup.as_ref().and_then(|setup| setup.friction)
-    }
-
-    pub(super) fn package(&self) -> &str {
-        self.package.as_deref().unwrap_or(Self::PACKAGE)
-    }
-
-    /// Whether the root link moves freely.
-    pub(super) fn floating(&self) -> bool {
-        let setup = self.setup.as_ref();
-        self.floating_base || setup.is_some_and(|setup| setup.floating.value)
-    }
-}
-
-/// Number of triangles of visual geometry.
+/// Number of triangles of visual geometry: fewer for simulators.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Detail {
     /// All.
@@ -85,18 +84,97 @@ pub enum Detail {
     Triangles(usize),
 }
 
+/// Options of spheres: all options of Foam's format.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphereOptions {
+    /// The shapes that the spheres approximate: pieces or hulls.
+    pub shapes: ShapeKind,
+    /// The reasons for which pairs are ignored; `None` for those of the URDD. The user's edits apply in either case.
+    pub reasons: Option<Vec<SkippedReason>>,
+    /// Number of spheres.
+    pub budget: SphereBudget,
+    /// Whether the spheres cover each link completely. Otherwise they are fitted to give the same collision results as
+    /// the shapes.
+    pub cover: bool,
+    /// Number of sampled configurations in which the spheres are evaluated; fewer if that is too expensive.
+    pub samples: usize,
+}
+
+/// Number of spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SphereBudget {
+    /// Twelve per link with shapes on average, at most 150 in total. For covering spheres: at most eight per link.
+    #[default]
+    Auto,
+    /// Maximum number per link.
+    PerLink(usize),
+    /// Maximum number for all links together, but at least one per link.
+    Total(usize),
+}
+
+impl SphereBudget {
+    /// The budget for a number per link, or for all links together, which counts first.
+    pub fn new(per_link: Option<impl Into<usize>>, total: Option<impl Into<usize>>) -> Self {
+        let total = total.map(|count| SphereBudget::Total(count.into()));
+        let per_link = per_link.map(|count| SphereBudget::PerLink(count.into()));
+        total.or(per_link).unwrap_or_default()
+    }
+}
+
+/// Options of URDF.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UrdfOptions {
+    /// The collision geometry.
+    pub shapes: ShapeKind,
+    /// The mesh files.
+    pub meshes: MeshOptions,
+}
+
+/// Options of formats that have a whole robot, with pairs of links.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelOptions {
+    /// The shapes, and the pairs that are disabled.
+    pub pairs: PairOptions,
+    /// The mesh files.
+    pub meshes: MeshOptions,
+    /// What the URDD does not say.
+    pub setup: Option<Setup>,
+}
+
+/// Options of URDF for Drake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrakeOptions {
+    /// The robot.
+    pub model: ModelOptions,
+    /// The name of a ROS package, for a `package.xml` and a model directive beside the file.
+    pub package: Option<String>,
+    /// The name of the file, which the model directive refers to.
+    pub file: Option<String>,
+}
+
 /// Options of MJCF.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MjcfOptions {
+    /// The shapes that approximate links: the geoms, and the shapes of the pairs.
+    pub shapes: ShapeKind,
+    /// The reasons for which pairs are excluded; `None` for those of the URDD. The user's edits apply in either case.
+    pub reasons: Option<Vec<SkippedReason>>,
+    /// The mesh files.
+    pub meshes: MeshOptions,
+    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless `setup` says that it moves.
+    pub floating_base: bool,
     /// The actuators of the joints of one DOF; `None` for no actuators.
     pub actuators: Option<ActuatorKind>,
     /// The frequency below which a joint follows its actuator, Hz. Gains are computed from it and from inertias. `None`
-    /// for that of [`Options::setup`], or 10 Hz.
+    /// for that of `setup`, or [`MjcfOptions::BANDWIDTH`].
     pub bandwidth: Option<f64>,
-    /// Whether the IMU frames of [`Options::setup`] get a gyroscope and an accelerometer.
+    /// Whether the IMU frames of `setup` get a gyroscope and an accelerometer.
     pub sensors: bool,
-    /// Whether a scene with floor and light is written beside the file [`Options::file`]: `NAME_scene.xml` for `NAME.xml`.
-    pub scene: bool,
+    /// The name of the file, for a scene with floor and light beside it that includes it: `NAME_scene.xml` for
+    /// `NAME.xml`. `None` for no scene.
+    pub scene_of: Option<String>,
+    /// What the URDD does not say.
+    pub setup: Option<Setup>,
 }
 
 impl MjcfOptions {
@@ -115,36 +193,60 @@ pub enum ActuatorKind {
     Motor,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            shapes: ShapeKind::Pieces,
-            reasons: None,
-            keep_pairs: false,
-            spheres: SphereBudget::default(),
-            cover: false,
-            samples: 10_000,
-            visuals: true,
-            detail: Detail::Full,
-            mesh_folder: "meshes".to_owned(),
-            file: None,
-            package: None,
-            robot_file: None,
-            floating_base: false,
-            setup: None,
-            mjcf: MjcfOptions::default(),
+impl ActuatorKind {
+    /// All kinds.
+    pub const ALL: &[ActuatorKind] =
+        &[ActuatorKind::Position, ActuatorKind::Velocity, ActuatorKind::Motor];
+
+    /// Its word for users, which is MuJoCo's too.
+    pub fn word(self) -> &'static str {
+        match self {
+            ActuatorKind::Position => "position",
+            ActuatorKind::Velocity => "velocity",
+            ActuatorKind::Motor => "motor",
         }
+    }
+
+    /// The kind of a word.
+    pub fn named(word: &str) -> Option<ActuatorKind> {
+        ActuatorKind::ALL.iter().copied().find(|kind| kind.word() == word)
     }
 }
 
-/// Number of spheres.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SphereBudget {
-    /// Twelve per link with shapes on average, at most 150 in total. For covering spheres: at most eight per link.
-    #[default]
-    Auto,
-    /// Maximum number per link.
-    PerLink(usize),
-    /// Maximum number for all links together, but at least one per link.
-    Total(usize),
+/// Options of cuRobo's YAML.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CuroboOptions {
+    /// The spheres.
+    pub spheres: SphereOptions,
+    /// The path of a URDF, for the whole robot file. Otherwise, only what belongs to spheres is written.
+    pub robot_file: Option<String>,
+    /// What the URDD does not say. The robot file needs it: without it, it is guessed.
+    pub setup: Option<Setup>,
+}
+
+/// Options of URDF with spheres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpherizedOptions {
+    /// The spheres.
+    pub spheres: SphereOptions,
+    /// The mesh files of visual geometry.
+    pub meshes: MeshOptions,
+}
+
+/// Options of MoveIt's configuration. Without a setup, it is guessed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MoveitOptions {
+    /// The robot.
+    pub model: ModelOptions,
+    /// The name of the package.
+    pub package: String,
+}
+
+/// Options of SDF.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SdfOptions {
+    /// The robot.
+    pub model: ModelOptions,
+    /// Whether the root link moves freely. Otherwise it is fixed to the world, unless the setup says that it moves.
+    pub floating_base: bool,
 }

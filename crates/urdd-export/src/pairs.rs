@@ -5,14 +5,13 @@
 //! `Default` if one is in contact in the default configuration, and `Never` only if none ever was.
 //!
 //! If the URDD skips some pairs of the links' shapes and checks others, the pair is *mixed*. A link-level format
-//! disables it, or keeps it on request ([`Options::keep_pairs`]). Either is wrong for some of the shapes.
+//! disables it, or keeps it on request ([`PairOptions::keep_pairs`](super::options::PairOptions::keep_pairs)). Either is wrong for some of the shapes.
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::options::Options;
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
-use urdd_robot::{Robot, RobotError, Skips};
+use urdd_robot::{Robot, RobotError, ShapeKind, Skips};
 
 /// Two links that both have shapes.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,12 +79,8 @@ pub(super) struct Decision<'a> {
 }
 
 impl<'a> Decision<'a> {
-    pub fn new(skips: &'a Skips, links: &[String], options: &'a Options) -> Self {
-        Decision {
-            skips,
-            edits: last_edits(skips.edits(), links),
-            reasons: options.reasons.as_deref(),
-        }
+    pub fn new(skips: &'a Skips, links: &[String], reasons: Option<&'a [SkippedReason]>) -> Self {
+        Decision { skips, edits: last_edits(skips.edits(), links), reasons }
     }
 
     pub fn is_skipped(&self, i: usize, j: usize) -> bool {
@@ -104,20 +99,22 @@ fn has(reasons: &[SkippedReason], reason: SkipReason) -> bool {
 }
 
 /// Every pair of links with shapes, sorted by index. Does not count contacts.
-pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, RobotError> {
-    let skips = robot.skips(options.shapes)?;
+pub(super) fn pairs(
+    robot: &Robot,
+    kind: ShapeKind,
+    reasons: Option<&[SkippedReason]>,
+    keep_pairs: bool,
+) -> Result<Vec<LinkPair>, RobotError> {
+    let skips = robot.skips(kind)?;
     let links = robot.description()?.links.into_iter();
     let names: Vec<String> = links.map(|link| link.name).collect();
-    let decision = Decision::new(&skips, &names, options);
-    let chosen = decision.reasons.or(skips.skipped_reasons());
+    let decision = Decision::new(&skips, &names, reasons);
+    let chosen = reasons.or(skips.skipped_reasons());
     let mut found: BTreeMap<[usize; 2], Vec<Seen>> = BTreeMap::new();
     let places = skips.places();
     for i in 0..places.len() {
         for j in i + 1..places.len() {
-            let (first, second) = match places[i].0 < places[j].0 {
-                true => (i, j),
-                false => (j, i),
-            };
+            let (first, second) = if places[i].0 < places[j].0 { (i, j) } else { (j, i) };
             let links = [places[first].0, places[second].0];
             if links[0] == links[1] {
                 continue;
@@ -136,7 +133,7 @@ pub(super) fn pairs(robot: &Robot, options: &Options) -> Result<Vec<LinkPair>, R
             None => seen.iter().all(|seen| seen.skipped),
             Some(_) => {
                 let is_chosen = |(reasons, reason)| has(reasons, reason);
-                !options.keep_pairs && chosen.zip(reason).is_some_and(is_chosen)
+                !keep_pairs && chosen.zip(reason).is_some_and(is_chosen)
             }
         };
         Some(LinkPair {

@@ -37,8 +37,7 @@ pub fn simplify_all(mut parts: Vec<&mut Part>, detail: Detail) -> Option<Note> {
     let surfaces: Vec<Surface> = parts.par_iter().map(|part| Surface::new(part)).collect();
     let with_error = |step: u32| -> Vec<Option<Vec<u32>>> {
         let error = (FINEST * STEP.powi(step as i32)) as f32;
-        let each = surfaces.par_iter();
-        each.map(|surface| surface.simplified(error).ok()).collect()
+        surfaces.par_iter().map(|surface| surface.simplified(error).ok()).collect()
     };
     let count = |found: &[Option<Vec<u32>>]| -> usize {
         let each = found.iter().zip(&surfaces);
@@ -132,10 +131,7 @@ impl Surface {
                 )?
             }
         };
-        Ok(match found.indices.is_empty() {
-            true => self.indices.clone(),
-            false => found.indices,
-        })
+        Ok(if found.indices.is_empty() { self.indices.clone() } else { found.indices })
     }
 
     /// The greatest sampled distance between this surface and a simplified one, m.

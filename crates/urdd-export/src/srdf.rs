@@ -18,9 +18,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
 
 /// Adds the pairs that need no check.
 pub(super) fn push_pairs(subject: &Subject, robot: &mut Element) {
-    for pair in subject.disabled() {
-        robot.push(disabled(subject, pair));
-    }
+    robot.extend(subject.disabled().map(|pair| disabled(subject, pair)));
 }
 
 fn disabled(subject: &Subject, pair: &LinkPair) -> Element {
@@ -51,7 +49,7 @@ fn reason(subject: &Subject, pair: &LinkPair) -> &'static str {
 
 /// The basis of the reasons: the shapes and the number of samples.
 pub(super) fn basis(subject: &Subject) -> Result<String, RobotError> {
-    let shapes = subject.options.shapes;
+    let shapes = subject.shapes;
     Ok(match subject.robot.num_samples()? {
         Some(samples) => {
             format!("Reasons by {shapes}; Always and Never by {samples} sampled configurations.")

@@ -3,57 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use roxmltree::Node;
-use thiserror::Error;
 
 use super::pairs::{ascending, last_edits};
-use super::srdf_merge::{SrdfError, elements, parse_of};
+use super::srdf_document::{Srdf, SrdfError};
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_robot::{Robot, RobotError, ShapeKind};
-
-/// Errors of an SRDF import.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ImportError {
-    /// Not an SRDF, or the SRDF of another robot.
-    #[error(transparent)]
-    Srdf(#[from] SrdfError),
-    /// An element lacks the name of a link.
-    #[error("line {line}: `<{element}>` has no `{attribute}`")]
-    NoLink {
-        /// The line, from 1.
-        line: u32,
-        /// The element.
-        element: &'static str,
-        /// The missing attribute.
-        attribute: &'static str,
-    },
-    /// A query on the robot failed, or it has no such link.
-    #[error("{}{error}", line.map_or(String::new(), |line| format!("line {line}: ")))]
-    Robot {
-        /// The line, from 1, if the error concerns one.
-        line: Option<u32>,
-        /// Why.
-        error: RobotError,
-    },
-    /// The SRDF contradicts an existing edit.
-    #[error(
-        "the URDD has an edit of `{}` and `{}` that contradicts the SRDF (\"{}\"); --force lets the SRDF decide", link_a.escape_debug(), link_b.escape_debug(), reason.escape_debug()
-    )]
-    Edited {
-        /// One link.
-        link_a: String,
-        /// The other.
-        link_b: String,
-        /// The edit's reason.
-        reason: String,
-    },
-}
-
-impl From<RobotError> for ImportError {
-    fn from(error: RobotError) -> Self {
-        ImportError::Robot { line: None, error }
-    }
-}
 
 /// A robot's edits after an SRDF import.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,29 +28,20 @@ pub struct ImportedSkips {
 /// # Errors
 /// If the text is not an SRDF of the robot, names a link that the robot does not have, or contradicts an edit without
 /// `force`.
-pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, ImportError> {
-    let document = parse_of(text, &robot.description()?.name)?;
-    let root = document.root_element();
+pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSkips, SrdfError> {
+    let srdf = Srdf::of(text, &robot.description()?.name)?;
     let links = robot.link_names()?;
-    let names = links.iter().map(String::as_str).zip(0..);
-    let by_name: HashMap<&str, usize> = names.collect();
-    // Called only for errors: each call counts lines from the beginning of the text.
-    let line = |node: Node| document.text_pos_at(node.range().start).row;
-    let link = |node: Node, element: &'static str, attribute: &'static str| {
-        let name = node.attribute(attribute).ok_or_else(|| ImportError::NoLink {
-            line: line(node),
-            element,
-            attribute,
-        })?;
+    let by_name: HashMap<&str, usize> = links.iter().map(String::as_str).zip(0..).collect();
+    let link = |node: Node, attribute: &str| {
+        let name = srdf.attribute(node, attribute)?;
         let known = by_name.get(name).copied();
-        let unknown = |error| ImportError::Robot { line: Some(line(node)), error };
-        known.map_or_else(|| robot.link(name).map_err(unknown), Ok)
+        known.map_or_else(|| robot.link(name).map_err(|error| srdf.wrong(node, error)), Ok)
     };
     // Pairs of links, lower index first: whether they are skipped, and why.
     let mut wanted: BTreeMap<[usize; 2], (bool, String)> = BTreeMap::new();
     let mut defaults = BTreeSet::new();
-    for node in elements(root, "disable_default_collisions") {
-        defaults.insert(link(node, "disable_default_collisions", "link")?);
+    for node in srdf.elements("disable_default_collisions") {
+        defaults.insert(link(node, "link")?);
     }
     for of in defaults {
         for other in (0..links.len()).filter(|other| *other != of) {
@@ -104,8 +49,8 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
         }
     }
     for (name, skip) in [("enable_collisions", false), ("disable_collisions", true)] {
-        for node in elements(root, name) {
-            let of = [link(node, name, "link1")?, link(node, name, "link2")?];
+        for node in srdf.elements(name) {
+            let of = [link(node, "link1")?, link(node, "link2")?];
             let reason = match node.attribute("reason") {
                 Some(reason) if !reason.trim().is_empty() => format!("SRDF: {}", reason.trim()),
                 _ => "SRDF".to_owned(),
@@ -129,11 +74,11 @@ pub fn import_srdf(robot: &Robot, text: &str, force: bool) -> Result<ImportedSki
             continue;
         }
         if let Some(edit) = last.get(pair).filter(|_| !force) {
-            return Err(ImportError::Edited {
-                link_a: edit.link_a.clone(),
-                link_b: edit.link_b.clone(),
-                reason: edit.reason.clone(),
-            });
+            let [a, b, reason] =
+                [&edit.link_a, &edit.link_b, &edit.reason].map(|text| text.escape_debug());
+            return Err(SrdfError::Edited(format!(
+                "an edit of `{a}` and `{b}` that contradicts the SRDF (\"{reason}\"); --force lets the SRDF decide"
+            )));
         }
         imported.added += 1;
         imported.edits.push(SkipEdit {

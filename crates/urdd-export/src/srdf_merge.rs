@@ -4,10 +4,9 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use roxmltree::{Document, Node};
-use thiserror::Error;
+use roxmltree::Node;
 
-use urdd_xml::Kind;
+use super::srdf_document::{Srdf, SrdfError};
 
 /// The element that is replaced.
 const DISABLED: &str = "disable_collisions";
@@ -15,33 +14,6 @@ const DISABLED: &str = "disable_collisions";
 /// The reasons that MoveIt's Setup Assistant and this program write. A pair with another reason, such as `User` or a
 /// sentence, belongs to the user.
 const FOUND_BY_PROGRAMS: &[&str] = &["Adjacent", "Always", "Default", "Never"];
-
-/// Errors of an SRDF merge.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum SrdfError {
-    /// Not well-formed XML, or beyond a limit of the XML parser.
-    #[error("line {line}, column {column}: not well-formed XML: {reason}")]
-    Xml {
-        /// The line, from 1.
-        line: u32,
-        /// The column, from 1.
-        column: u32,
-        /// What is wrong.
-        reason: String,
-    },
-    /// Not an SRDF.
-    #[error("this is not an SRDF: its outermost element is `{}`, not `robot`", .0.escape_debug())]
-    NotSrdf(String),
-    /// The SRDF of another robot.
-    #[error("this is the SRDF of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]
-    OtherRobot {
-        /// The robot name in the SRDF.
-        found: String,
-        /// The expected robot name.
-        expected: String,
-    },
-}
 
 /// A merged SRDF.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,14 +33,13 @@ pub struct MergedSrdf {
 /// # Errors
 /// If `old` is not an SRDF, or that of another robot.
 pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
-    let new_document = parse(new)?;
-    let source = new_document.root_element();
-    let old_document = parse_of(old, source.attribute("name").unwrap_or_default())?;
-    let robot = old_document.root_element();
+    let source = Srdf::new(new)?;
+    let srdf = Srdf::of(old, source.robot().attribute("name").unwrap_or_default())?;
+    let robot = srdf.robot();
     let (gone, persons): (Vec<Node>, Vec<Node>) =
-        elements(robot, DISABLED).partition(|pair| is_found_by_programs(*pair));
+        srdf.elements(DISABLED).partition(|pair| is_found_by_programs(*pair));
     let kept: HashSet<[&str; 2]> = persons.iter().map(|pair| links(*pair)).collect();
-    let enabled: HashSet<[&str; 2]> = elements(robot, "enable_collisions").map(links).collect();
+    let enabled: HashSet<[&str; 2]> = srdf.elements("enable_collisions").map(links).collect();
     let mut num_enabled = 0;
     let newline = newline_of(old);
     let margin = match robot.children().find(Node::is_element) {
@@ -76,7 +47,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
         None => "  ",
     };
     let mut pairs = Vec::new();
-    for pair in elements(source, DISABLED) {
+    for pair in source.elements(DISABLED) {
         let of = links(pair);
         let is_enabled = enabled.contains(&of);
         num_enabled += usize::from(is_enabled);
@@ -89,8 +60,7 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
     if gone.iter().map(|pair| &old[pair.range()]).eq(pairs.iter().copied()) {
         return Ok(merged(old.to_owned()));
     }
-    let lines = pairs.iter().map(|pair| format!("{margin}{pair}{newline}"));
-    let lines: String = lines.collect();
+    let lines: String = pairs.iter().map(|pair| format!("{margin}{pair}{newline}")).collect();
     // An empty element has no end tag to insert before.
     let range = robot.range();
     let end = old[range.clone()].rfind("</").map(|end| range.start + end);
@@ -116,44 +86,13 @@ pub fn merge_srdf(old: &str, new: &str) -> Result<MergedSrdf, SrdfError> {
     Ok(merged(text))
 }
 
-pub(super) fn parse(text: &str) -> Result<Document<'_>, SrdfError> {
-    let document = urdd_xml::parse(text, Kind::Other).map_err(|error| SrdfError::Xml {
-        line: error.pos().row,
-        column: error.pos().col,
-        reason: error.words(text),
-    })?;
-    match document.root_element().tag_name().name() {
-        "robot" => Ok(document),
-        other => Err(SrdfError::NotSrdf(other.to_owned())),
-    }
-}
-
-/// An SRDF of this robot.
-///
-/// # Errors
-/// If the text is not an SRDF, or that of another robot.
-pub(super) fn parse_of<'t>(text: &'t str, robot: &str) -> Result<Document<'t>, SrdfError> {
-    let document = parse(text)?;
-    match document.root_element().attribute("name").unwrap_or_default() {
-        found if found == robot => Ok(document),
-        found => Err(SrdfError::OtherRobot { found: found.to_owned(), expected: robot.to_owned() }),
-    }
-}
-
-pub(super) fn elements<'a>(
-    robot: Node<'a, 'a>,
-    name: &'a str,
-) -> impl Iterator<Item = Node<'a, 'a>> {
-    robot.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
-}
-
 fn is_found_by_programs(pair: Node) -> bool {
     let reason = pair.attribute("reason").unwrap_or_default();
     FOUND_BY_PROGRAMS.contains(&reason.trim())
 }
 
 /// The names of a pair's links, sorted.
-fn links<'a>(pair: Node<'a, 'a>) -> [&'a str; 2] {
+fn links<'a>(pair: Node<'a, '_>) -> [&'a str; 2] {
     let mut names = ["link1", "link2"].map(|key| pair.attribute(key).unwrap_or_default());
     names.sort_unstable();
     names
@@ -172,25 +111,16 @@ fn whole_line(text: &str, range: Range<usize>) -> Range<usize> {
     let start = line_start(text, range.start);
     let rest = text[range.end..].trim_start_matches([' ', '\t', '\r']);
     let begins = start == 0 || text.as_bytes()[start - 1] == b'\n';
-    match begins && rest.starts_with('\n') {
-        true => start..text.len() - rest.len() + 1,
-        false => range,
-    }
+    if begins && rest.starts_with('\n') { start..text.len() - rest.len() + 1 } else { range }
 }
 
 /// The start of the line if only white space precedes `at` on it; otherwise `at`.
 fn line_start(text: &str, at: usize) -> usize {
     let start = text[..at].trim_end_matches([' ', '\t']).len();
-    match start == 0 || text.as_bytes()[start - 1] == b'\n' {
-        true => start,
-        false => at,
-    }
+    if start == 0 || text.as_bytes()[start - 1] == b'\n' { start } else { at }
 }
 
 fn margin_before(text: &str, at: usize) -> &str {
     let start = line_start(text, at);
-    match start > 0 && start < at {
-        true => &text[start..at],
-        false => "  ",
-    }
+    if start > 0 && start < at { &text[start..at] } else { "  " }
 }

@@ -2,69 +2,10 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use roxmltree::Node;
-use thiserror::Error;
-
-use super::srdf_merge::{SrdfError, elements, parse_of};
+use super::error::unknown;
+use super::srdf_document::{Srdf, SrdfError, elements};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
-use urdd_format::nearest::nearest;
 use urdd_robot::{Robot, RobotError};
-
-/// Errors of an import of group states.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum StatesError {
-    /// Not an SRDF, or the SRDF of another robot.
-    #[error(transparent)]
-    Srdf(#[from] SrdfError),
-    /// A query on the robot failed.
-    #[error(transparent)]
-    Robot(#[from] RobotError),
-    /// An element lacks an attribute, or has one that is wrong.
-    #[error("line {line}: {fault}")]
-    Element {
-        /// The line, from 1.
-        line: u32,
-        /// What is wrong.
-        fault: StateFault,
-    },
-    /// The URDD has another configuration of this name.
-    #[error("the URDD has another configuration `{}`; --force replaces it", .0.escape_debug())]
-    Other(String),
-}
-
-/// What is wrong with a group state.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum StateFault {
-    /// An attribute is missing or empty.
-    #[error("`<{element}>` has no `{attribute}`")]
-    Missing {
-        /// The element.
-        element: &'static str,
-        /// The attribute.
-        attribute: &'static str,
-    },
-    /// The robot has no such joint.
-    #[error("the robot has no joint `{}`{}", .joint.escape_debug(), .nearest.as_ref().map_or(String::new(), |near| format!("; did you mean `{}`?", near.escape_debug())))]
-    NoJoint {
-        /// Its name.
-        joint: String,
-        /// The nearest name that there is.
-        nearest: Option<String>,
-    },
-    /// Not a number.
-    #[error("`{}` is not a position, rad or m", .0.escape_debug())]
-    NotANumber(String),
-    /// Two groups have states of one name that set a joint differently.
-    #[error("another state `{}` sets the joint `{}` to another position", .state.escape_debug(), .joint.escape_debug())]
-    Conflict {
-        /// The name of the states.
-        state: String,
-        /// The joint.
-        joint: String,
-    },
-}
 
 /// The named configurations of a robot after an import.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,57 +27,45 @@ pub struct ImportedStates {
 /// # Errors
 /// If the text is not an SRDF of the robot, a state is wrong, or the URDD has another configuration of the name without
 /// `force`.
-pub fn import_states(
-    robot: &Robot,
-    text: &str,
-    force: bool,
-) -> Result<ImportedStates, StatesError> {
-    let document = parse_of(text, &robot.description()?.name)?;
-    let root = document.root_element();
+pub fn import_states(robot: &Robot, text: &str, force: bool) -> Result<ImportedStates, SrdfError> {
+    let srdf = Srdf::of(text, &robot.description()?.name)?;
     let dofs: HashMap<&str, usize> =
         robot.dof_names()?.iter().map(String::as_str).zip(0..).collect();
     let joints: HashSet<&str> = robot.joint_names()?.iter().map(String::as_str).collect();
-    // Called only for errors: each call counts lines from the beginning of the text.
-    let wrong = |node: Node, fault: StateFault| StatesError::Element {
-        line: document.text_pos_at(node.range().start).row,
-        fault,
-    };
-    let attribute = |node: Node<'_, '_>, element: &'static str, attribute: &'static str| {
-        let value = node.attribute(attribute).filter(|value| !value.is_empty());
-        let missing = || wrong(node, StateFault::Missing { element, attribute });
-        value.map(str::to_owned).ok_or_else(missing)
-    };
     let mut left_out = 0;
     // In the order of their names in the file; positions by DOF.
     let mut states: Vec<(String, BTreeMap<usize, DofPosition>)> = Vec::new();
     let mut places: HashMap<String, usize> = HashMap::new();
-    for node in elements(root, "group_state") {
-        let name = attribute(node, "group_state", "name")?;
-        let place = *places.entry(name.clone()).or_insert(states.len());
+    for node in srdf.elements("group_state") {
+        let name = srdf.attribute(node, "name")?;
+        let place = *places.entry(name.to_owned()).or_insert(states.len());
         if place == states.len() {
-            states.push((name.clone(), BTreeMap::new()));
+            states.push((name.to_owned(), BTreeMap::new()));
         }
         let state = &mut states[place].1;
         for node in elements(node, "joint") {
-            let joint = attribute(node, "joint", "name")?;
-            let value = attribute(node, "joint", "value")?;
-            if !joints.contains(joint.as_str()) {
-                let nearest = nearest(robot.joint_names()?.iter().map(String::as_str), &joint);
-                return Err(wrong(node, StateFault::NoJoint { joint, nearest }));
+            let joint = srdf.attribute(node, "name")?;
+            let value = srdf.attribute(node, "value")?;
+            if !joints.contains(joint) {
+                let names = robot.joint_names()?.iter().map(String::as_str);
+                return Err(srdf.wrong(node, unknown("joint", joint, names)));
             }
-            let Some(dof) = dofs.get(joint.as_str()) else {
+            let Some(dof) = dofs.get(joint) else {
                 left_out += 1;
                 continue;
             };
-            let number = value.trim().parse::<f64>().ok();
-            let number = number.filter(|value| value.is_finite());
-            let position = DofPosition {
-                position: number.ok_or_else(|| wrong(node, StateFault::NotANumber(value)))?,
-                dof_name: joint.clone(),
-            };
+            let number = value.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+            let position = number.ok_or_else(|| {
+                let value = value.escape_debug();
+                srdf.wrong(node, format!("`{value}` is not a position, rad or m"))
+            })?;
+            let position = DofPosition { position, dof_name: joint.to_owned() };
             let before = state.insert(*dof, position.clone());
             if before.is_some_and(|before| before != position) {
-                return Err(wrong(node, StateFault::Conflict { state: name, joint }));
+                let [name, joint] = [name, joint].map(str::escape_debug);
+                let reason =
+                    format!("another state `{name}` sets the joint `{joint}` to another position");
+                return Err(srdf.wrong(node, reason));
             }
         }
     }
@@ -169,7 +98,11 @@ pub fn import_states(
         };
         match known.get(name) {
             Some(place) if existing[*place].configuration == configuration => imported.already += 1,
-            Some(_) if !force => return Err(StatesError::Other(name.to_owned())),
+            Some(_) if !force => {
+                let name = name.escape_debug();
+                let other = format!("another configuration `{name}`; --force replaces it");
+                return Err(SrdfError::Edited(other));
+            }
             Some(place) => {
                 imported.configurations[*place] = edit.clone();
                 imported.changed += 1;

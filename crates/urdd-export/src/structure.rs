@@ -36,12 +36,10 @@ impl Structure {
 
     /// An error if this is the identity of another robot.
     pub fn check(&self, of: &(String, [usize; 2])) -> Result<(), ExportError> {
-        match *of == self.identity() {
-            true => Ok(()),
-            false => Err(ExportError::OtherSetup {
-                found: of.0.clone(),
-                expected: self.view.name.clone(),
-            }),
+        if *of == self.identity() {
+            Ok(())
+        } else {
+            Err(ExportError::OtherSetup { found: of.0.clone(), expected: self.view.name.clone() })
         }
     }
 
@@ -73,21 +71,12 @@ impl Structure {
 
     /// A link and those that are fixed to it, further from the root.
     pub fn fixed_to(&self, link: usize) -> Vec<usize> {
-        let mut links = vec![link];
-        let mut next = 0;
-        while let Some(&link) = links.get(next) {
-            let children = self.tree.child_joints[link].iter();
-            let fixed = children.filter(|joint| self.view.joints[**joint].num_dofs() == 0);
-            links.extend(fixed.map(|joint| self.tree.joint_links[*joint].1));
-            next += 1;
-        }
-        links
+        self.reached(link, |joint| self.view.joints[joint].num_dofs() == 0)
     }
 
     /// The moving joints that are attached to a link or to what is fixed to it, in joint order.
     pub fn joints_after(&self, link: usize) -> Vec<usize> {
-        let links = self.fixed_to(link).into_iter();
-        let joints = links.flat_map(|link| &self.tree.child_joints[link]);
+        let joints = self.fixed_to(link).into_iter().flat_map(|link| &self.tree.child_joints[link]);
         let mut joints: Vec<usize> =
             joints.copied().filter(|joint| self.view.joints[*joint].num_dofs() > 0).collect();
         joints.sort_unstable();
@@ -96,10 +85,15 @@ impl Structure {
 
     /// A link and all of its descendants.
     pub fn links_after(&self, link: usize) -> Vec<usize> {
+        self.reached(link, |_| true)
+    }
+
+    /// A link and its descendants over such joints, those nearer first.
+    fn reached(&self, link: usize, over: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut links = vec![link];
         let mut next = 0;
         while let Some(&link) = links.get(next) {
-            let children = self.tree.child_joints[link].iter();
+            let children = self.tree.child_joints[link].iter().filter(|joint| over(**joint));
             links.extend(children.map(|joint| self.tree.joint_links[*joint].1));
             next += 1;
         }

@@ -12,7 +12,7 @@ use super::names;
 use super::options::Options;
 use super::pairs::{LinkPair, pairs};
 use super::parts::JointNames;
-use super::setup::Setup;
+use super::setup::{JointGains, Setup};
 use super::structure::Structure;
 use urdd_format::registry::PROGRAM_VERSION;
 use urdd_format::urdf::UrdfModule;
@@ -31,7 +31,12 @@ impl Deref for Subject<'_> {
 pub(super) struct Subject<'a> {
     pub robot: &'a Robot,
     pub format: Format,
-    pub options: &'a Options,
+    /// The shapes that approximate links.
+    pub shapes: ShapeKind,
+    /// What the URDD does not say, if a person said it.
+    pub given: Option<&'a Setup>,
+    /// Whether the root link moves freely.
+    pub is_floating: bool,
     pub urdf: UrdfModule,
     pub structure: Structure,
     pub names: JointNames,
@@ -46,32 +51,42 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub fn new(
-        robot: &'a Robot,
-        format: Format,
-        options: &'a Options,
-    ) -> Result<Self, ExportError> {
+    pub fn new(robot: &'a Robot, options: &'a Options) -> Result<Self, ExportError> {
+        let (format, shapes, given) = options.common();
         let urdf = robot.description()?;
         let structure = Structure::of(&urdf)?;
         names::check(format, &structure.view, &structure.tree)?;
-        options.package.as_deref().map_or(Ok(()), names::check_package)?;
-        if let Some(setup) = &options.setup {
+        if let Some(setup) = given {
             structure.check(&setup.of)?;
         }
         let links: Vec<String> = urdf.links.iter().map(|link| link.name.clone()).collect();
-        let pairs = match format {
-            // URDF cannot express pairs; the sphere formats compute their own.
-            Format::Urdf | Format::Curobo | Format::Foam | Format::Spherized => Vec::new(),
+        let mut is_floating = given.is_some_and(|setup| setup.floating.value);
+        let pairs = match options {
+            Options::Srdf(of) => link_pairs(robot, of)?,
+            Options::Drake(of) => link_pairs(robot, &of.model.pairs)?,
+            Options::Moveit(of) => link_pairs(robot, &of.model.pairs)?,
+            Options::Sdf(of) => {
+                is_floating |= of.floating_base;
+                link_pairs(robot, &of.model.pairs)?
+            }
             // MJCF handles pairs of pieces exactly.
-            Format::Mjcf => pairs(robot, options)?,
-            _ => link_pairs(robot, options)?,
+            Options::Mjcf(of) => {
+                is_floating |= of.floating_base;
+                pairs(robot, shapes, of.reasons.as_deref(), false)?
+            }
+            // URDF cannot express pairs; the sphere formats compute their own.
+            Options::Urdf(_) | Options::Curobo(_) | Options::Foam(_) | Options::Spherized(_) => {
+                Vec::new()
+            }
         };
         let names = JointNames::new(format, &structure);
         let text = robot.source_text()?.unwrap_or_default();
         Ok(Subject {
             robot,
             format,
-            options,
+            shapes,
+            given,
+            is_floating,
             urdf,
             structure,
             names,
@@ -82,30 +97,35 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The shapes of a kind for each link, in link order.
-    pub fn shapes_by_link(&self, kind: ShapeKind) -> Result<Vec<Vec<LinkShape>>, ExportError> {
+    /// The shapes of each link, in link order.
+    pub fn shapes_by_link(&self) -> Result<Vec<Vec<LinkShape>>, ExportError> {
         let mut shapes: Vec<Vec<LinkShape>> = self.links.iter().map(|_| Vec::new()).collect();
-        for shape in self.robot.shapes(kind)? {
+        for shape in self.robot.shapes(self.shapes)? {
             if let Some(of_link) = shapes.get_mut(shape.link) {
                 of_link.push(shape);
             }
         }
-        // The sphere formats need shapes.
-        let is_needed = matches!(self.format, Format::Curobo | Format::Foam | Format::Spherized);
-        match is_needed && shapes.iter().all(Vec::is_empty) {
-            true => Err(ExportError::NoShapes(kind)),
-            false => Ok(shapes),
-        }
+        Ok(shapes)
+    }
+
+    /// What a person set for the actuator of a joint.
+    pub fn gains(&self, joint: usize) -> JointGains {
+        self.given.and_then(|setup| setup.gains.joints.get(&joint)).copied().unwrap_or_default()
+    }
+
+    /// The coefficient of friction of all shapes, if a person set one.
+    pub fn friction(&self) -> Option<f64> {
+        self.given.and_then(|setup| setup.friction)
     }
 
     /// Whether the root link of an MJCF moves freely. One called `world` is MuJoCo's own body, which cannot.
     pub fn has_free_base(&self) -> bool {
-        self.options.floating() && !self.is_world(self.tree.root)
+        self.is_floating && !self.is_world(self.tree.root)
     }
 
     /// What the format needs and the URDD does not say: a person's, or guesses, with a note.
     pub fn setup(&self, notes: &mut Vec<Note>) -> Result<Cow<'_, Setup>, ExportError> {
-        Ok(match &self.options.setup {
+        Ok(match self.given {
             Some(setup) => Cow::Borrowed(setup),
             None => {
                 notes.push(Note::Guessed);
@@ -131,9 +151,8 @@ impl<'a> Subject<'a> {
     pub fn notes(&self) -> Vec<Note> {
         let contacts = |pair: &&LinkPair| {
             let counted = pair.mixed.as_ref().and_then(|mixed| mixed.contacts);
-            Reverse(counted.map_or(0, |contacts| match pair.disabled {
-                true => contacts.checked,
-                false => contacts.skipped,
+            Reverse(counted.map_or(0, |contacts| {
+                if pair.disabled { contacts.checked } else { contacts.skipped }
             }))
         };
         let mut pairs: Vec<&LinkPair> = self.pairs.iter().collect();

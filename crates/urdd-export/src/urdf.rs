@@ -6,6 +6,7 @@ use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
 use super::joints::joints;
+use super::options::{MeshOptions, UrdfOptions};
 use super::other_attributes;
 use super::output::{Export, Files};
 use super::subject::Subject;
@@ -17,23 +18,24 @@ use super::xacro;
 use urdd_robot::LinkShape;
 use urdd_xml::other_parts::Owner;
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
-    let shapes = subject.options.shapes;
+pub(super) fn export(subject: &Subject, options: &UrdfOptions) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
-    let (robot, files) = robot(subject, subject.shapes_by_link(shapes)?, &mut notes)?;
-    let text = robot.document(&subject.comments(format!("Collision geometry: {shapes}."), &notes)?);
+    let (robot, files) = robot(subject, &options.meshes, subject.shapes_by_link()?, &mut notes)?;
+    let what = format!("Collision geometry: {}.", subject.shapes);
+    let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }
 
 /// The robot with these shapes of its links as collision geometry, and the files that it references.
 pub(super) fn robot(
     subject: &Subject,
+    meshes: &MeshOptions,
     shapes: Vec<Vec<LinkShape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Element, Files), ExportError> {
     let urdf = &subject.urdf;
     let mut robot = empty_robot(subject);
-    let (links, files) = links(subject, Geometry::Plain, shapes, notes)?;
+    let (links, files) = links(subject, Geometry::Plain, meshes, shapes, notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
         lost += push_unknown(&mut element, &unknown(subject, &link.unknown_elements), IN_LINK);

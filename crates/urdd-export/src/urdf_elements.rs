@@ -8,6 +8,7 @@ use super::error::{ExportError, Note};
 use super::inertia::held;
 use super::joints::without_quaternion;
 use super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::options::MeshOptions;
 use super::other_attributes;
 use super::output::Files;
 use super::subject::Subject;
@@ -45,18 +46,19 @@ pub(super) fn empty_robot(subject: &Subject) -> Element {
 pub(super) fn links(
     subject: &Subject,
     geometry: Geometry,
+    meshes: &MeshOptions,
     shapes: Vec<Vec<LinkShape>>,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
     if shapes.iter().all(Vec::is_empty) {
-        notes.push(Note::NoShapes(subject.options.shapes));
+        notes.push(Note::NoShapes(subject.shapes));
     }
     let quaternions = has_quaternions(subject.urdf.version.as_deref());
-    let friction = subject.options.friction().filter(|_| geometry == Geometry::Drake);
-    let mut files = MeshFiles::new(subject);
+    let friction = subject.friction().filter(|_| geometry == Geometry::Drake);
+    let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
     let each = subject.urdf.links.iter().zip(&subject.view.links);
-    let each = each.zip(shapes.into_iter().zip(looks(subject, notes)?));
+    let each = each.zip(shapes.into_iter().zip(looks(subject, meshes, notes)?));
     for (idx, ((link, view), (shapes, looks))) in each.enumerate() {
         let mut element = element_of_link(link, view.inertial.as_ref(), quaternions);
         other_attributes::add(subject, &Owner::Link(link.name.clone()), &mut element);
@@ -166,19 +168,14 @@ fn element_of_inertial(inertial: &Inertial, view: &InertialView, quaternions: bo
     // Most programs reject an element without one of these. Missing values are 0 (SPEC 6.1.8).
     let inertia = view.inertia.unwrap_or_default();
     let inertia = held(inertia, false).unwrap_or(inertia);
-    let [ixx, ixy, ixz, iyy, iyz, izz] = inertia.map(number);
     element.push(Element::new("mass").with("value", number(view.mass.unwrap_or(0.0))));
-    element.push(
-        Element::new("inertia")
-            .with("ixx", ixx)
-            .with("ixy", ixy)
-            .with("ixz", ixz)
-            .with("iyy", iyy)
-            .with("iyz", iyz)
-            .with("izz", izz),
-    );
+    let inertia = INERTIA.into_iter().zip(inertia.map(Some));
+    element.push(Element::new("inertia").with_numbers(inertia));
     element
 }
+
+/// The names of moments and products of inertia.
+pub(super) const INERTIA: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
 fn element_of_origin(origin: &Origin) -> Element {
     Element::new("origin")
@@ -262,48 +259,39 @@ pub(super) fn element_of_joint(joint: &Joint, tag: &'static str, kind: &str) -> 
     if let Some(axis) = &joint.axis {
         element.push(Element::new("axis").with_some("xyz", axis.xyz.map(|xyz| numbers(&xyz))));
     }
-    if let Some(limit) = &joint.limit {
-        element.push(
-            Element::new("limit")
-                .with_some("lower", limit.lower.map(number))
-                .with_some("upper", limit.upper.map(number))
-                .with_some("effort", limit.effort.map(number))
-                .with_some("velocity", limit.velocity.map(number))
-                .with_some("acceleration", limit.acceleration.map(number))
-                .with_some("deceleration", limit.deceleration.map(number))
-                .with_some("jerk", limit.jerk.map(number)),
-        );
+    if let Some(of) = &joint.limit {
+        let values = [
+            ("lower", of.lower),
+            ("upper", of.upper),
+            ("effort", of.effort),
+            ("velocity", of.velocity),
+            ("acceleration", of.acceleration),
+            ("deceleration", of.deceleration),
+            ("jerk", of.jerk),
+        ];
+        element.push(Element::new("limit").with_numbers(values));
     }
-    if let Some(dynamics) = &joint.dynamics {
-        element.push(
-            Element::new("dynamics")
-                .with_some("damping", dynamics.damping.map(number))
-                .with_some("friction", dynamics.friction.map(number)),
-        );
+    if let Some(of) = &joint.dynamics {
+        let values = [("damping", of.damping), ("friction", of.friction)];
+        element.push(Element::new("dynamics").with_numbers(values));
     }
-    if let Some(mimic) = &joint.mimic {
-        element.push(
-            Element::new("mimic")
-                .with("joint", mimic.joint.as_str())
-                .with_some("multiplier", mimic.multiplier.map(number))
-                .with_some("offset", mimic.offset.map(number)),
-        );
+    if let Some(of) = &joint.mimic {
+        let values = [("multiplier", of.multiplier), ("offset", of.offset)];
+        let mimic = Element::new("mimic").with("joint", of.joint.as_str());
+        element.push(mimic.with_numbers(values));
     }
-    if let Some(safety) = &joint.safety_controller {
-        element.push(
-            Element::new("safety_controller")
-                .with_some("soft_lower_limit", safety.soft_lower_limit.map(number))
-                .with_some("soft_upper_limit", safety.soft_upper_limit.map(number))
-                .with_some("k_position", safety.k_position.map(number))
-                .with_some("k_velocity", safety.k_velocity.map(number)),
-        );
+    if let Some(of) = &joint.safety_controller {
+        let values = [
+            ("soft_lower_limit", of.soft_lower_limit),
+            ("soft_upper_limit", of.soft_upper_limit),
+            ("k_position", of.k_position),
+            ("k_velocity", of.k_velocity),
+        ];
+        element.push(Element::new("safety_controller").with_numbers(values));
     }
-    if let Some(calibration) = &joint.calibration {
-        element.push(
-            Element::new("calibration")
-                .with_some("rising", calibration.rising.map(number))
-                .with_some("falling", calibration.falling.map(number)),
-        );
+    if let Some(of) = &joint.calibration {
+        let values = [("rising", of.rising), ("falling", of.falling)];
+        element.push(Element::new("calibration").with_numbers(values));
     }
     element
 }

@@ -53,16 +53,13 @@ impl Yaml {
 
     /// A mapping of names.
     pub fn named<'n>(names: impl IntoIterator<Item = (&'n str, Yaml)>) -> Yaml {
-        Yaml::Map(named(names))
+        let names = names.into_iter();
+        Yaml::Map(names.map(|(name, value)| (quoted(name), value)).collect())
     }
 
     /// The document, after comments.
     pub fn document(&self, comments: &[String]) -> String {
-        let mut text = String::new();
-        for comment in comments {
-            let comment = comment.replace('{', "\\u{7b}");
-            let _ = writeln!(text, "# {}", escape::line(&comment));
-        }
+        let mut text = head(comments);
         self.write(&mut text, 0, true);
         text
     }
@@ -86,9 +83,10 @@ impl Yaml {
                 }
                 for (key, value) in entries {
                     // A longer key says where it begins (YAML 1.2.2, 7.4.2 and 8.2.2).
-                    match key.chars().count() > MAX_KEY {
-                        true => _ = write!(text, "{margin}? {key}\n{margin}:"),
-                        false => _ = write!(text, "{margin}{key}:"),
+                    if key.chars().count() > MAX_KEY {
+                        _ = write!(text, "{margin}? {key}\n{margin}:")
+                    } else {
+                        _ = write!(text, "{margin}{key}:")
                     }
                     value.write(text, depth + 1, false);
                 }
@@ -114,15 +112,15 @@ impl Yaml {
     }
 }
 
+/// The head of a document: comments.
+pub(super) fn head(comments: &[String]) -> String {
+    let braces = |comment: &String| comment.replace('{', "\\u{7b}");
+    comments.iter().map(|comment| format!("# {}\n", escape::line(&braces(comment)))).collect()
+}
+
 /// Entries of fixed keys.
 pub(super) fn entries<const N: usize>(fixed: [(&str, Yaml); N]) -> Vec<(String, Yaml)> {
     fixed.map(|(key, value)| (key.to_owned(), value)).into()
-}
-
-/// Entries of names.
-pub(super) fn named<'n>(names: impl IntoIterator<Item = (&'n str, Yaml)>) -> Vec<(String, Yaml)> {
-    let names = names.into_iter();
-    names.map(|(name, value)| (quoted(name), value)).collect()
 }
 
 /// A number with a decimal point, and a sign in its exponent: without them, YAML 1.1 (PyYAML) reads a text.

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 from . import _urdd
 from ._answers import ShapeKind
 from ._description import RobotDescription
-from ._options import whole, words
+from ._options import ExportOptions, whole, words
 
 __all__ = ["Actuators", "Export", "Format", "export"]
 
@@ -127,14 +127,6 @@ def export(
         if count is not None:
             whole(count, name, 1, MAX_SPHERES)
     whole(samples, "samples", 100, MAX_SAMPLES)
-    if format != "mjcf" and (actuators is not None or sensors or scene):
-        raise ValueError("actuators, sensors and scene are for mjcf")
-    if format not in ("mjcf", "sdf") and floating_base:
-        raise ValueError("floating_base is for mjcf and sdf")
-    if format not in ("moveit", "drake") and package is not None:
-        raise ValueError("package is for moveit and drake")
-    if format != "curobo" and robot_file is not None:
-        raise ValueError("robot_file is for curobo")
     if scene and output is None:
         raise ValueError("a scene includes the file that is written: give output")
     if bandwidth is not None and not 0.01 <= bandwidth <= 100:
@@ -142,36 +134,29 @@ def export(
     detail = None if isinstance(visuals, bool) else float(visuals)
     if detail is not None and not (0 < detail < 1 or (detail >= 1 and detail.is_integer())):
         raise ValueError("visuals must be a part between 0 and 1, or a number of triangles")
-    if package is None and format == "moveit" and output is not None:
-        package = Path(output).name.lower().translate(str.maketrans("- .", "___"))
-    if mesh_folder is None:
-        mesh_folder = "meshes" if output is None else f"{Path(output).stem}_meshes"
-        if format == "moveit" and package is not None:
-            mesh_folder = f"package://{package}/meshes"
     subject = robot if isinstance(robot, RobotDescription) else RobotDescription(robot)
-    text, path, files, notes, report = _urdd.export(
-        subject.core,
-        format,
-        shapes,
-        None if reasons is None else words(reasons, "reasons"),
-        bool(keep_pairs),
-        spheres,
-        total_spheres,
-        bool(cover),
-        samples,
-        bool(visuals),
-        detail,
-        mesh_folder,
-        actuators,
-        None if bandwidth is None else float(bandwidth),
-        bool(floating_base),
-        bool(sensors),
-        bool(scene),
-        None if output is None else Path(output).name,
-        None if setup is None else Path(setup),
-        package,
-        robot_file,
+    options = ExportOptions(
+        shapes=shapes,
+        reasons=None if reasons is None else words(reasons, "reasons"),
+        keep_pairs=bool(keep_pairs),
+        spheres=spheres,
+        total_spheres=total_spheres,
+        cover=bool(cover),
+        samples=samples,
+        visuals=bool(visuals),
+        detail=detail,
+        mesh_folder=mesh_folder,
+        actuators=actuators,
+        bandwidth=None if bandwidth is None else float(bandwidth),
+        floating_base=bool(floating_base),
+        sensors=bool(sensors),
+        scene=bool(scene),
+        output=None if output is None else Path(output),
+        setup=None if setup is None else Path(setup),
+        package=package,
+        robot_file=robot_file,
     )
+    text, path, files, notes, report = _urdd.export(subject.core, format, options)
     exported = Export(text, dict(files), notes, json.loads(report), path)
     if output is not None:
         exported.write(output, force=force)

@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 
 from . import _urdd
 
-__all__ = ["GenerateOptions", "InverseOptions", "MakingOptions", "ValidateOptions", "options_of", "whole", "words"]
+__all__ = [
+    "ExportOptions",
+    "GenerateOptions",
+    "InverseOptions",
+    "MakingOptions",
+    "ValidateOptions",
+    "options_of",
+    "whole",
+    "words",
+]
 
 
 class MakingOptions(TypedDict, total=False):
@@ -70,6 +79,31 @@ class GenerateOptions:
     xacro_timeout: float
     drop_edits: bool
     force: bool
+
+
+@dataclass(frozen=True)
+class ExportOptions:
+    """The options of :func:`urdd.export`, for the compiled part, which decides which of them fit a format."""
+
+    shapes: str
+    reasons: list[str] | None
+    keep_pairs: bool
+    spheres: int | None
+    total_spheres: int | None
+    cover: bool
+    samples: int
+    visuals: bool
+    detail: float | None
+    mesh_folder: str | None
+    actuators: str | None
+    bandwidth: float | None
+    floating_base: bool
+    sensors: bool
+    scene: bool
+    output: Path | None
+    setup: Path | None
+    package: str | None
+    robot_file: str | None
 
 
 @dataclass(frozen=True)

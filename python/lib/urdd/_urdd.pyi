@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._answers import ShapeKind
-from ._options import GenerateOptions, InverseOptions, ValidateOptions
+from ._options import ExportOptions, GenerateOptions, InverseOptions, ValidateOptions
 
 __all__ = [
     "CollisionModel",
@@ -211,25 +211,7 @@ def explain(code: str) -> tuple[str, str, str, str]: ...
 def export(
     robot: Robot,
     format: str,  # noqa: A002
-    shapes: str,
-    reasons: Sequence[str] | None,
-    keep_pairs: bool,
-    spheres: int | None,
-    total_spheres: int | None,
-    cover: bool,
-    samples: int,
-    visuals: bool,
-    detail: float | None,
-    mesh_folder: str,
-    actuators: str | None,
-    bandwidth: float | None,
-    floating_base: bool,
-    sensors: bool,
-    scene: bool,
-    file: str | None,
-    setup: Path | None,
-    package: str | None,
-    robot_file: str | None,
+    options: ExportOptions,
 ) -> tuple[str, str | None, list[tuple[str, bytes]], list[str], str]: ...
 def num_threads() -> int: ...
 def set_num_threads(count: int | None = None) -> None: ...

@@ -139,20 +139,9 @@ pub enum Target {
 }
 
 impl Target {
-    /// The format; `None` for what is no robot.
+    /// The format, which has the same word; `None` for what is no robot.
     pub fn format(self) -> Option<Format> {
-        Some(match self {
-            Target::Srdf => Format::Srdf,
-            Target::Urdf => Format::Urdf,
-            Target::Drake => Format::Drake,
-            Target::Mjcf => Format::Mjcf,
-            Target::Curobo => Format::Curobo,
-            Target::Foam => Format::Foam,
-            Target::Spherized => Format::Spherized,
-            Target::Moveit => Format::Moveit,
-            Target::Sdf => Format::Sdf,
-            Target::Init => return None,
-        })
+        Format::named(self.to_possible_value()?.get_name())
     }
 
     /// Whether it is a single file.

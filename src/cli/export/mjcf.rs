@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use urdd_export::{ActuatorKind, MjcfOptions};
+use urdd_export::{ActuatorKind, Choices};
 
 /// Arguments of MJCF alone.
 #[derive(Args)]
@@ -45,21 +45,11 @@ fn bandwidth(word: &str) -> Result<f64, String> {
 }
 
 impl MjcfArguments {
-    pub(super) fn options(&self) -> MjcfOptions {
-        MjcfOptions {
-            actuators: match self.actuators {
-                Actuators::None => None,
-                Actuators::Position => Some(ActuatorKind::Position),
-                Actuators::Velocity => Some(ActuatorKind::Velocity),
-                Actuators::Motor => Some(ActuatorKind::Motor),
-            },
-            bandwidth: self.bandwidth,
-            sensors: self.sensors,
-            scene: self.scene,
-        }
-    }
-
-    pub(super) fn is_given(&self) -> bool {
-        self.actuators != Actuators::None || self.sensors || self.scene
+    pub(super) fn choose(&self, choices: &mut Choices) {
+        let word = self.actuators.to_possible_value();
+        choices.actuators = word.and_then(|word| ActuatorKind::named(word.get_name()));
+        choices.bandwidth = self.bandwidth;
+        choices.sensors = self.sensors;
+        choices.scene = self.scene;
     }
 }

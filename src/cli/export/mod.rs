@@ -4,16 +4,14 @@ mod arguments;
 mod files;
 mod init;
 mod mjcf;
-mod package;
 
-use std::path::Path;
 use std::process::ExitCode;
 
 use super::output;
 use super::shapes;
 pub use arguments::ExportArguments;
 use arguments::Target;
-use urdd_export::{Format, Note, Options, Setup, SphereBudget, export};
+use urdd_export::{Choices, Format, Note, Setup, SphereBudget, export};
 use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::Robot;
@@ -34,11 +32,19 @@ fn write(arguments: &ExportArguments, format: Format) -> Result<(), String> {
     if to_standard_output && !target.is_alone() {
         return Err("this format writes other files beside its own: give a file with -o".to_owned());
     }
-    check(arguments)?;
+    if arguments.update && !matches!(target, Target::Srdf | Target::Moveit) {
+        return Err("--update is for srdf and moveit only; --force overwrites a file".to_owned());
+    }
     let robot = shapes::open(&arguments.path)?;
-    let options = options(arguments, &robot, output)?;
+    let options = choices(arguments, &robot)?.options(format).map_err(|misfit| {
+        let option = match misfit.option {
+            "robot_file" => "config".to_owned(),
+            option => option.replace('_', "-"),
+        };
+        format!("--{option} is for {} only", misfit.formats())
+    })?;
     let shown = escape::line(&arguments.path.display().to_string()).into_owned();
-    let made = export(&robot, format, &options).map_err(|error| format!("{shown}: {error}"))?;
+    let made = export(&robot, &options).map_err(|error| format!("{shown}: {error}"))?;
     for note in &made.notes {
         output::error(&format!("note: {note}"));
     }
@@ -49,72 +55,37 @@ fn write(arguments: &ExportArguments, format: Format) -> Result<(), String> {
     files::write(arguments, output, made)
 }
 
-/// An error if an option is not for the format.
-fn check(arguments: &ExportArguments) -> Result<(), String> {
-    let target = arguments.format;
-    let is_of = |targets: &[Target]| targets.contains(&target);
-    let wrong = [
-        (
-            arguments.update && !is_of(&[Target::Srdf, Target::Moveit]),
-            "--update is for SRDF and MoveIt only; --force overwrites a file",
-        ),
-        (
-            arguments.mjcf.is_given() && target != Target::Mjcf,
-            "--actuators, --sensors and --scene are for MJCF only",
-        ),
-        (
-            arguments.floating_base && !is_of(&[Target::Mjcf, Target::Sdf]),
-            "--floating-base is for MJCF and SDF only",
-        ),
-        (arguments.config.is_some() && target != Target::Curobo, "--config is for cuRobo only"),
-        (
-            arguments.package.is_some() && !is_of(&[Target::Moveit, Target::Drake]),
-            "--package is for MoveIt and Drake only",
-        ),
-    ];
-    let wrong = wrong.into_iter().find(|(is_wrong, _)| *is_wrong);
-    wrong.map_or(Ok(()), |(_, words)| Err(words.to_owned()))
-}
-
-fn options(arguments: &ExportArguments, robot: &Robot, output: &Path) -> Result<Options, String> {
+fn choices(arguments: &ExportArguments, robot: &Robot) -> Result<Choices, String> {
     let reasons = arguments.reasons.as_ref();
-    let setup = match &arguments.setup {
-        Some(file) => Setup::read(file, robot).map(Some),
-        None => Setup::beside(&arguments.path, robot),
-    };
-    let package = match (&arguments.package, arguments.format) {
-        (None, Target::Moveit) => Some(package::of_folder(output)),
-        (given, _) => given.clone(),
-    };
-    let stem = output.file_stem().map(|stem| stem.to_string_lossy());
-    let mesh_folder = match (&package, arguments.format) {
-        (Some(package), Target::Moveit) => format!("package://{package}/meshes"),
-        _ => format!("{}_meshes", stem.unwrap_or_default()),
-    };
+    let setup = Setup::find(arguments.setup.as_deref(), &arguments.path, robot);
     let robot_file = match &arguments.config {
-        Some(None) => Some(package::urdf(robot)?),
+        Some(None) => Some(urdf_of(robot)?),
         Some(given) => given.clone(),
         None => None,
     };
-    Ok(Options {
+    let mut choices = Choices {
         shapes: arguments.shapes.kind(),
         reasons: reasons.map(|skip| skip.iter().copied().map(SkippedReason::from).collect()),
         keep_pairs: arguments.keep_pairs,
-        spheres: match (arguments.total_spheres, arguments.spheres) {
-            (Some(count), _) => SphereBudget::Total(count.into()),
-            (None, Some(count)) => SphereBudget::PerLink(count.into()),
-            (None, None) => SphereBudget::Auto,
-        },
+        spheres: SphereBudget::new(arguments.spheres, arguments.total_spheres),
         cover: arguments.cover,
         samples: arguments.samples as usize,
-        visuals: !arguments.no_visuals,
-        detail: arguments.visuals.unwrap_or_default(),
-        mesh_folder,
-        file: output.file_name().map(|name| name.to_string_lossy().into_owned()),
-        package,
+        visuals: (!arguments.no_visuals).then(|| arguments.visuals.unwrap_or_default()),
+        output: arguments.output.clone(),
+        package: arguments.package.clone(),
         robot_file,
         floating_base: arguments.floating_base,
         setup: setup.map_err(|error| error.to_string())?,
-        mjcf: arguments.mjcf.options(),
-    })
+        ..Choices::default()
+    };
+    arguments.mjcf.choose(&mut choices);
+    Ok(choices)
+}
+
+/// The name of the URDF from which a URDD was made.
+fn urdf_of(robot: &Robot) -> Result<String, String> {
+    let source = robot.source().map_err(|error| error.to_string())?;
+    let path = source.map(|source| source.path);
+    let name = path.as_deref().and_then(|path| path.rsplit('/').next());
+    Ok(name.unwrap_or("robot.urdf").to_owned())
 }

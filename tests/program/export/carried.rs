@@ -1,7 +1,8 @@
 //! The table of docs/export.md is the program's, and what it says is so: a robot that has everything goes through every
 //! format.
 
-use urdd_export::{Format, Options, carried_table, export};
+use super::export;
+use urdd_export::{Choices, Format, carried_table};
 use urdd_robot::Robot;
 
 use crate::program::urdd;
@@ -107,7 +108,7 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
 fn what_the_table_says_is_so() {
     let (folder, path) = made_of(URDF);
     let robot = Robot::open(&path).expect("a robot");
-    let options = Options { samples: 100, ..Options::default() };
+    let options = Choices { samples: 100, ..Choices::default() };
     let table = carried_table();
     for (place, format) in Format::ALL.iter().enumerate() {
         let made = export(&robot, *format, &options).expect("an export");
@@ -182,7 +183,7 @@ fn visuals_can_have_fewer_triangles() {
     let (_folder, path) = testkit::robots::made(urdf);
     let robot = Robot::open(path).expect("a robot");
     let of = |detail| {
-        let options = Options { detail, ..Options::default() };
+        let options = Choices { visuals: Some(detail), ..Choices::default() };
         export(&robot, Format::Urdf, &options).expect("an export")
     };
     let full = of(urdd_export::Detail::Full);

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use super::export;
 use roxmltree::{Document, Node};
-use urdd_export::{ExportError, Format, Note, Options, export};
+use urdd_export::{Choices, ExportError, Format, Note};
 use urdd_robot::Robot;
 
 use testkit::robots::{made, made_of, our_robots};
@@ -63,7 +64,7 @@ fn our_robots_hold_nothing_that_drake_refuses() {
     for urdf in robots.chain([awkward]) {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
-        let text = export(&robot, Format::Drake, &Options::default()).expect("an export").text;
+        let text = export(&robot, Format::Drake, &Choices::default()).expect("an export").text;
         let document = Document::parse(&text).expect("well-formed");
         assert_eq!(refused(&document), Vec::<String>::new(), "{urdf:?}");
     }
@@ -79,7 +80,7 @@ fn joint(kind: &str, inner: &str) -> String {
 fn exported(urdf: &str) -> (String, Vec<Note>) {
     let (_folder, path) = made_of(urdf);
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Drake, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Drake, &Choices::default()).expect("an export");
     let notes = made.notes.into_iter().filter(|note| !matches!(note, Note::NoShapes(_)));
     (made.text, notes.collect())
 }
@@ -152,6 +153,6 @@ fn transmissions_that_drake_refuses_are_left_out() {
 fn a_frame_that_drake_needs_is_not_a_links_name() {
     let (_folder, path) = made_of(&joint("fixed", "").replace("'a'", "'j_parent'"));
     let robot = Robot::open(path).expect("a robot");
-    let error = export(&robot, Format::Drake, &Options::default()).expect_err("a name");
+    let error = export(&robot, Format::Drake, &Choices::default()).expect_err("a name");
     assert!(matches!(&error, ExportError::Name { name, .. } if name == "j_parent"), "{error}");
 }

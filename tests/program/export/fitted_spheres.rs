@@ -3,8 +3,9 @@
 
 use std::collections::BTreeSet;
 
+use super::export;
 use nalgebra::Isometry3;
-use urdd_export::{Export, Format, Note, Options, SphereBudget, export};
+use urdd_export::{Choices, Export, Format, Note, SphereBudget};
 use urdd_format::rate::interval;
 use urdd_robot::{Robot, ShapeKind};
 
@@ -143,7 +144,7 @@ fn stated(text: &str) -> [usize; 4] {
 fn fitted_spheres_answer_as_the_pieces_do() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Curobo, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Curobo, &Choices::default()).expect("an export");
     assert_eq!(made.notes, []);
     let mut model = read(&made.text, &robot);
     let number: usize = model.spheres.iter().map(Vec::len).sum();
@@ -180,7 +181,7 @@ fn fitted_spheres_answer_as_the_pieces_do() {
 fn foams_file_says_the_same_in_its_own_form() {
     let (_folder, path) = made(&our_robots()[0].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options { samples: 300, spheres: SphereBudget::PerLink(4), ..Options::default() };
+    let options = Choices { samples: 300, spheres: SphereBudget::PerLink(4), ..Choices::default() };
     let text = |format| export(&robot, format, &options).expect("an export").text;
     let model = read(&text(Format::Curobo), &robot);
     let foam: serde_json::Value = serde_json::from_str(&text(Format::Foam)).expect("JSON");
@@ -232,8 +233,8 @@ fn pairs_that_spheres_cannot_tell_apart_are_named() {
     );
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options { spheres: SphereBudget::Total(4), samples: 400, ..Options::default() };
-    let cover = Options { cover: true, ..options.clone() };
+    let options = Choices { spheres: SphereBudget::Total(4), samples: 400, ..Choices::default() };
+    let cover = Choices { cover: true, ..options.clone() };
     let Export { text, notes, .. } = export(&robot, Format::Curobo, &cover).expect("an export");
     assert!(text.contains("`lower` and `upper` (0 missed, "), "{text}");
     assert!(text.contains("in contact, though the exact shapes are free"), "{text}");
@@ -250,7 +251,7 @@ fn a_robot_without_shapes_has_no_spheres() {
     );
     let robot = Robot::open(path).expect("a robot");
     for cover in [false, true] {
-        let options = Options { cover, ..Options::default() };
+        let options = Choices { cover, ..Choices::default() };
         let Export { text, notes, .. } =
             export(&robot, Format::Curobo, &options).expect("an export");
         assert_eq!(notes, [Note::NoShapes(ShapeKind::Pieces)]);
@@ -312,7 +313,7 @@ fn hostile_names_stay_names() {
     urdf += "</robot>";
     let (_folder, path) = made_of(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options { samples: 100, spheres: SphereBudget::PerLink(1), ..Options::default() };
+    let options = Choices { samples: 100, spheres: SphereBudget::PerLink(1), ..Choices::default() };
     let text = export(&robot, Format::Curobo, &options).expect("an export").text;
     let model = read(&text, &robot);
     assert!(model.spheres.iter().all(|spheres| spheres.len() == 1));

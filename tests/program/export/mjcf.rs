@@ -1,8 +1,9 @@
 use std::collections::HashMap;
 
+use super::export;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node};
-use urdd_export::{Format, Note, Options, export};
+use urdd_export::{Choices, Format, Note};
 use urdd_kinematics::rotation::from_rotation_vector;
 use urdd_robot::{Robot, ShapeKind};
 
@@ -123,7 +124,7 @@ fn bodies_move_as_links_do() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for shapes in [ShapeKind::Pieces, ShapeKind::Boxes] {
-            let options = Options { shapes, ..Options::default() };
+            let options = Choices { shapes, ..Choices::default() };
             let made = export(&robot, Format::Mjcf, &options).expect("an export");
             assert_moves_alike(&robot, &made.text, &name);
         }
@@ -139,7 +140,7 @@ fn a_root_called_world_is_the_world() {
         <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"#,
     );
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Mjcf, &Choices::default()).expect("an export");
     let document = Document::parse(&made.text).expect("well-formed");
     let names: Vec<_> = document
         .descendants()
@@ -161,7 +162,7 @@ fn every_mesh_that_is_named_is_there() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
         for format in [Format::Mjcf, Format::Urdf, Format::Drake] {
-            let made = export(&robot, format, &Options::default()).expect("an export");
+            let made = export(&robot, format, &Choices::default()).expect("an export");
             let document = Document::parse(&made.text).expect("well-formed");
             let mut named: Vec<&str> = document
                 .descendants()
@@ -188,7 +189,7 @@ fn masses_stay_whatever_the_inertia() {
     for (name, urdf) in our_robots() {
         let (_folder, path) = made(&urdf);
         let robot = Robot::open(path).expect("a robot");
-        let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
+        let made = export(&robot, Format::Mjcf, &Choices::default()).expect("an export");
         let links = robot.description().expect("a description").links;
         let mass =
             |link: &urdd_format::urdf::Link| Some(link.inertial.as_ref()?.mass.as_ref()?.value);
@@ -213,7 +214,7 @@ fn masses_stay_whatever_the_inertia() {
             inertial("0.5", fixed)
         ));
         let robot = Robot::open(path).expect("a robot");
-        let made = export(&robot, Format::Mjcf, &Options::default()).expect("an export");
+        let made = export(&robot, Format::Mjcf, &Choices::default()).expect("an export");
         assert_eq!(total(&made.text), 0.75, "{own} {fixed}");
         let notes = made.notes.iter().filter(|note| matches!(note, Note::Inertia { .. }));
         assert_eq!(notes.count(), noted, "{own} {fixed}: {:?}", made.notes);

@@ -3,8 +3,9 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use super::export;
 use roxmltree::{Document, Node};
-use urdd_export::{ActuatorKind, Export, ExportError, Format, MjcfOptions, Options, export};
+use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_robot::Robot;
 
@@ -24,18 +25,17 @@ const URDF: &str = r#"<robot name="r"><link name="base"><visual><geometry><box s
 <joint name="follow" type="prismatic"><parent link="base"/><child link="tip"/><axis xyz="0 0 1"/>
 <limit lower="0" upper="1" effort="5" velocity="1"/><mimic joint="push" multiplier="2" offset="0.05"/></joint></robot>"#;
 
-fn mjcf(robot: &Robot, mjcf: MjcfOptions) -> Export {
-    made(robot, mjcf, false)
+fn mjcf(robot: &Robot, choices: Choices) -> Export {
+    made(robot, choices, false)
 }
 
-fn made(robot: &Robot, mjcf: MjcfOptions, floating_base: bool) -> Export {
-    let options =
-        Options { mjcf, floating_base, file: Some("r.xml".to_owned()), ..Options::default() };
+fn made(robot: &Robot, choices: Choices, floating_base: bool) -> Export {
+    let options = Choices { floating_base, output: Some("r.xml".into()), ..choices };
     export(robot, Format::Mjcf, &options).expect("an export")
 }
 
-fn with(actuators: ActuatorKind) -> MjcfOptions {
-    MjcfOptions { actuators: Some(actuators), bandwidth: Some(5.0), ..MjcfOptions::default() }
+fn with(actuators: ActuatorKind) -> Choices {
+    Choices { actuators: Some(actuators), bandwidth: Some(5.0), ..Choices::default() }
 }
 
 fn number(node: Node, key: &str) -> f64 {
@@ -115,7 +115,7 @@ fn named_configurations_are_keyframes() {
     let robot = Robot::open(&path).expect("a robot");
     assert_eq!(key(&robot, "home"), ["0.5 0.1 0.25", "0.5 0.1"]);
     // Without actuators there is nothing to control.
-    let plain = mjcf(&robot, MjcfOptions::default()).text;
+    let plain = mjcf(&robot, Choices::default()).text;
     let document = Document::parse(&plain).expect("well-formed");
     let home = one(&document, "key", "home");
     assert_eq!((home.attribute("qpos"), home.attribute("ctrl")), (Some("0.5 0.1 0.25"), None));
@@ -125,7 +125,7 @@ fn named_configurations_are_keyframes() {
 fn a_free_base_stands_on_the_floor() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
-    let with_scene = MjcfOptions { scene: true, ..MjcfOptions::default() };
+    let with_scene = Choices { scene: true, ..Choices::default() };
     let made = self::made(&robot, with_scene.clone(), true);
     let document = Document::parse(&made.text).expect("well-formed");
     // The base's box reaches 0.1 m down.
@@ -160,7 +160,7 @@ fn names_of_configurations_come_out_as_they_went_in() {
         let (_folder, path) = made_of(URDF);
         name_configuration(&Robot::open(&path).expect("a robot"), &path, name);
         let robot = Robot::open(&path).expect("a robot");
-        match export(&robot, Format::Mjcf, &Options::default()) {
+        match export(&robot, Format::Mjcf, &Choices::default()) {
             Ok(made) => {
                 assert!(is_held, "{name:?}");
                 let document = Document::parse(&made.text).expect("well-formed");
@@ -178,7 +178,7 @@ fn names_of_configurations_come_out_as_they_went_in() {
 fn a_root_called_world_stays_and_that_is_said() {
     let (_folder, path) = made_of(&URDF.replace("\"base\"", "\"world\""));
     let robot = Robot::open(path).expect("a robot");
-    let made = made(&robot, MjcfOptions::default(), true);
+    let made = made(&robot, Choices::default(), true);
     assert!(!made.text.contains("<freejoint"));
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     assert!(notes.len() == 1 && notes[0].contains("never moves"), "{notes:?}");

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::export;
 use roxmltree::Document;
 use serde_json::{Value, json};
-use urdd_export::{
-    Export, ExportError, Format, Options, Setup, export, import_srdf, import_states,
-};
+use urdd_export::{Choices, Export, ExportError, Format, Setup, import_srdf, import_states};
 use urdd_robot::Robot;
 
 use crate::program::urdd;
@@ -45,7 +44,7 @@ fn a_package_has_what_moveit_needs() {
     assert_ne!(setup, guess);
     let setup = Setup::from_toml(&setup, "x", &robot).expect("read");
     let options =
-        Options { package: Some("r_config".to_owned()), setup: Some(setup), ..Options::default() };
+        Choices { package: Some("r_config".to_owned()), setup: Some(setup), ..Choices::default() };
     let made = export(&robot, Format::Moveit, &options).expect("an export");
     assert_eq!(made.path.as_deref(), Some("config/r.srdf"));
     let srdf = Document::parse(&made.text).expect("well-formed");
@@ -134,7 +133,7 @@ fn a_package_has_what_moveit_needs() {
 fn guesses_are_said() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Moveit, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Moveit, &Choices::default()).expect("an export");
     let notes: Vec<String> = made.notes.iter().map(ToString::to_string).collect();
     assert!(notes.iter().any(|note| note.contains("are guessed: `urdd export init`")), "{notes:?}");
 }
@@ -233,9 +232,9 @@ fn names_of_groups_come_out_as_they_went_in() {
                 "robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"a\"]\n\
                  [[end_effector]]\nname = \"{end}\"\ngroup = \"{group}\"\nparent_link = \"l3\"\n"
             );
-            let options = Options {
+            let options = Choices {
                 setup: Some(Setup::from_toml(&text, "x", &robot).expect("read")),
-                ..Options::default()
+                ..Choices::default()
             };
             match export(&robot, Format::Moveit, &options) {
                 Ok(made) => {
@@ -270,9 +269,9 @@ fn groups_of_groups_are_visited_once() {
         text += &format!("[[group]]\nname = \"g{k}\"\ngroups = [\"g{next}\", \"g{next}\"]\n");
     }
     text += "[[group]]\nname = \"g60\"\njoints = [\"a\"]\n";
-    let options = Options {
+    let options = Choices {
         setup: Some(Setup::from_toml(&text, "x", &robot).expect("read")),
-        ..Options::default()
+        ..Choices::default()
     };
     let made = export(&robot, Format::Moveit, &options).expect("an export");
     let controllers = yaml(files(&made)["config/moveit_controllers.yaml"]);
@@ -286,7 +285,7 @@ fn what_does_not_belong_to_the_robot_is_refused() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
     for package in ["a)\nmessage(x", "../x", "A", ""] {
-        let options = Options { package: Some(package.to_owned()), ..Options::default() };
+        let options = Choices { package: Some(package.to_owned()), ..Choices::default() };
         let error = export(&robot, Format::Moveit, &options).expect_err(package);
         assert!(matches!(error, ExportError::Package(_)), "{error}");
     }
@@ -295,9 +294,10 @@ fn what_does_not_belong_to_the_robot_is_refused() {
     let (_other_folder, other) = made(urdf);
     let other = Robot::open(other).expect("a robot");
     let options =
-        Options { setup: Some(Setup::guess(&other).expect("guesses")), ..Options::default() };
-    for format in Format::ALL {
-        let error = export(&robot, *format, &options).expect_err("another robot's");
+        Choices { setup: Some(Setup::guess(&other).expect("guesses")), ..Choices::default() };
+    for format in ["drake", "mjcf", "curobo", "moveit", "sdf"] {
+        let format = Format::named(format).expect(format);
+        let error = export(&robot, format, &options).expect_err("another robot's");
         assert!(matches!(error, ExportError::OtherSetup { .. }), "{error}");
     }
 }
@@ -307,7 +307,7 @@ fn what_does_not_belong_to_the_robot_is_refused() {
 fn names_of_our_own_are_not_the_robots() {
     let (_folder, path) = made_of(&URDF.replace("name=\"a\"", "name=\"virtual_joint\""));
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Moveit, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Moveit, &Choices::default()).expect("an export");
     let srdf = Document::parse(&made.text).expect("well-formed");
     let ours = srdf.descendants().find(|node| node.has_tag_name("virtual_joint"));
     assert_eq!(ours.and_then(|node| node.attribute("name")), Some("virtual_joint_2"));
@@ -315,7 +315,7 @@ fn names_of_our_own_are_not_the_robots() {
         let text =
             format!("robot = \"r\"\n[[group]]\nname = \"{group}\"\njoints = [\"virtual_joint\"]\n");
         let setup = Setup::from_toml(&text, "x", &robot).expect("read");
-        Options { setup: Some(setup), ..Options::default() }
+        Choices { setup: Some(setup), ..Choices::default() }
     };
     let made = export(&robot, Format::Moveit, &setup("arm")).expect("an export");
     let planning = yaml(files(&made)["config/ompl_planning.yaml"]);

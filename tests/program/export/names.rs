@@ -4,8 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use super::export;
 use roxmltree::Document;
-use urdd_export::{Export, ExportError, Format, Note, Options, SphereBudget, export, merge_srdf};
+use urdd_export::{Choices, Export, ExportError, Format, Note, SphereBudget, merge_srdf};
 use urdd_robot::Robot;
 
 use testkit::robots::made_of;
@@ -287,7 +288,7 @@ fn hostile() -> Vec<String> {
 fn every_name_comes_out_of_every_format_as_it_went_in() {
     let neutral = Neutral::new();
     // Spheres are the same whatever the names are: as few as can be.
-    let options = Options { spheres: SphereBudget::PerLink(1), samples: 100, ..Options::default() };
+    let options = Choices { spheres: SphereBudget::PerLink(1), samples: 100, ..Choices::default() };
     let (mut held, mut refused) = (0, 0);
     for name in sample(hostile(), 3) {
         let (other, joint) = (format!("{name}2"), format!("{name}j"));
@@ -363,20 +364,20 @@ fn names_that_collide_stay_apart() {
     {
         let robot = neutral.robot(["r", a, b, "j", "m"]);
         for &format in Format::ALL {
-            let made = export(&robot, format, &Options::default()).expect("an export");
+            let made = export(&robot, format, &Choices::default()).expect("an export");
             let expected = BTreeSet::from([a.to_owned(), b.to_owned()]);
             assert_eq!(read(format, &made.text).links, expected, "{format:?}");
             let folded: BTreeSet<String> =
                 made.files.iter().map(|(path, _)| path.to_lowercase()).collect();
             assert_eq!(folded.len(), made.files.len());
         }
-        let text = export(&robot, Format::Mjcf, &Options::default()).expect("an export").text;
+        let text = export(&robot, Format::Mjcf, &Choices::default()).expect("an export").text;
         assert_eq!(of_tag(&text, "geom", "name").len(), 2);
     }
     // Two elements with one name are one too many.
     let robot = neutral.robot(["r", "a", "a", "j", "m"]);
     for &format in Format::ALL {
-        assert!(export(&robot, format, &Options::default()).is_err(), "{format:?}");
+        assert!(export(&robot, format, &Choices::default()).is_err(), "{format:?}");
     }
 }
 
@@ -392,7 +393,7 @@ fn a_part_of_a_joint_gives_way_to_a_name() {
     let (_folder, path) = made_of(&urdf("j/trans_x"));
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
-        let made = export(&robot, format, &Options::default()).expect("an export");
+        let made = export(&robot, format, &Choices::default()).expect("an export");
         let joints = of_tag(&made.text, "joint", "name");
         assert!(joints.contains("j/trans_x") && joints.contains("j/trans_x_2"), "{joints:?}");
     }
@@ -402,12 +403,12 @@ fn a_part_of_a_joint_gives_way_to_a_name() {
          <joint name='j' type='continuous'><parent link='a'/><child link='j_parent'/></joint></robot>",
     );
     let robot = Robot::open(path).expect("a robot");
-    let error = export(&robot, Format::Drake, &Options::default()).expect_err("a name");
+    let error = export(&robot, Format::Drake, &Choices::default()).expect_err("a name");
     assert!(matches!(&error, ExportError::Name { name, .. } if name == "j_parent"), "{error}");
     let (_folder, path) = made_of(&urdf("k"));
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
-        assert!(export(&robot, format, &Options::default()).is_ok());
+        assert!(export(&robot, format, &Choices::default()).is_ok());
     }
 }
 
@@ -437,7 +438,7 @@ fn unknown_elements_add_nothing_that_urdf_defines() {
     std::fs::write(&module, document.to_string()).expect("written");
     let robot = Robot::open(&neutral.path).expect("a robot");
     for format in [Format::Urdf, Format::Drake] {
-        let made = export(&robot, format, &Options::default()).expect("an export");
+        let made = export(&robot, format, &Choices::default()).expect("an export");
         let names = read(format, &made.text);
         assert_eq!(names.links, BTreeSet::from(["a".to_owned(), "b".to_owned()]));
         assert_eq!(names.joints, Some(BTreeSet::from(["j".to_owned()])));

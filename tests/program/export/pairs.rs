@@ -1,7 +1,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::export;
 use roxmltree::Document;
-use urdd_export::{Format, Note, Options, export};
+use urdd_export::{Choices, Format, Note};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_robot::{Robot, ShapeKind};
@@ -49,7 +50,7 @@ fn the_pairs_of_every_format_are_those_of_the_modules() {
                 .map(|(pair, _)| pair)
                 .collect();
             disabled += expected.len();
-            let options = Options { shapes: kind, ..Options::default() };
+            let options = Choices { shapes: kind, ..Choices::default() };
             let text = |format| export(&robot, format, &options).expect("an export").text;
             let srdf = pairs_in(&text(Format::Srdf), "disable_collisions", ["link1", "link2"]);
             assert_eq!(srdf, expected, "{name}");
@@ -173,7 +174,7 @@ fn a_mixed_pair_is_named_with_what_is_lost_or_found_for_nothing() {
     let lost = (0..1000).filter(touches).count();
     assert!(lost > 20, "{lost}");
     for keep_pairs in [false, true] {
-        let options = Options { keep_pairs, ..Options::default() };
+        let options = Choices { keep_pairs, ..Choices::default() };
         for format in [Format::Srdf, Format::Drake] {
             let made = export(&robot, format, &options).expect("an export");
             let notes: Vec<&Note> =
@@ -256,7 +257,7 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(&path).expect("a robot");
     let of = |robot: &Robot, reasons: Option<Vec<SkippedReason>>| {
-        let options = Options { reasons, ..Options::default() };
+        let options = Choices { reasons, ..Choices::default() };
         let text = export(robot, Format::Srdf, &options).expect("an export").text;
         pairs_in(&text, "disable_collisions", ["link1", "link2"])
     };
@@ -286,7 +287,7 @@ fn reasons_of_choice_decide_and_edits_stand_above_them() {
     let usual = of(&robot, None);
     assert!(usual.contains(&skipped) && !usual.contains(&checked));
     assert_eq!(of(&robot, Some(Vec::new())), BTreeSet::from([skipped.clone()]));
-    let text = export(&robot, Format::Srdf, &Options::default()).expect("an export").text;
+    let text = export(&robot, Format::Srdf, &Choices::default()).expect("an export").text;
     let user = text.lines().find(|line| line.contains("\"User\"")).expect("by a person");
     assert!(user.contains(&skipped.0) && user.contains(&skipped.1));
 }
@@ -303,7 +304,7 @@ fn reasons_are_named_as_moveit_names_them() {
         SkippedReason::Default,
         SkippedReason::Never,
     ];
-    let options = Options { shapes: ShapeKind::Hulls, reasons: Some(all), ..Options::default() };
+    let options = Choices { shapes: ShapeKind::Hulls, reasons: Some(all), ..Choices::default() };
     let text = export(&robot, Format::Srdf, &options).expect("an export").text;
     let document = Document::parse(&text).expect("well-formed");
     let links = robot.link_names().expect("links");

@@ -1,9 +1,10 @@
 //! cuRobo's whole robot file: the keys of its template, and spheres that are run through our own kinematics. cuRobo needs
 //! a GPU and is not to be had here.
 
+use super::export;
 use nalgebra::Point3;
 use serde_json::{Value, json};
-use urdd_export::{Export, Format, Note, Options, Setup, SphereBudget, export};
+use urdd_export::{Choices, Export, Format, Note, Setup, SphereBudget};
 use urdd_robot::Robot;
 
 use testkit::robots::{made, our_robots};
@@ -49,12 +50,12 @@ fn robot_of(name: &str) -> (tempfile::TempDir, Robot) {
 }
 
 fn exported(robot: &Robot, setup: Option<&str>) -> (Export, Value) {
-    let options = Options {
+    let options = Choices {
         robot_file: Some("robot.urdf".to_owned()),
         samples: 500,
         spheres: SphereBudget::PerLink(4),
         setup: setup.map(|text| Setup::from_toml(text, "x", robot).expect("read")),
-        ..Options::default()
+        ..Choices::default()
     };
     let made = export(robot, Format::Curobo, &options).expect("an export");
     let document: Value = serde_yaml::from_str(&made.text).expect("YAML");
@@ -165,7 +166,7 @@ fn a_person_chooses_the_end_effector_locks_and_limits() {
 fn a_spherized_urdf_has_the_same_spheres() {
     let (_folder, robot) = robot_of("gripper");
     let (_, file) = exported(&robot, None);
-    let options = Options { samples: 500, spheres: SphereBudget::PerLink(4), ..Options::default() };
+    let options = Choices { samples: 500, spheres: SphereBudget::PerLink(4), ..Choices::default() };
     let made = export(&robot, Format::Spherized, &options).expect("an export");
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     for (link, list) in file["collision_spheres"].as_object().expect("a map") {

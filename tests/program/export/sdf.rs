@@ -2,15 +2,16 @@
 
 use std::collections::HashMap;
 
+use super::export;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use roxmltree::{Document, Node};
-use urdd_export::{Export, Format, Note, Options, export};
+use urdd_export::{Choices, Export, Format, Note};
 use urdd_robot::Robot;
 
 use testkit::robots::{made, made_of, our_robots};
 
 fn sdf(robot: &Robot, floating_base: bool) -> Export {
-    let options = Options { floating_base, ..Options::default() };
+    let options = Choices { floating_base, ..Choices::default() };
     export(robot, Format::Sdf, &options).expect("an export")
 }
 

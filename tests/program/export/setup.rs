@@ -1,7 +1,8 @@
 //! What exports need and a URDD does not say: guesses, the file, and what is wrong in it.
 
+use super::export;
 use roxmltree::Document;
-use urdd_export::{ActuatorKind, Format, MjcfOptions, Options, Setup, export};
+use urdd_export::{ActuatorKind, Choices, Format, Setup};
 use urdd_robot::Robot;
 
 use crate::program::urdd;
@@ -314,14 +315,11 @@ fn options_stand_over_the_file() {
     let text = "robot = \"m\"\n[actuators]\nbandwidth = 5.0";
     let setup = Setup::from_toml(text, "x", &robot).expect("read");
     let text = |bandwidth: Option<f64>| {
-        let options = Options {
+        let options = Choices {
             setup: Some(setup.clone()),
-            mjcf: MjcfOptions {
-                actuators: Some(ActuatorKind::Position),
-                bandwidth,
-                ..MjcfOptions::default()
-            },
-            ..Options::default()
+            actuators: Some(ActuatorKind::Position),
+            bandwidth,
+            ..Choices::default()
         };
         export(&robot, Format::Mjcf, &options).expect("an export").text
     };

@@ -1,7 +1,8 @@
 use std::collections::BTreeMap;
 
+use super::export;
 use nalgebra::Vector3;
-use urdd_export::{Format, Options, SphereBudget, export};
+use urdd_export::{Choices, Format, SphereBudget};
 use urdd_robot::{Robot, ShapeKind, Solid};
 
 use testkit::robots::{made, our_robots};
@@ -9,11 +10,11 @@ use testkit::robots::{made, our_robots};
 type Spheres = BTreeMap<String, Vec<(Vector3<f64>, f64)>>;
 
 /// Covering spheres, measured in few configurations.
-fn covering(spheres: SphereBudget) -> Options {
-    Options { spheres, cover: true, samples: 100, ..Options::default() }
+fn covering(spheres: SphereBudget) -> Choices {
+    Choices { spheres, cover: true, samples: 100, ..Choices::default() }
 }
 
-fn foam(robot: &Robot, options: Options) -> Spheres {
+fn foam(robot: &Robot, options: Choices) -> Spheres {
     let text = export(robot, Format::Foam, &options).expect("an export").text;
     let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let links = document["links"].as_object().expect("links");
@@ -28,7 +29,7 @@ fn foam(robot: &Robot, options: Options) -> Spheres {
     links.iter().map(|(name, link)| (name.clone(), of_link(link))).collect()
 }
 
-fn curobo(robot: &Robot, options: &Options) -> Spheres {
+fn curobo(robot: &Robot, options: &Choices) -> Spheres {
     let text = export(robot, Format::Curobo, options).expect("an export").text;
     spheres_of(&text)
 }

@@ -1,4 +1,5 @@
-use urdd_export::{Format, Options, export, merge_srdf};
+use super::export;
+use urdd_export::{Choices, Format, merge_srdf};
 use urdd_robot::Robot;
 
 use testkit::robots::{made_of, our_robots};
@@ -12,7 +13,7 @@ fn a_name_cannot_leave_its_attribute() {
          <joint name='j' type='fixed'><parent link='a\"&lt;&amp;'/><child link=\"b'>\"/></joint></robot>",
     );
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Srdf, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Srdf, &Choices::default()).expect("an export");
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     let root = document.root_element();
     assert_eq!(root.attribute("name"), Some("\"/><x-->"));
@@ -29,7 +30,7 @@ fn a_robot_without_pairs_is_an_empty_srdf() {
     let single = our_robots().into_iter().find(|(name, _)| name == "single_link");
     let (_folder, path) = testkit::robots::made(&single.expect("single_link").1);
     let robot = Robot::open(path).expect("a robot");
-    let made = export(&robot, Format::Srdf, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Srdf, &Choices::default()).expect("an export");
     assert!(!made.text.contains("disable_collisions"));
     assert!(roxmltree::Document::parse(&made.text).is_ok());
 }

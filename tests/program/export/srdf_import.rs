@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use urdd_export::{ImportError, SrdfError, import_srdf};
+use urdd_export::{SrdfError, import_srdf};
 use urdd_robot::{Robot, ShapeKind};
 
 use testkit::robots::made_of;
@@ -112,11 +112,8 @@ fn what_is_no_srdf_of_the_robot_is_refused() {
     let (_folder, urdd) = made_of(&line());
     let robot = Robot::open(&urdd).expect("a robot");
     let fault = |text: &str| import_srdf(&robot, text, false).expect_err("a fault");
-    assert!(matches!(
-        fault("<robot name=\"other\"/>"),
-        ImportError::Srdf(SrdfError::OtherRobot { .. })
-    ));
-    assert!(matches!(fault("no"), ImportError::Srdf(SrdfError::Xml { .. })));
+    assert!(matches!(fault("<robot name=\"other\"/>"), SrdfError::OtherRobot { .. }));
+    assert!(matches!(fault("no"), SrdfError::Xml { .. }));
     let error = fault(&srdf("<disable_collisions link1=\"l1\"/>"));
     assert_eq!(error.to_string(), "line 2: `<disable_collisions>` has no `link2`");
     let error = fault(&srdf("<disable_collisions link1=\"l1\" link2=\"l11\"/>"));
@@ -136,8 +133,7 @@ fn very_many_pairs_on_one_line_take_a_moment() {
     let robot = Robot::open(&urdd).expect("a robot");
     let imported = import_srdf(&robot, &text, false).expect("edits");
     assert_eq!((imported.added, imported.already), (3, 1));
-    let made =
-        urdd_export::export(&robot, urdd_export::Format::Srdf, &urdd_export::Options::default());
+    let made = super::export(&robot, urdd_export::Format::Srdf, &urdd_export::Choices::default());
     let merged = urdd_export::merge_srdf(&text, &made.expect("an SRDF").text).expect("merged");
     assert_eq!(merged.kept, 0);
     assert!(merged.text.len() < 2_000, "{}", merged.text.len());
@@ -154,7 +150,7 @@ fn an_srdf_is_counted_before_it_is_parsed() {
     let entities = "<!DOCTYPE robot [<!ENTITY a \"b\">]><robot name=\"line\"/>";
     for text in [srdf(&deep), entities.to_owned(), "\0".to_owned()] {
         let error = import_srdf(&robot, &text, false).expect_err("not read");
-        assert!(matches!(error, ImportError::Srdf(SrdfError::Xml { .. })), "{error}");
+        assert!(matches!(error, SrdfError::Xml { .. }), "{error}");
         let merged = urdd_export::merge_srdf(&text, &srdf(""));
         assert!(matches!(merged, Err(SrdfError::Xml { .. })));
     }

@@ -1,6 +1,6 @@
 //! Import of an SRDF's group states as named configurations.
 
-use urdd_export::{StateFault, StatesError, import_states};
+use urdd_export::{SrdfError, import_states};
 use urdd_robot::Robot;
 
 use testkit::robots::made_of;
@@ -74,35 +74,26 @@ fn wrong_states_are_refused_with_their_line() {
     let (_folder, path) = made_of(URDF);
     let robot = Robot::open(path).expect("a robot");
     let cases = [
-        (
-            state("s", "g", &[("jj", "0")]),
-            StateFault::NoJoint { joint: "jj".into(), nearest: Some("j".into()) },
-        ),
-        (state("s", "g", &[("j", "x")]), StateFault::NotANumber("x".into())),
-        (state("s", "g", &[("j", "NaN")]), StateFault::NotANumber("NaN".into())),
-        (state("s", "g", &[("j", "0 1")]), StateFault::NotANumber("0 1".into())),
-        (
-            state("s", "g", &[("j", "")]),
-            StateFault::Missing { element: "joint", attribute: "value" },
-        ),
-        (
-            state("", "g", &[("j", "0")]),
-            StateFault::Missing { element: "group_state", attribute: "name" },
-        ),
+        (state("s", "g", &[("jj", "0")]), "there is no joint `jj`; did you mean `j`?"),
+        (state("s", "g", &[("j", "x")]), "`x` is not a position, rad or m"),
+        (state("s", "g", &[("j", "NaN")]), "`NaN` is not a position, rad or m"),
+        (state("s", "g", &[("j", "0 1")]), "`0 1` is not a position, rad or m"),
+        (state("s", "g", &[("j", "")]), "`<joint>` has no `value`"),
+        (state("", "g", &[("j", "0")]), "`<group_state>` has no `name`"),
         (
             state("s", "g", &[("j", "0"), ("j", "1")]),
-            StateFault::Conflict { state: "s".into(), joint: "j".into() },
+            "another state `s` sets the joint `j` to another position",
         ),
     ];
     for (inner, expected) in cases {
         let text = format!("<robot name=\"r\">\n{inner}</robot>");
         match import_states(&robot, &text, false) {
-            Err(StatesError::Element { line: 2, fault }) => assert_eq!(fault, expected),
+            Err(SrdfError::Element { line: 2, reason }) => assert_eq!(reason, expected),
             other => panic!("{inner}: {other:?}"),
         }
     }
     let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
-    assert!(matches!(other, StatesError::Srdf(_)), "{other}");
+    assert!(matches!(other, SrdfError::OtherRobot { .. }), "{other}");
 }
 
 /// An SRDF of 16 MB holds a quarter of a million states.

@@ -6,12 +6,10 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use super::export;
 use roxmltree::{Document, Node};
 use serde_json::Value;
-use urdd_export::{
-    ActuatorKind, Export, ExportError, Format, MjcfOptions, Note, Options, Setup, SphereBudget,
-    export,
-};
+use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Note, Setup, SphereBudget};
 use urdd_robot::Robot;
 
 use super::names::parsed;
@@ -177,22 +175,21 @@ fn replaced(found: &str, place: &str, text: &str) -> String {
     found.replace(place, &in_xml)
 }
 
-fn options(format: Format, setup: Setup) -> Options {
-    Options {
+fn options(format: Format, setup: Setup) -> Choices {
+    let is_mjcf = format == Format::Mjcf;
+    Choices {
         setup: Some(setup),
         spheres: SphereBudget::PerLink(1),
         samples: 50,
         // With all that an option adds.
         robot_file: (format == Format::Curobo).then(|| "robot.urdf".to_owned()),
         package: (format == Format::Drake).then(|| "r_description".to_owned()),
-        file: Some("robot.file".to_owned()),
-        mjcf: MjcfOptions {
-            actuators: Some(ActuatorKind::Position),
-            sensors: true,
-            scene: true,
-            ..MjcfOptions::default()
-        },
-        ..Options::default()
+        output: Some("robot.file".into()),
+        mesh_folder: (format != Format::Moveit).then(|| "meshes".to_owned()),
+        actuators: is_mjcf.then_some(ActuatorKind::Position),
+        sensors: is_mjcf,
+        scene: is_mjcf,
+        ..Choices::default()
     }
 }
 

@@ -1,6 +1,7 @@
 use std::path::Path;
 
-use urdd_export::{Export, Format, Note, Options, export};
+use super::export;
+use urdd_export::{Choices, Export, Format, Note};
 use urdd_format::urdf::{Joint, JointType};
 use urdd_generate::{Selection, Settings, generate};
 use urdd_robot::{Robot, ShapeKind, Solid};
@@ -27,7 +28,7 @@ fn joints_and_masses_stay_and_shapes_are_the_collision_geometry() {
         let robot = Robot::open(path).expect("a robot");
         let source = robot.description().expect("a description");
         for kind in [ShapeKind::Hulls, ShapeKind::PieceBoxes, ShapeKind::Spheres] {
-            let options = Options { shapes: kind, ..Options::default() };
+            let options = Choices { shapes: kind, ..Choices::default() };
             let exported = export(&robot, Format::Urdf, &options).expect("an export");
             let folder = testkit::temporary::folder();
             let file = write(folder.path(), &exported);
@@ -83,7 +84,7 @@ fn an_awkward_robot_moves_as_before() {
     let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures/exports/awkward.urdf");
     let (_folder, path) = made(&urdf);
     let robot = Robot::open(path).expect("a robot");
-    let exported = export(&robot, Format::Urdf, &Options::default()).expect("an export");
+    let exported = export(&robot, Format::Urdf, &Choices::default()).expect("an export");
     assert!(!exported.text.contains("quat_xyzw"));
     let document = roxmltree::Document::parse(&exported.text).expect("well-formed");
     let mimics: Vec<_> = document.descendants().filter(|n| n.has_tag_name("mimic")).collect();
@@ -115,17 +116,17 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
     );
     let robot = Robot::open(path).expect("a robot");
     for format in [Format::Urdf, Format::Drake, Format::Mjcf] {
-        let made = export(&robot, format, &Options::default()).expect("an export");
+        let made = export(&robot, format, &Choices::default()).expect("an export");
         assert!(made.notes.contains(&Note::NoShapes(ShapeKind::Pieces)), "{format:?}");
         assert!(made.text.contains("no link has pieces"), "{format:?}");
         assert!(made.files.is_empty());
     }
-    let made = export(&robot, Format::Srdf, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Srdf, &Choices::default()).expect("an export");
     assert!(made.notes.is_empty());
-    let made = export(&robot, Format::Curobo, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Curobo, &Choices::default()).expect("an export");
     assert!(made.text.contains("# No link has shapes"), "{}", made.text);
     assert!(made.text.contains("\ncollision_spheres: {}\n"), "{}", made.text);
-    let made = export(&robot, Format::Foam, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Foam, &Choices::default()).expect("an export");
     let foam: serde_json::Value = serde_json::from_str(&made.text).expect("JSON");
     assert_eq!(foam["links"], serde_json::json!({}));
 }
@@ -135,7 +136,7 @@ fn a_robot_without_shapes_is_exported_without_collision_geometry() {
 fn boxes_stand_where_the_module_has_them() {
     let (_folder, path) = made(&our_robots()[8].1);
     let robot = Robot::open(path).expect("a robot");
-    let options = Options { shapes: ShapeKind::Boxes, visuals: false, ..Options::default() };
+    let options = Choices { shapes: ShapeKind::Boxes, visuals: None, ..Choices::default() };
     let made = export(&robot, Format::Urdf, &options).expect("an export");
     let document = roxmltree::Document::parse(&made.text).expect("well-formed");
     let numbers = |node: roxmltree::Node, key: &str| -> Vec<f64> {
@@ -187,13 +188,13 @@ fn a_line_break_in_an_attribute_is_a_space() {
     );
     let robot = Robot::open(path).expect("a robot");
     // A line break in an attribute is a space to XML, so the name is `b c`, which every format holds.
-    assert!(export(&robot, Format::Urdf, &Options::default()).is_ok());
+    assert!(export(&robot, Format::Urdf, &Choices::default()).is_ok());
 }
 
 #[test]
 fn the_same_urdd_gives_the_same_bytes() {
     let (_folder, path) = made(&our_robots()[0].1);
-    let options = Options { samples: 2_000, ..Options::default() };
+    let options = Choices { samples: 2_000, ..Choices::default() };
     let exports = || {
         let robot = Robot::open(&path).expect("a robot");
         Format::ALL

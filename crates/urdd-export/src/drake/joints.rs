@@ -19,6 +19,7 @@ const CROSSED: &str =
 const NEGATIVE: &str =
     "a negative velocity, acceleration, effort or damping, which Drake refuses, is left out";
 const DAMPING: &str = "Drake expects three damping values of a planar joint; it has none";
+const FRAME: &str = "Drake gives it to the frame of a joint";
 const FLOATING: &str = "Drake allows floating joints only at the world; it is exported as three prismatic joints and a ball joint, with massless links between them";
 
 /// The elements that represent the joints.
@@ -80,7 +81,7 @@ pub(super) fn joints<'a>(
     // Each link has a frame, and each joint adds one.
     let frames: Vec<String> = names.iter().map(|name| format!("{name}_parent")).collect();
     let links = subject.links.iter().chain(&made.links).chain(&frames);
-    check_unique(subject.format, "link", links.map(String::as_str))?;
+    check_unique(subject.format, "link", links.map(String::as_str), FRAME)?;
     Ok(made)
 }
 

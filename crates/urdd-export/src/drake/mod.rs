@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use super::element::Element;
 use super::error::{ExportError, Note};
 use super::format::Format;
+use super::options::DrakeOptions;
 use super::other_attributes;
 use super::output::Export;
 use super::parts::Taken;
@@ -21,21 +22,20 @@ use urdd_xml::other_parts::Owner;
 
 const WORLD: &str = "the root link is called `world`, which is Drake's own; Drake's collision filter groups do not hold it, so that pairs with it are checked";
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &DrakeOptions) -> Result<Export, ExportError> {
     let urdf = &subject.urdf;
     let mut robot = empty_robot(subject).with("xmlns:drake", "http://drake.mit.edu");
     let mut notes = Vec::new();
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
-    let (links, mut files) = links(subject, Geometry::Drake, shapes, &mut notes)?;
+    let shapes = subject.shapes_by_link()?;
+    let (links, mut files) =
+        links(subject, Geometry::Drake, &options.model.meshes, shapes, &mut notes)?;
     let joints = joints::joints(subject, &mut notes)?;
     let mut lost = 0;
     for (mut element, link) in links.into_iter().zip(&urdf.links) {
         lost += push_unknown(&mut element, &link.unknown_elements, IN_LINK);
         robot.push(element);
     }
-    for link in joints.links {
-        robot.push(Element::new("link").with("name", link));
-    }
+    robot.extend(joints.links.into_iter().map(|link| Element::new("link").with("name", link)));
     for (mut element, joint) in joints.elements {
         other_attributes::add(subject, &Owner::Joint(joint.name.clone()), &mut element);
         lost += push_unknown(&mut element, &joint.unknown_elements, IN_JOINT);
@@ -43,22 +43,17 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     }
     let mut kept = transmissions::kept(&urdf.unknown_elements, &joints.driven, &mut notes);
     lost += push_unknown(&mut robot, &kept.texts, IN_ROBOT);
-    for transmission in kept.others(subject) {
-        robot.push(transmission);
-    }
+    robot.extend(kept.others(subject));
     if lost > 0 {
         notes.push(Note::Elements(lost));
     }
-    for group in groups(subject, &mut Taken::default()) {
-        robot.push(group);
-    }
+    robot.extend(groups(subject, &mut Taken::default()));
     if subject.disabled().any(|pair| pair.links.iter().any(|link| subject.is_world(*link))) {
         notes.push(Note::Robot(WORLD));
     }
     notes.extend(subject.notes());
-    let what =
-        format!("Collision geometry, and pairs that are filtered: {}.", subject.options.shapes);
-    files.extend(package::files(subject)?);
+    let what = format!("Collision geometry, and pairs that are filtered: {}.", subject.shapes);
+    files.extend(package::files(subject, options)?);
     let text = robot.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }
@@ -79,7 +74,7 @@ pub(super) fn groups(subject: &Subject, taken: &mut Taken) -> Vec<Element> {
     let names: BTreeMap<usize, String> =
         partners.keys().map(|link| (*link, taken.free(format!("link_{link}")))).collect();
     let saying = |tag: &'static str, key: &'static str, name: &str| match subject.format {
-        Format::Sdf => Element::new(tag).containing(name),
+        Format::Sdf => Element::text(tag, name),
         _ => Element::new(tag).with(key, name),
     };
     let group = |(link, ignored): (usize, Vec<usize>)| {

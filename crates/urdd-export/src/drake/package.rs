@@ -2,18 +2,20 @@
 
 use super::super::element::Element;
 use super::super::error::ExportError;
+use super::super::names::check_package;
+use super::super::options::DrakeOptions;
 use super::super::output::Files;
 use super::super::subject::Subject;
 use super::super::yaml::Yaml;
 
 /// The files, if a package is asked for.
-pub(super) fn files(subject: &Subject) -> Result<Files, ExportError> {
-    let (Some(package), Some(file)) = (&subject.options.package, &subject.options.file) else {
+pub(super) fn files(subject: &Subject, options: &DrakeOptions) -> Result<Files, ExportError> {
+    let (Some(package), Some(file)) = (&options.package, &options.file) else {
         return Ok(Files::new());
     };
-    let description = Element::new("package")
-        .with("format", "3")
-        .holding(Element::new("name").containing(package));
+    check_package(package)?;
+    let description =
+        Element::new("package").with("format", "3").holding(Element::text("name", package));
     let robot = &subject.urdf.name;
     let mut model = vec![
         ("name".to_owned(), Yaml::text(robot)),
@@ -29,7 +31,7 @@ pub(super) fn files(subject: &Subject) -> Result<Files, ExportError> {
     }
     let mut directives = vec![Yaml::map([("add_model", Yaml::Map(model))])];
     let root = subject.tree.root;
-    if !subject.options.floating() && !subject.is_world(root) {
+    if !subject.is_floating && !subject.is_world(root) {
         let weld = Yaml::map([
             ("parent", Yaml::plain("world")),
             ("child", Yaml::text(&format!("{robot}::{}", subject.links[root]))),

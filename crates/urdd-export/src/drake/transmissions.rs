@@ -34,10 +34,7 @@ impl Kept {
             others.push(
                 Element::new("transmission")
                     .with("name", transmission)
-                    .holding(
-                        Element::new("type")
-                            .containing("transmission_interface/SimpleTransmission"),
-                    )
+                    .holding(Element::text("type", "transmission_interface/SimpleTransmission"))
                     .holding(Element::new("joint").with("name", joint.name.as_str()))
                     .holding(Element::new("actuator").with("name", name)),
             );
@@ -67,8 +64,7 @@ pub(super) fn kept(texts: &[String], driven: &Driven, notes: &mut Vec<Note>) -> 
         notes.extend(reason.map(|reason| Note::Element { element, reason }));
         reason.is_none()
     };
-    let texts = texts.iter().filter(|text| is_kept(text)).cloned();
-    let texts = texts.collect();
+    let texts = texts.iter().filter(|text| is_kept(text)).cloned().collect();
     let [actuators, transmissions] = [&actuators, &transmissions].map(Taken::new);
     Kept { texts, actuated, actuators, transmissions }
 }
@@ -108,11 +104,10 @@ fn refused(
     if !is(&driven.of_one) {
         return Some("its joint does not exist, or has several DOFs");
     }
-    match actuators.insert(actuator.to_owned()) {
-        true => {
-            actuated.insert(joint.to_owned());
-            None
-        }
-        false => Some("another transmission has the same actuator"),
+    if actuators.insert(actuator.to_owned()) {
+        actuated.insert(joint.to_owned());
+        None
+    } else {
+        Some("another transmission has the same actuator")
     }
 }

@@ -23,13 +23,12 @@ pub(super) struct Actuators {
 
 pub(super) fn actuators(
     subject: &Subject,
+    bandwidth: Option<f64>,
     kind: ActuatorKind,
     notes: &mut Vec<Note>,
 ) -> Result<Actuators, ExportError> {
-    let setup = subject.options.setup.as_ref();
-    let asked = subject.options.mjcf.bandwidth;
-    let asked = asked.or_else(|| setup.and_then(|setup| setup.gains.bandwidth));
-    let bandwidth = asked.unwrap_or(MjcfOptions::BANDWIDTH);
+    let given = || subject.given.and_then(|setup| setup.gains.bandwidth);
+    let bandwidth = bandwidth.or_else(given).unwrap_or(MjcfOptions::BANDWIDTH);
     let frequency = TAU * bandwidth;
     let mut element = Element::new("actuator");
     for (index, inertia) in inertias(subject)?.into_iter().enumerate() {
@@ -40,7 +39,7 @@ pub(super) fn actuators(
         let Some(inertia) = inertia else {
             continue;
         };
-        let chosen = subject.options.gains(index);
+        let chosen = subject.gains(index);
         let inertia = inertia.max(LEAST) + chosen.armature.unwrap_or(0.0);
         let gain = |chosen: Option<f64>, computed: f64| {
             number(chosen.unwrap_or_else(|| rounded(computed)))
@@ -49,17 +48,11 @@ pub(super) fn actuators(
         let effort = positive(joint.limit.and_then(|limit| limit.effort));
         let velocity = positive(joint.limit.and_then(|limit| limit.velocity));
         let either_way = |most: Option<f64>| most.map(|most| numbers(&[-most, most]));
-        let tag = match kind {
-            ActuatorKind::Position => "position",
-            ActuatorKind::Velocity => "velocity",
-            ActuatorKind::Motor => "motor",
-        };
-        let actuator =
-            Element::new(tag).with("name", joint.name.as_str()).with("joint", joint.name.as_str());
+        let actuator = Element::new(kind.word()).with("name", joint.name.as_str());
+        let actuator = actuator.with("joint", joint.name.as_str());
         element.push(match kind {
             ActuatorKind::Position => {
-                let range = joint.position_limits();
-                let range = range.filter(|(lower, upper)| lower < upper);
+                let range = joint.position_limits().filter(|(lower, upper)| lower < upper);
                 actuator
                     .with("kp", gain(chosen.kp, inertia * frequency * frequency))
                     .with("kv", gain(chosen.kv, 2.0 * inertia * frequency))
@@ -74,13 +67,14 @@ pub(super) fn actuators(
         });
     }
     let bandwidth = number(bandwidth);
+    let computed = |gains: &str| {
+        format!(
+            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: {gains}. They are not tuned, except those that a person set."
+        )
+    };
     let said = match kind {
-        ActuatorKind::Position => format!(
-            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: kp = I w^2, kv = 2 I w. They are not tuned, except those that a person set."
-        ),
-        ActuatorKind::Velocity => format!(
-            " Gains of actuators are computed from the inertia that each joint moves, for a bandwidth of {bandwidth} Hz: kv = I w. They are not tuned, except those that a person set."
-        ),
+        ActuatorKind::Position => computed("kp = I w^2, kv = 2 I w"),
+        ActuatorKind::Velocity => computed("kv = I w"),
         ActuatorKind::Motor => " Actuators take torques and forces, N m and N.".to_owned(),
     };
     Ok(Actuators { element, said })

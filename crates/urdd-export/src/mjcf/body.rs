@@ -7,6 +7,7 @@ use nalgebra::{Isometry3, Rotation3, UnitQuaternion};
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::meshes::{Look, MeshFiles, MeshFormat, looks};
+use super::super::options::MjcfOptions;
 use super::super::subject::Subject;
 use super::super::urdf_elements::HALF_THICKNESS;
 use super::{frames, inertia, joint, surface};
@@ -21,6 +22,7 @@ const INVISIBLE: &str = "visual geometry without area, which MuJoCo refuses; it 
 /// The bodies, and the assets, files and notes that come with them.
 pub(super) struct Bodies<'a> {
     subject: &'a Subject<'a>,
+    options: &'a MjcfOptions,
     shapes: Vec<Vec<LinkShape>>,
     looks: Vec<Vec<Look>>,
     /// Bounding boxes, to replace flat shapes, by link and piece.
@@ -38,9 +40,9 @@ pub(super) struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    pub fn new(subject: &'a Subject<'a>) -> Result<Self, ExportError> {
-        let kind = subject.options.shapes;
-        let shapes = subject.shapes_by_link(kind)?;
+    pub fn new(subject: &'a Subject<'a>, options: &'a MjcfOptions) -> Result<Self, ExportError> {
+        let kind = subject.shapes;
+        let shapes = subject.shapes_by_link()?;
         let boxes = match kind {
             ShapeKind::Pieces => subject.robot.shapes(ShapeKind::PieceBoxes)?,
             ShapeKind::Hulls => subject.robot.shapes(ShapeKind::Boxes)?,
@@ -53,10 +55,11 @@ impl<'a> Bodies<'a> {
         let (inertials, balanced) = inertia::inertials(subject, &mut notes);
         Ok(Bodies {
             subject,
+            options,
             shapes,
-            looks: looks(subject, &mut notes)?,
+            looks: looks(subject, &options.meshes, &mut notes)?,
             boxes,
-            files: MeshFiles::new(subject),
+            files: MeshFiles::new(subject, &options.meshes),
             assets: Element::new("asset"),
             named: HashSet::new(),
             inertials,
@@ -73,9 +76,10 @@ impl<'a> Bodies<'a> {
         let mut elements: Vec<Option<Element>> = self.subject.links.iter().map(|_| None).collect();
         // From the leaves up, to avoid deep recursion for long chains.
         for &link in self.subject.tree.order.iter().rev() {
-            let mut element = match self.subject.is_world(link) {
-                true => world.clone(),
-                false => self.frame(link, base_height),
+            let mut element = if self.subject.is_world(link) {
+                world.clone()
+            } else {
+                self.frame(link, base_height)
             };
             self.fill(link, &mut element)?;
             for joint in &self.subject.tree.child_joints[link] {
@@ -102,9 +106,10 @@ impl<'a> Bodies<'a> {
     fn frame(&self, link: usize, base_height: f64) -> Element {
         let body = Element::new("body").with("name", self.subject.links[link].as_str());
         let Some(joint) = self.subject.tree.parent_joint[link] else {
-            return match self.subject.has_free_base() {
-                true => body.with("pos", numbers(&[0.0, 0.0, base_height])),
-                false => body,
+            return if self.subject.has_free_base() {
+                body.with("pos", numbers(&[0.0, 0.0, base_height]))
+            } else {
+                body
             };
         };
         let origin = &self.subject.view.joints[joint].origin;
@@ -130,12 +135,8 @@ impl<'a> Bodies<'a> {
             let name = subject.names.taken.clone().free(FLOATING_BASE.to_owned());
             element.push(Element::new("freejoint").with("name", name));
         }
-        for joint in joints {
-            element.push(joint);
-        }
-        if let Some(site) = frames::site(subject, link) {
-            element.push(site);
-        }
+        element.extend(joints);
+        element.extend(frames::site(subject, self.options.sensors, link));
         for (mut look, place) in std::mem::take(&mut self.looks[link]).into_iter().zip(0..) {
             if !surface::complete(&mut look.part.mesh) {
                 self.invisible.push(subject.links[link].clone());
@@ -181,10 +182,8 @@ impl<'a> Bodies<'a> {
             }
             Solid::Mesh(mesh) => {
                 let what = format!("piece_{}", shape.piece);
-                let format = match surface::fits_stl(&mesh) {
-                    true => MeshFormat::Stl,
-                    false => MeshFormat::Obj,
-                };
+                let format =
+                    if surface::fits_stl(&mesh) { MeshFormat::Stl } else { MeshFormat::Obj };
                 let path = self.files.add(link, &what, mesh, format)?;
                 let asset = self.asset(path, format);
                 geom.with("type", "mesh").with("mesh", asset)

@@ -4,9 +4,9 @@ use super::super::element::Element;
 use super::super::subject::Subject;
 
 /// The site of a link, if its frame is that of a tool, or of an IMU with sensors.
-pub(super) fn site(subject: &Subject, link: usize) -> Option<Element> {
-    let setup = subject.options.setup.as_ref()?;
-    let is_imu = subject.options.mjcf.sensors && setup.imus.value.contains(&link);
+pub(super) fn site(subject: &Subject, sensors: bool, link: usize) -> Option<Element> {
+    let setup = subject.given?;
+    let is_imu = sensors && setup.imus.value.contains(&link);
     (is_imu || setup.tools.value.contains(&link))
         .then(|| Element::new("site").with("name", subject.links[link].as_str()).with("group", "4"))
 }
@@ -14,9 +14,7 @@ pub(super) fn site(subject: &Subject, link: usize) -> Option<Element> {
 /// A gyroscope and an accelerometer at each IMU.
 pub(super) fn sensors(subject: &Subject) -> Element {
     let mut sensors = Element::new("sensor");
-    let setup = subject.options.setup.as_ref();
-    let setup = setup.filter(|_| subject.options.mjcf.sensors);
-    for &link in setup.iter().flat_map(|setup| &setup.imus.value) {
+    for &link in subject.given.iter().flat_map(|setup| &setup.imus.value) {
         let site = subject.links[link].as_str();
         for kind in ["gyro", "accelerometer"] {
             let sensor = Element::new(kind).with("name", format!("{site}/{kind}"));

@@ -18,7 +18,7 @@ pub(super) fn joints(subject: &Subject, index: usize, notes: &mut Vec<Note>) -> 
     let (joint, source) = (&subject.view.joints[index], &subject.urdf.joints[index]);
     let of_one = |kind, notes| {
         // The inertia of the motor, kg m² or kg.
-        let armature = subject.options.gains(index).armature;
+        let armature = subject.gains(index).armature;
         let is_locked = subject.locked_at(index).is_some();
         let element = of_one(joint, source, is_locked, kind, notes);
         vec![element.with_some("armature", armature.map(number))]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::element::Element;
 use super::super::error::ExportError;
-use super::super::names::check_names;
+use super::super::names::{ANOTHER, check_names};
 use super::super::options::ActuatorKind;
 use super::super::subject::Subject;
 use super::scene::Stand;
@@ -17,27 +17,31 @@ const DEFAULT: &str = "default";
 
 /// A keyframe for each named configuration. Without one, actuators, a free base and a locked joint get the default configuration,
 /// which differs from MuJoCo's zeros where 0 is out of bounds.
-pub(super) fn keyframes(subject: &Subject, stand: &Stand) -> Result<Element, ExportError> {
+pub(super) fn keyframes(
+    subject: &Subject,
+    actuators: Option<ActuatorKind>,
+    stand: &Stand,
+) -> Result<Element, ExportError> {
     let mut keyframes = Element::new("keyframe");
     let named = subject.robot.named_configurations()?;
     let names = named.iter().map(|named| named.name.as_str());
-    check_names(subject.format, "configuration", names)?;
-    let mjcf = &subject.options.mjcf;
+    check_names(subject.format, "configuration", names, ANOTHER)?;
     let is_away = |joint| subject.locked_at(joint).is_some_and(|position| position != 0.0);
-    let is_needed = mjcf.actuators.is_some()
+    let is_needed = actuators.is_some()
         || subject.has_free_base()
         || (0..subject.view.joints.len()).any(is_away);
     if named.is_empty() && is_needed {
         let zero = subject.robot.configurations()?.zero();
-        keyframes.push(keyframe(subject, DEFAULT, &zero, stand.base_height)?);
+        keyframes.push(keyframe(subject, DEFAULT, actuators, &zero, stand.base_height)?);
     }
     for named in named {
-        let height = match subject.has_free_base() {
-            true => stand.height(subject, &named.configuration)?,
-            false => 0.0,
+        let height = if subject.has_free_base() {
+            stand.height(subject, &named.configuration)?
+        } else {
+            0.0
         };
         let name = named.name.as_str();
-        keyframes.push(keyframe(subject, name, &named.configuration, height)?);
+        keyframes.push(keyframe(subject, name, actuators, &named.configuration, height)?);
     }
     Ok(keyframes)
 }
@@ -45,6 +49,7 @@ pub(super) fn keyframes(subject: &Subject, stand: &Stand) -> Result<Element, Exp
 fn keyframe(
     subject: &Subject,
     name: &str,
+    actuators: Option<ActuatorKind>,
     configuration: &[f64],
     height: f64,
 ) -> Result<Element, ExportError> {
@@ -100,7 +105,7 @@ fn keyframe(
             controls.push(value(&joint.name));
         }
     }
-    let is_position = subject.options.mjcf.actuators == Some(ActuatorKind::Position);
+    let is_position = actuators == Some(ActuatorKind::Position);
     Ok(Element::new("key")
         .with("name", name)
         .with("qpos", numbers(&positions))

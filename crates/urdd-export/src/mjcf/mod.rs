@@ -2,7 +2,7 @@
 //!
 //! A floating joint becomes three slide joints and a ball joint, regardless of its parent, so that its position is
 //! relative to the joint's frame; a free joint's position would be in the world frame. The root link is fixed to the
-//! world, unless [`floating_base`](super::options::Options::floating_base) asks for a free joint. Mimic joints become
+//! world, unless [`floating_base`](super::options::MjcfOptions::floating_base) asks for a free joint. Mimic joints become
 //! equality constraints with chains resolved, which MuJoCo enforces only in simulation: a caller that sets positions must
 //! set those of mimic joints too. MuJoCo's own parent-child filter is switched off, so that the pairs are those of the
 //! URDD. MuJoCo never checks two rigidly connected bodies, those without a joint between them.
@@ -21,6 +21,7 @@ pub mod surface;
 
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::options::MjcfOptions;
 use super::output::Export;
 use super::subject::Subject;
 use body::{Bodies, geom_name};
@@ -32,13 +33,12 @@ const SEVERAL: &str =
 
 const WORLD: &str = "the root link is called `world`, which is MuJoCo's own body and never moves; the base is not free";
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
-    let mjcf = &subject.options.mjcf;
-    let stand = scene::Stand::new(subject)?;
-    let mut bodies = Bodies::new(subject)?;
+pub(super) fn export(subject: &Subject, options: &MjcfOptions) -> Result<Export, ExportError> {
+    let stand = scene::Stand::new(subject, options)?;
+    let mut bodies = Bodies::new(subject, options)?;
     let world = bodies.world(stand.base_height)?;
     let mut notes = bodies.notes;
-    if subject.options.floating() && !subject.has_free_base() {
+    if subject.is_floating && !subject.has_free_base() {
         notes.push(Note::Robot(WORLD));
     }
     let mut compiler = Element::new("compiler").with("angle", "radian").with("autolimits", "true");
@@ -49,42 +49,30 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     root.push(compiler);
     let flag = Element::new("flag").with("filterparent", "disable");
     let mut option = Element::new("option").holding(flag);
-    if mjcf.actuators.is_some() {
+    if options.actuators.is_some() {
         // The damping of actuators is integrated implicitly: it is stable for light links too.
         option = option.with("integrator", "implicitfast");
     }
     root.push(option);
     root.push(classes(subject));
-    if !bodies.assets.is_empty() {
-        root.push(bodies.assets);
-    }
+    root.push_filled(bodies.assets);
     root.push(world);
-    let equality = equality(subject, &mut notes);
-    if !equality.is_empty() {
-        root.push(equality);
-    }
-    let contact = contact(subject);
-    if !contact.is_empty() {
-        root.push(contact);
-    }
-    let mut what = format!("Geoms for collision: {}.", subject.options.shapes);
-    if let Some(kind) = mjcf.actuators {
-        let actuators = actuators::actuators(subject, kind, &mut notes)?;
+    root.push_filled(equality(subject, &mut notes));
+    root.push_filled(contact(subject));
+    let mut what = format!("Geoms for collision: {}.", subject.shapes);
+    if let Some(kind) = options.actuators {
+        let actuators = actuators::actuators(subject, options.bandwidth, kind, &mut notes)?;
         what += &actuators.said;
-        if !actuators.element.is_empty() {
-            root.push(actuators.element);
-        }
+        root.push_filled(actuators.element);
     }
-    let sensors = frames::sensors(subject);
-    if !sensors.is_empty() {
-        root.push(sensors);
+    if options.sensors {
+        root.push_filled(frames::sensors(subject));
     }
-    let keyframes = keyframes::keyframes(subject, &stand)?;
-    if !keyframes.is_empty() {
-        root.push(keyframes);
-    }
+    root.push_filled(keyframes::keyframes(subject, options.actuators, &stand)?);
     let mut files = bodies.files.into_files();
-    files.extend(scene::scene(subject, &stand)?);
+    if let Some(file) = &options.scene_of {
+        files.extend(scene::scene(subject, file, &stand)?);
+    }
     let text = root.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }
@@ -95,7 +83,7 @@ fn classes(subject: &Subject) -> Element {
         let geom = geom.with("density", "0");
         Element::new("default").with("class", class).holding(geom)
     };
-    let friction = subject.options.friction().map(number);
+    let friction = subject.friction().map(number);
     let collision = Element::new("geom").with("group", "3").with_some("friction", friction);
     let visual =
         Element::new("geom").with("group", "2").with("contype", "0").with("conaffinity", "0");
@@ -127,9 +115,7 @@ fn contact(subject: &Subject) -> Element {
             pairs.extend(mixed.checked.iter().map(geoms));
         }
     }
-    for pair in pairs {
-        contact.push(pair);
-    }
+    contact.extend(pairs);
     contact
 }
 

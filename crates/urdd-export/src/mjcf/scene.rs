@@ -2,12 +2,14 @@
 
 use nalgebra::{Isometry3, Point3};
 
-use super::super::element::Element;
+use super::super::element::{escaped, head};
 use super::super::error::ExportError;
+use super::super::options::MjcfOptions;
 use super::super::output::Files;
 use super::super::subject::Subject;
+use super::super::template::fill;
 use urdd_robot::{LinkShape, Solid};
-use urdd_xml::number::{number, numbers};
+use urdd_xml::number::number;
 
 /// Where the robot stands.
 pub(super) struct Stand {
@@ -20,17 +22,14 @@ pub(super) struct Stand {
 }
 
 impl Stand {
-    pub fn new(subject: &Subject) -> Result<Self, ExportError> {
+    pub fn new(subject: &Subject, options: &MjcfOptions) -> Result<Self, ExportError> {
         let mut stand = Stand { base_height: 0.0, floor: 0.0, shapes: Vec::new() };
         let is_free = subject.has_free_base();
-        if is_free || subject.options.mjcf.scene {
+        if is_free || options.scene_of.is_some() {
             let zero = subject.robot.configurations()?.zero();
-            stand.shapes = subject.robot.shapes(subject.options.shapes)?;
+            stand.shapes = subject.robot.shapes(subject.shapes)?;
             let up = stand.height(subject, &zero)?;
-            match is_free {
-                true => stand.base_height = up,
-                false => stand.floor = (-up).min(0.0),
-            }
+            if is_free { stand.base_height = up } else { stand.floor = (-up).min(0.0) }
         }
         Ok(stand)
     }
@@ -44,10 +43,7 @@ impl Stand {
             .map(|shape| lowest(&shape.solid, &poses[shape.link]))
             .fold(f64::INFINITY, f64::min);
         // No shape touches anything.
-        Ok(match lowest.is_finite() {
-            true => (-lowest * 1e6).round() / 1e6,
-            false => 0.0,
-        })
+        Ok(if lowest.is_finite() { (-lowest * 1e6).round() / 1e6 } else { 0.0 })
     }
 }
 
@@ -55,8 +51,7 @@ impl Stand {
 fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
     match solid {
         Solid::Mesh(mesh) => {
-            let vertices = mesh.vertices.iter();
-            let heights = vertices.map(|vertex| (pose * Point3::from(*vertex)).z);
+            let heights = mesh.vertices.iter().map(|vertex| (pose * Point3::from(*vertex)).z);
             heights.fold(f64::INFINITY, f64::min)
         }
         Solid::Box { pose: own, half_extents } => {
@@ -69,54 +64,16 @@ fn lowest(solid: &Solid, pose: &Isometry3<f64>) -> f64 {
     }
 }
 
-/// The scene's file, if one is asked for.
-pub(super) fn scene(subject: &Subject, stand: &Stand) -> Result<Files, ExportError> {
-    let file = subject.options.file.as_ref();
-    let Some(file) = file.filter(|_| subject.options.mjcf.scene) else {
-        return Ok(Files::new());
-    };
+/// Names of our geoms have a slash: none is called as the floor.
+const SCENE: &str = include_str!("scene.xml.in");
+
+/// The scene that includes a file.
+pub(super) fn scene(subject: &Subject, file: &str, stand: &Stand) -> Result<Files, ExportError> {
     let stem = file.strip_suffix(".xml").unwrap_or(file);
-    let mut root = Element::new("mujoco").with("model", format!("{} scene", subject.urdf.name));
-    root.push(Element::new("include").with("file", file.as_str()));
-    let headlight = Element::new("headlight")
-        .with("diffuse", "0.6 0.6 0.6")
-        .with("ambient", "0.3 0.3 0.3")
-        .with("specular", "0 0 0");
-    root.push(Element::new("visual").holding(headlight));
-    let sky = Element::new("texture")
-        .with("type", "skybox")
-        .with("builtin", "gradient")
-        .with("rgb1", "0.3 0.5 0.7")
-        .with("rgb2", "0 0 0")
-        .with("width", "512")
-        .with("height", "3072");
-    let checker = Element::new("texture")
-        .with("name", "floor")
-        .with("type", "2d")
-        .with("builtin", "checker")
-        .with("rgb1", "0.2 0.3 0.4")
-        .with("rgb2", "0.1 0.2 0.3")
-        .with("width", "300")
-        .with("height", "300");
-    let material = Element::new("material")
-        .with("name", "floor")
-        .with("texture", "floor")
-        .with("texuniform", "true")
-        .with("texrepeat", "5 5");
-    root.push(Element::new("asset").holding(sky).holding(checker).holding(material));
-    let light = Element::new("light")
-        .with("pos", "0 0 3")
-        .with("dir", "0 0 -1")
-        .with("directional", "true");
-    // Names of our geoms have a slash.
-    let floor = Element::new("geom")
-        .with("name", "floor")
-        .with("type", "plane")
-        .with("size", "0 0 0.05")
-        .with("pos", numbers(&[0.0, 0.0, stand.floor]))
-        .with("material", "floor");
-    root.push(Element::new("worldbody").holding(light).holding(floor));
-    let what = format!("The floor is at z = {} m.", number(stand.floor));
-    let text = root.document(&subject.comments(what, &[])?);
+    let floor = number(stand.floor);
+    let what = format!("The floor is at z = {floor} m.");
+    let values =
+        [("ROBOT", escaped(&subject.urdf.name)), ("FILE", escaped(file)), ("FLOOR", floor)];
+    let text = head(&subject.comments(what, &[])?) + &fill(SCENE, &values);
     Ok(vec![(format!("{stem}_scene.xml"), text.into_bytes())])
 }

@@ -4,6 +4,7 @@ use super::super::element::Element;
 use super::super::error::ExportError;
 use super::super::groups::joints_of;
 use super::super::names::FileNames;
+use super::super::options::MoveitOptions;
 use super::super::setup::{Members, Setup};
 use super::super::subject::Subject;
 use urdd_format::named_configurations::NamedConfiguration;
@@ -12,6 +13,7 @@ use urdd_xml::number::number;
 /// What the files of the package have in common.
 pub(super) struct Config<'a> {
     pub subject: &'a Subject<'a>,
+    pub options: &'a MoveitOptions,
     pub setup: &'a Setup,
     /// The name of files.
     pub name: String,
@@ -23,10 +25,15 @@ pub(super) struct Config<'a> {
 }
 
 impl<'a> Config<'a> {
-    pub fn new(subject: &'a Subject<'a>, setup: &'a Setup) -> Result<Self, ExportError> {
+    pub fn new(
+        subject: &'a Subject<'a>,
+        options: &'a MoveitOptions,
+        setup: &'a Setup,
+    ) -> Result<Self, ExportError> {
         let groups = 0..setup.groups.len();
         Ok(Config {
             subject,
+            options,
             setup,
             name: FileNames::default().of(&subject.urdf.name),
             joints: groups.map(|group| joints_of(setup, group, subject)).collect(),
@@ -81,8 +88,7 @@ impl<'a> Config<'a> {
 
     /// Simulated hardware that does what it is told, for the launch file.
     pub fn hardware(&self) -> Element {
-        let text = |name: &'static str, text: &str| Element::new(name).containing(text);
-        let plugin = text("plugin", "mock_components/GenericSystem");
+        let plugin = Element::text("plugin", "mock_components/GenericSystem");
         let mut hardware = Element::new("ros2_control")
             .with("name", "mock_hardware")
             .with("type", "system")
@@ -94,7 +100,7 @@ impl<'a> Config<'a> {
                 let initial = number(self.position(configuration, joint));
                 let position = Element::new("state_interface")
                     .with("name", "position")
-                    .holding(text("param", &initial).with("name", "initial_value"));
+                    .holding(Element::text("param", &initial).with("name", "initial_value"));
                 let velocity = Element::new("state_interface").with("name", "velocity");
                 let command = Element::new("command_interface").with("name", "position");
                 let joint = Element::new("joint").with("name", self.joint(joint));

@@ -1,24 +1,23 @@
 //! Controllers: those that MoveIt sends trajectories to, and those of ros2_control that follow them.
 
 use super::super::error::ExportError;
-use super::super::yaml::{Yaml, quoted};
+use super::super::yaml::{Yaml, head, quoted};
 use super::config::Config;
 
 pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportError> {
     let controllers = controllers(config);
     let moveit = config.comments("The controllers that MoveIt sends trajectories to.")?;
     let ros2 = config.comments("The controllers of ros2_control.")?;
+    let moveit = head(&moveit) + EXECUTION + &manager(config, &controllers).document(&[]);
+    let ros2 = self::ros2(config, &controllers).document(&ros2);
     Ok(vec![
-        (
-            "config/moveit_controllers.yaml".to_owned(),
-            self::moveit(config, &controllers).document(&moveit),
-        ),
-        (
-            "config/ros2_controllers.yaml".to_owned(),
-            self::ros2(config, &controllers).document(&ros2),
-        ),
+        ("config/moveit_controllers.yaml".to_owned(), moveit),
+        ("config/ros2_controllers.yaml".to_owned(), ros2),
     ])
 }
+
+/// How MoveIt executes trajectories.
+const EXECUTION: &str = include_str!("moveit_controllers.yaml.in");
 
 /// A controller of a group.
 struct Controller {
@@ -43,15 +42,16 @@ pub(super) fn names(config: &Config) -> Vec<String> {
     controllers(config).into_iter().map(|controller| controller.name).collect()
 }
 
-fn moveit(config: &Config, controllers: &[Controller]) -> Yaml {
+fn manager(config: &Config, controllers: &[Controller]) -> Yaml {
     let mut manager = vec![(
         "controller_names".to_owned(),
         Yaml::texts(controllers.iter().map(|controller| controller.name.as_str())),
     )];
     for controller in controllers {
-        let [action, kind] = match controller.is_gripper {
-            true => ["gripper_cmd", "GripperCommand"],
-            false => ["follow_joint_trajectory", "FollowJointTrajectory"],
+        let [action, kind] = if controller.is_gripper {
+            ["gripper_cmd", "GripperCommand"]
+        } else {
+            ["follow_joint_trajectory", "FollowJointTrajectory"]
         };
         let joints = controller.joints.iter().map(|joint| config.joint(*joint));
         let entry = Yaml::map([
@@ -62,21 +62,7 @@ fn moveit(config: &Config, controllers: &[Controller]) -> Yaml {
         ]);
         manager.push((quoted(&controller.name), entry));
     }
-    Yaml::map([
-        (
-            "trajectory_execution",
-            Yaml::map([
-                ("allowed_execution_duration_scaling", Yaml::number(1.2)),
-                ("allowed_goal_duration_margin", Yaml::number(0.5)),
-                ("allowed_start_tolerance", Yaml::number(0.01)),
-            ]),
-        ),
-        (
-            "moveit_controller_manager",
-            Yaml::plain("moveit_simple_controller_manager/MoveItSimpleControllerManager"),
-        ),
-        ("moveit_simple_controller_manager", Yaml::Map(manager)),
-    ])
+    Yaml::map([("moveit_simple_controller_manager", Yaml::Map(manager))])
 }
 
 fn ros2(config: &Config, controllers: &[Controller]) -> Yaml {

@@ -9,23 +9,26 @@ mod planning;
 mod semantic;
 
 use super::error::ExportError;
+use super::names::check_package;
+use super::options::MoveitOptions;
 use super::output::Export;
 use super::subject::Subject;
 use super::urdf;
 use super::xacro;
 use config::Config;
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &MoveitOptions) -> Result<Export, ExportError> {
+    check_package(&options.package)?;
     let mut notes = Vec::new();
     let setup = subject.setup(&mut notes)?;
-    let config = Config::new(subject, &setup)?;
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
-    let (mut robot, meshes) = urdf::robot(subject, shapes, &mut notes)?;
+    let config = Config::new(subject, options, &setup)?;
+    let shapes = subject.shapes_by_link()?;
+    let (mut robot, meshes) = urdf::robot(subject, &options.model.meshes, shapes, &mut notes)?;
     if !config.has_hardware() {
         robot.push(config.hardware());
     }
     let text = semantic::srdf(&config, &mut notes)?;
-    let what = format!("Collision geometry: {}.", subject.options.shapes);
+    let what = format!("Collision geometry: {}.", subject.shapes);
     let name = &config.name;
     let robot = robot.document_with(&subject.comments(what, &notes)?, xacro::text);
     let mut files = vec![(format!("config/{name}.urdf"), robot)];
@@ -35,7 +38,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut files: Vec<(String, Vec<u8>)> =
         files.into_iter().map(|(path, text)| (path, text.into_bytes())).collect();
     // Meshes are named by package: the folder of the package is where the export is.
-    let prefix = format!("package://{}/", subject.options.package());
+    let prefix = format!("package://{}/", options.package);
     files.extend(meshes.into_iter().map(|(path, bytes)| {
         let inside = path.strip_prefix(&prefix).map(str::to_owned);
         (inside.unwrap_or(path), bytes)

@@ -1,16 +1,19 @@
 //! Limits, solvers of inverse kinematics, and planners.
 
 use super::super::error::ExportError;
-use super::super::yaml::{Yaml, entries, named};
+use super::super::yaml::{Yaml, head};
 use super::config::Config;
 
-/// Planners, by MoveIt's names of their settings. Their parameters are OMPL's defaults.
-const PLANNERS: [(&str, &str); 5] = [
-    ("RRTConnectkConfigDefault", "geometric::RRTConnect"),
-    ("RRTstarkConfigDefault", "geometric::RRTstar"),
-    ("BiTRRTkConfigDefault", "geometric::BiTRRT"),
-    ("PRMkConfigDefault", "geometric::PRM"),
-    ("PRMstarkConfigDefault", "geometric::PRMstar"),
+/// Adapters and planners, by MoveIt's names of their settings. Their parameters are OMPL's defaults.
+const OMPL: &str = include_str!("ompl_planning.yaml.in");
+
+/// The planners of a group, the default one first.
+const PLANNERS: [&str; 5] = [
+    "RRTConnectkConfigDefault",
+    "RRTstarkConfigDefault",
+    "BiTRRTkConfigDefault",
+    "PRMkConfigDefault",
+    "PRMstarkConfigDefault",
 ];
 
 pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportError> {
@@ -21,7 +24,7 @@ pub(super) fn files(config: &Config) -> Result<Vec<(String, String)>, ExportErro
     Ok(vec![
         ("config/joint_limits.yaml".to_owned(), self::limits(config).document(&limits)),
         ("config/kinematics.yaml".to_owned(), self::kinematics(config).document(&kinematics)),
-        ("config/ompl_planning.yaml".to_owned(), ompl(config).document(&planning)),
+        ("config/ompl_planning.yaml".to_owned(), head(&planning) + OMPL + &groups(config)),
     ])
 }
 
@@ -44,10 +47,7 @@ fn limits(config: &Config) -> Yaml {
             ),
             ("has_jerk_limits", "max_jerk", jerk.or(config.setup.jerk)),
         ] {
-            entries.push((
-                has.to_owned(),
-                Yaml::plain(if value.is_some() { "true" } else { "false" }),
-            ));
+            entries.push((has.to_owned(), Yaml::Plain(value.is_some().to_string())));
             entries.push((most.to_owned(), Yaml::number(value.unwrap_or(0.0))));
         }
         (config.joint(joint), Yaml::Map(entries))
@@ -71,37 +71,16 @@ fn kinematics(config: &Config) -> Yaml {
     Yaml::named(chains.map(|group| (config.setup.groups[group].value.name.as_str(), solver())))
 }
 
-fn ompl(config: &Config) -> Yaml {
-    let requests = [
-        "ResolveConstraintFrames",
-        "ValidateWorkspaceBounds",
-        "CheckStartStateBounds",
-        "CheckStartStateCollision",
-    ];
-    let responses = ["AddTimeOptimalParameterization", "ValidateSolution", "DisplayMotionPath"];
-    let adapters = |kind: &str, names: &[&str]| {
-        let names = names
-            .iter()
-            .map(|name| Yaml::Plain(format!("default_planning_{kind}_adapters/{name}")));
-        Yaml::List(names.collect())
-    };
-    let planners = PLANNERS.map(|(name, kind)| (name, Yaml::map([("type", Yaml::plain(kind))])));
-    let names = || Yaml::List(PLANNERS.iter().map(|(name, _)| Yaml::plain(name)).collect());
-    let mut settings = entries([
-        ("planning_plugins", Yaml::List(vec![Yaml::plain("ompl_interface/OMPLPlanner")])),
-        ("request_adapters", adapters("request", &requests)),
-        ("response_adapters", adapters("response", &responses)),
-        ("planner_configs", Yaml::map(planners)),
-    ]);
+/// The planners of each group that something drives.
+fn groups(config: &Config) -> String {
     let groups = config.setup.groups.iter().zip(&config.joints);
     let groups = groups.filter(|(group, joints)| !group.value.passive && !joints.is_empty());
     let groups = groups.map(|(group, _)| {
         let of_group = Yaml::map([
-            ("default_planner_config", Yaml::plain(PLANNERS[0].0)),
-            ("planner_configs", names()),
+            ("default_planner_config", Yaml::plain(PLANNERS[0])),
+            ("planner_configs", Yaml::List(PLANNERS.map(Yaml::plain).into())),
         ]);
-        (group.value.name.as_str(), of_group)
+        Yaml::named([(group.value.name.as_str(), of_group)]).document(&[])
     });
-    settings.extend(named(groups));
-    Yaml::Map(settings)
+    groups.collect()
 }

@@ -2,7 +2,7 @@
 
 use super::super::element::Element;
 use super::super::error::{ExportError, Note};
-use super::super::names::check_names;
+use super::super::names::{ANOTHER, check_names};
 use super::super::parts::Taken;
 use super::super::setup::Members;
 use super::super::srdf;
@@ -17,9 +17,24 @@ pub(super) fn srdf(config: &Config, notes: &mut Vec<Note>) -> Result<String, Exp
     let groups = &config.setup.groups;
     let ends = &config.setup.end_effectors;
     let configurations = config.configurations.iter();
-    check_names(subject.format, "group", groups.iter().map(|group| group.value.name.as_str()))?;
-    check_names(subject.format, "end effector", ends.iter().map(|end| end.value.name.as_str()))?;
-    check_names(subject.format, "configuration", configurations.map(|named| named.name.as_str()))?;
+    check_names(
+        subject.format,
+        "group",
+        groups.iter().map(|group| group.value.name.as_str()),
+        ANOTHER,
+    )?;
+    check_names(
+        subject.format,
+        "end effector",
+        ends.iter().map(|end| end.value.name.as_str()),
+        ANOTHER,
+    )?;
+    check_names(
+        subject.format,
+        "configuration",
+        configurations.map(|named| named.name.as_str()),
+        ANOTHER,
+    )?;
     if groups.is_empty() {
         notes.push(Note::Robot(NO_GROUPS));
     }

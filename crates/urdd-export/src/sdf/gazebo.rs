@@ -162,9 +162,10 @@ impl Gazebo {
                 // Plugins alone may share a name.
                 let name = said.attribute("name").filter(|_| said.name() != "plugin");
                 if ![Visual, Collision].contains(&place) {
-                    match name.is_none_or(|name| taken.insert(name)) {
-                        true => into.push(said.clone()),
-                        false => notes.push(left_out("another element has the name of one in it")),
+                    if name.is_none_or(|name| taken.insert(name)) {
+                        into.push(said.clone())
+                    } else {
+                        notes.push(left_out("another element has the name of one in it"))
                     }
                 }
                 continue;
@@ -207,7 +208,7 @@ fn word(said: &Element) -> Option<&'static Word> {
 }
 
 fn own(said: &Element) -> &str {
-    said.attribute("value").map_or(said.text(), str::trim)
+    said.attribute("value").map_or(said.own_text(), str::trim)
 }
 
 fn left_out(reason: &'static str) -> Note {

@@ -61,9 +61,10 @@ pub(super) fn joints(
         let mut parent = view.parent.clone();
         let last = parts.len() - 1;
         for (place, part) in parts.into_iter().enumerate() {
-            let child = match place == last {
-                true => view.child.clone(),
-                false => made.taken.free(format!("{}_link", part.name)),
+            let child = if place == last {
+                view.child.clone()
+            } else {
+                made.taken.free(format!("{}_link", part.name))
             };
             let mut element =
                 Element::new("joint").with("name", part.name.as_str()).with("type", part.kind);
@@ -76,11 +77,11 @@ pub(super) fn joints(
             let frame = if is_world { "__model__" } else { parent.as_str() };
             let frame = Element::new("pose").with("relative_to", frame);
             element.push(frame.containing(&pose));
-            element.push(Element::new("parent").containing(&parent));
-            element.push(Element::new("child").containing(&child));
+            element.push(Element::text("parent", &parent));
+            element.push(Element::text("child", &child));
             if let Some(axis) = part.axis {
-                let mut axis = Element::new("axis")
-                    .holding(Element::new("xyz").containing(&numbers(axis.as_slice())));
+                let mut axis =
+                    Element::new("axis").holding(Element::text("xyz", &numbers(axis.as_slice())));
                 if part.is_own {
                     fill(&mut axis, &joint, view, notes, &mut made.has_mimics);
                 }
@@ -91,9 +92,10 @@ pub(super) fn joints(
                 gazebo.add(&view.name, Place::Joint, &mut element, names, notes);
             }
             made.elements.push(element);
-            match place == last {
-                true => made.last_parts.push(part.name.clone()),
-                false => made.links.push((child.clone(), part.name.clone())),
+            if place == last {
+                made.last_parts.push(part.name.clone())
+            } else {
+                made.links.push((child.clone(), part.name.clone()))
             }
             parent = child;
         }
@@ -165,8 +167,10 @@ fn fill(
     notes: &mut Vec<Note>,
     has_mimics: &mut bool,
 ) {
-    let text = |name: &'static str, value: f64| Element::new(name).containing(&number(value));
-    let positive = |value: Option<f64>| value.filter(|value| *value >= 0.0);
+    let text = |name: &'static str, value: f64| Element::text(name, &number(value));
+    let positive = |(name, value): (&'static str, Option<f64>)| {
+        value.filter(|value| *value >= 0.0).map(|value| text(name, value))
+    };
     let mut limit = Element::new("limit");
     match view.position_limits() {
         Some((lower, upper)) if lower > upper => notes.push(Note::joint(&view.name, CROSSED)),
@@ -176,27 +180,14 @@ fn fill(
         }
         None => {}
     }
-    let source = joint.limit.as_ref();
-    if let Some(effort) = positive(source.and_then(|limit| limit.effort)) {
-        limit.push(text("effort", effort));
-    }
-    if let Some(velocity) = positive(source.and_then(|limit| limit.velocity)) {
-        limit.push(text("velocity", velocity));
-    }
-    if !limit.is_empty() {
-        axis.push(limit);
-    }
+    let each = joint.limit.as_ref().map(|of| [("effort", of.effort), ("velocity", of.velocity)]);
+    limit.extend(each.into_iter().flatten().filter_map(positive));
+    axis.push_filled(limit);
     if let Some(of) = &joint.dynamics {
         let mut dynamics = Element::new("dynamics");
-        if let Some(damping) = positive(of.damping) {
-            dynamics.push(text("damping", damping));
-        }
-        if let Some(friction) = positive(of.friction) {
-            dynamics.push(text("friction", friction));
-        }
-        if !dynamics.is_empty() {
-            axis.push(dynamics);
-        }
+        let each = [("damping", of.damping), ("friction", of.friction)];
+        dynamics.extend(each.into_iter().filter_map(positive));
+        axis.push_filled(dynamics);
     }
     if let Some(mimic) = &joint.mimic {
         *has_mimics = true;

@@ -6,10 +6,11 @@ use super::super::element::Element;
 use super::super::error::{ExportError, Note};
 use super::super::inertia::held;
 use super::super::meshes::{MeshFiles, MeshFormat, looks};
+use super::super::options::MeshOptions;
 use super::super::output::Files;
 use super::super::parts::Taken;
 use super::super::subject::Subject;
-use super::super::urdf_elements::HALF_THICKNESS;
+use super::super::urdf_elements::{HALF_THICKNESS, INERTIA};
 use super::gazebo::{Gazebo, Place};
 use super::joints::Joints;
 use urdd_document::robot::Inertial;
@@ -28,18 +29,19 @@ const IMPOSSIBLE: &str = "moments of inertia that no body has, which SDF refuses
 /// The links in link order, then those between the parts of joints; and the files that they reference.
 pub(super) fn links(
     subject: &Subject,
+    meshes: &MeshOptions,
     joints: &Joints,
     gazebo: &Gazebo,
     notes: &mut Vec<Note>,
 ) -> Result<(Vec<Element>, Files), ExportError> {
-    let shapes = subject.shapes_by_link(subject.options.shapes)?;
+    let shapes = subject.shapes_by_link()?;
     if shapes.iter().all(Vec::is_empty) {
-        notes.push(Note::NoShapes(subject.options.shapes));
+        notes.push(Note::NoShapes(subject.shapes));
     }
-    let mut files = MeshFiles::new(subject);
+    let mut files = MeshFiles::new(subject, meshes);
     let mut elements = Vec::new();
     let [mut massless, mut impossible] = [Vec::new(), Vec::new()];
-    let each = shapes.into_iter().zip(looks(subject, notes)?);
+    let each = shapes.into_iter().zip(looks(subject, meshes, notes)?);
     for (link, (shapes, looks)) in each.enumerate() {
         let view = &subject.view.links[link];
         let joint = subject.tree.parent_joint[link];
@@ -72,8 +74,8 @@ pub(super) fn links(
             visual.push(Element::new("geometry").holding(mesh(&path)));
             if let Some(rgba) = rgba {
                 let colour = numbers(&rgba);
-                let ambient = Element::new("ambient").containing(&colour);
-                let diffuse = Element::new("diffuse").containing(&colour);
+                let ambient = Element::text("ambient", &colour);
+                let diffuse = Element::text("diffuse", &colour);
                 visual.push(Element::new("material").holding(ambient).holding(diffuse));
             }
             gazebo.add(&view.name, Place::Visual, &mut visual, &mut taken, notes);
@@ -109,7 +111,7 @@ fn touch(link: &mut Element, collisions: &[String]) {
         {
             contact.remove("collision");
             for name in collisions {
-                contact.push(Element::new("collision").containing(name));
+                contact.push(Element::text("collision", name));
             }
         }
     }
@@ -145,17 +147,17 @@ fn light() -> Element {
 
 fn tensor(pose: &str, mass: f64, inertia: [f64; 6]) -> Element {
     let mut tensor = Element::new("inertia");
-    for (name, value) in ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].into_iter().zip(inertia) {
-        tensor.push(Element::new(name).containing(&number(value)));
+    for (name, value) in INERTIA.into_iter().zip(inertia) {
+        tensor.push(Element::text(name, &number(value)));
     }
     Element::new("inertial")
-        .holding(Element::new("pose").containing(pose))
-        .holding(Element::new("mass").containing(&number(mass)))
+        .holding(Element::text("pose", pose))
+        .holding(Element::text("mass", &number(mass)))
         .holding(tensor)
 }
 
 fn mesh(path: &str) -> Element {
-    Element::new("mesh").holding(Element::new("uri").containing(path))
+    Element::new("mesh").holding(Element::text("uri", path))
 }
 
 fn collision(
@@ -174,17 +176,17 @@ fn collision(
         Solid::Box { pose, half_extents } => {
             collision.push(placed(&pose));
             let size = half_extents.map(|half| 2.0 * half.max(HALF_THICKNESS));
-            Element::new("box").holding(Element::new("size").containing(&numbers(&size)))
+            Element::new("box").holding(Element::text("size", &numbers(&size)))
         }
         Solid::Sphere { centre, radius } => {
             collision.push(placed(&Isometry3::translation(centre[0], centre[1], centre[2])));
             let radius = number(radius.max(HALF_THICKNESS));
-            Element::new("sphere").holding(Element::new("radius").containing(&radius))
+            Element::new("sphere").holding(Element::text("radius", &radius))
         }
     };
     collision.push(Element::new("geometry").holding(geometry));
-    if let Some(friction) = subject.options.friction().map(number) {
-        let ode = ["mu", "mu2"].map(|name| Element::new(name).containing(&friction));
+    if let Some(friction) = subject.friction().map(number) {
+        let ode = ["mu", "mu2"].map(|name| Element::text(name, &friction));
         let ode = ode.into_iter().fold(Element::new("ode"), Element::holding);
         let friction = Element::new("friction").holding(ode);
         collision.push(Element::new("surface").holding(friction));
@@ -196,5 +198,5 @@ fn placed(pose: &Isometry3<f64>) -> Element {
     let rotation = pose.rotation.to_rotation_matrix();
     let mut values = pose.translation.vector.as_slice().to_vec();
     values.extend(to_rpy(rotation.matrix()));
-    Element::new("pose").containing(&numbers(&values))
+    Element::text("pose", &numbers(&values))
 }

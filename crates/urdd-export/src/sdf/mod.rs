@@ -11,6 +11,7 @@ mod links;
 use super::drake;
 use super::element::Element;
 use super::error::{ExportError, Note};
+use super::options::SdfOptions;
 use super::output::Export;
 use super::subject::Subject;
 use gazebo::{Gazebo, Place};
@@ -18,7 +19,7 @@ use gazebo::{Gazebo, Place};
 const GAZEBO: &str = "Gazebo knows no pairs that need no check; the links do not collide with each other there (`<self_collide>` is off). Drake reads the pairs";
 const WORLD: &str = "the root link is called `world`, which is SDF's own and has neither mass nor shapes; its own are left out";
 
-pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
+pub(super) fn export(subject: &Subject, options: &SdfOptions) -> Result<Export, ExportError> {
     let mut notes = Vec::new();
     let mut model = Element::new("model").with("name", model_name(subject));
     let root = subject.tree.root;
@@ -27,7 +28,8 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
     let mut taken = subject.names.taken.clone();
     gazebo.add("", Place::Model, &mut model, &mut taken, &mut notes);
     let mut joints = joints::joints(subject, taken, &gazebo, &mut notes);
-    let (links, files) = links::links(subject, &joints, &gazebo, &mut notes)?;
+    let (links, files) =
+        links::links(subject, &options.model.meshes, &joints, &gazebo, &mut notes)?;
     for (link, element) in links.into_iter().enumerate() {
         if link == root && is_world {
             notes.push(Note::Robot(WORLD));
@@ -35,19 +37,15 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
             model.push(element);
         }
     }
-    if !is_world && !subject.options.floating() {
+    if !is_world && !subject.is_floating {
         let name = joints.taken.free("world_fixed".to_owned());
         let world = Element::new("joint").with("name", name).with("type", "fixed");
-        let parent = Element::new("parent").containing("world");
-        let child = Element::new("child").containing(&subject.links[root]);
+        let parent = Element::text("parent", "world");
+        let child = Element::text("child", &subject.links[root]);
         model.push(world.holding(parent).holding(child));
     }
-    for element in joints.elements {
-        model.push(element);
-    }
-    for group in drake::groups(subject, &mut joints.taken) {
-        model.push(group);
-    }
+    model.extend(joints.elements);
+    model.extend(drake::groups(subject, &mut joints.taken));
     if subject.disabled().next().is_some() {
         notes.push(Note::Robot(GAZEBO));
     }
@@ -58,7 +56,7 @@ pub(super) fn export(subject: &Subject) -> Result<Export, ExportError> {
         .with("version", version)
         .with("xmlns:drake", "http://drake.mit.edu")
         .holding(model);
-    let what = format!("Collision geometry: {}.", subject.options.shapes);
+    let what = format!("Collision geometry: {}.", subject.shapes);
     let text = sdf.document(&subject.comments(what, &notes)?);
     Ok(Export::of(text, files, notes))
 }

@@ -30,8 +30,7 @@ impl Chains {
         let mut all: Vec<Chain> = Vec::new();
         let mut roots = Vec::new();
         let starts = |link: usize, parent: Option<usize>| {
-            let starts = structure.joints_after(link).into_iter().rev();
-            starts.map(move |joint| (joint, parent))
+            structure.joints_after(link).into_iter().rev().map(move |joint| (joint, parent))
         };
         let mut open: Vec<_> = starts(structure.tree.root, None).collect();
         while let Some((first, parent)) = open.pop() {

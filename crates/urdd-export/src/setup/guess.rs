@@ -56,10 +56,7 @@ impl Guesser<'_> {
         let legs: Vec<usize> = roots.iter().copied().filter(|root| self.is_leg(*root)).collect();
         let legs = if legs.len() > 1 { legs } else { Vec::new() };
         for root in roots {
-            match legs.contains(&root) {
-                true => self.leg(root),
-                false => self.limb(root),
-            }
+            if legs.contains(&root) { self.leg(root) } else { self.limb(root) }
         }
     }
 
@@ -141,8 +138,7 @@ impl Guesser<'_> {
         let of = &self.chains.all[chain];
         let first = self.structure.tree.joint_links[of.joints[0]].1;
         let after = |link: usize| {
-            let links = self.structure.links_after(link).into_iter();
-            links.map(height).fold(f64::INFINITY, f64::min)
+            self.structure.links_after(link).into_iter().map(height).fold(f64::INFINITY, f64::min)
         };
         match self.part_of(chain) {
             Some(Part::Leg) => true,
@@ -163,17 +159,15 @@ impl Guesser<'_> {
             "{} at the root link that lead down, as others do",
             joints(self.chains.all[chain].joints.len())
         );
-        let members = match self.chains.all[chain].children.is_empty() {
-            true => {
-                let of = &self.chains.all[chain];
-                let tip = self.structure.fixed_to(of.last);
-                let tip = tip.into_iter().max_by(|a, b| {
-                    let depth = |link: usize| -self.poses[link].translation.z;
-                    depth(*a).total_cmp(&depth(*b))
-                });
-                Members::Chain { base: of.base, tip: tip.unwrap_or(of.last) }
-            }
-            false => self.moving(&self.chains.joints_from(chain)),
+        let members = if self.chains.all[chain].children.is_empty() {
+            let of = &self.chains.all[chain];
+            let tip = self.structure.fixed_to(of.last).into_iter().max_by(|a, b| {
+                let depth = |link: usize| -self.poses[link].translation.z;
+                depth(*a).total_cmp(&depth(*b))
+            });
+            Members::Chain { base: of.base, tip: tip.unwrap_or(of.last) }
+        } else {
+            self.moving(&self.chains.joints_from(chain))
         };
         self.push(&name, members, false, &why);
     }
@@ -246,8 +240,7 @@ impl Guesser<'_> {
         all.extend(after);
         all.sort_unstable();
         let names = |joints: &[usize]| -> Vec<String> {
-            let names = joints.iter().map(|joint| self.structure.view.joints[*joint].name.clone());
-            names.collect()
+            joints.iter().map(|joint| self.structure.view.joints[*joint].name.clone()).collect()
         };
         let is_single = |finger: &usize| self.chains.joints_from(*finger).len() == 1;
         let is_gripper = fingers.iter().all(is_single)
@@ -292,9 +285,10 @@ impl Guesser<'_> {
     /// A chain of few joints.
     fn small(&mut self, chain: usize, kind: &str, driven: usize) {
         let name = self.named(chain, kind);
-        let after = match self.chains.all[chain].children.is_empty() {
-            true => "none after them",
-            false => "other chains begin at their end",
+        let after = if self.chains.all[chain].children.is_empty() {
+            "none after them"
+        } else {
+            "other chains begin at their end"
         };
         let why = format!("{} in a row, and {after}", joints(driven));
         let of = &self.chains.all[chain];

@@ -15,7 +15,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
-pub use error::{SetupError, SetupFault};
+pub use error::SetupError;
 
 /// What exports need and a URDD does not say.
 ///

@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 
 use toml::Spanned;
 
-use super::super::nested::within;
-use super::error::{SetupError, SetupFault};
+use super::super::error::unknown;
+use super::super::nested::{contains_itself, within};
+use super::error::SetupError;
 use super::file::{EndEffectorTable, File, GroupTable, Name};
 use super::{Curobo, EndEffector, Gains, Group, Guess, JointGains, Members, Setup};
 use crate::structure::Structure;
 use urdd_directory::position::LineIndex;
 use urdd_directory::regular;
-use urdd_format::nearest::nearest;
 use urdd_robot::Robot;
 
 /// Maximum size of the file, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A value, or a fault with its byte offset.
-type Placed<T> = Result<T, (usize, SetupFault)>;
+/// A value, or the byte offset of what is wrong, and what.
+type Placed<T> = Result<T, (usize, String)>;
 
 impl Setup {
     /// The path of the file for a URDD: `NAME.export.toml` beside the folder `NAME` or the archive `NAME.zip`.
@@ -35,16 +35,18 @@ impl Setup {
         named.with_file_name(format!("{stem}.export.toml"))
     }
 
-    /// Reads the file for a URDD, if there is one.
+    /// Reads a file, or without one that beside the URDD, if it is there.
     ///
     /// # Errors
     /// If there is one that cannot be read or is wrong: see [`Setup::from_toml`].
-    pub fn beside(urdd: &Path, robot: &Robot) -> Result<Option<Setup>, SetupError> {
-        let file = Setup::path(urdd);
-        match file.symlink_metadata() {
-            Ok(_) => Setup::read(&file, robot).map(Some),
-            Err(_) => Ok(None),
-        }
+    pub fn find(
+        file: Option<&Path>,
+        urdd: &Path,
+        robot: &Robot,
+    ) -> Result<Option<Setup>, SetupError> {
+        let beside = || Some(Setup::path(urdd)).filter(|file| file.symlink_metadata().is_ok());
+        let file = file.map(Path::to_owned).or_else(beside);
+        file.map(|file| Setup::read(&file, robot)).transpose()
     }
 
     /// Reads a file.
@@ -67,14 +69,13 @@ impl Setup {
     /// If it is not TOML, has an unknown key, is for another robot, or names something that there is not: what is
     /// wrong, where, and what to do.
     pub fn from_toml(text: &str, shown: &str, robot: &Robot) -> Result<Setup, SetupError> {
-        let refused = |at: Option<usize>, fault: SetupFault| SetupError::Content {
+        let refused = |at: Option<usize>, reason: String| SetupError::Content {
             file: shown.to_owned(),
             at: at.map(|at| LineIndex::new(text).position(at)),
-            fault,
+            reason,
         };
         let file: File = toml::from_str(text).map_err(|error| {
-            let fault = SetupFault::Toml(error.message().to_owned());
-            refused(error.span().map(|span| span.start), fault)
+            refused(error.span().map(|span| span.start), error.message().to_owned())
         })?;
         let structure = Structure::new(robot)?;
         let configurations: Vec<String> = robot
@@ -82,9 +83,8 @@ impl Setup {
             .iter()
             .map(|named| named.name.as_str().to_owned())
             .collect();
-        let reader = Reader { structure: &structure, configurations: &configurations };
-        let setup = reader.setup(file);
-        setup.map_err(|(at, fault)| refused(Some(at), fault))
+        let setup = Reader { structure: &structure, configurations: &configurations }.setup(file);
+        setup.map_err(|(at, reason)| refused(Some(at), reason))
     }
 }
 
@@ -97,11 +97,14 @@ impl Reader<'_> {
     fn setup(&self, file: File) -> Placed<Setup> {
         let expected = &self.structure.view.name;
         if file.robot.get_ref() != expected {
-            let fault = SetupFault::OtherRobot {
-                found: file.robot.get_ref().clone(),
-                expected: expected.clone(),
-            };
-            return Err((file.robot.span().start, fault));
+            let [found, expected] =
+                [file.robot.get_ref(), expected].map(|name| name.escape_debug());
+            return wrong(
+                &file.robot,
+                format!(
+                    "this file is for robot `{found}`, not for `{expected}`; `urdd export init` writes one"
+                ),
+            );
         }
         let groups = self.groups(&file.group)?;
         let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
@@ -109,9 +112,8 @@ impl Reader<'_> {
         for end in &file.end_effector {
             ends.push(self.end_effector(end, &names, &ends)?);
         }
-        let positive = "a number above 0";
         let mut gains = Gains {
-            bandwidth: number("bandwidth", file.actuators.bandwidth.as_ref(), positive)?,
+            bandwidth: number("bandwidth", file.actuators.bandwidth.as_ref())?,
             joints: BTreeMap::new(),
         };
         for (name, of) in &file.actuators.joint {
@@ -125,7 +127,7 @@ impl Reader<'_> {
         };
         for (name, position) in &file.curobo.locked {
             if !position.get_ref().is_finite() {
-                return Err((position.span().start, not_a("locked", "a position, rad or m")));
+                return wrong(position, "`locked` is a position, rad or m".to_owned());
             }
             curobo.locked.insert(self.driven(name)?, *position.get_ref());
         }
@@ -146,9 +148,9 @@ impl Reader<'_> {
             imus: Guess::read(links(&file.frames.imus)?),
             gains,
             curobo,
-            acceleration: number("acceleration", file.limits.acceleration.as_ref(), positive)?,
-            jerk: number("jerk", file.limits.jerk.as_ref(), positive)?,
-            friction: number("friction", file.contact.friction.as_ref(), positive)?,
+            acceleration: number("acceleration", file.limits.acceleration.as_ref())?,
+            jerk: number("jerk", file.limits.jerk.as_ref())?,
+            friction: number("friction", file.contact.friction.as_ref())?,
         })
     }
 
@@ -159,7 +161,7 @@ impl Reader<'_> {
         for (place, table) in tables.iter().enumerate() {
             let name = &table.get_ref().name;
             if names[..place].contains(&name.get_ref().as_str()) {
-                return Err(twice("group", name));
+                return twice("group", name);
             }
             groups.push(self.group(table, &names)?);
         }
@@ -169,22 +171,25 @@ impl Reader<'_> {
                 _ => &[],
             };
             if within(place, groups.len(), inner).is_none() {
-                let fault = SetupFault::Cycle(names[place].to_owned());
-                return Err((table.span().start, fault));
+                return wrong(table, contains_itself(names[place]));
             }
         }
         Ok(groups)
     }
 
     fn group(&self, table: &Spanned<GroupTable>, names: &[&str]) -> Placed<Group> {
-        let start = table.span().start;
-        let table = table.get_ref();
+        let (whole, table) = (table, table.get_ref());
         let members = match (&table.base, &table.tip, &table.joints, &table.groups) {
             (Some(base), Some(tip), None, None) => {
                 let [from, to] = [self.link(base)?, self.link(tip)?];
                 if !self.structure.is_chain(from, to) {
-                    let [base, tip] = [base, tip].map(|name| name.get_ref().clone());
-                    return Err((start, SetupFault::Chain { base, tip }));
+                    let [base, tip] = [base, tip].map(|name| name.get_ref().escape_debug());
+                    return wrong(
+                        whole,
+                        format!(
+                            "the link `{base}` is not an ancestor of `{tip}`, or no joint between them moves"
+                        ),
+                    );
                 }
                 Members::Chain { base: from, tip: to }
             }
@@ -197,7 +202,15 @@ impl Reader<'_> {
                 let groups = groups.iter().map(|name| find(name, "group", names.iter().copied()));
                 Members::Groups(groups.collect::<Placed<Vec<usize>>>()?)
             }
-            _ => return Err((start, SetupFault::Members(table.name.get_ref().clone()))),
+            _ => {
+                let name = table.name.get_ref().escape_debug();
+                return wrong(
+                    whole,
+                    format!(
+                        "the group `{name}` needs `base` and `tip`, or `joints`, or `groups`, and only one of these"
+                    ),
+                );
+            }
         };
         Ok(Group { name: table.name.get_ref().clone(), members, passive: table.passive })
     }
@@ -210,7 +223,7 @@ impl Reader<'_> {
     ) -> Placed<EndEffector> {
         let name = table.name.get_ref();
         if before.iter().any(|other| other.name == *name) {
-            return Err(twice("end effector", &table.name));
+            return twice("end effector", &table.name);
         }
         let group = |name: &Name| find(name, "group", groups.iter().copied());
         Ok(EndEffector {
@@ -230,14 +243,22 @@ impl Reader<'_> {
     fn driven(&self, name: &Name) -> Placed<usize> {
         let joints = &self.structure.view.joints;
         let joint = find(name, "joint", joints.iter().map(|joint| joint.name.as_str()))?;
-        match self.structure.moves(joint) {
-            true => Ok(joint),
-            false => {
-                let fault = SetupFault::Still(name.get_ref().clone());
-                Err((name.span().start, fault))
-            }
+        if !self.structure.moves(joint) {
+            let name_shown = name.get_ref().escape_debug();
+            return wrong(
+                name,
+                format!(
+                    "the joint `{name_shown}` is fixed, or follows another joint: nothing drives it"
+                ),
+            );
         }
+        Ok(joint)
     }
+}
+
+/// What is wrong with a value, and where.
+fn wrong<T, V>(value: &Spanned<V>, reason: String) -> Placed<T> {
+    Err((value.span().start, reason))
 }
 
 fn find<'n>(
@@ -246,33 +267,19 @@ fn find<'n>(
     known: impl Iterator<Item = &'n str> + Clone,
 ) -> Placed<usize> {
     let found = known.clone().position(|known| known == name.get_ref());
-    found.ok_or_else(|| {
-        let fault = SetupFault::Unknown {
-            what,
-            name: name.get_ref().clone(),
-            nearest: nearest(known, name.get_ref()),
-        };
-        (name.span().start, fault)
-    })
+    found.map_or_else(|| wrong(name, unknown(what, name.get_ref(), known).to_string()), Ok)
 }
 
-fn twice(what: &'static str, name: &Name) -> (usize, SetupFault) {
-    let fault = SetupFault::Twice { what, name: name.get_ref().clone() };
-    (name.span().start, fault)
+fn twice<T>(what: &str, name: &Name) -> Placed<T> {
+    let shown = name.get_ref().escape_debug();
+    wrong(name, format!("another {what} is called `{shown}`: give it another name"))
 }
 
-fn not_a(key: &'static str, needs: &'static str) -> SetupFault {
-    SetupFault::Number { key, needs }
-}
-
-fn number(
-    key: &'static str,
-    value: Option<&Spanned<f64>>,
-    needs: &'static str,
-) -> Placed<Option<f64>> {
+/// A number above 0.
+fn number(key: &str, value: Option<&Spanned<f64>>) -> Placed<Option<f64>> {
     match value {
         Some(value) if !(value.get_ref().is_finite() && *value.get_ref() > 0.0) => {
-            Err((value.span().start, not_a(key, needs)))
+            wrong(value, format!("`{key}` is a number above 0"))
         }
         value => Ok(value.map(|value| *value.get_ref())),
     }
@@ -284,7 +291,7 @@ fn joint_gains(table: &Spanned<JointGains>) -> Placed<JointGains> {
     let is_wrong =
         |value: Option<f64>| value.is_some_and(|value| !(value.is_finite() && value >= 0.0));
     match each.into_iter().find(|(_, value)| is_wrong(*value)) {
-        Some((key, _)) => Err((table.span().start, not_a(key, "a number that is not below 0"))),
+        Some((key, _)) => wrong(table, format!("`{key}` is a number that is not below 0")),
         None => Ok(gains),
     }
 }

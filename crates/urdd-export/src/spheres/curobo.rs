@@ -1,12 +1,13 @@
 //! cuRobo: the spheres of each link, and the other entries by link of its robot file. The keys are those of
 //! `robot_cfg: kinematics:`. cuRobo also reads `collision_spheres` from a separate file. With
-//! [`Options::robot_file`](super::super::options::Options::robot_file), the whole robot file.
+//! [`CuroboOptions::robot_file`], the whole robot file.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use nalgebra::Point3;
 
 use super::super::error::{ExportError, Note};
+use super::super::options::CuroboOptions;
 use super::super::output::Export;
 use super::super::parts::Taken;
 use super::super::setup::Setup;
@@ -26,14 +27,17 @@ const SEVERAL: &str =
 const ACCELERATION: f64 = 15.0;
 const JERK: f64 = 500.0;
 
-pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
-    let model = Model::new(subject)?;
+pub(in super::super) fn export(
+    subject: &Subject,
+    options: &CuroboOptions,
+) -> Result<Export, ExportError> {
+    let model = Model::new(subject, &options.spheres)?;
     let mut lines = subject.origin()?;
-    lines.extend(model.said(&subject.links, subject.options.cover));
+    lines.extend(model.said(&subject.links, options.spheres.cover));
     lines.push(BUFFERS.to_owned());
     let mut notes: Vec<Note> = said::note(&model, subject).into_iter().collect();
     let spheres = by_link(subject, &model);
-    let tree = match &subject.options.robot_file {
+    let tree = match &options.robot_file {
         None => Yaml::Map(spheres),
         Some(urdf) => {
             let setup = subject.setup(&mut notes)?;
@@ -242,9 +246,10 @@ impl Arm {
         // cuRobo has one limit for all joints, or one for each.
         let each = |of: &dyn Fn(usize) -> Option<f64>, default: f64| {
             let values = self.active.iter().map(|joint| of(*joint).unwrap_or(default));
-            match self.active.iter().any(|joint| of(*joint).is_some()) {
-                true => Yaml::numbers(&values.collect::<Vec<_>>()),
-                false => Yaml::number(default),
+            if self.active.iter().any(|joint| of(*joint).is_some()) {
+                Yaml::numbers(&values.collect::<Vec<_>>())
+            } else {
+                Yaml::number(default)
             }
         };
         let limit = |joint: usize| subject.urdf.joints[joint].limit.as_ref();

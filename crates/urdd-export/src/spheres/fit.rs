@@ -8,8 +8,8 @@
 
 use super::frame::{Point, add, norm, scaled, sub};
 pub(super) use super::loss::Goal;
-use super::loss::{Looked, Slope, middle, nearest};
-use super::model::{Sphere, Spheres, count};
+use super::loss::{Looked, middle, nearest, sum_up};
+use super::model::{Sphere, Spheres, count, distance};
 use super::samples::Sample;
 
 /// Limits on the number of spheres.
@@ -145,15 +145,11 @@ fn descend(
                     [LOOK_AGAIN as f64 * length, left],
                 );
             }
-            let contacts: Slope = goal.of_contacts(spheres, &active);
+            let contacts = goal.of_contacts(spheres, &active);
             if is_blamed {
                 sum_up(&mut by_contacts, &contacts.blame);
             }
-            for (to, from) in slope.by.iter_mut().zip(&contacts.by) {
-                for k in 0..4 {
-                    to[k] += from[k];
-                }
-            }
+            slope.merge(0, &contacts);
         }
         adam.step(spheres, &slope.by, length, SMALLEST * goal.size);
     }
@@ -162,12 +158,6 @@ fn descend(
         [&by_surface, &by_contacts].map(|blame| blame.iter().sum::<f64>().max(f64::MIN_POSITIVE));
     let both = by_surface.iter().zip(&by_contacts);
     both.map(|(s, c)| (1.0 - share) * s / of_surface + share * c / of_contacts).collect()
-}
-
-fn sum_up(to: &mut [f64], from: &[f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to += from;
-    }
 }
 
 /// Adam (D. P. Kingma, J. Ba, ICLR 2015).
@@ -232,8 +222,7 @@ fn split(
 fn numbered(spheres: &Spheres, values: &[f64]) -> Vec<(f64, usize, usize)> {
     let places = spheres.iter().enumerate();
     let places = places.flat_map(|(link, own)| (0..own.len()).map(move |number| (link, number)));
-    let both = values.iter().zip(places);
-    both.map(|(value, (link, number))| (*value, link, number)).collect()
+    values.iter().zip(places).map(|(value, (link, number))| (*value, link, number)).collect()
 }
 
 /// Replaces a sphere by two, separated along the direction of greatest spread of the points nearest to it.
@@ -270,7 +259,7 @@ fn drop_idle(goal: &Goal, spheres: &mut Spheres, blame: &mut Vec<f64>) {
             let mut least = (f64::INFINITY, 0);
             let mut second = f64::INFINITY;
             for (number, sphere) in own.iter().enumerate() {
-                let off = sphere.to(*p);
+                let off = distance(sphere, *p);
                 if off < least.0 {
                     second = least.0;
                     least = (off, number);

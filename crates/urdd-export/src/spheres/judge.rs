@@ -70,8 +70,7 @@ pub(super) fn gaps(
 }
 
 fn checked(pairs: &[[usize; 2]], ignored: &[bool]) -> Vec<(usize, [usize; 2])> {
-    let each = pairs.iter().copied().enumerate();
-    each.filter(|(number, _)| !ignored[*number]).collect()
+    pairs.iter().copied().enumerate().filter(|(number, _)| !ignored[*number]).collect()
 }
 
 /// Counts results, given the minimum distances from `gaps`.
@@ -140,9 +139,10 @@ pub fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
     let (mut missed, mut false_contacts) = (colliding, 0);
     let mut best = (f64::INFINITY, 0.0);
     for (place, sample) in order.iter().enumerate() {
-        match samples[*sample].collides() {
-            true => missed -= 1,
-            false => false_contacts += 1,
+        if samples[*sample].collides() {
+            missed -= 1
+        } else {
+            false_contacts += 1
         }
         let gap = gaps[*sample];
         let next = order.get(place + 1).map_or(limit, |next| gaps[*next]);
@@ -151,8 +151,7 @@ pub fn growth(samples: &[Sample], gaps: &[f64], limit: f64) -> f64 {
         if threshold <= -limit || threshold >= limit || next <= gap {
             continue;
         }
-        let rates = SphereRates { colliding, missed, free, false_contacts };
-        let worse = rates.worse();
+        let worse = SphereRates { colliding, missed, free, false_contacts }.worse();
         if worse < best.0 {
             best = (worse, threshold);
         }

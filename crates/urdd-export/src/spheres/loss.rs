@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 
 use super::frame::{Point, add, norm, scaled, sub};
-use super::model::{Placeable, Placed, Spheres};
+use super::model::{Placeable, Placed, Sphere, Spheres, distance};
 use super::samples::Sample;
 
 /// Configurations per block. Blocks are summed in order, so results do not depend on the number of threads.
@@ -72,15 +72,15 @@ impl Slope {
     }
 
     /// Adds another gradient, whose first sphere has index `first`.
-    fn merge(&mut self, first: usize, other: &Slope) {
-        for (to, from) in self.by[first..].iter_mut().zip(&other.by) {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to += from;
-            }
-        }
-        for (to, from) in self.blame[first..].iter_mut().zip(&other.blame) {
-            *to += from;
-        }
+    pub fn merge(&mut self, first: usize, other: &Slope) {
+        sum_up(self.by[first..].as_flattened_mut(), other.by.as_flattened());
+        sum_up(&mut self.blame[first..], &other.blame);
+    }
+}
+
+pub(super) fn sum_up(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to += from;
     }
 }
 
@@ -152,9 +152,10 @@ impl Goal<'_> {
             ignored[*pair as usize] |= *gap <= 0.0 && !touches[*pair as usize];
         }
         let looked = |(sample, near): (usize, Vec<(u32, f64)>)| {
-            let pairs = match self.samples[sample].collides() {
-                true => self.samples[sample].touching.clone(),
-                false => near.into_iter().map(|(pair, _)| pair).collect(),
+            let pairs = if self.samples[sample].collides() {
+                self.samples[sample].touching.clone()
+            } else {
+                near.into_iter().map(|(pair, _)| pair).collect()
             };
             let pairs = pairs.into_iter().filter(|pair| !ignored[*pair as usize]);
             Looked { sample, pairs: pairs.collect() }
@@ -209,9 +210,10 @@ impl Goal<'_> {
             } else {
                 looked.pairs.retain(|pair| {
                     let links = self.pairs[*pair as usize];
-                    let gap = match model.may_be_near(placed, links, far) {
-                        true => model.gap(sample, placed, links, far),
-                        false => far,
+                    let gap = if model.may_be_near(placed, links, far) {
+                        model.gap(sample, placed, links, far)
+                    } else {
+                        far
                     };
                     if gap < margin {
                         add(placed, *pair, margin);
@@ -294,9 +296,8 @@ impl Goal<'_> {
 
 /// The sphere with the smallest signed distance to a point, and that distance: negative inside.
 #[inline]
-pub(super) fn nearest(own: &[super::model::Sphere], p: Point) -> Option<(usize, f64)> {
-    let each = own.iter().map(|sphere| sphere.to(p)).enumerate();
-    each.min_by(|a, b| a.1.total_cmp(&b.1))
+pub(super) fn nearest(own: &[Sphere], p: Point) -> Option<(usize, f64)> {
+    own.iter().map(|sphere| distance(sphere, p)).enumerate().min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The mean of points; `None` if there are none.

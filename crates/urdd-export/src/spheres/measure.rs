@@ -3,7 +3,7 @@
 use super::judge::{self, PairFaults, SphereRates};
 use super::model::Spheres;
 use super::pairs::Pairs;
-use super::samples::{Ask, Region, Sample, nth, sample, samples};
+use super::samples::{Ask, Region, Sample, Sampler};
 use urdd_robot::{Robot, RobotError};
 
 /// Numbers of sampled configurations. The first indices keep the sets disjoint, and apart from the samples of a URDD's
@@ -95,16 +95,17 @@ pub(super) fn measure(
         // Only whether they touch matters here.
         judge::gaps(spheres, &pairs.checked, ignored, samples, f64::MIN_POSITIVE)
     };
-    let zero = sample(robot, pairs, &robot.configurations()?.zero(), Ask::Any)?;
+    let sampler = Sampler { robot, pairs };
+    let zero = sampler.zero(Ask::Any)?;
     measured.default = [zero.collides(), gaps(std::slice::from_ref(&zero))[0] <= 0.0];
     let mut wrong: Vec<Sample> = Vec::new();
     let mut count = |region| -> Result<SphereRates, RobotError> {
         let (first, number) = (Numbers::MEASURE, numbers.measure);
-        let known = samples(robot, pairs, region, first, number, Ask::Any)?;
+        let known = sampler.samples(region, first, number, Ask::Any)?;
         let gaps = gaps(&known);
         for (k, (sample, gap)) in known.iter().zip(&gaps).enumerate() {
             if sample.collides() != (*gap <= 0.0) && wrong.len() < TRACED {
-                wrong.push(nth(robot, pairs, region, first, k)?);
+                wrong.push(sampler.nth(region, first, k, Ask::Pairs)?);
             }
         }
         Ok(judge::rates(&known, &gaps))

@@ -27,7 +27,7 @@ pub(super) mod urdf;
 use rayon::prelude::*;
 
 use super::error::ExportError;
-use super::options::SphereBudget;
+use super::options::{SphereBudget, SphereOptions};
 use super::subject::Subject;
 use fit::Limits;
 use frame::Point;
@@ -35,7 +35,7 @@ pub use judge::SphereRates;
 use measure::{Measured, Numbers, measure};
 use model::{Sphere, Spheres};
 use pairs::Pairs;
-use samples::{Ask, Region, Sample, sample, samples};
+use samples::{Ask, Region, Sample, Sampler};
 use urdd_robot::{RobotError, ShapeKind};
 
 const AUTO_PER_LINK: usize = 12;
@@ -71,22 +71,23 @@ struct Model {
 }
 
 impl Model {
-    fn new(subject: &Subject) -> Result<Self, ExportError> {
-        let kind = subject.options.shapes;
+    fn new(subject: &Subject, options: &SphereOptions) -> Result<Self, ExportError> {
+        let kind = options.shapes;
         if !matches!(kind, ShapeKind::Pieces | ShapeKind::Hulls) {
             return Err(ExportError::SpheresOf(kind));
         }
-        let pairs = Pairs::new(subject, subject.robot.shapes(kind)?)?;
-        let limits = limits(subject.options.spheres, pairs.links.len());
+        let pairs = Pairs::new(subject, options.reasons.as_deref())?;
+        let limits = limits(options.budget, pairs.links.len());
         let per_link = limits.total / pairs.links.len().max(1);
         let count = (POINTS[1] * per_link).clamp(POINTS[0], POINTS[2]);
         let surface: Vec<Vec<Point>> =
             (pairs.pieces.par_iter()).map(|pieces| surface::points(pieces, count)).collect();
-        let numbers = Numbers::new(subject.options.samples, &pairs, per_link);
+        let numbers = Numbers::new(options.samples, &pairs, per_link);
         let mut ignored = vec![false; pairs.checked.len()];
-        let (spheres, near) = match subject.options.cover {
-            true => (covering(subject, &pairs), false),
-            false => fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?,
+        let (spheres, near) = if options.cover {
+            (covering(options.budget, &pairs), false)
+        } else {
+            fitted(subject, &pairs, &surface, &numbers, &mut ignored, limits)?
         };
         let measured = measure(subject.robot, &pairs, &spheres, &ignored, &numbers, near)?;
         let mut written = Vec::new();
@@ -120,18 +121,12 @@ fn limits(budget: SphereBudget, links: usize) -> Limits {
     }
 }
 
-fn covering(subject: &Subject, pairs: &Pairs) -> Spheres {
+fn covering(budget: SphereBudget, pairs: &Pairs) -> Spheres {
     let vertices = |pieces: &Vec<urdd_geometry::Mesh>| {
-        let each = pieces.iter();
-        each.map(|mesh| mesh.vertices.clone()).collect()
+        pieces.iter().map(|mesh| mesh.vertices.clone()).collect()
     };
     let links: Vec<Vec<Vec<Point>>> = pairs.pieces.iter().map(vertices).collect();
-    let covers = cover::cover(&links, subject.options.spheres).into_iter();
-    let sphere = |sphere: urdd_geometry::bounding_sphere::BoundingSphere| Sphere {
-        centre: sphere.centre,
-        radius: sphere.radius,
-    };
-    covers.map(|own| own.into_iter().map(sphere).collect()).collect()
+    cover::cover(&links, budget)
 }
 
 /// Fits spheres that give the same collision results as the exact shapes. Also returns whether the fit used
@@ -144,40 +139,38 @@ fn fitted(
     ignored: &mut [bool],
     limits: Limits,
 ) -> Result<(Spheres, bool), RobotError> {
-    let robot = subject.robot;
+    let sampler = Sampler { robot: subject.robot, pairs };
     let mut near = false;
     let mut known: Vec<Sample> = Vec::new();
     if !pairs.checked.is_empty() {
-        let zero = robot.configurations()?.zero();
-        known.push(sample(robot, pairs, &zero, Ask::Pairs)?);
+        known.push(sampler.zero(Ask::Pairs)?);
         let some = numbers.fit / 10;
-        let take = |region, first, count| samples(robot, pairs, region, first, count, Ask::Pairs);
+        let take = |region, first, count| sampler.samples(region, first, count, Ask::Pairs);
         let first = Numbers::FIT;
         known.extend(take(Region::Bounds, first, some)?);
         let free = known.iter().filter(|sample| !sample.collides()).count();
         near = (free as f64) < FEW_FREE * known.len() as f64;
-        known.extend(match near {
-            true => take(Region::NearDefault, first, numbers.fit - some)?,
-            false => take(Region::Bounds, first + some as u64, numbers.fit - some)?,
+        known.extend(if near {
+            take(Region::NearDefault, first, numbers.fit - some)?
+        } else {
+            take(Region::Bounds, first + some as u64, numbers.fit - some)?
         });
     }
     let mut to_balance = Vec::new();
     if let Some(default) = known.first() {
-        let region = match near {
-            true => Region::NearDefault,
-            false => Region::Bounds,
-        };
+        let region = if near { Region::NearDefault } else { Region::Bounds };
         let (first, count) = (Numbers::GROW, numbers.grow);
-        to_balance = samples(robot, pairs, region, first, count, Ask::Any)?;
+        to_balance = sampler.samples(region, first, count, Ask::Any)?;
         to_balance.insert(0, default.clone());
     }
     let mut best: Option<(f64, Spheres, Vec<bool>)> = None;
     for steps in fit::CONTACT_STEP {
         let mut own = ignored.to_vec();
         let mut spheres = fit::fit(surface, &known, &pairs.checked, &mut own, limits, steps);
-        let worse = match to_balance.is_empty() {
-            true => 0.0,
-            false => balance(&mut spheres, surface, pairs, &mut own, &known, &to_balance),
+        let worse = if to_balance.is_empty() {
+            0.0
+        } else {
+            balance(&mut spheres, surface, pairs, &mut own, &known, &to_balance)
         };
         if best.as_ref().is_none_or(|best| worse < best.0) {
             best = Some((worse, spheres, own));
@@ -224,8 +217,7 @@ fn balance(
         let goal = fit::Goal { surface, samples: known, pairs: checked, size: limit };
         goal.look(spheres, ignored, f64::MIN_POSITIVE);
         if !known[0].collides() {
-            let left = checked.iter().zip(&*ignored);
-            let left = left.filter(|(_, ignored)| !**ignored);
+            let left = checked.iter().zip(&*ignored).filter(|(_, ignored)| !**ignored);
             let left: Vec<[usize; 2]> = left.map(|(pair, _)| *pair).collect();
             model::part(spheres, &left, &known[0], APART * limit);
         }

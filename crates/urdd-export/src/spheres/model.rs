@@ -2,20 +2,12 @@
 
 use super::frame::{Point, Pose, add, dot, norm, scaled, sub};
 use super::samples::Sample;
+pub(super) use urdd_geometry::bounding_sphere::BoundingSphere as Sphere;
 
-/// A sphere in its link's frame, metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sphere {
-    pub centre: Point,
-    pub radius: f64,
-}
-
-impl Sphere {
-    /// Signed distance of a point; negative inside.
-    #[inline]
-    pub fn to(&self, p: Point) -> f64 {
-        norm(sub(p, self.centre)) - self.radius
-    }
+/// Signed distance of a point to a sphere in its link's frame; negative inside.
+#[inline]
+pub(super) fn distance(sphere: &Sphere, p: Point) -> f64 {
+    norm(sub(p, sphere.centre)) - sphere.radius
 }
 
 /// The spheres of each link that has shapes.

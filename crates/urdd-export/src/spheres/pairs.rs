@@ -7,6 +7,7 @@ use nalgebra::Isometry3;
 use super::super::error::ExportError;
 use super::super::pairs::Decision;
 use super::super::subject::Subject;
+use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::convex::BodyPairs;
@@ -25,14 +26,15 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(subject: &Subject, shapes: Vec<LinkShape>) -> Result<Self, ExportError> {
+    pub fn new(subject: &Subject, reasons: Option<&[SkippedReason]>) -> Result<Self, ExportError> {
+        let shapes = subject.robot.shapes(subject.shapes)?;
         let count = subject.links.len();
         if let Some(index) = shapes.iter().map(|shape| shape.link).find(|link| *link >= count) {
             let what = "link";
             return Err(RobotError::OutOfRange { what, index, count }.into());
         }
-        let skips = subject.robot.skips(subject.options.shapes)?;
-        let decision = Decision::new(&skips, &subject.links, subject.options);
+        let skips = subject.robot.skips(subject.shapes)?;
+        let decision = Decision::new(&skips, &subject.links, reasons);
         let rows: HashMap<(usize, usize), usize> =
             skips.places().iter().enumerate().map(|(row, place)| (*place, row)).collect();
         let row = |shape: &LinkShape| rows.get(&(shape.link, shape.piece)).copied();
@@ -73,8 +75,7 @@ impl Pairs {
 
     /// The indices of the pairs in contact, ascending. `poses` are those of all links of the robot.
     pub fn touching(&self, poses: &[Isometry3<f64>]) -> Vec<u32> {
-        let found = self.exact.touching(poses);
-        found.into_iter().filter_map(|pair| u32::try_from(pair).ok()).collect()
+        self.exact.touching(poses).into_iter().filter_map(|pair| u32::try_from(pair).ok()).collect()
     }
 
     /// Whether any pair is in contact.

@@ -6,7 +6,7 @@ use super::super::Note;
 use super::super::subject::Subject;
 use super::judge::{MAX_FALSE, MAX_MISSED, SphereRates};
 use super::measure::{Measured, Numbers};
-use super::model::Sphere;
+use super::model::{Sphere, distance};
 use super::{Model, Point};
 use urdd_format::escape;
 use urdd_format::rate::interval;
@@ -30,7 +30,7 @@ pub(super) struct Stand {
 
 impl Stand {
     pub fn new(spheres: &[Sphere], surface: &[Point]) -> Self {
-        let off = |p: &Point| spheres.iter().map(|s| s.to(*p)).fold(f64::INFINITY, f64::min);
+        let off = |p: &Point| spheres.iter().map(|s| distance(s, *p)).fold(f64::INFINITY, f64::min);
         let offs: Vec<f64> = surface.iter().map(off).filter(|off| off.is_finite()).collect();
         let far = || offs.iter().map(|off| off.abs());
         Stand {
@@ -56,13 +56,14 @@ impl Model {
         let outside = stands.iter().map(|stand| stand.outside).fold(0.0, f64::max);
         let held: usize = stands.iter().map(|stand| stand.held[0]).sum();
         let points: usize = stands.iter().map(|stand| stand.held[1]).sum();
-        lines.push(match covers {
-            true => "The spheres of a link hold all of its convex pieces.".to_owned(),
-            false => format!(
+        lines.push(if covers {
+            "The spheres of a link hold all of its convex pieces.".to_owned()
+        } else {
+            format!(
                 "The spheres are fitted and do not cover the links: {:.1} % of the surface is inside a sphere, and a point of it is at most {:.1} mm outside.",
                 100.0 * held as f64 / points.max(1) as f64,
                 1000.0 * outside
-            ),
+            )
         });
         lines.extend(self.measured.said());
         if self.ignored_as_never > 0 {
@@ -164,7 +165,7 @@ fn rates_json(rates: SphereRates) -> Value {
 /// The note for the user: that there is nothing to fit to, or that the spheres are not good enough for planning.
 pub(super) fn note(model: &Model, subject: &Subject) -> Option<Note> {
     if model.links.is_empty() {
-        return Some(Note::NoShapes(subject.options.shapes));
+        return Some(Note::NoShapes(subject.shapes));
     }
     if model.measured.is_good() {
         return None;

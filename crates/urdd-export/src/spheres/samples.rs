@@ -45,51 +45,46 @@ pub(super) enum Ask {
     Any,
 }
 
-/// `count` samples from index `first` on.
-pub(super) fn samples(
-    robot: &Robot,
-    pairs: &Pairs,
-    region: Region,
-    first: u64,
-    count: usize,
-    ask: Ask,
-) -> Result<Vec<Sample>, RobotError> {
-    let configurations = robot.configurations()?;
-    let one = |k: usize| {
-        let q = configuration(configurations, region, first + k as u64, k);
-        sample(robot, pairs, &q, ask)
-    };
-    (0..count).into_par_iter().map(one).collect()
+/// Computes samples of a robot.
+#[derive(Clone, Copy)]
+pub(super) struct Sampler<'a> {
+    pub robot: &'a Robot,
+    pub pairs: &'a Pairs,
 }
 
-/// Sample `k` of those from index `first` on, with the pairs in contact.
-pub(super) fn nth(
-    robot: &Robot,
-    pairs: &Pairs,
-    region: Region,
-    first: u64,
-    k: usize,
-) -> Result<Sample, RobotError> {
-    let q = configuration(robot.configurations()?, region, first + k as u64, k);
-    sample(robot, pairs, &q, Ask::Pairs)
-}
+impl Sampler<'_> {
+    /// `count` samples from index `first` on.
+    pub fn samples(
+        self,
+        region: Region,
+        first: u64,
+        count: usize,
+        ask: Ask,
+    ) -> Result<Vec<Sample>, RobotError> {
+        let one = |k: usize| self.nth(region, first, k, ask);
+        (0..count).into_par_iter().map(one).collect()
+    }
 
-/// The sample of a configuration.
-pub(super) fn sample(
-    robot: &Robot,
-    pairs: &Pairs,
-    configuration: &[f64],
-    ask: Ask,
-) -> Result<Sample, RobotError> {
-    let poses = robot.link_poses(configuration)?;
-    let touching = match ask {
-        Ask::Pairs => pairs.touching(&poses),
-        Ask::Any => Vec::from_iter(pairs.any_touches(&poses).then_some(0)),
-    };
-    Ok(Sample {
-        poses: pairs.links.iter().map(|link| Pose::from(&poses[*link])).collect(),
-        touching,
-    })
+    /// Sample `k` of those from index `first` on.
+    pub fn nth(self, region: Region, first: u64, k: usize, ask: Ask) -> Result<Sample, RobotError> {
+        let configurations = self.robot.configurations()?;
+        self.sample(&configuration(configurations, region, first + k as u64, k), ask)
+    }
+
+    /// The sample of the default configuration.
+    pub fn zero(self, ask: Ask) -> Result<Sample, RobotError> {
+        self.sample(&self.robot.configurations()?.zero(), ask)
+    }
+
+    fn sample(self, configuration: &[f64], ask: Ask) -> Result<Sample, RobotError> {
+        let poses = self.robot.link_poses(configuration)?;
+        let touching = match ask {
+            Ask::Pairs => self.pairs.touching(&poses),
+            Ask::Any => Vec::from_iter(self.pairs.any_touches(&poses).then_some(0)),
+        };
+        let poses = self.pairs.links.iter().map(|link| Pose::from(&poses[*link]));
+        Ok(Sample { poses: poses.collect(), touching })
+    }
 }
 
 fn configuration(

@@ -53,8 +53,9 @@ pub fn points(pieces: &[Mesh], count: usize) -> Vec<Point> {
         (!is_inside(piece, p)).then_some(p)
     };
     let found: Vec<Point> = (0..count).filter_map(point).collect();
-    match found.is_empty() {
-        true => pieces.iter().flat_map(|mesh| mesh.vertices.clone()).collect(),
-        false => found,
+    if found.is_empty() {
+        pieces.iter().flat_map(|mesh| mesh.vertices.clone()).collect()
+    } else {
+        found
     }
 }

@@ -1,14 +1,18 @@
 //! URDF with the spheres as collision geometry.
 
 use super::super::error::ExportError;
+use super::super::options::SpherizedOptions;
 use super::super::output::Export;
 use super::super::subject::Subject;
 use super::super::urdf;
 use super::{Model, said};
 use urdd_robot::{LinkShape, Solid};
 
-pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError> {
-    let model = Model::new(subject)?;
+pub(in super::super) fn export(
+    subject: &Subject,
+    options: &SpherizedOptions,
+) -> Result<Export, ExportError> {
+    let model = Model::new(subject, &options.spheres)?;
     let mut shapes: Vec<Vec<LinkShape>> = subject.links.iter().map(|_| Vec::new()).collect();
     for (link, spheres) in &model.links {
         let spheres = spheres.iter().enumerate().map(|(piece, sphere)| LinkShape {
@@ -19,8 +23,8 @@ pub(in super::super) fn export(subject: &Subject) -> Result<Export, ExportError>
         shapes[*link].extend(spheres);
     }
     let mut notes = said::note(&model, subject).into_iter().collect();
-    let (robot, files) = urdf::robot(subject, shapes, &mut notes)?;
-    let said = model.said(&subject.links, subject.options.cover).join(" ");
+    let (robot, files) = urdf::robot(subject, &options.meshes, shapes, &mut notes)?;
+    let said = model.said(&subject.links, options.spheres.cover).join(" ");
     let text = robot.document(&subject.comments(said, &notes)?);
     Ok(Export::of(text, files, notes))
 }

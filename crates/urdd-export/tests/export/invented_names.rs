@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::made::export;
 use roxmltree::{Document, Node};
-use urdd_export::{Format, MjcfOptions, Note, Options, export};
+use urdd_export::{Choices, Format, Note};
 
 use crate::made::{robot, urdf};
 
@@ -99,10 +100,10 @@ fn invented_names_stay_apart() {
         let (_folder, robot) = robot(&chain(links, joints));
         for floating_base in [false, true] {
             for format in [Format::Mjcf, Format::Sdf, Format::Drake, Format::Urdf, Format::Moveit] {
-                let options = Options {
-                    floating_base,
-                    mjcf: MjcfOptions { sensors: true, ..MjcfOptions::default() },
-                    ..Options::default()
+                let options = Choices {
+                    floating_base: floating_base && [Format::Mjcf, Format::Sdf].contains(&format),
+                    sensors: format == Format::Mjcf,
+                    ..Choices::default()
                 };
                 let made = export(&robot, format, &options).expect("an export");
                 let document = Document::parse(&made.text).expect("XML");
@@ -147,7 +148,7 @@ fn a_joint_that_is_called_as_a_link_is_renamed_in_sdf() {
          <joint name=\"k\" type=\"continuous\"><parent link=\"b\"/><child link=\"c\"/><axis xyz=\"0 0 1\"/><mimic joint=\"b\"/></joint>"
     );
     let (_folder, robot) = robot(&urdf(&parts));
-    let made = export(&robot, Format::Sdf, &Options::default()).expect("an export");
+    let made = export(&robot, Format::Sdf, &Choices::default()).expect("an export");
     assert!(made.text.contains("<joint name=\"b_joint\" type=\"continuous\">"), "{}", made.text);
     assert!(made.text.contains("<mimic joint=\"b_joint\">"));
     assert!(made.text.contains("<pose relative_to=\"b_joint\">0 0 0 0 0 0</pose>"));

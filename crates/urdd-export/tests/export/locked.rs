@@ -1,7 +1,8 @@
 //! Joints that their limits hold at one position.
 
+use crate::made::export;
 use roxmltree::Document;
-use urdd_export::{ActuatorKind, Format, MjcfOptions, Options, export};
+use urdd_export::{ActuatorKind, Choices, Format};
 
 use crate::made::{robot, urdf};
 
@@ -16,8 +17,8 @@ const PARTS: &str = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link
 #[test]
 fn a_locked_joint_stays_locked_in_mjcf() {
     let (_folder, robot) = robot(&urdf(PARTS));
-    let mjcf = MjcfOptions { actuators: Some(ActuatorKind::Position), ..MjcfOptions::default() };
-    let options = Options { mjcf, ..Options::default() };
+    let actuators = Some(ActuatorKind::Position);
+    let options = Choices { actuators, ..Choices::default() };
     let made = export(&robot, Format::Mjcf, &options).expect("an export");
     let document = Document::parse(&made.text).expect("XML");
     let equalities: Vec<_> = document

@@ -1,7 +1,7 @@
 //! Robots for tests.
 
 use tempfile::TempDir;
-use urdd_export::{Export, Format, Options, export};
+use urdd_export::{Choices, Export, ExportError, Format};
 use urdd_robot::Robot;
 
 /// A robot of this URDF.
@@ -15,8 +15,13 @@ pub fn robot(urdf: &str) -> (TempDir, Robot) {
     (folder, robot)
 }
 
+/// Exports a robot with what a person chose, which fits the format.
+pub fn export(robot: &Robot, format: Format, choices: &Choices) -> Result<Export, ExportError> {
+    urdd_export::export(robot, &choices.options(format).expect("options of the format"))
+}
+
 pub fn exported(robot: &Robot, format: Format) -> Export {
-    export(robot, format, &Options { samples: 100, ..Options::default() }).expect("an export")
+    export(robot, format, &Choices { samples: 100, ..Choices::default() }).expect("an export")
 }
 
 /// A URDF of these links and joints.

@@ -41,6 +41,6 @@ fn a_name_that_a_format_cannot_hold_is_an_error() {
     assert!(of(Format::Urdf, "robot", ""));
     assert!(!of(Format::Drake, "robot", ""));
     assert!(!of(Format::Drake, "link", "a::b"));
-    assert!(check_unique(Format::Mjcf, "joint", ["a", "b"]).is_ok());
-    assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"]).is_err());
+    assert!(check_unique(Format::Mjcf, "joint", ["a", "b"], "twice").is_ok());
+    assert!(check_unique(Format::Mjcf, "joint", ["a", "b", "a"], "twice").is_err());
 }

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use std::fs::write;
 use std::path::Path;
 
-use urdd_export::{Export, Format, Note, Options, export};
+use crate::made::export;
+use urdd_export::{Choices, Export, Format, Note};
 use urdd_robot::Robot;
 
 use crate::textured_box::{collada, faces, gltf, jpeg, obj, png};
@@ -88,7 +89,7 @@ fn each_format_shows_a_texture_where_the_mesh_does() {
     gltf(at, "d", Err(&png(3)));
     let robot = robot(at, &["a.obj", "b.dae", "c.gltf", "d.glb"]);
     for format in [Format::Mjcf, Format::Urdf, Format::Drake, Format::Sdf, Format::Moveit] {
-        let made = export(&robot, format, &Options::default()).expect("exported");
+        let made = export(&robot, format, &Choices::default()).expect("exported");
         assert_eq!(report(&made, "carried"), Some(4), "{format:?} {}", made.report);
         assert_eq!([report(&made, "otherwise"), report(&made, "lost")], [None; 2]);
         for link in 0..4_u8 {
@@ -128,11 +129,11 @@ fn programs_that_read_no_jpeg_get_png() {
     write(folder.path().join("0.jpg"), jpeg()).expect("written");
     obj(folder.path(), "a", "0.jpg", true);
     let robot = robot(folder.path(), &["a.obj"]);
-    let made = export(&robot, Format::Urdf, &Options::default()).expect("exported");
+    let made = export(&robot, Format::Urdf, &Choices::default()).expect("exported");
     assert_eq!(file(&made, "meshes/l0_texture_0.jpg"), jpeg());
     assert_eq!([report(&made, "carried"), report(&made, "otherwise")], [Some(1), None]);
     for format in [Format::Mjcf, Format::Drake, Format::Sdf] {
-        let made = export(&robot, format, &Options::default()).expect("exported");
+        let made = export(&robot, format, &Choices::default()).expect("exported");
         let image = file(&made, "meshes/l0_texture_0.png");
         let mut image = png::Decoder::new(std::io::Cursor::new(image)).read_info().expect("PNG");
         let mut pixels = vec![0; image.output_buffer_size().expect("a size")];
@@ -193,7 +194,7 @@ fn what_is_no_texture_leaves_a_plain_colour() {
     meshes.push("good.obj".to_owned());
     let robot = robot(at, &meshes.iter().map(String::as_str).collect::<Vec<_>>());
     for format in [Format::Mjcf, Format::Urdf, Format::Drake, Format::Sdf] {
-        let made = export(&robot, format, &Options::default()).expect("exported");
+        let made = export(&robot, format, &Choices::default()).expect("exported");
         for (name, _, why) in &images {
             let name = name.trim_start_matches("../");
             let is_it = |note: &&Note| match note {
@@ -237,7 +238,7 @@ fn names_of_files_stay_in_the_folder_and_apart() {
     urdd_generate::generate(&at.join("names.urdf"), &at.join("urdd"), &Default::default(), &())
         .expect("generated");
     let robot = Robot::open(at.join("urdd")).expect("opened");
-    let made = export(&robot, Format::Urdf, &Options::default()).expect("exported");
+    let made = export(&robot, Format::Urdf, &Choices::default()).expect("exported");
     let mut paths: Vec<String> =
         made.files.iter().map(|(path, _)| path.to_ascii_lowercase()).collect();
     for path in &paths {

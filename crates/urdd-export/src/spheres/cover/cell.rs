@@ -18,6 +18,7 @@ struct Chunk {
 #[derive(Debug, Clone)]
 pub struct Cell {
     chunks: Vec<Chunk>,
+    /// Its smallest enclosing sphere.
     pub sphere: BoundingSphere,
     volume: f64,
 }
@@ -100,11 +101,6 @@ impl Cell {
             volume: chunks.iter().map(|chunk| chunk.volume).sum(),
             chunks,
         }
-    }
-
-    /// Its smallest enclosing sphere.
-    pub fn sphere(&self) -> BoundingSphere {
-        self.sphere
     }
 
     /// The volume of the sphere beyond the cell's own, m³. Overlaps of pieces count twice in the cell's volume.

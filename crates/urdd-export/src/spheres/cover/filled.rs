@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::cell::volume;
 use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::vector::{dot, sub};
 
 /// Sample points per sphere. For a link's spheres together, the estimate is accurate to a few percent.
 const POINTS: usize = 1000;
@@ -16,7 +17,7 @@ fn ball() -> &'static [[f64; 3]] {
         let root = 1.220_744_084_605_759_5_f64;
         let steps = [1.0 / root, 1.0 / (root * root), 1.0 / (root * root * root)];
         let point = |n: u32| steps.map(|step| (2.0 * (0.5 + step * f64::from(n))) % 2.0 - 1.0);
-        let inside = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>() <= 1.0;
+        let inside = |p: &[f64; 3]| dot(*p, *p) <= 1.0;
         (0..).map(point).filter(inside).take(POINTS).collect()
     })
 }
@@ -42,5 +43,6 @@ pub fn filled(spheres: &[BoundingSphere]) -> f64 {
 
 /// The square of a distance, m².
 fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
+    let between = sub(*a, *b);
+    dot(between, between)
 }

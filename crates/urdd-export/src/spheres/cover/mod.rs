@@ -15,6 +15,7 @@ use super::super::options::SphereBudget;
 use cell::Cell;
 use filled::filled;
 use urdd_geometry::bounding_sphere::BoundingSphere;
+use urdd_geometry::vector::{norm, sub};
 
 /// Maximum number of cuts per requested sphere: some cuts do not add a sphere.
 const CUTS: usize = 4;
@@ -27,10 +28,9 @@ pub(super) fn cover(
     links: &[Vec<Vec<[f64; 3]>>],
     budget: SphereBudget,
 ) -> Vec<Vec<BoundingSphere>> {
-    let cells = links.iter().map(|pieces| match pieces.is_empty() {
-        true => Vec::new(),
-        false => vec![Cell::new(pieces)],
-    });
+    let cells = links
+        .iter()
+        .map(|pieces| if pieces.is_empty() { Vec::new() } else { vec![Cell::new(pieces)] });
     let mut links: Vec<Cover> = cells.map(Cover::new).collect();
     let per_link = match budget {
         SphereBudget::Auto => Some(AUTO),
@@ -65,10 +65,7 @@ fn share(links: &mut [Cover], count: usize) {
             break;
         }
         let most = links[link].best.len() + left;
-        wastes[link] = match links[link].cut(most) {
-            true => links[link].waste(),
-            false => 0.0,
-        };
+        wastes[link] = if links[link].cut(most) { links[link].waste() } else { 0.0 };
     }
 }
 
@@ -113,11 +110,10 @@ impl Cover {
 fn held(cells: &[Cell]) -> Vec<BoundingSphere> {
     let mut spheres: Vec<BoundingSphere> = Vec::new();
     let inside = |a: &BoundingSphere, b: &BoundingSphere| {
-        let apart: f64 = (0..3).map(|axis| (a.centre[axis] - b.centre[axis]).powi(2)).sum();
-        apart.sqrt() + a.radius <= b.radius
+        norm(sub(a.centre, b.centre)) + a.radius <= b.radius
     };
     for cell in cells {
-        let sphere = cell.sphere();
+        let sphere = cell.sphere;
         if !spheres.iter().any(|other| inside(&sphere, other)) {
             spheres.retain(|other| !inside(other, &sphere));
             spheres.push(sphere);

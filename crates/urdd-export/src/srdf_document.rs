@@ -1,0 +1,118 @@
+//! SRDFs that are read, and what is wrong with one.
+
+use std::fmt::Display;
+
+use roxmltree::{Document, Node};
+use thiserror::Error;
+
+use super::error::ExportError;
+use urdd_robot::RobotError;
+use urdd_xml::Kind;
+
+/// Errors of reading an SRDF.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SrdfError {
+    /// Not well-formed XML, or beyond a limit of the XML parser.
+    #[error("line {line}, column {column}: not well-formed XML: {reason}")]
+    Xml {
+        /// The line, from 1.
+        line: u32,
+        /// The column, from 1.
+        column: u32,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Not an SRDF.
+    #[error("this is not an SRDF: its outermost element is `{}`, not `robot`", .0.escape_debug())]
+    NotSrdf(String),
+    /// The SRDF of another robot.
+    #[error("this is the SRDF of robot `{}`, not of `{}`", .found.escape_debug(), .expected.escape_debug())]
+    OtherRobot {
+        /// The robot name in the SRDF.
+        found: String,
+        /// The expected robot name.
+        expected: String,
+    },
+    /// An element lacks something, names what the robot does not have, or contradicts another.
+    #[error("line {line}: {reason}")]
+    Element {
+        /// The line, from 1.
+        line: u32,
+        /// What is wrong.
+        reason: String,
+    },
+    /// What is read contradicts what a person wrote into the URDD.
+    #[error("the URDD has {0}")]
+    Edited(String),
+    /// A query on the robot failed.
+    #[error(transparent)]
+    Robot(#[from] ExportError),
+}
+
+impl From<RobotError> for SrdfError {
+    fn from(error: RobotError) -> Self {
+        SrdfError::Robot(error.into())
+    }
+}
+
+/// An SRDF.
+pub(super) struct Srdf<'t>(Document<'t>);
+
+impl<'t> Srdf<'t> {
+    /// An SRDF of any robot.
+    pub fn new(text: &'t str) -> Result<Self, SrdfError> {
+        let document = urdd_xml::parse(text, Kind::Other).map_err(|error| SrdfError::Xml {
+            line: error.pos().row,
+            column: error.pos().col,
+            reason: error.words(text),
+        })?;
+        match document.root_element().tag_name().name() {
+            "robot" => Ok(Srdf(document)),
+            other => Err(SrdfError::NotSrdf(other.to_owned())),
+        }
+    }
+
+    /// An SRDF of this robot.
+    pub fn of(text: &'t str, robot: &str) -> Result<Self, SrdfError> {
+        let srdf = Srdf::new(text)?;
+        match srdf.robot().attribute("name").unwrap_or_default() {
+            found if found == robot => Ok(srdf),
+            found => {
+                Err(SrdfError::OtherRobot { found: found.to_owned(), expected: robot.to_owned() })
+            }
+        }
+    }
+
+    /// The outermost element.
+    pub fn robot(&self) -> Node<'_, 't> {
+        self.0.root_element()
+    }
+
+    /// The elements of a name directly in the outermost one.
+    pub fn elements<'a>(&'a self, name: &'a str) -> impl Iterator<Item = Node<'a, 't>> {
+        elements(self.robot(), name)
+    }
+
+    /// An error in an element. Each call counts lines from the beginning of the text.
+    pub fn wrong(&self, node: Node, reason: impl Display) -> SrdfError {
+        let line = self.0.text_pos_at(node.range().start).row;
+        SrdfError::Element { line, reason: reason.to_string() }
+    }
+
+    /// An attribute of an element, which must have it.
+    pub fn attribute<'a>(&self, node: Node<'a, '_>, key: &str) -> Result<&'a str, SrdfError> {
+        node.attribute(key).filter(|value| !value.is_empty()).ok_or_else(|| {
+            let element = node.tag_name().name();
+            self.wrong(node, format!("`<{element}>` has no `{key}`"))
+        })
+    }
+}
+
+/// The elements of a name directly in another one.
+pub(super) fn elements<'a, 't: 'a>(
+    node: Node<'a, 't>,
+    name: &'a str,
+) -> impl Iterator<Item = Node<'a, 't>> {
+    node.children().filter(move |child| child.is_element() && child.tag_name().name() == name)
+}

@@ -1,0 +1,49 @@
+//! What fits which format is said once, in the library.
+
+use urdd_export::{ActuatorKind, Choices, Format, Options};
+
+/// Each option that only some formats have is refused by all others, and named.
+#[test]
+fn what_a_format_does_not_have_is_refused() {
+    let none = Choices::default;
+    let cases = [
+        ("actuators", Choices { actuators: Some(ActuatorKind::Motor), ..none() }, "mjcf"),
+        ("sensors", Choices { sensors: true, ..none() }, "mjcf"),
+        ("scene", Choices { scene: true, ..none() }, "mjcf"),
+        ("floating_base", Choices { floating_base: true, ..none() }, "mjcf and sdf"),
+        ("robot_file", Choices { robot_file: Some("r.urdf".to_owned()), ..none() }, "curobo"),
+        ("package", Choices { package: Some("r".to_owned()), ..none() }, "moveit and drake"),
+    ];
+    for format in Format::ALL {
+        assert_eq!(none().options(*format).map(|options| options.format()), Ok(*format));
+        for (option, choices, formats) in &cases {
+            let said = choices.options(*format).map_err(|misfit| misfit.to_string());
+            match formats.split(" and ").any(|word| word == format.word()) {
+                true => assert_eq!(said.map(|options| options.format()), Ok(*format)),
+                false => assert_eq!(said, Err(format!("{option} is for {formats} only"))),
+            }
+        }
+    }
+}
+
+/// Meshes and packages are named after what is written.
+#[test]
+fn names_follow_the_output() {
+    let choices = Choices { output: Some("a/My-Robot v1.2".into()), ..Choices::default() };
+    let Ok(Options::Moveit(moveit)) = choices.options(Format::Moveit) else {
+        panic!("options of MoveIt");
+    };
+    assert_eq!(moveit.package, "my_robot_v1_2");
+    assert_eq!(moveit.model.meshes.folder, "package://my_robot_v1_2/meshes");
+    let Ok(Options::Urdf(urdf)) = choices.options(Format::Urdf) else {
+        panic!("options of URDF");
+    };
+    assert_eq!(urdf.meshes.folder, "My-Robot v1_meshes");
+    let Ok(Options::Moveit(moveit)) = Choices::default().options(Format::Moveit) else {
+        panic!("options of MoveIt");
+    };
+    assert_eq!(
+        (moveit.package.as_str(), moveit.model.meshes.folder.as_str()),
+        (Choices::PACKAGE, "meshes")
+    );
+}
