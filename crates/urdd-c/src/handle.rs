@@ -12,6 +12,16 @@ pub(crate) trait Handle: Sized {
     const NAME: &'static str;
 }
 
+/// Makes a type a [`Handle`], with its name.
+macro_rules! handle {
+    ($type:ty, $name:literal) => {
+        impl $crate::handle::Handle for $type {
+            const NAME: &'static str = $name;
+        }
+    };
+}
+pub(crate) use handle;
+
 /// The type of each open handle by its address. Kept by debug builds alone.
 static OPEN: LazyLock<Mutex<HashMap<usize, &'static str>>> = LazyLock::new(Mutex::default);
 

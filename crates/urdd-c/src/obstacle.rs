@@ -7,7 +7,7 @@ use urdd_geometry::Mesh;
 use urdd_kinematics::pose_matrix::pose;
 
 use crate::failure::{Failure, Status};
-use crate::handle::{Handle, at, free, make};
+use crate::handle::{at, free, handle, make};
 use crate::memory::{enough, read_text, triple, values};
 
 /// A body that a robot must not touch, in the root link's frame.
@@ -18,9 +18,7 @@ pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
 const HULL: usize = 768;
 const MESH: usize = 4096;
 
-impl Handle for Obstacle {
-    const NAME: &'static str = "urdd_obstacle";
-}
+handle!(Obstacle, "urdd_obstacle");
 
 /// The pose at `matrix`; null is the identity.
 ///
@@ -30,7 +28,6 @@ pub(crate) unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failur
     if matrix.is_null() {
         return Ok(Isometry3::identity());
     }
-    // SAFETY: guaranteed by the caller.
     pose_of(unsafe { values("pose", matrix, 16) }?)
 }
 
@@ -50,7 +47,6 @@ unsafe fn named(
     out: *mut *mut Obstacle,
     act: impl FnOnce(&str) -> Result<urdd_robot::Obstacle, Failure>,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?)?))) }
 }
 
@@ -60,10 +56,6 @@ unsafe fn named(
 ///
 /// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
 /// and a translation.
-///
-/// # Safety
-/// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
-/// room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_cuboid(
     name: *const c_char,
@@ -71,7 +63,6 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
     half_extents: *const f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             let half = triple("half_extents", half_extents)?;
@@ -83,9 +74,6 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
 /// Makes a sphere: its centre (3 values) and radius, metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; `centre` has 3 values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_sphere(
     name: *const c_char,
@@ -93,7 +81,6 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
     radius: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             let centre = triple("centre", centre)?;
@@ -106,9 +93,6 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
 /// `half_length`, metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_capsule(
     name: *const c_char,
@@ -117,7 +101,6 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             Ok(urdd_robot::Obstacle::capsule(name, placed(pose)?, radius, half_length)?)
@@ -129,9 +112,6 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
 /// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_cylinder(
     name: *const c_char,
@@ -140,7 +120,6 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             Ok(urdd_robot::Obstacle::cylinder(name, placed(pose)?, radius, half_length)?)
@@ -151,9 +130,6 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
 /// Makes the convex hull of `count` points (count x 3), metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_hull(
     name: *const c_char,
@@ -162,7 +138,6 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
     count: usize,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
@@ -176,9 +151,6 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
 /// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
 ///
 /// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_mesh(
     name: *const c_char,
@@ -189,7 +161,6 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
     num_triangles: usize,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         named(name, out, |name| {
             let length = num_vertices.saturating_mul(3);
@@ -210,16 +181,12 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
 
 /// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
 /// stays as it is.
-///
-/// # Safety
-/// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_ignoring(
     obstacle: *const Obstacle,
     link: *const c_char,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let link = read_text("link", link)?;
@@ -233,25 +200,17 @@ pub unsafe extern "C" fn urdd_obstacle_ignoring(
 /// new handle.
 ///
 /// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
-///
-/// # Safety
-/// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_at(
     obstacle: *const Obstacle,
     pose: *const f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { make(out, || Ok(Obstacle(at(obstacle)?.0.at(placed(pose)?)?))) }
 }
 
 /// Frees an obstacle. What was made of it stays. Null is ignored.
-///
-/// # Safety
-/// `obstacle` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_free(obstacle: *mut Obstacle) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(obstacle) }
 }

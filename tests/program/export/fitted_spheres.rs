@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use nalgebra::Isometry3;
 use urdd_export::{Export, Format, Note, Options, SphereBudget, export};
 use urdd_format::rate::interval;
-use urdd_robot::{Robot, ShapeKind};
+use urdd_robot::{Queries, Robot, ShapeKind};
 
 use testkit::robots::{made, made_of, our_robots};
 

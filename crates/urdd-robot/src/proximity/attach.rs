@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::body::Shape;
 use super::{Pair, Proximity};
 use crate::error::RobotError;
+use crate::names::check_link;
 use crate::obstacle::Obstacle;
 
 impl Proximity {
@@ -36,11 +37,7 @@ impl Proximity {
     /// that does not exist; [`RobotError::Obstacle`] if a link or an attached object has its name, or
     /// a point of it is farther than 1e9 m from the link's origin.
     pub fn attach(&self, link: usize, object: &Obstacle) -> Result<Proximity, RobotError> {
-        let count = self.motion.links.len();
-        if link >= count {
-            let what = "link";
-            return Err(RobotError::OutOfRange { what, index: link, count });
-        }
+        check_link(link, self.motion.links.len())?;
         if self.names.iter().any(|name| **name == *object.name()) {
             return Err(RobotError::Obstacle {
                 name: object.name().to_owned(),
