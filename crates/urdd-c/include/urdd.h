@@ -315,10 +315,8 @@ enum urdd_status urdd_proximity_without(const struct urdd_proximity *handle,
                                         size_t count,
                                         struct urdd_proximity **out);
 
-// Makes shapes without all that belong to `count` bodies, links or attached objects, among obstacles too. The indices of
-// the other bodies stay.
-//
-// Errors: `UNKNOWN_NAME`.
+// As `urdd_proximity_without`, for all that belongs to `count` bodies, among obstacles too. The indices of the other
+// bodies stay.
 enum urdd_status urdd_proximity_without_bodies(const struct urdd_proximity *handle,
                                                const char *const *names,
                                                size_t count,
@@ -451,10 +449,7 @@ enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
 // Errors: `MISSING_MODULE`, `UNUSABLE`: bounds_module.
 enum urdd_status urdd_robot_velocity_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
 
-// Writes the largest effort of each DOF, N m or N, as the source states it; infinite where it states none. `dofs`
-// values.
-//
-// Errors: as `urdd_robot_velocity_limits`.
+// As `urdd_robot_velocity_limits`, for the largest effort of each DOF, N m or N.
 enum urdd_status urdd_robot_effort_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
 
 // Writes the mass of each link, kg, 0 where the source states none, and its centre of mass in the link's frame, metres:
@@ -503,15 +498,10 @@ enum urdd_status urdd_robot_sizes(const struct urdd_robot *handle, size_t *links
 // Errors: `OUT_OF_RANGE`; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
 enum urdd_status urdd_robot_link_name(const struct urdd_robot *handle, size_t link, struct urdd_text *out);
 
-// Writes the name of a joint. It lives as long as the robot.
-//
-// Errors: as `urdd_robot_link_name`.
+// As `urdd_robot_link_name`, for a joint.
 enum urdd_status urdd_robot_joint_name(const struct urdd_robot *handle, size_t joint, struct urdd_text *out);
 
-// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
-// robot.
-//
-// Errors: as `urdd_robot_link_name`.
+// As `urdd_robot_link_name`, for a DOF: the name of its joint, with the coordinate if the joint has several.
 enum urdd_status urdd_robot_dof_name(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
 
 // Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
@@ -525,9 +515,7 @@ enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof
 // dof_module.
 enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
 
-// Writes the index of a joint.
-//
-// Errors: as `urdd_robot_link`.
+// As `urdd_robot_link`, for a joint.
 enum urdd_status urdd_robot_joint(const struct urdd_robot *handle, const char *name, size_t *out);
 
 // Writes the DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
@@ -543,9 +531,7 @@ enum urdd_status urdd_robot_dofs_between(const struct urdd_robot *handle,
                                          size_t length,
                                          size_t *found);
 
-// Writes the index of a DOF.
-//
-// Errors: as `urdd_robot_link`.
+// As `urdd_robot_link`, for a DOF.
 enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *name, size_t *out);
 
 // Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
@@ -682,8 +668,6 @@ enum urdd_status urdd_world_proximity_blocked_edge(const struct urdd_world_proxi
 // resolution, configurations are checked in order, and the part between the first that is blocked and the one before is
 // halved ten times: between the two no point of the robot travels farther than a thousandth of the resolution. A contact
 // that begins and ends between two configurations can be missed. With 0, all up to the first part is proved free.
-//
-// Errors: as there.
 enum urdd_status urdd_proximity_first_contact(const struct urdd_proximity *handle,
                                               const double *starts,
                                               const double *ends,
@@ -868,9 +852,7 @@ enum urdd_status urdd_robot_dof_is_limited(const struct urdd_robot *handle, bool
 // Errors: as `urdd_robot_bounds`.
 enum urdd_status urdd_robot_zero(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
-// Writes the configuration with every DOF half-way between its bounds. `dofs` values, rad or m.
-//
-// Errors: as `urdd_robot_bounds`.
+// As `urdd_robot_zero`, for the configuration with every DOF half-way between its bounds.
 enum urdd_status urdd_robot_middle(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
 // Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and

@@ -47,10 +47,8 @@ pub unsafe extern "C" fn urdd_proximity_without(
     }
 }
 
-/// Makes shapes without all that belong to `count` bodies, links or attached objects, among obstacles too. The indices of
-/// the other bodies stay.
-///
-/// Errors: `UNKNOWN_NAME`.
+/// As `urdd_proximity_without`, for all that belongs to `count` bodies, among obstacles too. The indices of the other
+/// bodies stay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_without_bodies(
     handle: *const Proximity,

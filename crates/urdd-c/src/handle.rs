@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use crate::failure::{Failure, Status, run};
-use crate::memory;
+use crate::memory::array;
 
 /// A type that the caller holds by its address.
 pub(crate) trait Handle: Sized {
@@ -79,7 +79,7 @@ pub(crate) unsafe fn make<T: Handle>(
     act: impl FnOnce() -> Result<T, Failure>,
 ) -> Status {
     run(|| {
-        memory::check_out("out", out)?;
+        array("out", out, 1, true)?;
         // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
         unsafe { out.write(std::ptr::null_mut()) };
         let made = Box::into_raw(Box::new(act()?));

@@ -227,10 +227,7 @@ unsafe fn settings<'a>(
 /// # Safety
 /// `handle` is null or open.
 unsafe fn optional<'a, T: Handle>(handle: *const T) -> Result<Option<&'a T>, Failure> {
-    match handle.is_null() {
-        true => Ok(None),
-        false => Ok(Some(unsafe { at(handle) }?)),
-    }
+    (!handle.is_null()).then(|| unsafe { at(handle) }).transpose()
 }
 
 /// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its

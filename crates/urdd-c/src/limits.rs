@@ -31,10 +31,7 @@ pub unsafe extern "C" fn urdd_robot_velocity_limits(
     unsafe { self::limits(handle, (limits, dofs), urdd_robot::Robot::velocity_limits) }
 }
 
-/// Writes the largest effort of each DOF, N m or N, as the source states it; infinite where it states none. `dofs`
-/// values.
-///
-/// Errors: as `urdd_robot_velocity_limits`.
+/// As `urdd_robot_velocity_limits`, for the largest effort of each DOF, N m or N.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_effort_limits(
     handle: *const Robot,

@@ -38,7 +38,7 @@ pub(crate) unsafe fn triple(what: &'static str, data: *const f64) -> Result<[f64
 }
 
 /// An array of the caller's that a call reads or writes. What it writes overlaps no other one.
-fn array<T>(
+pub(crate) fn array<T>(
     what: &'static str,
     data: *const T,
     length: usize,
@@ -141,7 +141,7 @@ pub(crate) fn enough(what: &'static str, count: usize, bytes: usize) -> Result<(
 /// # Safety
 /// `out` is null, or there is room for a value at it.
 pub(crate) unsafe fn put<T>(what: &'static str, out: *mut T, value: T) -> Result<(), Failure> {
-    check_out(what, out)?;
+    array(what, out, 1, true)?;
     // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
     unsafe { out.write(value) };
     Ok(())
@@ -181,11 +181,6 @@ pub(crate) unsafe fn put_all<T: Plain>(
 /// Whether there can be a value at a pointer: it is neither null nor misaligned.
 pub(crate) fn check<T>(what: &'static str, at: *const T) -> Result<(), Failure> {
     array(what, at, 1, false)
-}
-
-/// As [`check`], for one that is written.
-pub(crate) fn check_out<T>(what: &'static str, at: *mut T) -> Result<(), Failure> {
-    array(what, at, 1, true)
 }
 
 /// A text of the caller's.

@@ -40,9 +40,7 @@ pub unsafe extern "C" fn urdd_robot_link_name(
     unsafe { name(handle, "link", |names| &names.links, link, out) }
 }
 
-/// Writes the name of a joint. It lives as long as the robot.
-///
-/// Errors: as `urdd_robot_link_name`.
+/// As `urdd_robot_link_name`, for a joint.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_joint_name(
     handle: *const Robot,
@@ -52,10 +50,7 @@ pub unsafe extern "C" fn urdd_robot_joint_name(
     unsafe { name(handle, "joint", |names| &names.joints, joint, out) }
 }
 
-/// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
-/// robot.
-///
-/// Errors: as `urdd_robot_link_name`.
+/// As `urdd_robot_link_name`, for a DOF: the name of its joint, with the coordinate if the joint has several.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_dof_name(
     handle: *const Robot,
@@ -96,9 +91,7 @@ pub unsafe extern "C" fn urdd_robot_link(
     run(|| unsafe { put("out", out, at(handle)?.robot.link(read_text("name", name)?)?) })
 }
 
-/// Writes the index of a joint.
-///
-/// Errors: as `urdd_robot_link`.
+/// As `urdd_robot_link`, for a joint.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_joint(
     handle: *const Robot,
@@ -133,9 +126,7 @@ pub unsafe extern "C" fn urdd_robot_dofs_between(
     })
 }
 
-/// Writes the index of a DOF.
-///
-/// Errors: as `urdd_robot_link`.
+/// As `urdd_robot_link`, for a DOF.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_dof(
     handle: *const Robot,

@@ -1,17 +1,19 @@
 //! Obstacles around a robot.
 
-use std::ffi::c_char;
+use std::{ffi::c_char, ptr};
 
 use nalgebra::Isometry3;
 use urdd_geometry::Mesh;
 use urdd_kinematics::pose_matrix::pose;
+use urdd_robot::Obstacle as RobotObstacle;
 
 use crate::failure::{Failure, Status};
 use crate::handle::{at, free, handle, make};
 use crate::memory::{enough, read_text, triple, values};
+use crate::names::out_of_range;
 
 /// A body that a robot must not touch, in the root link's frame.
-pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
+pub struct Obstacle(pub(crate) RobotObstacle);
 
 /// Bytes that are asked for beforehand for each point of a hull, which takes 360 to 570; and for each vertex and triangle
 /// of a mesh, which takes 2,000.
@@ -38,16 +40,17 @@ pub(crate) fn pose_of(matrix: &[f64]) -> Result<Isometry3<f64>, Failure> {
     })
 }
 
-/// Makes an obstacle with a name.
+/// Makes an obstacle with a name at a pose.
 ///
 /// # Safety
-/// As for [`make`]; `name` is null or ends with a zero byte.
+/// As for [`make`] and [`placed`]; `name` is null or ends with a zero byte.
 unsafe fn named(
     name: *const c_char,
+    pose: *const f64,
     out: *mut *mut Obstacle,
-    act: impl FnOnce(&str) -> Result<urdd_robot::Obstacle, Failure>,
+    act: impl FnOnce(&str, Isometry3<f64>) -> Result<RobotObstacle, Failure>,
 ) -> Status {
-    unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?)?))) }
+    unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?, placed(pose)?)?))) }
 }
 
 /// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
@@ -64,9 +67,8 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
     out: *mut *mut Obstacle,
 ) -> Status {
     unsafe {
-        named(name, out, |name| {
-            let half = triple("half_extents", half_extents)?;
-            Ok(urdd_robot::Obstacle::cuboid(name, placed(pose)?, half)?)
+        named(name, pose, out, |name, pose| {
+            Ok(RobotObstacle::cuboid(name, pose, triple("half_extents", half_extents)?)?)
         })
     }
 }
@@ -82,9 +84,8 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
     out: *mut *mut Obstacle,
 ) -> Status {
     unsafe {
-        named(name, out, |name| {
-            let centre = triple("centre", centre)?;
-            Ok(urdd_robot::Obstacle::sphere(name, centre, radius)?)
+        named(name, ptr::null(), out, |name, _| {
+            Ok(RobotObstacle::sphere(name, triple("centre", centre)?, radius)?)
         })
     }
 }
@@ -101,11 +102,8 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    unsafe {
-        named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::capsule(name, placed(pose)?, radius, half_length)?)
-        })
-    }
+    let make = |name: &str, pose| Ok(RobotObstacle::capsule(name, pose, radius, half_length)?);
+    unsafe { named(name, pose, out, make) }
 }
 
 /// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
@@ -120,11 +118,8 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    unsafe {
-        named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::cylinder(name, placed(pose)?, radius, half_length)?)
-        })
-    }
+    let make = |name: &str, pose| Ok(RobotObstacle::cylinder(name, pose, radius, half_length)?);
+    unsafe { named(name, pose, out, make) }
 }
 
 /// Makes the convex hull of `count` points (count x 3), metres.
@@ -139,10 +134,10 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
     out: *mut *mut Obstacle,
 ) -> Status {
     unsafe {
-        named(name, out, |name| {
+        named(name, pose, out, |name, pose| {
             let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
             enough("points", count, HULL)?;
-            Ok(urdd_robot::Obstacle::hull(name, placed(pose)?, points)?)
+            Ok(RobotObstacle::hull(name, pose, points)?)
         })
     }
 }
@@ -162,19 +157,16 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
     out: *mut *mut Obstacle,
 ) -> Status {
     unsafe {
-        named(name, out, |name| {
-            let length = num_vertices.saturating_mul(3);
-            let vertices = values("vertices", vertices, length)?.as_chunks().0;
-            let length = num_triangles.saturating_mul(3);
-            let triangles = values("triangles", triangles, length)?;
+        named(name, pose, out, |name, pose| {
+            let vertices = values("vertices", vertices, num_vertices.saturating_mul(3))?;
+            let triangles = values("triangles", triangles, num_triangles.saturating_mul(3))?;
             enough("vertices", num_vertices.saturating_add(num_triangles), MESH)?;
             if let Some(index) = triangles.iter().find(|index| **index as usize >= num_vertices) {
-                let index = *index as usize;
-                return Err(crate::names::out_of_range("vertex", index, num_vertices));
+                return Err(out_of_range("vertex", *index as usize, num_vertices));
             }
-            let triangles = triangles.as_chunks().0.to_vec();
-            let mesh = Mesh { vertices: vertices.to_vec(), triangles };
-            Ok(urdd_robot::Obstacle::mesh(name, placed(pose)?, &mesh)?)
+            let vertices = vertices.as_chunks().0.to_vec();
+            let mesh = Mesh { vertices, triangles: triangles.as_chunks().0.to_vec() };
+            Ok(RobotObstacle::mesh(name, pose, &mesh)?)
         })
     }
 }

@@ -145,8 +145,6 @@ pub unsafe extern "C" fn urdd_world_proximity_blocked_edge(
 /// resolution, configurations are checked in order, and the part between the first that is blocked and the one before is
 /// halved ten times: between the two no point of the robot travels farther than a thousandth of the resolution. A contact
 /// that begins and ends between two configurations can be missed. With 0, all up to the first part is proved free.
-///
-/// Errors: as there.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_first_contact(
     handle: *const Proximity,

@@ -68,9 +68,7 @@ pub unsafe extern "C" fn urdd_robot_zero(
     unsafe { one(handle, configuration, dofs, Configurations::zero) }
 }
 
-/// Writes the configuration with every DOF half-way between its bounds. `dofs` values, rad or m.
-///
-/// Errors: as `urdd_robot_bounds`.
+/// As `urdd_robot_zero`, for the configuration with every DOF half-way between its bounds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_middle(
     handle: *const Robot,

@@ -5,19 +5,14 @@ use super::error::RobotError;
 use urdd_document::kept::keep;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 
+/// Each method fails if `bounds_module` is missing or unusable, or that of a legacy URDD, which has neither.
 impl Robot {
     /// The largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none.
-    ///
-    /// # Errors
-    /// If `bounds_module` is missing or unusable, or that of a legacy URDD, which has no speeds.
     pub fn velocity_limits(&self) -> Result<&[f64], RobotError> {
         Ok(&self.limits()?[0])
     }
 
     /// The largest effort of each DOF, N m or N, as the source states it; infinite where it states none.
-    ///
-    /// # Errors
-    /// As [`Robot::velocity_limits`].
     pub fn effort_limits(&self) -> Result<&[f64], RobotError> {
         Ok(&self.limits()?[1])
     }

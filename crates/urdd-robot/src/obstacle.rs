@@ -243,6 +243,6 @@ pub(crate) fn check_pose(name: &str, pose: &Isometry3<f64>) -> Result<(), RobotE
     }
 }
 
-fn fault(name: &str, reason: &ShapeError) -> RobotError {
+pub(crate) fn fault(name: &str, reason: &ShapeError) -> RobotError {
     RobotError::Obstacle { name: name.to_owned(), reason: reason.to_string() }
 }

@@ -18,7 +18,9 @@ use urdd_geometry::convex::across::AT_ONCE;
 ///
 /// A configuration has one value for each DOF, rad or m; values beyond the bounds are allowed. Every query fails with
 /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite; a batch, for the
-/// first invalid configuration. Methods name further errors.
+/// first invalid configuration. A batch also fails with [`RobotError::Batch`] if the number of values is not a multiple of
+/// the number of DOFs, and with [`RobotError::Memory`] if there is not enough memory; what writes into `out`, with
+/// [`RobotError::Room`] if its length differs from the number of results. Methods name further errors.
 ///
 /// Queries use memory that their thread keeps for the next one. After the first, those whose answer is a number, that
 /// write into the caller's memory, or that call back do not allocate.
@@ -66,9 +68,6 @@ pub trait Queries: Checked + Sized {
     }
 
     /// As [`Queries::distances`], into `out`.
-    ///
-    /// # Errors
-    /// [`RobotError::Room`] if the length of `out` differs from the number of pairs.
     fn distances_into(&self, configuration: &[f64], out: &mut [f64]) -> Result<(), RobotError> {
         check_room(out.len(), 1, self.num_pairs())?;
         with_workspace(|Workspace { placed, .. }| {
@@ -223,8 +222,8 @@ pub trait Queries: Checked + Sized {
     /// that move against each other, and the answer is the first part where they have less.
     ///
     /// # Errors
-    /// [`RobotError::Setting`] if a setting makes no sense; [`RobotError::Steps`] if the motion needs more than a million
-    /// configurations, or its proof more than 100,000 steps.
+    /// As [`Queries::first_contact`]: [`RobotError::Setting`] if a setting makes no sense; [`RobotError::Steps`] if the
+    /// motion needs more than a million configurations, or its proof more than 100,000 steps.
     fn blocked_edge(
         &self,
         start: &[f64],
@@ -244,9 +243,6 @@ pub trait Queries: Checked + Sized {
     /// [`FirstContact::free`] and [`FirstContact::blocked`] than a thousandth of the resolution. Both were checked. A
     /// contact that begins and ends between two configurations can be missed. Without a resolution, the whole motion up
     /// to `free` is proved free, and `blocked` is as in `blocked_edge`.
-    ///
-    /// # Errors
-    /// As [`Queries::blocked_edge`].
     fn first_contact(
         &self,
         start: &[f64],
@@ -260,10 +256,6 @@ pub trait Queries: Checked + Sized {
 
     /// As [`Queries::in_collision`] for each of the configurations, which are stored one after another. Batches run on
     /// rayon's thread pool.
-    ///
-    /// # Errors
-    /// [`RobotError::Batch`] if the number of values is not a multiple of the number of DOFs; [`RobotError::Memory`] if
-    /// there is not enough memory.
     fn in_collision_batch(&self, configurations: &[f64]) -> Result<Vec<bool>, RobotError> {
         let mut answers = room(self.shapes().motion.rows(configurations)?.count, 1)?;
         self.in_collision_batch_into(configurations, &Cancellation::default(), &mut answers)?;
@@ -295,10 +287,6 @@ pub trait Queries: Checked + Sized {
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    ///
-    /// # Errors
-    /// As there, [`RobotError::Room`] if the length of `out` differs from the number of results, and
-    /// [`RobotError::Cancelled`]; so do all batches with a cancellation.
     fn in_collision_batch_into(
         &self,
         configurations: &[f64],
@@ -324,9 +312,6 @@ pub trait Queries: Checked + Sized {
 
     /// The minimum distance in each configuration, in metres, as [`Queries::min_distance`]: infinite if there are no
     /// pairs.
-    ///
-    /// # Errors
-    /// As [`Queries::in_collision_batch`].
     fn min_distance_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
         let mut distances = room(self.shapes().motion.rows(configurations)?.count, 1)?;
         self.min_distance_batch_into(configurations, &Cancellation::default(), &mut distances)?;
@@ -348,9 +333,6 @@ pub trait Queries: Checked + Sized {
 
     /// The distances of all pairs in each configuration, in metres: value `k * pairs + pair` is that of `pair` in
     /// configuration `k`.
-    ///
-    /// # Errors
-    /// As [`Queries::in_collision_batch`].
     fn distances_batch(&self, configurations: &[f64]) -> Result<Vec<f64>, RobotError> {
         let count = self.shapes().motion.rows(configurations)?.count;
         let mut distances = room(count, self.num_pairs())?;

@@ -157,9 +157,6 @@ impl Proximity {
 
 impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
     /// As [`Proximity::world_proximity`], with borrowed or shared shapes.
-    ///
-    /// # Errors
-    /// As there.
     pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
         let mut parts = Vec::new();
         let mut ignored = Vec::new();
@@ -282,15 +279,13 @@ impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
     }
 
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
-        let radius = self.proximity.shapes[shape].sphere.radius;
-        self.parts[part].bound(placed.centres[shape], radius)
+        let (own, other) = self.both(pair);
+        other.bound(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius)
     }
 
     fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
-        let radius = self.proximity.shapes[shape].sphere.radius;
-        self.parts[part].is_beyond(placed.centres[shape], radius, distance)
+        let (own, other) = self.both(pair);
+        other.is_beyond(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius, distance)
     }
 
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {

@@ -25,6 +25,7 @@ use super::motion::Motion;
 use super::names::{check_link, index};
 use super::shapes::ShapeKind;
 use super::skips::Skips;
+use super::statistics::PairStatistics;
 use super::workspace::Placed;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
@@ -115,9 +116,6 @@ impl Robot {
 
     /// As [`Robot::proximity`], for the pairs of shapes that `wanted` selects instead of those that are not skipped.
     /// `wanted` receives the link and the piece of each shape.
-    ///
-    /// # Errors
-    /// As [`Robot::proximity`].
     pub fn proximity_of(
         &self,
         kind: ShapeKind,
@@ -136,7 +134,7 @@ impl Robot {
         wanted: impl Fn([&Shape; 2], Option<(usize, usize)>) -> bool,
     ) -> Result<Proximity, RobotError> {
         let motion = Arc::clone(self.shared_motion()?);
-        let statistics = self.statistics(kind)?;
+        let statistics = self.statistics()?;
         let index: HashMap<(usize, usize), usize> =
             skips.places().iter().enumerate().map(|(index, place)| (*place, index)).collect();
         let count = motion.links.len();
@@ -158,7 +156,7 @@ impl Robot {
                 if a.link == b.link || !wanted([a, b], both) {
                     continue;
                 }
-                let recorded = both.and_then(|(i, j)| statistics.pair(i, j));
+                let recorded = both.and_then(|(i, j)| PairStatistics::of(&statistics, kind, i, j));
                 let mean = recorded.map(|pair| pair.mean);
                 pairs.push(Pair { shapes: [i, j], mean: mean.filter(|mean| *mean > 0.0) });
             }
@@ -239,18 +237,11 @@ impl Proximity {
         self.pairs.sort_by_key(|pair| (links(pair), pair.shapes));
         self.groups.clear();
         let bodies = self.motion.kinematics.rigid_bodies();
-        for (at, pair) in self.pairs.iter().enumerate() {
+        for (first, links) in self.pairs.iter().map(links).enumerate() {
+            let (moves, end) = (bodies[links[0]] != bodies[links[1]], first + 1);
             match self.groups.last_mut() {
-                Some(group) if group.links == links(pair) => group.end = at + 1,
-                _ => self.groups.push(Group {
-                    links: links(pair),
-                    moves: {
-                        let [a, b] = links(pair);
-                        bodies[a] != bodies[b]
-                    },
-                    first: at,
-                    end: at + 1,
-                }),
+                Some(group) if group.links == links => group.end = end,
+                _ => self.groups.push(Group { links, moves, first, end }),
             }
         }
         let count = self.motion.links.len();
