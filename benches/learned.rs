@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use urdd_format::rate::Rate;
 use urdd_generate::{Selection, Settings, generate};
 use urdd_robot::{
-    CollisionModel, Configurations, Obstacle, Proximity, Robot, ShapeKind, Solid, World,
+    CollisionModel, Configurations, Obstacle, Proximity, Queries, Robot, ShapeKind, Solid, World,
 };
 
 /// The first counted configuration, and their number.

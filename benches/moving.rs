@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use urdd_generate::{Settings, generate};
 use urdd_geometry::Mesh;
-use urdd_robot::{Obstacle, Robot, ShapeKind, Workspace, World};
+use urdd_robot::{Obstacle, Queries, Robot, ShapeKind, World};
 
 static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
 
@@ -108,7 +108,7 @@ fn control(path: &std::path::Path) {
     let mut around = proximity.world_proximity(&world).expect("a world");
     let space = robot.configurations().expect("configurations");
     let (start, end) = (space.random(1), space.random(2));
-    let (mut q, mut poses, mut workspace) = (start.clone(), [here(); BOXES], Workspace::default());
+    let (mut q, mut poses) = (start.clone(), [here(); BOXES]);
     let (mut times, mut before) = (vec![Duration::ZERO; CYCLES], 0);
     let began = Instant::now();
     for (cycle, taken) in times.iter_mut().enumerate() {
@@ -127,13 +127,13 @@ fn control(path: &std::path::Path) {
             *place = pose(k, time);
         }
         around.move_obstacles(0, &poses).expect("moved");
-        let mut least = around.min_distance_with(&q, &mut workspace).expect("a distance");
-        let nearest = around.gradients_with(&q, 5, &mut workspace, |pair, gradient| {
+        let mut least = around.min_distance(&q).expect("a distance");
+        let nearest = around.each_gradient(&q, 5, |pair, gradient| {
             least = least.map(|least| least.min(pair.distance));
             std::hint::black_box(gradient);
         });
         nearest.expect("pairs");
-        let touches = proximity.in_collision_with(&q, &mut workspace).expect("an answer");
+        let touches = proximity.in_collision(&q).expect("an answer");
         std::hint::black_box((least, touches));
         *taken = now.elapsed();
     }

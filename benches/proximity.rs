@@ -16,7 +16,7 @@ use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::ConvexPolyhedron;
 use urdd_generate::{Settings, generate};
-use urdd_robot::{Robot, ShapeKind, Solid};
+use urdd_robot::{Queries, Robot, ShapeKind, Solid};
 
 const CONFIGURATIONS: u64 = 200;
 const ROUNDS: usize = 5;
@@ -76,7 +76,7 @@ fn measure(path: &std::path::Path) {
                     proximity.distances_batch(&batch).expect("distances");
                 });
                 row(&format!("nearest pair, {threads} threads"), || {
-                    proximity.self_distance_batch(&batch).expect("distances");
+                    proximity.min_distance_batch(&batch).expect("distances");
                 });
                 row(&format!("collision, {threads} threads"), || {
                     proximity.in_collision_batch(&batch).expect("answers");

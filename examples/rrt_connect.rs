@@ -8,7 +8,7 @@ use std::error::Error;
 
 use nalgebra::Isometry3;
 use urdd_robot::{
-    EdgeSettings, Obstacle, Proximity, Robot, RobotError, ShapeKind, World, WorldProximity,
+    EdgeSettings, Obstacle, Proximity, Queries, Robot, RobotError, ShapeKind, World, WorldProximity,
 };
 
 /// The longest motion that a tree grows by, rad or m.

@@ -17,6 +17,7 @@ mod obstacle;
 mod page;
 mod parts;
 mod proximity;
+mod queries;
 mod robot;
 mod shapes;
 mod threads;

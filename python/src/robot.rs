@@ -13,12 +13,13 @@ use numpy::{
 use pyo3::prelude::*;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::{unchecked_pose, write_matrix};
-use urdd_robot::{InverseSettings, RobotError, ShapeKind, Target, Verdict, fill};
+use urdd_robot::{InverseSettings, Queries, RobotError, ShapeKind, Target, Verdict, fill};
 
 use crate::arrays::{Batch, answers, copy, shaped};
 use crate::collision_model::CollisionModel;
 use crate::errors::of_robot;
 use crate::proximity::Proximity;
+use crate::queries::Asked;
 use crate::work;
 use crate::world::WorldProximity;
 
@@ -54,8 +55,8 @@ enum FreeOf {
 impl FreeOf {
     fn is_free(&self, q: &[f64], margin: f64) -> bool {
         let touches = match self {
-            FreeOf::Itself(proximity) => proximity.get().shared().in_collision(q),
-            FreeOf::World(world) => world.get().is_within_of(q, margin),
+            FreeOf::Itself(proximity) => proximity.get().queries().in_collision(q),
+            FreeOf::World(world) => world.get().queries().is_within(q, margin),
         };
         touches == Ok(false)
     }
@@ -231,7 +232,7 @@ impl Robot {
         let batch = Batch::new(&configurations)?;
         let shape = [batch.count, shown, 4, 4];
         answers(py, shape, FEW, batch.is_one(), |on, out| {
-            each(on, out, shown * 16, Vec::new, |poses, k, out| {
+            each(on, out, shown * 16, |poses: &mut Vec<_>, k, out| {
                 self.robot.link_poses_into(batch.row(k), poses)?;
                 write_poses(poses, link, out)
             })
@@ -317,7 +318,7 @@ impl Robot {
         };
         // A single solution can take long too, so none runs on this thread, which cannot react to Ctrl-C.
         answers(py, [count, dofs + 5], 0, false, |on, out| {
-            fill(out, dofs + 5, 1, || (), |(), k, out| write(on, k, out))
+            fill(out, dofs + 5, 1, |(): &mut (), k, out| write(on, k, out))
         })
     }
 
@@ -378,28 +379,21 @@ fn rows<'py>(
     write: impl Fn(usize, &mut [f64]) + Sync + Send,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     answers(py, [count, dofs], BLOCK, dofs == 0, |on, out| {
-        each(
-            on,
-            out,
-            dofs,
-            || (),
-            |(), k, out| {
-                write(k, out);
-                Ok(())
-            },
-        )
+        each(on, out, dofs, |(): &mut (), k, out| {
+            write(k, out);
+            Ok(())
+        })
     })
 }
 
 /// Runs a query for each configuration of a batch, until Ctrl-C.
-fn each<S>(
+fn each<S: Default>(
     on: &Cancellation,
     out: &mut [f64],
     width: usize,
-    start: impl Fn() -> S + Sync,
     write: impl Fn(&mut S, usize, &mut [f64]) -> Result<(), RobotError> + Sync,
 ) -> Result<(), RobotError> {
-    fill(out, width, BLOCK, start, |shared, k, out| {
+    fill(out, width, BLOCK, |shared, k, out| {
         on.check()?;
         write(shared, k, out)
     })

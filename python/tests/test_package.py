@@ -136,6 +136,7 @@ def test_every_public_name_is_documented() -> None:
         urdd.Proximity,
         urdd.CollisionModel,
         urdd.WorldProximity,
+        urdd._queries.Queries,
         urdd.World,
         urdd.Skips,
         urdd.modules.Modules,

@@ -13,7 +13,7 @@ use super::configurations::{self, Listed};
 use super::output;
 use super::shapes::{self, Shapes};
 use urdd_format::escape;
-use urdd_robot::{Configurations, PairDistance, Proximity, RobotError};
+use urdd_robot::{Configurations, PairDistance, Proximity, Queries, RobotError};
 
 /// Arguments of `urdd check-collisions`.
 ///

@@ -55,7 +55,7 @@ fn reads_every_published_module() {
 #[test]
 #[ignore = "needs the published URDDs"]
 fn legacy_robots_move_as_their_urdfs_do() {
-    use urdd_robot::{Robot, ShapeKind};
+    use urdd_robot::{Queries, Robot, ShapeKind};
     for name in ["ur5", "z1", "robotiq_140"] {
         let folder = corpus().join(name);
         let legacy = Robot::open(&folder).unwrap();

@@ -3,8 +3,7 @@
 use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_robot::{
-    EdgeSettings, FirstContact, ObstacleDistance, Overlap, PairDistance, Proximity, RobotError,
-    WorldProximity,
+    EdgeSettings, FirstContact, ObstacleDistance, Overlap, PairDistance, Queries, RobotError,
 };
 
 use crate::bodies::{Attached, Body};
@@ -28,7 +27,7 @@ pub struct Among {
     pub obstacles: Option<Vec<Body>>,
 }
 
-/// A query, with the vocabulary of [`Proximity`] and [`WorldProximity`].
+/// A query, with the vocabulary of [`Queries`].
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum About {
@@ -66,8 +65,12 @@ impl Edge {
 }
 
 impl About {
-    /// The answer for the robot's own pairs.
-    pub fn own(&self, shapes: &Proximity) -> Result<Value, RobotError> {
+    /// The answer for the robot's own pairs, or for those of a shape of the robot and an obstacle. `pair` is a pair's value.
+    pub fn answer<Q: Queries>(
+        &self,
+        shapes: &Q,
+        pair: fn(&Q::Pair) -> Value,
+    ) -> Result<Value, RobotError> {
         Ok(match self {
             About::InCollision { q } => shapes.in_collision(q)?.into(),
             About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(pair).collect(),
@@ -85,26 +88,6 @@ impl About {
             About::Penetrations { q } => overlaps(shapes.penetrations(q)?, pair),
         })
     }
-
-    /// The answer for the pairs of a shape of the robot and an obstacle.
-    pub fn among(&self, shapes: &WorldProximity<&Proximity>) -> Result<Value, RobotError> {
-        Ok(match self {
-            About::InCollision { q } => shapes.in_collision(q)?.into(),
-            About::Nearest { q, k } => shapes.nearest(q, *k)?.iter().map(to_obstacle).collect(),
-            About::IsWithin { q, margin } => shapes.is_within(q, *margin)?.into(),
-            About::BlockedEdge(edge) => {
-                shapes.blocked_edge(&edge.start, &edge.end, &edge.settings())?.into()
-            }
-            About::FirstContact(edge) => {
-                contact(shapes.first_contact(&edge.start, &edge.end, &edge.settings())?)
-            }
-            About::Gradients { q, k } => {
-                let found = shapes.gradients(q, *k)?.into_iter();
-                found.map(|found| with(to_obstacle(&found.pair), found.gradient)).collect()
-            }
-            About::Penetrations { q } => overlaps(shapes.penetrations(q)?, to_obstacle),
-        })
-    }
 }
 
 /// A pair of the robot's shapes.
@@ -118,7 +101,8 @@ pub fn pair(pair: &PairDistance) -> Value {
     })
 }
 
-fn to_obstacle(pair: &ObstacleDistance) -> Value {
+/// A pair of a shape of the robot and an obstacle.
+pub fn to_obstacle(pair: &ObstacleDistance) -> Value {
     json!({
         "link": &*pair.link,
         "piece": pair.piece,

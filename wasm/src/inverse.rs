@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use urdd_robot::{InverseSettings, Proximity, Robot, RobotError, Target, Verdict, World};
+use urdd_robot::{InverseSettings, Proximity, Queries, Robot, RobotError, Target, Verdict, World};
 
 use crate::bodies::{Attached, Body};
 use crate::kind::Kind;

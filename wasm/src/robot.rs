@@ -5,13 +5,13 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_robot::{
-    CollisionModel, LinkMass, LinkShape, PairDistance, Proximity, Robot, RobotError, ShapeKind,
-    Solid, World,
+    CollisionModel, LinkMass, LinkShape, PairDistance, Proximity, Queries, Robot, RobotError,
+    ShapeKind, Solid, World,
 };
 
 use crate::about::about;
 use crate::bodies::{Obstacles, carrying};
-use crate::collisions::{About, Among, pair};
+use crate::collisions::{About, Among, pair, to_obstacle};
 use crate::files::Files;
 use crate::inverse::InverseQuestion;
 use crate::kind::Kind;
@@ -292,10 +292,10 @@ fn collisions(handle: &mut Handle, about: &About, among: &Among) -> Result<Value
     let Among { attached, without, without_bodies, .. } = among;
     let shapes = &*carrying(own, attached, without, without_bodies)?;
     let answer = match &among.obstacles {
-        None => about.own(shapes),
+        None => about.answer(shapes, pair),
         Some(bodies) => {
             let world = shapes.world_proximity(handle.obstacles.world(bodies)?);
-            world.and_then(|world| about.among(&world))
+            world.and_then(|world| about.answer(&world, to_obstacle))
         }
     };
     answer.map_err(|error| error.to_string())

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use urdd_c::*;
 use urdd_kinematics::pose_matrix::write_matrix;
-use urdd_robot::{ShapeKind, Workspace};
+use urdd_robot::{Queries, ShapeKind};
 
 /// Seconds of a call: the least of several rounds, each long enough for the clock.
 fn seconds(mut act: impl FnMut(usize)) -> f64 {
@@ -102,7 +102,7 @@ fn main() {
             black_box(&matrices);
         },
     );
-    let (mut workspace, mut touches) = (Workspace::default(), false);
+    let mut touches = false;
     row(
         "in collision",
         // SAFETY: as the header says.
@@ -110,11 +110,10 @@ fn main() {
             ok(urdd_proximity_in_collision(shapes, q(k).as_ptr(), 1, dofs, &mut touches))
         },
         |k| {
-            black_box(proximity.in_collision_with(q(k), &mut workspace).unwrap());
+            black_box(proximity.in_collision(q(k)).unwrap());
         },
     );
-    let (mut workspace, mut distances, mut c) =
-        (Workspace::default(), vec![0.0; pairs], vec![0.0; pairs]);
+    let (mut distances, mut c) = (vec![0.0; pairs], vec![0.0; pairs]);
     row(
         "distances",
         // SAFETY: as the header says.
@@ -122,7 +121,7 @@ fn main() {
             let at = q(k).as_ptr();
             ok(urdd_proximity_distances(shapes, at, 1, dofs, c.as_mut_ptr(), pairs));
         },
-        |k| proximity.distances_with(q(k), &mut workspace, &mut distances).unwrap(),
+        |k| proximity.distances_into(q(k), &mut distances).unwrap(),
     );
     let mut out = vec![0.0; 16 * links * ROWS];
     row(

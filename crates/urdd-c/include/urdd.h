@@ -3,8 +3,9 @@
 //
 // Status. Every function that can fail returns a `urdd_status`; `URDD_STATUS_OK` is 0. After another one,
 // `urdd_error_message` has the text, which names what is wrong and what to do. "Errors" below names statuses without
-// their prefix; those of every function (POINTER, HANDLE, UTF8, MEMORY, INTERNAL) are not repeated. After an error,
-// outputs are zeros or incomplete. Nothing unwinds out of a function, and no function calls back.
+// their prefix. Those of every function are not repeated: POINTER, HANDLE, UTF8, MEMORY, INTERNAL; LENGTH for an array of
+// another length than the function says; VALUE for NaN or infinity in a configuration. After an error, outputs are zeros or
+// incomplete. Nothing unwinds out of a function, and no function calls back.
 //
 // Ownership. A function whose last argument is a pointer to a handle makes one; after an error it is null. The caller
 // frees it with the `..._free` of its type, once. Handles are independent: they can be freed in any order. Arrays belong
@@ -32,6 +33,10 @@
 // value for each DOF, in the order of `urdd_robot_dof_name`; links are in the order of `urdd_robot_link_name`. Arrays are
 // row-major. Functions on configurations take rows: one configuration is one row. Null is allowed for an array without
 // values.
+//
+// Contract. A pointer to a handle is null or an open handle, which stays open during the call. A text is null or ends with
+// a zero byte. An array is null or has as many values, or room for as many, as the function says; an output is null or has
+// room for one value. Null is an error, and not undefined behaviour, unless the function says what it stands for.
 //
 // Debug builds of the library check that a handle is open and of its type. Release builds do not: using a freed handle, or
 // an array that is shorter than stated, is undefined behaviour, as everywhere in C.
@@ -295,9 +300,6 @@ struct urdd_text urdd_version(void);
 //
 // Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
 // attached object has its name.
-//
-// Contract:
-// `handle` and `object` are null or open; `out` is null or has room for a pointer.
 enum urdd_status urdd_proximity_attach(const struct urdd_proximity *handle,
                                        size_t link,
                                        const struct urdd_obstacle *object,
@@ -308,83 +310,48 @@ enum urdd_status urdd_proximity_attach(const struct urdd_proximity *handle,
 // of the second pair and so on. Obstacles are still checked; the shapes at `handle` stay as they are.
 //
 // Errors: `UNKNOWN_NAME`, whose message has the nearest name.
-//
-// Contract:
-// `handle` is null or open; there are 2 x `count` texts at `names`, null or with a zero byte at the end; `out` is null or
-// has room for a pointer.
 enum urdd_status urdd_proximity_without(const struct urdd_proximity *handle,
                                         const char *const *names,
                                         size_t count,
                                         struct urdd_proximity **out);
 
-// Makes shapes without all that belong to `count` bodies, links or attached objects, among obstacles too. The indices of
-// the other bodies stay.
-//
-// Errors: `UNKNOWN_NAME`.
-//
-// Contract:
-// As `urdd_proximity_without`, with `count` texts.
+// As `urdd_proximity_without`, for all that belongs to `count` bodies, among obstacles too. The indices of the other
+// bodies stay.
 enum urdd_status urdd_proximity_without_bodies(const struct urdd_proximity *handle,
                                                const char *const *names,
                                                size_t count,
                                                struct urdd_proximity **out);
 
 // Writes the number of bodies: of links, and of attached objects, in the order in which they were attached.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a number.
 enum urdd_status urdd_proximity_num_bodies(const struct urdd_proximity *handle, size_t *out);
 
 // Writes the index of a body, as in `bodies` of `urdd_pair`.
 //
 // Errors: `UNKNOWN_NAME`, whose message has the nearest name.
-//
-// Contract:
-// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
 enum urdd_status urdd_proximity_body(const struct urdd_proximity *handle, const char *name, size_t *out);
 
 // Writes the name of a body.
 //
 // Errors: `OUT_OF_RANGE`.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
 enum urdd_status urdd_proximity_body_name(const struct urdd_proximity *handle, size_t body, struct urdd_text *out);
 
 // Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
 // rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
 //
 // Errors: `MISSING_MODULE`, `UNUSABLE`: self_collision_model_module, chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a pointer.
 enum urdd_status urdd_robot_collision_model(const struct urdd_robot *handle, struct urdd_collision_model **out);
 
 // Frees a model. Null is ignored.
-//
-// Contract:
-// `model` is null, or open and not used again.
 enum urdd_status urdd_collision_model_free(struct urdd_collision_model *model);
 
 // Writes the error rates that the module states, measured on configurations that were not used to make the model: the
 // JSON of `evaluation` in self_collision_model_module. It lives as long as the model.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
 enum urdd_status urdd_collision_model_evaluation(const struct urdd_collision_model *handle, struct urdd_text *out);
 
 // Writes the number of link pairs and of DOFs. Each of the two can be null.
-//
-// Contract:
-// `handle` is null or open; each of the two is null or has room for a number.
 enum urdd_status urdd_collision_model_sizes(const struct urdd_collision_model *handle, size_t *pairs, size_t *dofs);
 
 // Writes the link pairs, in the order of `urdd_collision_model_clearances`.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` pairs at `pairs`.
 enum urdd_status urdd_collision_model_pairs(const struct urdd_collision_model *handle,
                                             struct urdd_link_pair *pairs,
                                             size_t length);
@@ -393,11 +360,6 @@ enum urdd_status urdd_collision_model_pairs(const struct urdd_collision_model *h
 // contact.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `clearances` has room for `length` values: rows x pairs.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_collision_model_clearances(const struct urdd_collision_model *handle,
                                                  const double *configurations,
                                                  size_t rows,
@@ -408,11 +370,6 @@ enum urdd_status urdd_collision_model_clearances(const struct urdd_collision_mod
 // Writes whether any pair may be in contact, for each configuration.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_collision_model_may_collide(const struct urdd_collision_model *handle,
                                                   const double *configurations,
                                                   size_t rows,
@@ -426,9 +383,6 @@ struct urdd_text urdd_error_message(void);
 
 // Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
 // locked, no posture, no shapes, no obstacles, no margin, no explanation.
-//
-// Contract:
-// `out` is null or has room for settings.
 enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out);
 
 // Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
@@ -446,9 +400,6 @@ enum urdd_status urdd_inverse_settings_default(struct urdd_inverse_settings *out
 // `VALUE` for NaN or infinity, a matrix that is not a rotation and a translation, a tolerance, weight or margin below
 // 0, weights that leave nothing to reach, crossed bounds, or 0 iterations; `POINTER` also if an output overlaps
 // anything else that is given; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_robot_inverse_kinematics(const struct urdd_robot *handle,
                                                const struct urdd_target *targets,
                                                size_t count,
@@ -465,10 +416,7 @@ enum urdd_status urdd_robot_inverse_kinematics(const struct urdd_robot *handle,
 // x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
 // is computed on this thread, without an allocation.
 //
-// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
 enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
                                        const double *configurations,
                                        size_t rows,
@@ -484,11 +432,8 @@ enum urdd_status urdd_robot_link_poses(const struct urdd_robot *handle,
 // angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
 // computed on this thread, without an allocation.
 //
-// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
+// Errors: `OUT_OF_RANGE` for the link; `MISSING_MODULE`, `UNUSABLE`:
 // chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
                                       const double *configurations,
                                       size_t rows,
@@ -501,28 +446,16 @@ enum urdd_status urdd_robot_jacobians(const struct urdd_robot *handle,
 // Writes the largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none. `dofs`
 // values.
 //
-// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: bounds_module.
-//
-// Contract:
-// `handle` is null or open; there is room for `dofs` values at `limits`.
+// Errors: `MISSING_MODULE`, `UNUSABLE`: bounds_module.
 enum urdd_status urdd_robot_velocity_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
 
-// Writes the largest effort of each DOF, N m or N, as the source states it; infinite where it states none. `dofs`
-// values.
-//
-// Errors: as `urdd_robot_velocity_limits`.
-//
-// Contract:
-// As there.
+// As `urdd_robot_velocity_limits`, for the largest effort of each DOF, N m or N.
 enum urdd_status urdd_robot_effort_limits(const struct urdd_robot *handle, double *limits, size_t dofs);
 
 // Writes the mass of each link, kg, 0 where the source states none, and its centre of mass in the link's frame, metres:
 // links x 4 values.
 //
-// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: urdf_module.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` values at `masses`.
+// Errors: `MISSING_MODULE`, `UNUSABLE`: urdf_module.
 enum urdd_status urdd_robot_link_masses(const struct urdd_robot *handle, double *masses, size_t length);
 
 // Writes the centre of mass of the robot in the root link's frame for each configuration, metres; NaN for a robot whose
@@ -530,10 +463,7 @@ enum urdd_status urdd_robot_link_masses(const struct urdd_robot *handle, double 
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `centres` has room for rows x 3 values.
 //
-// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// Errors: `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
 enum urdd_status urdd_robot_centre_of_mass(const struct urdd_robot *handle,
                                            const double *configurations,
                                            size_t rows,
@@ -543,26 +473,16 @@ enum urdd_status urdd_robot_centre_of_mass(const struct urdd_robot *handle,
 // Writes the number of configurations that a person named; 0 without named_configurations_module.
 //
 // Errors: `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a number.
 enum urdd_status urdd_robot_num_named_configurations(const struct urdd_robot *handle, size_t *out);
 
 // Writes the name of a named configuration. It lives as long as the robot.
 //
 // Errors: `OUT_OF_RANGE`; `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
 enum urdd_status urdd_robot_configuration_name(const struct urdd_robot *handle, size_t index, struct urdd_text *out);
 
 // Writes a named configuration: `dofs` values, rad or m.
 //
-// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `LENGTH`; `UNUSABLE`: named_configurations_module.
-//
-// Contract:
-// `handle` is null or open; `name` is null or ends with a zero byte; there is room for `dofs` values at
-// `configuration`.
+// Errors: `UNKNOWN_NAME`, whose message has the nearest name; `UNUSABLE`: named_configurations_module.
 enum urdd_status urdd_robot_named_configuration(const struct urdd_robot *handle,
                                                 const char *name,
                                                 double *configuration,
@@ -571,59 +491,31 @@ enum urdd_status urdd_robot_named_configuration(const struct urdd_robot *handle,
 // Writes the number of links, joints and DOFs. Each of the three can be null.
 //
 // Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; each of the three is null or has room for a number.
 enum urdd_status urdd_robot_sizes(const struct urdd_robot *handle, size_t *links, size_t *joints, size_t *dofs);
 
 // Writes the name of a link. It lives as long as the robot.
 //
 // Errors: `OUT_OF_RANGE`; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
 enum urdd_status urdd_robot_link_name(const struct urdd_robot *handle, size_t link, struct urdd_text *out);
 
-// Writes the name of a joint. It lives as long as the robot.
-//
-// Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
+// As `urdd_robot_link_name`, for a joint.
 enum urdd_status urdd_robot_joint_name(const struct urdd_robot *handle, size_t joint, struct urdd_text *out);
 
-// Writes the name of a DOF: that of its joint, with the coordinate if the joint has several. It lives as long as the
-// robot.
-//
-// Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
+// As `urdd_robot_link_name`, for a DOF: the name of its joint, with the coordinate if the joint has several.
 enum urdd_status urdd_robot_dof_name(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
 
 // Writes the unit of a DOF: "rad" or "m". It lives as long as the library.
 //
 // Errors: as `urdd_robot_link_name`.
-//
-// Contract:
-// As `urdd_robot_link_name`.
 enum urdd_status urdd_robot_dof_unit(const struct urdd_robot *handle, size_t dof, struct urdd_text *out);
 
 // Writes the index of a link.
 //
 // Errors: `UNKNOWN_NAME`, whose message has the nearest name; `MISSING_MODULE`, `UNUSABLE`: chain_module or
 // dof_module.
-//
-// Contract:
-// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
 enum urdd_status urdd_robot_link(const struct urdd_robot *handle, const char *name, size_t *out);
 
-// Writes the index of a joint.
-//
-// Errors: as `urdd_robot_link`.
-//
-// Contract:
-// As `urdd_robot_link`.
+// As `urdd_robot_link`, for a joint.
 enum urdd_status urdd_robot_joint(const struct urdd_robot *handle, const char *name, size_t *out);
 
 // Writes the DOFs that move one of two links against the other, ascending: those of an arm, from its base and its tip.
@@ -632,9 +524,6 @@ enum urdd_status urdd_robot_joint(const struct urdd_robot *handle, const char *n
 // at most the number of DOFs.
 //
 // Errors: `OUT_OF_RANGE` for a link; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` indices at `dofs`; `found` is null or has room for a number.
 enum urdd_status urdd_robot_dofs_between(const struct urdd_robot *handle,
                                          size_t base,
                                          size_t tip,
@@ -642,12 +531,7 @@ enum urdd_status urdd_robot_dofs_between(const struct urdd_robot *handle,
                                          size_t length,
                                          size_t *found);
 
-// Writes the index of a DOF.
-//
-// Errors: as `urdd_robot_link`.
-//
-// Contract:
-// As `urdd_robot_link`.
+// As `urdd_robot_link`, for a DOF.
 enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *name, size_t *out);
 
 // Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
@@ -656,10 +540,6 @@ enum urdd_status urdd_robot_dof(const struct urdd_robot *handle, const char *nam
 //
 // Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
 // and a translation.
-//
-// Contract:
-// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
-// room for a pointer.
 enum urdd_status urdd_obstacle_cuboid(const char *name,
                                       const double *pose,
                                       const double *half_extents,
@@ -668,9 +548,6 @@ enum urdd_status urdd_obstacle_cuboid(const char *name,
 // Makes a sphere: its centre (3 values) and radius, metres.
 //
 // Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; `centre` has 3 values.
 enum urdd_status urdd_obstacle_sphere(const char *name,
                                       const double *centre,
                                       double radius,
@@ -680,9 +557,6 @@ enum urdd_status urdd_obstacle_sphere(const char *name,
 // `half_length`, metres.
 //
 // Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`.
 enum urdd_status urdd_obstacle_capsule(const char *name,
                                        const double *pose,
                                        double radius,
@@ -693,9 +567,6 @@ enum urdd_status urdd_obstacle_capsule(const char *name,
 // a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
 //
 // Errors: as `urdd_obstacle_cuboid`.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`.
 enum urdd_status urdd_obstacle_cylinder(const char *name,
                                         const double *pose,
                                         double radius,
@@ -705,9 +576,6 @@ enum urdd_status urdd_obstacle_cylinder(const char *name,
 // Makes the convex hull of `count` points (count x 3), metres.
 //
 // Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
 enum urdd_status urdd_obstacle_hull(const char *name,
                                     const double *pose,
                                     const double *points,
@@ -718,9 +586,6 @@ enum urdd_status urdd_obstacle_hull(const char *name,
 // convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
 //
 // Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
-//
-// Contract:
-// As `urdd_obstacle_cuboid`; the arrays have their lengths.
 enum urdd_status urdd_obstacle_mesh(const char *name,
                                     const double *pose,
                                     const double *vertices,
@@ -731,9 +596,6 @@ enum urdd_status urdd_obstacle_mesh(const char *name,
 
 // Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
 // stays as it is.
-//
-// Contract:
-// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
 enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
                                         const char *link,
                                         struct urdd_obstacle **out);
@@ -743,15 +605,9 @@ enum urdd_status urdd_obstacle_ignoring(const struct urdd_obstacle *obstacle,
 // new handle.
 //
 // Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
-//
-// Contract:
-// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
 enum urdd_status urdd_obstacle_at(const struct urdd_obstacle *obstacle, const double *pose, struct urdd_obstacle **out);
 
 // Frees an obstacle. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `obstacle` is null, or open and not used again.
 enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
 
 // Writes whether any pair is at most `margin` apart, metres, for each configuration. With a margin above 0, pairs count
@@ -760,10 +616,7 @@ enum urdd_status urdd_obstacle_free(struct urdd_obstacle *obstacle);
 // `configurations` has `rows` rows of `dofs` values, rad or m; `within` has room for `rows` values. One row is computed
 // on this thread, without an allocation.
 //
-// Errors: `LENGTH`; `VALUE` for NaN or infinity, or a margin below 0.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// Errors: `VALUE` for a margin below 0.
 enum urdd_status urdd_proximity_is_within(const struct urdd_proximity *handle,
                                           const double *configurations,
                                           size_t rows,
@@ -772,9 +625,6 @@ enum urdd_status urdd_proximity_is_within(const struct urdd_proximity *handle,
                                           bool *within);
 
 // As `urdd_proximity_is_within`, for the pairs of a shape of the robot and an obstacle.
-//
-// Contract:
-// As there.
 enum urdd_status urdd_world_proximity_is_within(const struct urdd_world_proximity *handle,
                                                 const double *configurations,
                                                 size_t rows,
@@ -790,11 +640,8 @@ enum urdd_status urdd_world_proximity_is_within(const struct urdd_world_proximit
 // not be the first, which `urdd_proximity_first_contact` has. With 0, the motion is proved free by conservative
 // advancement; it then needs 0.1 mm more than the margin, and the answer is the first part where it has less.
 //
-// Errors: `LENGTH`; `VALUE` for NaN or infinity, a margin or a resolution below 0, or a motion that needs more than a
+// Errors: `VALUE` for a margin or a resolution below 0, or a motion that needs more than a
 // million configurations, or 100,000 steps of a proof.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_blocked_edge(const struct urdd_proximity *handle,
                                              const double *starts,
                                              const double *ends,
@@ -805,9 +652,6 @@ enum urdd_status urdd_proximity_blocked_edge(const struct urdd_proximity *handle
                                              double *blocked);
 
 // As `urdd_proximity_blocked_edge`, for motions that obstacles block.
-//
-// Contract:
-// As there.
 enum urdd_status urdd_world_proximity_blocked_edge(const struct urdd_world_proximity *handle,
                                                    const double *starts,
                                                    const double *ends,
@@ -824,11 +668,6 @@ enum urdd_status urdd_world_proximity_blocked_edge(const struct urdd_world_proxi
 // resolution, configurations are checked in order, and the part between the first that is blocked and the one before is
 // halved ten times: between the two no point of the robot travels farther than a thousandth of the resolution. A contact
 // that begins and ends between two configurations can be missed. With 0, all up to the first part is proved free.
-//
-// Errors: as there.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_first_contact(const struct urdd_proximity *handle,
                                               const double *starts,
                                               const double *ends,
@@ -840,9 +679,6 @@ enum urdd_status urdd_proximity_first_contact(const struct urdd_proximity *handl
                                               size_t length);
 
 // As `urdd_proximity_first_contact`, for motions that obstacles block.
-//
-// Contract:
-// As there.
 enum urdd_status urdd_world_proximity_first_contact(const struct urdd_world_proximity *handle,
                                                     const double *starts,
                                                     const double *ends,
@@ -858,11 +694,6 @@ enum urdd_status urdd_world_proximity_first_contact(const struct urdd_world_prox
 // `configuration` has `dofs` values, rad or m; `nearest` has room for `k`; `gradients` for k x dofs values, m/rad or
 // m/m: NaN for pairs that touch or overlap. `found` is the number that is written: the lesser of `k` and the number of
 // pairs. A gradient is that of the closest points as they are.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
 enum urdd_status urdd_proximity_gradients(const struct urdd_proximity *handle,
                                           const double *configuration,
                                           size_t dofs,
@@ -872,9 +703,6 @@ enum urdd_status urdd_proximity_gradients(const struct urdd_proximity *handle,
                                           size_t *found);
 
 // As `urdd_proximity_gradients`, for the pairs of a shape of the robot and a convex part of an obstacle.
-//
-// Contract:
-// As there.
 enum urdd_status urdd_world_proximity_gradients(const struct urdd_world_proximity *handle,
                                                 const double *configuration,
                                                 size_t dofs,
@@ -887,11 +715,6 @@ enum urdd_status urdd_world_proximity_gradients(const struct urdd_world_proximit
 //
 // `configuration` has `dofs` values, rad or m; `overlaps` has room for `length`, of which the first `found` are written:
 // `found` may be more than `length`, and is at most the number of pairs.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
 enum urdd_status urdd_proximity_penetrations(const struct urdd_proximity *handle,
                                              const double *configuration,
                                              size_t dofs,
@@ -900,9 +723,6 @@ enum urdd_status urdd_proximity_penetrations(const struct urdd_proximity *handle
                                              size_t *found);
 
 // As `urdd_proximity_penetrations`, for the pairs of a shape of the robot and a convex part of an obstacle.
-//
-// Contract:
-// As there.
 enum urdd_status urdd_world_proximity_penetrations(const struct urdd_world_proximity *handle,
                                                    const double *configuration,
                                                    size_t dofs,
@@ -916,40 +736,21 @@ enum urdd_status urdd_world_proximity_penetrations(const struct urdd_world_proxi
 //
 // Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the module of the shapes, a skips module,
 // chain_module or dof_module, or a mesh.
-//
-// Contract:
-// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
 enum urdd_status urdd_robot_proximity(const struct urdd_robot *handle, const char *kind, struct urdd_proximity **out);
 
 // Frees a proximity. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `proximity` is null, or open and not used again.
 enum urdd_status urdd_proximity_free(struct urdd_proximity *proximity);
 
 // Writes the number of shapes, of pairs that are checked, and of DOFs. Each of the three can be null.
-//
-// Contract:
-// `handle` is null or open; each of the three is null or has room for a number.
 enum urdd_status urdd_proximity_sizes(const struct urdd_proximity *handle, size_t *shapes, size_t *pairs, size_t *dofs);
 
 // Writes the pairs that are checked, in the order of `urdd_proximity_distances`.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` pairs at `pairs`.
 enum urdd_status urdd_proximity_pairs(const struct urdd_proximity *handle, struct urdd_pair *pairs, size_t length);
 
 // Writes whether any pair touches or overlaps, for each configuration.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
 // computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_in_collision(const struct urdd_proximity *handle,
                                              const double *configurations,
                                              size_t rows,
@@ -959,11 +760,6 @@ enum urdd_status urdd_proximity_in_collision(const struct urdd_proximity *handle
 // Writes the minimum distance over all pairs for each configuration, metres: 0 in a collision, infinite without pairs.
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_self_distance(const struct urdd_proximity *handle,
                                               const double *configurations,
                                               size_t rows,
@@ -974,11 +770,6 @@ enum urdd_status urdd_proximity_self_distance(const struct urdd_proximity *handl
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
 // in the order of `urdd_proximity_pairs`. One row is computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
                                           const double *configurations,
                                           size_t rows,
@@ -991,11 +782,6 @@ enum urdd_status urdd_proximity_distances(const struct urdd_proximity *handle,
 // `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
 // that is written of each row: the lesser of `k` and the number of pairs. One row is computed on this thread, without an
 // allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
 enum urdd_status urdd_proximity_nearest(const struct urdd_proximity *handle,
                                         const double *configurations,
                                         size_t rows,
@@ -1008,11 +794,6 @@ enum urdd_status urdd_proximity_nearest(const struct urdd_proximity *handle,
 //
 // `configurations` has `rows` rows of `dofs` values, rad or m; `closest` has room for `length`: rows x pairs, in the
 // order of `urdd_proximity_pairs`.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
 enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *handle,
                                                const double *configurations,
                                                size_t rows,
@@ -1024,117 +805,70 @@ enum urdd_status urdd_proximity_closest_points(const struct urdd_proximity *hand
 // reads it, and it is kept.
 //
 // `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
-//
-// Contract:
-// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
 enum urdd_status urdd_robot_open(const char *path, struct urdd_robot **out);
 
 // Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
 //
 // Errors: `OPEN` if the bytes are not a zip archive.
-//
-// Contract:
-// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
-// pointer.
 enum urdd_status urdd_robot_of_archive(const char *name, const uint8_t *bytes, size_t length, struct urdd_robot **out);
 
 // Frees a robot. What was made of it stays. Null is ignored.
-//
-// Contract:
-// `robot` is null, or open and not used again.
 enum urdd_status urdd_robot_free(struct urdd_robot *robot);
 
 // Reads the skips between the shapes of a kind. `kind` is as for `urdd_robot_proximity`.
 //
 // Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the skips modules.
-//
-// Contract:
-// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
 enum urdd_status urdd_robot_skips(const struct urdd_robot *handle, const char *kind, struct urdd_skips **out);
 
 // Frees skips. Null is ignored.
-//
-// Contract:
-// `skips` is null, or open and not used again.
 enum urdd_status urdd_skips_free(struct urdd_skips *skips);
 
 // Writes the number of shapes.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a number.
 enum urdd_status urdd_skips_len(const struct urdd_skips *handle, size_t *out);
 
 // Writes the link and the piece of each shape.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` places at `places`.
 enum urdd_status urdd_skips_places(const struct urdd_skips *handle, struct urdd_shape_place *places, size_t length);
 
 // Writes whether a pair of shapes is skipped, by their indices. A shape with itself is.
 //
 // Errors: `OUT_OF_RANGE`.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a value.
 enum urdd_status urdd_skips_is_skipped(const struct urdd_skips *handle, size_t i, size_t j, bool *out);
 
 // Writes the lower and the upper bound of each DOF, rad or m: dofs x 2 values. Those of a rotation vector include all
 // rotations. Those of other DOFs that are not limited are a range to sample from, [-pi, pi] or [-1, 1], which the DOF
 // may leave: `urdd_robot_dof_is_limited` says which.
 //
-// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` values at `bounds`.
+// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 enum urdd_status urdd_robot_bounds(const struct urdd_robot *handle, double *bounds, size_t length);
 
 // Writes for each DOF whether the source limits it: false for continuous, planar, floating and spherical joints.
 // `limited` has room for `dofs` values.
 //
 // Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there is room for `dofs` values at `limited`.
 enum urdd_status urdd_robot_dof_is_limited(const struct urdd_robot *handle, bool *limited, size_t dofs);
 
 // Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
 //
 // Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there is room for `dofs` values at `configuration`.
 enum urdd_status urdd_robot_zero(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
-// Writes the configuration with every DOF half-way between its bounds.
-//
-// Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// As `urdd_robot_zero`.
+// As `urdd_robot_zero`, for the configuration with every DOF half-way between its bounds.
 enum urdd_status urdd_robot_middle(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
 // Writes `rows` samples of the sequence that SPEC 9.3 defines, from number `first` on: uniform within the bounds, and
 // the same in every implementation. rows x dofs values, rad or m.
 //
 // Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
 enum urdd_status urdd_robot_random(const struct urdd_robot *handle,
                                    uint64_t first,
                                    double *configurations,
                                    size_t rows,
                                    size_t dofs);
 
-// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
-// are.
+// Moves each of the `dofs` values of a configuration that is beyond its bounds to the nearer bound. Leaves rotation
+// vectors as they are.
 //
 // Errors: as `urdd_robot_bounds`.
-//
-// Contract:
-// `handle` is null or open; there are `dofs` values at `configuration`.
 enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *configuration, size_t dofs);
 
 // Validates every URDD at or below a path, as `urdd validate` does: a folder, a zip archive, or a folder of them.
@@ -1142,17 +876,11 @@ enum urdd_status urdd_robot_clamp(const struct urdd_robot *handle, double *confi
 // `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
 //
 // Errors: `OPEN` if there is no URDD; `VALUE` for the settings. Findings are no error: the report has them.
-//
-// Contract:
-// `path` is null or ends with a zero byte; `settings` too; `out` is null or has room for a pointer.
 enum urdd_status urdd_validate(const char *path, const char *settings, struct urdd_report **out);
 
 // Validates the URDD in a zip archive in memory. `name` is its name in the report.
 //
 // Errors: `OPEN` if the bytes are not a zip archive; `VALUE` for the settings.
-//
-// Contract:
-// As `urdd_validate`; there are `length` bytes at `bytes`.
 enum urdd_status urdd_validate_archive(const char *name,
                                        const uint8_t *bytes,
                                        size_t length,
@@ -1160,83 +888,41 @@ enum urdd_status urdd_validate_archive(const char *name,
                                        struct urdd_report **out);
 
 // Writes the report: the JSON of `urdd validate --format json` (schema/report). It lives as long as the report.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a text.
 enum urdd_status urdd_report_json(const struct urdd_report *handle, struct urdd_text *out);
 
 // Writes whether every URDD passes.
-//
-// Contract:
-// `handle` is null or open; `out` is null or has room for a value.
 enum urdd_status urdd_report_passes(const struct urdd_report *handle, bool *out);
 
 // Frees a report. Null is ignored.
-//
-// Contract:
-// `report` is null, or open and not used again.
 enum urdd_status urdd_report_free(struct urdd_report *report);
 
 // Prepares the shapes of a robot and `count` obstacles. Skips do not apply: every shape of the robot is checked
 // against every obstacle, without the links that the obstacle ignores. What it needs of the obstacles is copied.
 //
 // Errors: `UNKNOWN_NAME` if an obstacle ignores an unknown link.
-//
-// Contract:
-// `proximity` is null or open; there are `count` handles at `obstacles`, null or open; `out` is null or has room for a
-// pointer.
 enum urdd_status urdd_proximity_world_proximity(const struct urdd_proximity *proximity,
                                                 const struct urdd_obstacle *const *obstacles,
                                                 size_t count,
                                                 struct urdd_world_proximity **out);
 
 // Frees a robot's shapes and obstacles. Null is ignored.
-//
-// Contract:
-// `world` is null, or open and not used again.
 enum urdd_status urdd_world_proximity_free(struct urdd_world_proximity *world);
 
-// Writes whether any shape of the robot touches or overlaps an obstacle, for each configuration.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
-// computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// As `urdd_proximity_in_collision`, for the pairs of a shape of the robot and an obstacle.
 enum urdd_status urdd_world_proximity_in_collision(const struct urdd_world_proximity *handle,
                                                    const double *configurations,
                                                    size_t rows,
                                                    size_t dofs,
                                                    bool *colliding);
 
-// Writes the minimum distance between the robot and the obstacles for each configuration, metres: 0 in a collision,
-// infinite without pairs.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// As `urdd_proximity_self_distance`, for the pairs of a shape of the robot and an obstacle.
 enum urdd_status urdd_world_proximity_min_distance(const struct urdd_world_proximity *handle,
                                                    const double *configurations,
                                                    size_t rows,
                                                    size_t dofs,
                                                    double *distances);
 
-// Writes the `k` nearest pairs of a shape of the robot and a convex part of an obstacle for each configuration,
-// nearest first, with their closest points.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
-// that is written of each row: less than `k` if there are fewer pairs. One row is computed on this thread, without an
-// allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
+// As `urdd_proximity_nearest`, for the pairs of a shape of the robot and a convex part of an obstacle.
 enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity *handle,
                                               const double *configurations,
                                               size_t rows,
@@ -1248,34 +934,18 @@ enum urdd_status urdd_world_proximity_nearest(const struct urdd_world_proximity 
 // Writes the number of pairs that `urdd_world_proximity_distances` has, of a shape of the robot and an obstacle; the
 // number of pairs of a shape and a convex part of an obstacle, the most that `urdd_world_proximity_nearest` finds; and the
 // number of DOFs. Each of the three can be null.
-//
-// Contract:
-// `handle` is null or open; each of the three is null or has room for a number.
 enum urdd_status urdd_world_proximity_sizes(const struct urdd_world_proximity *handle,
                                             size_t *pairs,
                                             size_t *pairs_of_parts,
                                             size_t *dofs);
 
 // Writes the pairs that are checked, in the order of `urdd_world_proximity_distances`.
-//
-// Errors: `LENGTH`.
-//
-// Contract:
-// `handle` is null or open; there is room for `length` pairs at `pairs`.
 enum urdd_status urdd_world_proximity_pairs(const struct urdd_world_proximity *handle,
                                             struct urdd_obstacle_pair *pairs,
                                             size_t length);
 
-// Writes the distance of each pair of a shape of the robot and an obstacle for each configuration, metres: 0 for pairs
-// that touch or overlap.
-//
-// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
-// in the order of `urdd_world_proximity_pairs`. One row is computed on this thread, without an allocation.
-//
-// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-//
-// Contract:
-// `handle` is null or open; the arrays have their lengths.
+// As `urdd_proximity_distances`, for the pairs of a shape of the robot and an obstacle, in the order of
+// `urdd_world_proximity_pairs`.
 enum urdd_status urdd_world_proximity_distances(const struct urdd_world_proximity *handle,
                                                 const double *configurations,
                                                 size_t rows,
@@ -1289,9 +959,6 @@ enum urdd_status urdd_world_proximity_distances(const struct urdd_world_proximit
 //
 // Errors: `OUT_OF_RANGE` if there are fewer obstacles; `VALUE` for NaN or infinity, or a matrix that is not a rotation and
 // a translation.
-//
-// Contract:
-// `handle` is null, or open and not used elsewhere; `poses` has 16 x `count` values.
 enum urdd_status urdd_world_proximity_move_obstacles(struct urdd_world_proximity *handle,
                                                      size_t first,
                                                      const double *poses,

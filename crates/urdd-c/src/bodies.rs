@@ -4,14 +4,11 @@ use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{at, make};
-use crate::memory::{Plain, enough, put, read_text, values};
-use crate::names::out_of_range;
+use crate::memory::{enough, put, read_text, values};
+use crate::names::nth;
 use crate::obstacle::Obstacle;
 use crate::proximity::Proximity;
-use crate::text::{Owned, Text};
-
-// SAFETY: zeros are null pointers.
-unsafe impl Plain for *const c_char {}
+use crate::text::Text;
 
 /// Makes shapes in which a link carries an object, whose pose is that in the link's frame. The object is checked against
 /// all links that move against it, but those that it ignores: the ones that may touch it. The shapes at `handle` stay as they are.
@@ -20,9 +17,6 @@ unsafe impl Plain for *const c_char {}
 ///
 /// Errors: `OUT_OF_RANGE` for a link; `UNKNOWN_NAME` if the object ignores an unknown link; `VALUE` if a link or an
 /// attached object has its name.
-///
-/// # Safety
-/// `handle` and `object` are null or open; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_attach(
     handle: *const Proximity,
@@ -30,7 +24,6 @@ pub unsafe extern "C" fn urdd_proximity_attach(
     object: *const Obstacle,
     out: *mut *mut Proximity,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { make(out, || Ok(Proximity::new(at(handle)?.0.attach(link, &at(object)?.0)?))) }
 }
 
@@ -39,10 +32,6 @@ pub unsafe extern "C" fn urdd_proximity_attach(
 /// of the second pair and so on. Obstacles are still checked; the shapes at `handle` stay as they are.
 ///
 /// Errors: `UNKNOWN_NAME`, whose message has the nearest name.
-///
-/// # Safety
-/// `handle` is null or open; there are 2 x `count` texts at `names`, null or with a zero byte at the end; `out` is null or
-/// has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_without(
     handle: *const Proximity,
@@ -50,7 +39,6 @@ pub unsafe extern "C" fn urdd_proximity_without(
     count: usize,
     out: *mut *mut Proximity,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let names = texts(names, count.saturating_mul(2))?;
@@ -59,13 +47,8 @@ pub unsafe extern "C" fn urdd_proximity_without(
     }
 }
 
-/// Makes shapes without all that belong to `count` bodies, links or attached objects, among obstacles too. The indices of
-/// the other bodies stay.
-///
-/// Errors: `UNKNOWN_NAME`.
-///
-/// # Safety
-/// As `urdd_proximity_without`, with `count` texts.
+/// As `urdd_proximity_without`, for all that belongs to `count` bodies, among obstacles too. The indices of the other
+/// bodies stay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_without_bodies(
     handle: *const Proximity,
@@ -73,7 +56,6 @@ pub unsafe extern "C" fn urdd_proximity_without_bodies(
     count: usize,
     out: *mut *mut Proximity,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let names = texts(names, count)?;
@@ -83,52 +65,36 @@ pub unsafe extern "C" fn urdd_proximity_without_bodies(
 }
 
 /// Writes the number of bodies: of links, and of attached objects, in the order in which they were attached.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_num_bodies(
     handle: *const Proximity,
     out: *mut usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.0.num_bodies()) })
 }
 
 /// Writes the index of a body, as in `bodies` of `urdd_pair`.
 ///
 /// Errors: `UNKNOWN_NAME`, whose message has the nearest name.
-///
-/// # Safety
-/// `handle` is null or open; `name` is null or ends with a zero byte; `out` is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_body(
     handle: *const Proximity,
     name: *const c_char,
     out: *mut usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.0.body(read_text("name", name)?)?) })
 }
 
 /// Writes the name of a body.
 ///
 /// Errors: `OUT_OF_RANGE`.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_body_name(
     handle: *const Proximity,
     body: usize,
     out: *mut Text,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    run(|| unsafe {
-        let names = at(handle)?.names();
-        let name = names.get(body).ok_or_else(|| out_of_range("body", body, names.len()))?;
-        put("out", out, Owned::text(name))
-    })
+    run(|| unsafe { put("out", out, nth("body", at(handle)?.names(), body)?.text()) })
 }
 
 /// The caller's texts.
@@ -136,7 +102,6 @@ pub unsafe extern "C" fn urdd_proximity_body_name(
 /// # Safety
 /// As for [`values`], and each is null or ends with a zero byte.
 unsafe fn texts<'a>(data: *const *const c_char, count: usize) -> Result<Vec<&'a str>, Failure> {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         let names = values("names", data, count)?;
         enough("names", count, 128)?;

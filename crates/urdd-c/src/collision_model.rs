@@ -4,8 +4,8 @@ use urdd_kinematics::ConfigurationError;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put};
+use crate::handle::{at, free, handle, make};
+use crate::memory::{plain, put, put_all, put_numbers};
 use crate::robot::Robot;
 use crate::rows::Rows;
 use crate::text::{Owned, Text};
@@ -16,9 +16,7 @@ pub struct CollisionModel {
     evaluation: Owned,
 }
 
-impl Handle for CollisionModel {
-    const NAME: &'static str = "urdd_collision_model";
-}
+handle!(CollisionModel, "urdd_collision_model");
 
 /// Two links.
 #[repr(C)]
@@ -28,22 +26,17 @@ pub struct LinkPair {
     pub links: [usize; 2],
 }
 
-// SAFETY: zeros are numbers.
-unsafe impl Plain for LinkPair {}
+plain!(LinkPair);
 
 /// Reads the learned self-collision model. It filters out configurations far from contact, before an exact check of the
 /// rest. It is an estimate, not a guarantee: `urdd_collision_model_evaluation` has its measured error rates.
 ///
 /// Errors: `MISSING_MODULE`, `UNUSABLE`: self_collision_model_module, chain_module or dof_module.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_collision_model(
     handle: *const Robot,
     out: *mut *mut CollisionModel,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let model = at(handle)?.robot.collision_model()?;
@@ -55,72 +48,46 @@ pub unsafe extern "C" fn urdd_robot_collision_model(
 }
 
 /// Frees a model. Null is ignored.
-///
-/// # Safety
-/// `model` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_free(model: *mut CollisionModel) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(model) }
 }
 
 /// Writes the error rates that the module states, measured on configurations that were not used to make the model: the
 /// JSON of `evaluation` in self_collision_model_module. It lives as long as the model.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_evaluation(
     handle: *const CollisionModel,
     out: *mut Text,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.evaluation.text()) })
 }
 
 /// Writes the number of link pairs and of DOFs. Each of the two can be null.
-///
-/// # Safety
-/// `handle` is null or open; each of the two is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_sizes(
     handle: *const CollisionModel,
     pairs: *mut usize,
     dofs: *mut usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let model = &at(handle)?.model;
-        if !pairs.is_null() {
-            put("pairs", pairs, model.pairs().len())?;
-        }
-        if !dofs.is_null() {
-            put("dofs", dofs, model.num_dofs())?;
-        }
-        Ok(())
+        put_numbers([("pairs", pairs, model.pairs().len()), ("dofs", dofs, model.num_dofs())])
     })
 }
 
 /// Writes the link pairs, in the order of `urdd_collision_model_clearances`.
-///
-/// Errors: `LENGTH`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `length` pairs at `pairs`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_pairs(
     handle: *const CollisionModel,
     pairs: *mut LinkPair,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.model.pairs();
-        let out = exact_room("pairs", pairs, length, (known.len(), 1))?;
-        for (out, pair) in out.iter_mut().zip(known) {
-            out.links = [pair.link_a_idx.get(), pair.link_b_idx.get()];
-        }
-        Ok(())
+        let links = known.iter().map(|pair| [pair.link_a_idx.get(), pair.link_b_idx.get()]);
+        let links = links.map(|links| LinkPair { links });
+        put_all(("pairs", pairs, length), (known.len(), 1), links)
     })
 }
 
@@ -128,11 +95,6 @@ pub unsafe extern "C" fn urdd_collision_model_pairs(
 /// contact.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `clearances` has room for `length` values: rows x pairs.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_clearances(
     handle: *const CollisionModel,
@@ -142,24 +104,17 @@ pub unsafe extern "C" fn urdd_collision_model_clearances(
     clearances: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let model = &at(handle)?.model;
         let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
         let width = model.pairs().len();
-        let out = q.room(("clearances", clearances, length), width)?;
-        write(q.values, (model.num_dofs(), width), out, |q| model.clearances_batch(q))
+        write(q, q.room(("clearances", clearances, length), width)?, |q| model.clearances_batch(q))
     })
 }
 
 /// Writes whether any pair may be in contact, for each configuration.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_collision_model_may_collide(
     handle: *const CollisionModel,
@@ -168,27 +123,25 @@ pub unsafe extern "C" fn urdd_collision_model_may_collide(
     dofs: usize,
     colliding: *mut bool,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let model = &at(handle)?.model;
         let q = Rows::new("configurations", configurations, (rows, dofs), model.num_dofs())?;
-        let out = q.room(("colliding", colliding, rows), 1)?;
-        write(q.values, (model.num_dofs(), 1), out, |q| model.may_collide_batch(q))
+        write(q, q.room(("colliding", colliding, rows), 1)?, |q| model.may_collide_batch(q))
     })
 }
 
-/// Writes `width` results of each configuration, some configurations at a time: what a batch allocates does not grow with
-/// the caller's rows.
+/// Writes the results of each configuration, some configurations at a time: what a batch allocates does not grow with the
+/// caller's rows.
 fn write<T: Copy>(
-    q: &[f64],
-    (dofs, width): (usize, usize),
+    q: Rows,
     out: &mut [T],
     ask: impl Fn(&[f64]) -> Result<Vec<T>, ConfigurationError>,
 ) -> Result<(), Failure> {
     const ROWS: usize = 512;
+    let width = out.len() / q.count.max(1);
     for (block, out) in out.chunks_mut(ROWS * width.max(1)).enumerate() {
-        let (first, rows) = (block * ROWS * dofs, out.len() / width);
-        let found = ask(&q[first..first + rows * dofs])?;
+        let first = block * ROWS;
+        let found = ask(q.some(first..first + out.len() / width))?;
         if found.len() != out.len() {
             return Err(RobotError::Room { found: out.len(), count: found.len(), width: 1 }.into());
         }

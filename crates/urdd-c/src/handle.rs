@@ -4,13 +4,23 @@ use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use crate::failure::{Failure, Status, run};
-use crate::memory;
+use crate::memory::array;
 
 /// A type that the caller holds by its address.
 pub(crate) trait Handle: Sized {
     /// Its name in the header.
     const NAME: &'static str;
 }
+
+/// Makes a type a [`Handle`], with its name.
+macro_rules! handle {
+    ($type:ty, $name:literal) => {
+        impl $crate::handle::Handle for $type {
+            const NAME: &'static str = $name;
+        }
+    };
+}
+pub(crate) use handle;
 
 /// The type of each open handle by its address. Kept by debug builds alone.
 static OPEN: LazyLock<Mutex<HashMap<usize, &'static str>>> = LazyLock::new(Mutex::default);
@@ -69,7 +79,7 @@ pub(crate) unsafe fn make<T: Handle>(
     act: impl FnOnce() -> Result<T, Failure>,
 ) -> Status {
     run(|| {
-        memory::check_out("out", out)?;
+        array("out", out, 1, true)?;
         // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
         unsafe { out.write(std::ptr::null_mut()) };
         let made = Box::into_raw(Box::new(act()?));

@@ -1,17 +1,16 @@
 //! Inverse kinematics.
 
-use std::{mem, ptr};
+use std::mem;
 
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::pose_matrix::pose;
-use urdd_robot::{InverseSettings, RobotError, Target as RobotTarget, fill};
+use urdd_robot::{InverseSettings, Queries, RobotError, Target as RobotTarget, fill};
 
 use crate::failure::{Failure, Status, run};
 use crate::handle::{Handle, at};
-use crate::memory::{Plain, check, exact_room, put, values};
+use crate::memory::{check, exact_room, plain, put, values};
 use crate::proximity::Proximity;
 use crate::robot::Robot;
-use crate::workspace::with_workspace;
 use crate::world::WorldProximity;
 
 /// A target of inverse kinematics, in the root link's frame.
@@ -119,42 +118,25 @@ impl From<urdd_robot::Verdict> for Verdict {
     }
 }
 
-// SAFETY: zeros are numbers, false, and `Unknown`.
-unsafe impl Plain for Solution {}
-// SAFETY: as above.
-unsafe impl Plain for Target {}
+// The verdict 0 is `Unknown`.
+plain!(Solution, Target);
 
 /// Writes the default settings: tolerances of 1e-6, 100 iterations, 100 restarts, seed 0, no bounds, nothing
 /// locked, no posture, no shapes, no obstacles, no margin, no explanation.
-///
-/// # Safety
-/// `out` is null or has room for settings.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_inverse_settings_default(out: *mut Settings) -> Status {
-    // SAFETY: guaranteed by the caller.
+    let of = InverseSettings::default();
     run(|| unsafe {
-        let settings = InverseSettings::default();
-        put(
-            "out",
-            out,
-            Settings {
-                position_tolerance: settings.position_tolerance,
-                rotation_tolerance: settings.rotation_tolerance,
-                iterations: settings.iterations,
-                restarts: settings.restarts,
-                seed: settings.seed,
-                bounds: ptr::null(),
-                bounds_length: 0,
-                locked: ptr::null(),
-                locked_length: 0,
-                posture: ptr::null(),
-                posture_length: 0,
-                free_of: ptr::null(),
-                free_of_world: ptr::null(),
-                margin: 0.0,
-                explain: false,
-            },
-        )
+        let settings = Settings {
+            position_tolerance: of.position_tolerance,
+            rotation_tolerance: of.rotation_tolerance,
+            iterations: of.iterations,
+            restarts: of.restarts,
+            seed: of.seed,
+            // Null pointers, 0 and false.
+            ..mem::zeroed()
+        };
+        put("out", out, settings)
     })
 }
 
@@ -168,20 +150,14 @@ struct FreeOf<'a> {
 
 impl FreeOf<'_> {
     fn is_free(self, q: &[f64]) -> bool {
-        let free = |touches: Result<bool, RobotError>| touches == Ok(false);
-        with_workspace(|workspace| {
-            let itself = self.itself;
-            itself.is_none_or(|shapes| free(shapes.0.in_collision_with(q, workspace)))
-                && self.world.is_none_or(|world| {
-                    free(world.queries.is_within_with(q, self.margin, workspace))
-                })
-        })
+        self.itself.is_none_or(|shapes| shapes.0.in_collision(q) == Ok(false))
+            && self.world.is_none_or(|world| world.0.is_within(q, self.margin) == Ok(false))
     }
 
     /// Whether the shapes are those of a robot with as many DOFs, and the margin is one.
     fn check(self, dofs: usize) -> Result<(), Failure> {
         let itself = self.itself.map(|shapes| ("free_of", shapes.0.num_dofs()));
-        let world = self.world.map(|world| ("free_of_world", world.dofs));
+        let world = self.world.map(|world| ("free_of_world", world.0.num_dofs()));
         let other = itself.into_iter().chain(world).find(|(_, found)| *found != dofs);
         if let Some((what, found)) = other {
             let message = format!("`{what}` is of a robot with {found} DOFs: expected {dofs}");
@@ -208,7 +184,6 @@ unsafe fn settings<'a>(
         return Ok((settings, FreeOf::default()));
     }
     check("settings", settings)?;
-    // SAFETY: guaranteed by the caller.
     unsafe {
         let settings = settings.read();
         let array = |what, data: *const f64, length, expected| {
@@ -252,11 +227,7 @@ unsafe fn settings<'a>(
 /// # Safety
 /// `handle` is null or open.
 unsafe fn optional<'a, T: Handle>(handle: *const T) -> Result<Option<&'a T>, Failure> {
-    match handle.is_null() {
-        true => Ok(None),
-        // SAFETY: guaranteed by the caller.
-        false => Ok(Some(unsafe { at(handle) }?)),
-    }
+    (!handle.is_null()).then(|| unsafe { at(handle) }).transpose()
 }
 
 /// Searches, for each target, a configuration within the bounds that reaches it: by damped least squares from its
@@ -274,9 +245,6 @@ unsafe fn optional<'a, T: Handle>(handle: *const T) -> Result<Option<&'a T>, Fai
 /// `VALUE` for NaN or infinity, a matrix that is not a rotation and a translation, a tolerance, weight or margin below
 /// 0, weights that leave nothing to reach, crossed bounds, or 0 iterations; `POINTER` also if an output overlaps
 /// anything else that is given; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
     handle: *const Robot,
@@ -289,7 +257,6 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
     configurations: *mut f64,
     solutions: *mut Solution,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
         let targets = values("targets", targets, count)?;
@@ -335,7 +302,7 @@ pub unsafe extern "C" fn urdd_robot_inverse_kinematics(
             }
             Ok(())
         };
-        fill(&mut outputs, 1, 1, || (), solve)
+        fill(&mut outputs, 1, 1, solve)
     })
 }
 

@@ -18,10 +18,7 @@ const MATRIX: usize = 16;
 /// x 4, a homogeneous matrix in row-major order for each link, in metres. Values beyond the bounds are allowed. One row
 /// is computed on this thread, without an allocation.
 ///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
+/// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module or dof_module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_link_poses(
     handle: *const Robot,
@@ -31,7 +28,6 @@ pub unsafe extern "C" fn urdd_robot_link_poses(
     poses: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
         let width = MATRIX * robot.robot.link_names()?.len();
@@ -56,11 +52,8 @@ pub unsafe extern "C" fn urdd_robot_link_poses(
 /// angular velocity, both in the root link's frame. A mimic joint counts for the DOF that it follows. One row is
 /// computed on this thread, without an allocation.
 ///
-/// Errors: `OUT_OF_RANGE` for the link; `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`:
+/// Errors: `OUT_OF_RANGE` for the link; `MISSING_MODULE`, `UNUSABLE`:
 /// chain_module or dof_module.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_jacobians(
     handle: *const Robot,
@@ -72,7 +65,6 @@ pub unsafe extern "C" fn urdd_robot_jacobians(
     jacobians: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
         let q = robot.rows("configurations", configurations, (rows, dofs))?;
@@ -82,9 +74,7 @@ pub unsafe extern "C" fn urdd_robot_jacobians(
         };
         let out = q.room(("jacobians", jacobians, length), 6 * dofs)?;
         if rows == 1 {
-            let one =
-                |poses: &mut Vec<_>| robot.robot.jacobian_into(q.values, link, point, poses, out);
-            return Ok(with_poses(one)?);
+            return Ok(robot.robot.jacobian_into(q.values, link, point, out)?);
         }
         let on = Cancellation::default();
         Ok(robot.robot.jacobian_batch_into(q.values, link, point, &on, out)?)

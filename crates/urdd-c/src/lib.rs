@@ -3,6 +3,12 @@
 //! The C interface of `urdd-robot` and `urdd-validate`: opaque handles, a status from every function, and arrays that
 //! the caller owns. A function is named as the Rust method, with `urdd_` and the type in front. The head of the header
 //! has the rules for ownership, threads and errors.
+//!
+//! The head also has the contract of pointers, which is that of every unsafe function here: its callers keep it, and the
+//! functions hand their pointers on to `memory` and `handle`, which say what they must be. So `unsafe` in the other files
+//! needs no comment.
+
+#![allow(clippy::missing_safety_doc, reason = "the contract is in the head of the header, once")]
 
 mod bodies;
 mod collision_model;
@@ -17,6 +23,7 @@ mod names;
 mod obstacle;
 mod planning;
 mod proximity;
+mod queries;
 mod robot;
 mod rows;
 mod skips;

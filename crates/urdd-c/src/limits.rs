@@ -4,80 +4,60 @@ use urdd_robot::RobotError;
 
 use crate::failure::{Status, run};
 use crate::handle::at;
-use crate::memory::exact_room;
+use crate::memory::put_all;
 use crate::robot::Robot;
 
-/// # Safety
-/// As for `urdd_robot_velocity_limits`.
 unsafe fn limits(
     handle: *const Robot,
     (limits, dofs): (*mut f64, usize),
     of: impl FnOnce(&urdd_robot::Robot) -> Result<&[f64], RobotError>,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = of(&at(handle)?.robot)?;
-        exact_room("limits", limits, dofs, (1, known.len()))?.copy_from_slice(known);
-        Ok(())
+        put_all(("limits", limits, dofs), (1, known.len()), known.iter().copied())
     })
 }
 
 /// Writes the largest speed of each DOF, rad/s or m/s, as the source states it; infinite where it states none. `dofs`
 /// values.
 ///
-/// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: bounds_module.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `dofs` values at `limits`.
+/// Errors: `MISSING_MODULE`, `UNUSABLE`: bounds_module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_velocity_limits(
     handle: *const Robot,
     limits: *mut f64,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { self::limits(handle, (limits, dofs), urdd_robot::Robot::velocity_limits) }
 }
 
-/// Writes the largest effort of each DOF, N m or N, as the source states it; infinite where it states none. `dofs`
-/// values.
-///
-/// Errors: as `urdd_robot_velocity_limits`.
-///
-/// # Safety
-/// As there.
+/// As `urdd_robot_velocity_limits`, for the largest effort of each DOF, N m or N.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_effort_limits(
     handle: *const Robot,
     limits: *mut f64,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { self::limits(handle, (limits, dofs), urdd_robot::Robot::effort_limits) }
 }
 
 /// Writes the mass of each link, kg, 0 where the source states none, and its centre of mass in the link's frame, metres:
 /// links x 4 values.
 ///
-/// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: urdf_module.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `length` values at `masses`.
+/// Errors: `MISSING_MODULE`, `UNUSABLE`: urdf_module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_link_masses(
     handle: *const Robot,
     masses: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.link_masses()?;
-        let out = exact_room("masses", masses, length, (known.len(), 4))?;
-        for (link, out) in known.iter().zip(out.as_chunks_mut::<4>().0) {
+        let each = known.iter().flat_map(|link| {
             let [x, y, z] = link.centre;
-            *out = [link.mass, x, y, z];
-        }
-        Ok(())
+            [link.mass, x, y, z]
+        });
+        put_all(("masses", masses, length), (known.len(), 4), each)
     })
 }
 
@@ -86,10 +66,7 @@ pub unsafe extern "C" fn urdd_robot_link_masses(
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `centres` has room for rows x 3 values.
 ///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity; `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
+/// Errors: `MISSING_MODULE`, `UNUSABLE`: urdf_module, chain_module or dof_module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_centre_of_mass(
     handle: *const Robot,
@@ -98,7 +75,6 @@ pub unsafe extern "C" fn urdd_robot_centre_of_mass(
     dofs: usize,
     centres: *mut f64,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
         let q = robot.rows("configurations", configurations, (rows, dofs))?;

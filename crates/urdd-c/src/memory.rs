@@ -14,16 +14,18 @@ use crate::span::Span;
 /// As stated.
 pub(crate) unsafe trait Plain: Copy {}
 
-// SAFETY: zero bytes are the number 0, and false.
-unsafe impl Plain for f64 {}
-// SAFETY: as above.
-unsafe impl Plain for bool {}
-// SAFETY: as above.
-unsafe impl Plain for usize {}
-// SAFETY: as above.
-unsafe impl Plain for u32 {}
-// SAFETY: as above.
-unsafe impl Plain for u8 {}
+/// Declares that zero bytes are a value of these types: the number 0, false, a null pointer.
+macro_rules! plain {
+    ($($type:ty),+) => {
+        $(
+            // SAFETY: stated where the macro is used.
+            unsafe impl $crate::memory::Plain for $type {}
+        )+
+    };
+}
+pub(crate) use plain;
+
+plain!(f64, bool, usize, u32, u8, *const c_char);
 
 /// Three values of the caller's.
 ///
@@ -36,7 +38,7 @@ pub(crate) unsafe fn triple(what: &'static str, data: *const f64) -> Result<[f64
 }
 
 /// An array of the caller's that a call reads or writes. What it writes overlaps no other one.
-fn array<T>(
+pub(crate) fn array<T>(
     what: &'static str,
     data: *const T,
     length: usize,
@@ -139,20 +141,46 @@ pub(crate) fn enough(what: &'static str, count: usize, bytes: usize) -> Result<(
 /// # Safety
 /// `out` is null, or there is room for a value at it.
 pub(crate) unsafe fn put<T>(what: &'static str, out: *mut T, value: T) -> Result<(), Failure> {
-    check_out(what, out)?;
+    array(what, out, 1, true)?;
     // SAFETY: guaranteed by the caller; it is neither null nor misaligned.
     unsafe { out.write(value) };
+    Ok(())
+}
+
+/// Writes each of some numbers whose pointer is not null.
+///
+/// # Safety
+/// Each pointer is null, or there is room for a number at it.
+pub(crate) unsafe fn put_numbers<const N: usize>(
+    numbers: [(&'static str, *mut usize, usize); N],
+) -> Result<(), Failure> {
+    for (what, out, number) in numbers.into_iter().filter(|(_, out, _)| !out.is_null()) {
+        // SAFETY: guaranteed by the caller.
+        unsafe { put(what, out, number) }?;
+    }
+    Ok(())
+}
+
+/// Writes all results, for which there is exactly room.
+///
+/// # Safety
+/// As for [`room`].
+pub(crate) unsafe fn put_all<T: Plain>(
+    (what, out, length): (&'static str, *mut T, usize),
+    shape: (usize, usize),
+    known: impl IntoIterator<Item = T>,
+) -> Result<(), Failure> {
+    // SAFETY: guaranteed by the caller.
+    let out = unsafe { exact_room(what, out, length, shape) }?;
+    for (out, value) in out.iter_mut().zip(known) {
+        *out = value;
+    }
     Ok(())
 }
 
 /// Whether there can be a value at a pointer: it is neither null nor misaligned.
 pub(crate) fn check<T>(what: &'static str, at: *const T) -> Result<(), Failure> {
     array(what, at, 1, false)
-}
-
-/// As [`check`], for one that is written.
-pub(crate) fn check_out<T>(what: &'static str, at: *mut T) -> Result<(), Failure> {
-    array(what, at, 1, true)
 }
 
 /// A text of the caller's.

@@ -1,26 +1,26 @@
 //! Obstacles around a robot.
 
-use std::ffi::c_char;
+use std::{ffi::c_char, ptr};
 
 use nalgebra::Isometry3;
 use urdd_geometry::Mesh;
 use urdd_kinematics::pose_matrix::pose;
+use urdd_robot::Obstacle as RobotObstacle;
 
 use crate::failure::{Failure, Status};
-use crate::handle::{Handle, at, free, make};
+use crate::handle::{at, free, handle, make};
 use crate::memory::{enough, read_text, triple, values};
+use crate::names::out_of_range;
 
 /// A body that a robot must not touch, in the root link's frame.
-pub struct Obstacle(pub(crate) urdd_robot::Obstacle);
+pub struct Obstacle(pub(crate) RobotObstacle);
 
 /// Bytes that are asked for beforehand for each point of a hull, which takes 360 to 570; and for each vertex and triangle
 /// of a mesh, which takes 2,000.
 const HULL: usize = 768;
 const MESH: usize = 4096;
 
-impl Handle for Obstacle {
-    const NAME: &'static str = "urdd_obstacle";
-}
+handle!(Obstacle, "urdd_obstacle");
 
 /// The pose at `matrix`; null is the identity.
 ///
@@ -30,7 +30,6 @@ pub(crate) unsafe fn placed(matrix: *const f64) -> Result<Isometry3<f64>, Failur
     if matrix.is_null() {
         return Ok(Isometry3::identity());
     }
-    // SAFETY: guaranteed by the caller.
     pose_of(unsafe { values("pose", matrix, 16) }?)
 }
 
@@ -41,17 +40,17 @@ pub(crate) fn pose_of(matrix: &[f64]) -> Result<Isometry3<f64>, Failure> {
     })
 }
 
-/// Makes an obstacle with a name.
+/// Makes an obstacle with a name at a pose.
 ///
 /// # Safety
-/// As for [`make`]; `name` is null or ends with a zero byte.
+/// As for [`make`] and [`placed`]; `name` is null or ends with a zero byte.
 unsafe fn named(
     name: *const c_char,
+    pose: *const f64,
     out: *mut *mut Obstacle,
-    act: impl FnOnce(&str) -> Result<urdd_robot::Obstacle, Failure>,
+    act: impl FnOnce(&str, Isometry3<f64>) -> Result<RobotObstacle, Failure>,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?)?))) }
+    unsafe { make(out, || Ok(Obstacle(act(read_text("name", name)?, placed(pose)?)?))) }
 }
 
 /// Makes a box: the pose of its centre and axes, and its 3 half extents, metres.
@@ -60,10 +59,6 @@ unsafe fn named(
 ///
 /// Errors: `VALUE` for a size that is negative, not finite or larger than 1e9 m, and for a pose that is not a rotation
 /// and a translation.
-///
-/// # Safety
-/// `name` is null or ends with a zero byte; `pose` is null or has 16 values, `half_extents` 3; `out` is null or has
-/// room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_cuboid(
     name: *const c_char,
@@ -71,11 +66,9 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
     half_extents: *const f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
-        named(name, out, |name| {
-            let half = triple("half_extents", half_extents)?;
-            Ok(urdd_robot::Obstacle::cuboid(name, placed(pose)?, half)?)
+        named(name, pose, out, |name, pose| {
+            Ok(RobotObstacle::cuboid(name, pose, triple("half_extents", half_extents)?)?)
         })
     }
 }
@@ -83,9 +76,6 @@ pub unsafe extern "C" fn urdd_obstacle_cuboid(
 /// Makes a sphere: its centre (3 values) and radius, metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; `centre` has 3 values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_sphere(
     name: *const c_char,
@@ -93,11 +83,9 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
     radius: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
-        named(name, out, |name| {
-            let centre = triple("centre", centre)?;
-            Ok(urdd_robot::Obstacle::sphere(name, centre, radius)?)
+        named(name, ptr::null(), out, |name, _| {
+            Ok(RobotObstacle::sphere(name, triple("centre", centre)?, radius)?)
         })
     }
 }
@@ -106,9 +94,6 @@ pub unsafe extern "C" fn urdd_obstacle_sphere(
 /// `half_length`, metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_capsule(
     name: *const c_char,
@@ -117,21 +102,14 @@ pub unsafe extern "C" fn urdd_obstacle_capsule(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    unsafe {
-        named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::capsule(name, placed(pose)?, radius, half_length)?)
-        })
-    }
+    let make = |name: &str, pose| Ok(RobotObstacle::capsule(name, pose, radius, half_length)?);
+    unsafe { named(name, pose, out, make) }
 }
 
 /// Makes a cylinder along the z axis of its frame, from -`half_length` to `half_length`, metres. It is approximated by
 /// a circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
 ///
 /// Errors: as `urdd_obstacle_cuboid`.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_cylinder(
     name: *const c_char,
@@ -140,20 +118,13 @@ pub unsafe extern "C" fn urdd_obstacle_cylinder(
     half_length: f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    unsafe {
-        named(name, out, |name| {
-            Ok(urdd_robot::Obstacle::cylinder(name, placed(pose)?, radius, half_length)?)
-        })
-    }
+    let make = |name: &str, pose| Ok(RobotObstacle::cylinder(name, pose, radius, half_length)?);
+    unsafe { named(name, pose, out, make) }
 }
 
 /// Makes the convex hull of `count` points (count x 3), metres.
 ///
 /// Errors: as `urdd_obstacle_cuboid`, and `VALUE` without points.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; `points` has 3 times `count` values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_hull(
     name: *const c_char,
@@ -162,12 +133,11 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
     count: usize,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
-        named(name, out, |name| {
+        named(name, pose, out, |name, pose| {
             let points = values("points", points, count.saturating_mul(3))?.as_chunks().0;
             enough("points", count, HULL)?;
-            Ok(urdd_robot::Obstacle::hull(name, placed(pose)?, points)?)
+            Ok(RobotObstacle::hull(name, pose, points)?)
         })
     }
 }
@@ -176,9 +146,6 @@ pub unsafe extern "C" fn urdd_obstacle_hull(
 /// convex pieces as `urdd generate` does, at the same cost. `urdd_obstacle_hull` is fast, and fills cavities.
 ///
 /// Errors: as `urdd_obstacle_hull`, and `OUT_OF_RANGE` for a vertex index.
-///
-/// # Safety
-/// As `urdd_obstacle_cuboid`; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_mesh(
     name: *const c_char,
@@ -189,37 +156,29 @@ pub unsafe extern "C" fn urdd_obstacle_mesh(
     num_triangles: usize,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
-        named(name, out, |name| {
-            let length = num_vertices.saturating_mul(3);
-            let vertices = values("vertices", vertices, length)?.as_chunks().0;
-            let length = num_triangles.saturating_mul(3);
-            let triangles = values("triangles", triangles, length)?;
+        named(name, pose, out, |name, pose| {
+            let vertices = values("vertices", vertices, num_vertices.saturating_mul(3))?;
+            let triangles = values("triangles", triangles, num_triangles.saturating_mul(3))?;
             enough("vertices", num_vertices.saturating_add(num_triangles), MESH)?;
             if let Some(index) = triangles.iter().find(|index| **index as usize >= num_vertices) {
-                let index = *index as usize;
-                return Err(crate::names::out_of_range("vertex", index, num_vertices));
+                return Err(out_of_range("vertex", *index as usize, num_vertices));
             }
-            let triangles = triangles.as_chunks().0.to_vec();
-            let mesh = Mesh { vertices: vertices.to_vec(), triangles };
-            Ok(urdd_robot::Obstacle::mesh(name, placed(pose)?, &mesh)?)
+            let vertices = vertices.as_chunks().0.to_vec();
+            let mesh = Mesh { vertices, triangles: triangles.as_chunks().0.to_vec() };
+            Ok(RobotObstacle::mesh(name, pose, &mesh)?)
         })
     }
 }
 
 /// Makes the same obstacle again, with a link that may touch it, such as the base that is mounted on it. `obstacle`
 /// stays as it is.
-///
-/// # Safety
-/// `obstacle` is null or open; `link` is null or ends with a zero byte; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_ignoring(
     obstacle: *const Obstacle,
     link: *const c_char,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let link = read_text("link", link)?;
@@ -233,25 +192,17 @@ pub unsafe extern "C" fn urdd_obstacle_ignoring(
 /// new handle.
 ///
 /// Errors: `VALUE` for NaN or infinity, or a matrix that is not a rotation and a translation.
-///
-/// # Safety
-/// `obstacle` is null or open; `pose` is null or has 16 values; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_at(
     obstacle: *const Obstacle,
     pose: *const f64,
     out: *mut *mut Obstacle,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { make(out, || Ok(Obstacle(at(obstacle)?.0.at(placed(pose)?)?))) }
 }
 
 /// Frees an obstacle. What was made of it stays. Null is ignored.
-///
-/// # Safety
-/// `obstacle` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_obstacle_free(obstacle: *mut Obstacle) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(obstacle) }
 }

@@ -3,15 +3,15 @@
 use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
 
-use urdd_robot::{PairDistance as RobotPair, RobotError, ShapeKind};
+use urdd_robot::{PairDistance as RobotPair, Queries, RobotError, ShapeKind};
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put, read_text, room};
+use crate::handle::{at, free, handle, make};
+use crate::memory::{plain, put_all, put_numbers, read_text};
+use crate::queries::Asked;
 use crate::robot::Robot;
 use crate::rows::Rows;
 use crate::text::Owned;
-use crate::workspace::with_workspace;
 
 /// The shapes of one kind of a robot, prepared for distances.
 pub struct Proximity(pub(crate) Arc<urdd_robot::Proximity>, OnceLock<Vec<Owned>>);
@@ -30,9 +30,7 @@ impl Proximity {
     }
 }
 
-impl Handle for Proximity {
-    const NAME: &'static str = "urdd_proximity";
-}
+handle!(Proximity, "urdd_proximity");
 
 /// Two shapes that are checked against each other.
 #[repr(C)]
@@ -62,10 +60,7 @@ pub struct PairDistance {
     pub points: [[f64; 3]; 2],
 }
 
-// SAFETY: zeros are numbers.
-unsafe impl Plain for Pair {}
-// SAFETY: as above.
-unsafe impl Plain for PairDistance {}
+plain!(Pair, PairDistance);
 
 impl From<RobotPair> for PairDistance {
     fn from(found: RobotPair) -> Self {
@@ -85,16 +80,12 @@ impl From<RobotPair> for PairDistance {
 ///
 /// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the module of the shapes, a skips module,
 /// chain_module or dof_module, or a mesh.
-///
-/// # Safety
-/// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_proximity(
     handle: *const Robot,
     kind: *const c_char,
     out: *mut *mut Proximity,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let robot = at(handle)?;
@@ -110,19 +101,12 @@ pub(crate) fn shape_kind(name: &str) -> Result<ShapeKind, Failure> {
 }
 
 /// Frees a proximity. What was made of it stays. Null is ignored.
-///
-/// # Safety
-/// `proximity` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_free(proximity: *mut Proximity) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(proximity) }
 }
 
 /// Writes the number of shapes, of pairs that are checked, and of DOFs. Each of the three can be null.
-///
-/// # Safety
-/// `handle` is null or open; each of the three is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_sizes(
     handle: *const Proximity,
@@ -130,43 +114,29 @@ pub unsafe extern "C" fn urdd_proximity_sizes(
     pairs: *mut usize,
     dofs: *mut usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        for (what, out, number) in [
+        put_numbers([
             ("shapes", shapes, proximity.num_shapes()),
             ("pairs", pairs, proximity.num_pairs()),
             ("dofs", dofs, proximity.num_dofs()),
-        ] {
-            if !out.is_null() {
-                put(what, out, number)?;
-            }
-        }
-        Ok(())
+        ])
     })
 }
 
 /// Writes the pairs that are checked, in the order of `urdd_proximity_distances`.
-///
-/// Errors: `LENGTH`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `length` pairs at `pairs`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_pairs(
     handle: *const Proximity,
     pairs: *mut Pair,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let proximity = &at(handle)?.0;
-        let out = exact_room("pairs", pairs, length, (proximity.num_pairs(), 1))?;
         let known = proximity.pairs().zip(proximity.pair_bodies());
-        for (out, ([a, b], bodies)) in out.iter_mut().zip(known) {
-            *out = Pair { links: [a.0, b.0], bodies, pieces: [a.1, b.1] };
-        }
-        Ok(())
+        let known =
+            known.map(|([a, b], bodies)| Pair { links: [a.0, b.0], bodies, pieces: [a.1, b.1] });
+        put_all(("pairs", pairs, length), (proximity.num_pairs(), 1), known)
     })
 }
 
@@ -174,11 +144,6 @@ pub unsafe extern "C" fn urdd_proximity_pairs(
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `colliding` has room for `rows` values. One row is
 /// computed on this thread, without an allocation.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_in_collision(
     handle: *const Proximity,
@@ -187,25 +152,12 @@ pub unsafe extern "C" fn urdd_proximity_in_collision(
     dofs: usize,
     colliding: *mut bool,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    run(|| unsafe {
-        let proximity = &at(handle)?.0;
-        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(("colliding", colliding, rows), 1, |q, out| {
-            out[0] = with_workspace(|workspace| proximity.in_collision_with(q, workspace))?;
-            Ok(())
-        })
-    })
+    unsafe { Asked::in_collision(handle, (configurations, rows, dofs), colliding) }
 }
 
 /// Writes the minimum distance over all pairs for each configuration, metres: 0 in a collision, infinite without pairs.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `rows` values.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_self_distance(
     handle: *const Proximity,
@@ -214,27 +166,13 @@ pub unsafe extern "C" fn urdd_proximity_self_distance(
     dofs: usize,
     distances: *mut f64,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    run(|| unsafe {
-        let proximity = &at(handle)?.0;
-        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(("distances", distances, rows), 1, |q, out| {
-            let least = with_workspace(|workspace| proximity.self_distance_with(q, workspace))?;
-            out[0] = least.unwrap_or(f64::INFINITY);
-            Ok(())
-        })
-    })
+    unsafe { Asked::min_distance(handle, (configurations, rows, dofs), distances) }
 }
 
 /// Writes the distance of each pair for each configuration, metres: 0 for pairs that touch or overlap.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `distances` has room for `length` values: rows x pairs,
 /// in the order of `urdd_proximity_pairs`. One row is computed on this thread, without an allocation.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_distances(
     handle: *const Proximity,
@@ -244,14 +182,7 @@ pub unsafe extern "C" fn urdd_proximity_distances(
     distances: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    run(|| unsafe {
-        let proximity = &at(handle)?.0;
-        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(("distances", distances, length), proximity.num_pairs(), |q, out| {
-            with_workspace(|workspace| proximity.distances_with(q, workspace, out))
-        })
-    })
+    unsafe { Asked::distances(handle, (configurations, rows, dofs), distances, length) }
 }
 
 /// Writes the `k` nearest pairs for each configuration, nearest first, with their closest points.
@@ -259,11 +190,6 @@ pub unsafe extern "C" fn urdd_proximity_distances(
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `nearest` has room for rows x k. `found` is the number
 /// that is written of each row: the lesser of `k` and the number of pairs. One row is computed on this thread, without an
 /// allocation.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths; `found` is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_nearest(
     handle: *const Proximity,
@@ -274,28 +200,13 @@ pub unsafe extern "C" fn urdd_proximity_nearest(
     nearest: *mut PairDistance,
     found: *mut usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
-    run(|| unsafe {
-        let proximity = &at(handle)?.0;
-        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        let found = room("found", found, 1)?;
-        q.answer(("nearest", nearest, rows.saturating_mul(k)), k, |q, out| {
-            with_workspace(|memory| proximity.nearest_with(q, k, memory, write(out.iter_mut())))
-        })?;
-        found[0] = k.min(proximity.num_pairs());
-        Ok(())
-    })
+    unsafe { Asked::nearest(handle, (configurations, rows, dofs), k, nearest, found) }
 }
 
 /// Writes the distance and the closest points of each pair for each configuration.
 ///
 /// `configurations` has `rows` rows of `dofs` values, rad or m; `closest` has room for `length`: rows x pairs, in the
 /// order of `urdd_proximity_pairs`.
-///
-/// Errors: `LENGTH`; `VALUE` for NaN or infinity.
-///
-/// # Safety
-/// `handle` is null or open; the arrays have their lengths.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_proximity_closest_points(
     handle: *const Proximity,
@@ -305,35 +216,14 @@ pub unsafe extern "C" fn urdd_proximity_closest_points(
     closest: *mut PairDistance,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
-        let proximity = &at(handle)?.0;
-        let q = proximity_rows(proximity, configurations, (rows, dofs))?;
-        q.answer(("closest", closest, length), proximity.num_pairs(), |q, out| {
-            proximity.closest_points(q)?.into_iter().for_each(write(out.iter_mut()));
+        let of = &at(handle)?.0;
+        let q = Rows::new("configurations", configurations, (rows, dofs), of.num_dofs())?;
+        q.answer(("closest", closest, length), of.num_pairs(), |q, out| {
+            for (out, pair) in out.iter_mut().zip(of.closest_points(q)?) {
+                *out = pair.into();
+            }
             Ok(())
         })
     })
-}
-
-/// # Safety
-/// As for [`Rows::new`].
-unsafe fn proximity_rows<'a>(
-    proximity: &urdd_robot::Proximity,
-    data: *const f64,
-    shape: (usize, usize),
-) -> Result<Rows<'a>, Failure> {
-    // SAFETY: guaranteed by the caller.
-    unsafe { Rows::new("configurations", data, shape, proximity.num_dofs()) }
-}
-
-/// Writes one answer after another.
-pub(crate) fn write<'a, P, T: From<P> + 'a>(
-    mut out: impl Iterator<Item = &'a mut T>,
-) -> impl FnMut(P) {
-    move |found| {
-        if let Some(out) = out.next() {
-            *out = found.into();
-        }
-    }
 }

@@ -8,7 +8,7 @@ use urdd_format::named_configurations::NamedConfiguration;
 use urdd_robot::RobotError;
 
 use crate::failure::{Failure, Status};
-use crate::handle::{Handle, free, make};
+use crate::handle::{free, handle, make};
 use crate::memory::{enough, read_text, values};
 use crate::rows::Rows;
 use crate::text::Owned;
@@ -27,9 +27,7 @@ pub(crate) struct Names {
     pub dofs: Vec<Owned>,
 }
 
-impl Handle for Robot {
-    const NAME: &'static str = "urdd_robot";
-}
+handle!(Robot, "urdd_robot");
 
 impl Robot {
     fn new(robot: urdd_robot::Robot) -> Self {
@@ -70,7 +68,6 @@ impl Robot {
         data: *const f64,
         shape: (usize, usize),
     ) -> Result<Rows<'a>, Failure> {
-        // SAFETY: guaranteed by the caller.
         unsafe { Rows::new(what, data, shape, self.num_dofs()?) }
     }
 }
@@ -79,12 +76,8 @@ impl Robot {
 /// reads it, and it is kept.
 ///
 /// `path` is in UTF-8. Errors: `OPEN` if there is no URDD.
-///
-/// # Safety
-/// `path` is null or ends with a zero byte; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_open(path: *const c_char, out: *mut *mut Robot) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let robot = urdd_robot::Robot::open_urdd(read_text("path", path)?)?;
@@ -96,10 +89,6 @@ pub unsafe extern "C" fn urdd_robot_open(path: *const c_char, out: *mut *mut Rob
 /// Opens the URDD in a zip archive in memory. The bytes are copied. `name` stands for the archive in messages.
 ///
 /// Errors: `OPEN` if the bytes are not a zip archive.
-///
-/// # Safety
-/// `name` is null or ends with a zero byte; there are `length` bytes at `bytes`; `out` is null or has room for a
-/// pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_of_archive(
     name: *const c_char,
@@ -107,7 +96,6 @@ pub unsafe extern "C" fn urdd_robot_of_archive(
     length: usize,
     out: *mut *mut Robot,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let archive = archive(read_text("name", name)?, values("bytes", bytes, length)?)?;
@@ -126,11 +114,7 @@ pub(crate) fn archive(name: &str, bytes: &[u8]) -> Result<Archive, Failure> {
 }
 
 /// Frees a robot. What was made of it stays. Null is ignored.
-///
-/// # Safety
-/// `robot` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_free(robot: *mut Robot) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(robot) }
 }

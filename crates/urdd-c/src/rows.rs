@@ -1,5 +1,7 @@
 //! Configurations of the caller's: rows of one value for each DOF, and an answer for each row.
 
+use std::ops::Range;
+
 use urdd_robot::{RobotError, fill};
 
 use crate::failure::{Failure, Status};
@@ -7,14 +9,12 @@ use crate::memory::{Plain, exact_room, values};
 
 /// Configurations in one block of work.
 const BLOCK: usize = 32;
-/// Motions in one block of work.
-const EDGES: usize = 4;
 
 /// Rows of numbers, one after another.
 #[derive(Clone, Copy)]
 pub(crate) struct Rows<'a> {
     pub values: &'a [f64],
-    count: usize,
+    pub count: usize,
     columns: usize,
 }
 
@@ -43,7 +43,12 @@ impl<'a> Rows<'a> {
 
     /// A row.
     pub fn row(&self, k: usize) -> &'a [f64] {
-        &self.values[k * self.columns..(k + 1) * self.columns]
+        self.some(k..k + 1)
+    }
+
+    /// Some rows.
+    pub fn some(&self, rows: Range<usize>) -> &'a [f64] {
+        &self.values[rows.start * self.columns..rows.end * self.columns]
     }
 
     /// The caller's room for `width` results of each row.
@@ -72,23 +77,6 @@ impl<'a> Rows<'a> {
         // SAFETY: guaranteed by the caller.
         let out = unsafe { self.room(out, width) }?;
         let row = |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), out);
-        Ok(fill(out, width, BLOCK, || (), row)?)
-    }
-
-    /// Writes `width` results for each row of both.
-    ///
-    /// # Safety
-    /// As for [`exact_room`].
-    pub unsafe fn answer_both<T: Plain + Send>(
-        &self,
-        other: &Rows,
-        out: (&'static str, *mut T, usize),
-        width: usize,
-        ask: impl Fn(&[f64], &[f64], &mut [T]) -> Result<(), RobotError> + Sync,
-    ) -> Result<(), Failure> {
-        // SAFETY: guaranteed by the caller.
-        let out = unsafe { self.room(out, width) }?;
-        let row = |(): &mut (), k: usize, out: &mut [T]| ask(self.row(k), other.row(k), out);
-        Ok(fill(out, width, EDGES, || (), row)?)
+        Ok(fill(out, width, BLOCK, row)?)
     }
 }

@@ -3,8 +3,8 @@
 use std::ffi::c_char;
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{Handle, at, free, make};
-use crate::memory::{Plain, exact_room, put, read_text};
+use crate::handle::{at, free, handle, make};
+use crate::memory::{plain, put, put_all, read_text};
 use crate::names::out_of_range;
 use crate::proximity::shape_kind;
 use crate::robot::Robot;
@@ -12,9 +12,7 @@ use crate::robot::Robot;
 /// The skips between the shapes of one kind.
 pub struct Skips(urdd_robot::Skips);
 
-impl Handle for Skips {
-    const NAME: &'static str = "urdd_skips";
-}
+handle!(Skips, "urdd_skips");
 
 /// A shape: the index of its link, and of the link's piece; 0 for hulls and their bounding volumes.
 #[repr(C)]
@@ -26,22 +24,17 @@ pub struct Place {
     pub piece: usize,
 }
 
-// SAFETY: zeros are numbers.
-unsafe impl Plain for Place {}
+plain!(Place);
 
 /// Reads the skips between the shapes of a kind. `kind` is as for `urdd_robot_proximity`.
 ///
 /// Errors: `UNKNOWN_NAME` for the kind; `MISSING_MODULE`, `UNUSABLE`: the skips modules.
-///
-/// # Safety
-/// `handle` is null or open; `kind` is null or ends with a zero byte; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_skips(
     handle: *const Robot,
     kind: *const c_char,
     out: *mut *mut Skips,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let kind = shape_kind(read_text("kind", kind)?)?;
@@ -51,54 +44,34 @@ pub unsafe extern "C" fn urdd_robot_skips(
 }
 
 /// Frees skips. Null is ignored.
-///
-/// # Safety
-/// `skips` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_skips_free(skips: *mut Skips) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(skips) }
 }
 
 /// Writes the number of shapes.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_skips_len(handle: *const Skips, out: *mut usize) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.0.len()) })
 }
 
 /// Writes the link and the piece of each shape.
-///
-/// Errors: `LENGTH`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `length` places at `places`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_skips_places(
     handle: *const Skips,
     places: *mut Place,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.0.places();
-        let out = exact_room("places", places, length, (known.len(), 1))?;
-        for (out, (link, piece)) in out.iter_mut().zip(known) {
-            *out = Place { link: *link, piece: *piece };
-        }
-        Ok(())
+        let each = known.iter().map(|(link, piece)| Place { link: *link, piece: *piece });
+        put_all(("places", places, length), (known.len(), 1), each)
     })
 }
 
 /// Writes whether a pair of shapes is skipped, by their indices. A shape with itself is.
 ///
 /// Errors: `OUT_OF_RANGE`.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_skips_is_skipped(
     handle: *const Skips,
@@ -106,7 +79,6 @@ pub unsafe extern "C" fn urdd_skips_is_skipped(
     j: usize,
     out: *mut bool,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let skips = &at(handle)?.0;
         for index in [i, j] {

@@ -4,7 +4,7 @@ use urdd_robot::{Configurations, RobotError, fill};
 
 use crate::failure::{Status, run};
 use crate::handle::at;
-use crate::memory::{exact_room, room};
+use crate::memory::{exact_room, put_all, room};
 use crate::robot::Robot;
 
 /// Configurations in one block of work.
@@ -14,22 +14,17 @@ const BLOCK: usize = 64;
 /// rotations. Those of other DOFs that are not limited are a range to sample from, [-pi, pi] or [-1, 1], which the DOF
 /// may leave: `urdd_robot_dof_is_limited` says which.
 ///
-/// Errors: `LENGTH`; `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `length` values at `bounds`.
+/// Errors: `MISSING_MODULE`, `UNUSABLE`: chain_module, dof_module or bounds_module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_bounds(
     handle: *const Robot,
     bounds: *mut f64,
     length: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?.bounds();
-        let out = exact_room("bounds", bounds, length, (known.len(), 2))?;
-        out.copy_from_slice(known.as_flattened());
-        Ok(())
+        let each = known.as_flattened().iter().copied();
+        put_all(("bounds", bounds, length), (known.len(), 2), each)
     })
 }
 
@@ -37,69 +32,49 @@ pub unsafe extern "C" fn urdd_robot_bounds(
 /// `limited` has room for `dofs` values.
 ///
 /// Errors: as `urdd_robot_bounds`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `dofs` values at `limited`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_dof_is_limited(
     handle: *const Robot,
     limited: *mut bool,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?.dof_is_limited();
-        exact_room("limited", limited, dofs, (1, known.len()))?.copy_from_slice(known);
-        Ok(())
+        put_all(("limited", limited, dofs), (1, known.len()), known.iter().copied())
     })
 }
 
-/// # Safety
-/// As for `urdd_robot_zero`.
 unsafe fn one(
     handle: *const Robot,
     configuration: *mut f64,
     dofs: usize,
     of: impl FnOnce(&Configurations) -> Vec<f64>,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?;
-        let out = exact_room("configuration", configuration, dofs, (1, known.num_dofs()))?;
-        out.copy_from_slice(&of(known));
-        Ok(())
+        put_all(("configuration", configuration, dofs), (1, known.num_dofs()), of(known))
     })
 }
 
 /// Writes the default configuration (SPEC 9.4): every DOF at 0, or at the bound nearest to 0. `dofs` values, rad or m.
 ///
 /// Errors: as `urdd_robot_bounds`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `dofs` values at `configuration`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_zero(
     handle: *const Robot,
     configuration: *mut f64,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { one(handle, configuration, dofs, Configurations::zero) }
 }
 
-/// Writes the configuration with every DOF half-way between its bounds.
-///
-/// Errors: as `urdd_robot_bounds`.
-///
-/// # Safety
-/// As `urdd_robot_zero`.
+/// As `urdd_robot_zero`, for the configuration with every DOF half-way between its bounds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_middle(
     handle: *const Robot,
     configuration: *mut f64,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { one(handle, configuration, dofs, Configurations::middle) }
 }
 
@@ -107,9 +82,6 @@ pub unsafe extern "C" fn urdd_robot_middle(
 /// the same in every implementation. rows x dofs values, rad or m.
 ///
 /// Errors: as `urdd_robot_bounds`.
-///
-/// # Safety
-/// `handle` is null or open; there is room for `rows` times `dofs` values at `configurations`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_random(
     handle: *const Robot,
@@ -118,34 +90,28 @@ pub unsafe extern "C" fn urdd_robot_random(
     rows: usize,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let known = at(handle)?.robot.configurations()?;
         let shape = (rows, known.num_dofs());
         let length = rows.saturating_mul(dofs);
         let out = exact_room("configurations", configurations, length, shape)?;
-        let write = |(): &mut (), k: usize, out: &mut [f64]| {
+        Ok(fill(out, dofs, BLOCK, |(): &mut (), k, out: &mut [f64]| {
             out.copy_from_slice(&known.random(first.wrapping_add(k as u64)));
             Ok::<(), RobotError>(())
-        };
-        Ok(fill(out, dofs, BLOCK, || (), write)?)
+        })?)
     })
 }
 
-/// Moves each value of a configuration that is beyond its bounds to the nearer bound. Leaves rotation vectors as they
-/// are.
+/// Moves each of the `dofs` values of a configuration that is beyond its bounds to the nearer bound. Leaves rotation
+/// vectors as they are.
 ///
 /// Errors: as `urdd_robot_bounds`.
-///
-/// # Safety
-/// `handle` is null or open; there are `dofs` values at `configuration`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_robot_clamp(
     handle: *const Robot,
     configuration: *mut f64,
     dofs: usize,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe {
         let robot = at(handle)?;
         let known = robot.robot.configurations()?;

@@ -8,7 +8,7 @@ use urdd_validate::report::json;
 use urdd_validate::settings::Settings;
 
 use crate::failure::{Failure, Status, run};
-use crate::handle::{Handle, at, free, make};
+use crate::handle::{at, free, handle, make};
 use crate::memory::{put, read_text, values};
 use crate::robot::archive;
 use crate::text::{Owned, Text};
@@ -19,9 +19,7 @@ pub struct Report {
     passes: bool,
 }
 
-impl Handle for Report {
-    const NAME: &'static str = "urdd_report";
-}
+handle!(Report, "urdd_report");
 
 impl Report {
     fn of(run: &Run) -> Result<Self, Failure> {
@@ -41,7 +39,6 @@ unsafe fn settings_of(settings: *const c_char) -> Result<Settings, Failure> {
     if settings.is_null() {
         return Ok(Settings::default());
     }
-    // SAFETY: guaranteed by the caller.
     let text = unsafe { read_text("settings", settings) }?;
     Settings::from_toml(text)
         .map_err(|error| Failure::new(Status::Value, format!("settings: {error}")))
@@ -52,16 +49,12 @@ unsafe fn settings_of(settings: *const c_char) -> Result<Settings, Failure> {
 /// `settings` is the text of a `urdd.toml` (docs/validate.md); null is an empty one. No settings are read from disk.
 ///
 /// Errors: `OPEN` if there is no URDD; `VALUE` for the settings. Findings are no error: the report has them.
-///
-/// # Safety
-/// `path` is null or ends with a zero byte; `settings` too; `out` is null or has room for a pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_validate(
     path: *const c_char,
     settings: *const c_char,
     out: *mut *mut Report,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let (path, settings) = (read_text("path", path)?, settings_of(settings)?);
@@ -73,9 +66,6 @@ pub unsafe extern "C" fn urdd_validate(
 /// Validates the URDD in a zip archive in memory. `name` is its name in the report.
 ///
 /// Errors: `OPEN` if the bytes are not a zip archive; `VALUE` for the settings.
-///
-/// # Safety
-/// As `urdd_validate`; there are `length` bytes at `bytes`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_validate_archive(
     name: *const c_char,
@@ -84,7 +74,6 @@ pub unsafe extern "C" fn urdd_validate_archive(
     settings: *const c_char,
     out: *mut *mut Report,
 ) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe {
         make(out, || {
             let (name, settings) = (read_text("name", name)?, settings_of(settings)?);
@@ -95,31 +84,19 @@ pub unsafe extern "C" fn urdd_validate_archive(
 }
 
 /// Writes the report: the JSON of `urdd validate --format json` (schema/report). It lives as long as the report.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_report_json(handle: *const Report, out: *mut Text) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.json.text()) })
 }
 
 /// Writes whether every URDD passes.
-///
-/// # Safety
-/// `handle` is null or open; `out` is null or has room for a value.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_report_passes(handle: *const Report, out: *mut bool) -> Status {
-    // SAFETY: guaranteed by the caller.
     run(|| unsafe { put("out", out, at(handle)?.passes) })
 }
 
 /// Frees a report. Null is ignored.
-///
-/// # Safety
-/// `report` is null, or open and not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn urdd_report_free(report: *mut Report) -> Status {
-    // SAFETY: guaranteed by the caller.
     unsafe { free(report) }
 }

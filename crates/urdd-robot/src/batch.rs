@@ -28,24 +28,23 @@ pub(super) fn room<T: Clone + Default + Send>(
 }
 
 /// Writes the results of a batch of configurations, `width` values each, into `out`, in blocks of `block`
-/// configurations on rayon's thread pool. `start` creates the scratch state that a block shares. `write` gets that
-/// state, the index of the configuration and its part of `out`. A single block is written on the caller's thread. Apart
-/// from `start` and `write`, nothing allocates.
+/// configurations on rayon's thread pool. `write` gets the scratch state that a block shares, the index of the
+/// configuration and its part of `out`. A single block is written on the caller's thread. Apart from the state and
+/// `write`, nothing allocates.
 ///
 /// # Errors
 /// The error of `write` for the first configuration that fails. Results after it may then be missing.
-pub fn fill<T: Send, S, E: Send>(
+pub fn fill<T: Send, S: Default, E: Send>(
     out: &mut [T],
     width: usize,
     block: usize,
-    start: impl Fn() -> S + Sync,
     write: impl Fn(&mut S, usize, &mut [T]) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
     if width == 0 {
         return Ok(());
     }
     let write_block = |(number, out): (usize, &mut [T])| {
-        let mut shared = start();
+        let mut shared = S::default();
         let mut each = out.chunks_mut(width).enumerate();
         each.find_map(|(k, row)| write(&mut shared, number * block + k, row).err())
     };
@@ -90,12 +89,12 @@ mod tests {
                 Ok(())
             }
         };
-        assert_eq!(fill(&mut out, 3, 7, || (), write), Err(517));
+        assert_eq!(fill(&mut out, 3, 7, write), Err(517));
         let all = |_: &mut (), k: usize, out: &mut [usize]| write(&mut (), k % 500, out);
-        assert_eq!(fill(&mut out, 3, 7, || (), all), Ok(()));
+        assert_eq!(fill(&mut out, 3, 7, all), Ok(()));
         let expected = (0..1000).flat_map(|k| [k % 500; 3]);
         assert!(out.into_iter().eq(expected));
-        assert_eq!(fill(&mut [0; 0], 0, 7, || (), write), Ok(()));
+        assert_eq!(fill(&mut [0; 0], 0, 7, write), Ok(()));
     }
 
     #[test]

@@ -1,20 +1,30 @@
-//! Queries on pairs of shapes: of the robot's own, and of the robot and obstacles.
+//! What queries need of pairs of shapes: of the robot's own, and of the robot and obstacles.
 
 use super::error::RobotError;
-use super::proximity::{Overlap, Placed, Proximity, SweptPair, Workspace};
-use super::proximity::{in_root, penetration_of, to_root, toward, witnesses};
+use super::proximity::{Proximity, SweptPair, to_root, witnesses};
+use super::workspace::{Placed, Workspace};
 use arrayvec::ArrayVec;
-use urdd_geometry::convex::TOLERANCE;
 use urdd_geometry::convex::across::AT_ONCE;
 use urdd_kinematics::Travel;
 
 /// Pairs that can be checked in a configuration and along a motion.
-pub(super) trait Checked {
+pub trait Checked: Sync {
     /// What an answer says of a pair.
-    type Found;
+    type Pair;
+    /// Configurations in one block of work: so few take no longer than starting threads.
+    const BLOCK: usize;
     /// The robot's shapes.
     fn shapes(&self) -> &Proximity;
+    /// Number of pairs that are tested.
     fn count(&self) -> usize;
+    /// Whether a pair has an answer of its own in lists of all pairs. Otherwise, it counts for the pair before.
+    fn is_first(&self, _: usize) -> bool {
+        true
+    }
+    /// Number of pairs with an answer of their own.
+    fn num_answers(&self) -> usize {
+        self.count()
+    }
     /// The pairs that can come within a margin (m) or leave it, each with its place in `rates`.
     fn within(&self, margin: f64) -> impl Iterator<Item = (usize, usize)>;
     /// A lower bound of the distance of a pair, m; not positive if it may touch.
@@ -31,13 +41,14 @@ pub(super) trait Checked {
     fn swept(&self, placed: &Placed, pair: usize) -> SweptPair<'_>;
     /// The links of the two; none for an obstacle.
     fn links(&self, pair: usize) -> (usize, Option<usize>);
+    /// What an answer says of a pair at this distance, with these closest points.
     fn found(
         &self,
         placed: &Placed,
         pair: usize,
         distance: f64,
         points: [[f64; 3]; 2],
-    ) -> Self::Found;
+    ) -> Self::Pair;
     /// Bounds on how far pairs move toward each other, m.
     fn rates(&self, travel: &Travel) -> Vec<f64>;
     /// The farthest that a point of a shape travels, m.
@@ -62,7 +73,7 @@ pub(super) fn any_within(checked: &impl Checked, placed: &Placed, margin: f64) -
 }
 
 /// Those of some pairs that are at most `margin` apart, m, in their order.
-fn at_most<'c>(
+pub(super) fn at_most<'c>(
     checked: &'c impl Checked,
     placed: &'c Placed,
     pairs: impl Iterator<Item = usize> + 'c,
@@ -110,68 +121,4 @@ pub(super) fn closest(
             each(*pair, distance, points.map(|p| to_root(link, p)));
         }
     }
-}
-
-/// Calls `each` with the `k` nearest pairs.
-pub(super) fn nearest<C: Checked>(
-    checked: &C,
-    configuration: &[f64],
-    k: usize,
-    workspace: &mut Workspace,
-    mut each: impl FnMut(C::Found),
-) -> Result<(), RobotError> {
-    least(checked, configuration, k, workspace)?;
-    let Workspace { placed, least, .. } = workspace;
-    closest(checked, placed, least.best(), |pair, distance, points| {
-        each(checked.found(placed, pair, distance, points));
-    });
-    Ok(())
-}
-
-/// Calls `each` with the `k` nearest pairs and the gradients of their distances.
-pub(super) fn gradients<C: Checked>(
-    checked: &C,
-    configuration: &[f64],
-    k: usize,
-    workspace: &mut Workspace,
-    mut each: impl FnMut(C::Found, Option<&[f64]>),
-) -> Result<(), RobotError> {
-    least(checked, configuration, k, workspace)?;
-    let Workspace { placed, least, derivative, .. } = workspace;
-    closest(checked, placed, least.best(), |pair, distance, points| {
-        let found = checked.found(placed, pair, distance, points);
-        let gradient = toward(&points, distance).map(|toward| {
-            let links = checked.links(pair);
-            checked.shapes().derivative(configuration, placed, links, points, toward, derivative)
-        });
-        each(found, gradient);
-    });
-    Ok(())
-}
-
-/// Calls `each` with the pairs that touch or overlap.
-pub(super) fn penetrations<C: Checked>(
-    checked: &C,
-    configuration: &[f64],
-    workspace: &mut Workspace,
-    mut each: impl FnMut(Overlap<C::Found>),
-) -> Result<(), RobotError> {
-    let Workspace { placed, derivative, .. } = workspace;
-    let shapes = checked.shapes();
-    shapes.place(configuration, placed)?;
-    for pair in at_most(checked, placed, 0..checked.count(), TOLERANCE) {
-        let Some(found) = penetration_of(shapes.level, &checked.swept(placed, pair)) else {
-            continue;
-        };
-        let links = checked.links(pair);
-        let (direction, points) = in_root(&placed.links[links.0], &found);
-        let toward = shapes.derivative(configuration, placed, links, points, direction, derivative);
-        each(Overlap {
-            pair: checked.found(placed, pair, 0.0, points),
-            depth: found.depth,
-            direction,
-            gradient: toward.iter().map(|x| -x).collect(),
-        });
-    }
-    Ok(())
 }

@@ -11,7 +11,7 @@ impl Robot {
     /// [`CollisionModel::evaluation`] gives its measured error rates.
     ///
     /// ```
-    /// # use urdd_robot::{Robot, RobotError, ShapeKind};
+    /// # use urdd_robot::{Queries, Robot, RobotError, ShapeKind};
     /// fn is_free(robot: &Robot, q: &[f64]) -> Result<bool, RobotError> {
     ///     let model = robot.collision_model()?;
     ///     if !model.may_collide(q)? {

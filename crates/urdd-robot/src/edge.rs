@@ -2,7 +2,7 @@
 
 use super::checked::{Checked, any_within, check_margin};
 use super::error::RobotError;
-use super::proximity::{Placed, Workspace};
+use super::workspace::Placed;
 use arrayvec::ArrayVec;
 use urdd_geometry::convex::across::AT_ONCE;
 
@@ -50,38 +50,7 @@ struct Motion<'a, C> {
     configuration: Vec<f64>,
 }
 
-/// How a motion is gone through.
-enum Course {
-    /// So many steps of one length.
-    Sampled(u64),
-    /// With bounds on how far pairs move toward each other, m.
-    Proved(Vec<f64>),
-}
-
-impl<'a, C: Checked> Motion<'a, C> {
-    fn new(
-        checked: &'a C,
-        ends: [&'a [f64]; 2],
-        settings: &EdgeSettings,
-        workspace: &'a mut Workspace,
-    ) -> Result<(Self, Course), RobotError> {
-        let margin = check_margin(settings.margin)?;
-        let travel = checked.shapes().travel(ends[0], ends[1])?;
-        let course = match settings.resolution {
-            None => Course::Proved(checked.rates(&travel)),
-            Some(resolution) if resolution.is_finite() && resolution > 0.0 => {
-                let steps = (checked.farthest(&travel) / resolution).ceil().max(1.0);
-                if steps > MAX_SAMPLES as f64 {
-                    return Err(RobotError::Steps { most: MAX_SAMPLES });
-                }
-                Course::Sampled(steps as u64)
-            }
-            Some(_) => return Err(RobotError::Setting("a resolution is finite, and above 0 m")),
-        };
-        let (placed, configuration) = (&mut workspace.placed, ends[0].to_vec());
-        Ok((Motion { checked, ends, margin, placed, configuration }, course))
-    }
-
+impl<C: Checked> Motion<'_, C> {
     fn place(&mut self, part: f64) -> Result<(), RobotError> {
         let ends = self.ends[0].iter().zip(self.ends[1]);
         for (now, (from, to)) in self.configuration.iter_mut().zip(ends) {
@@ -93,6 +62,37 @@ impl<'a, C: Checked> Motion<'a, C> {
     fn is_blocked(&mut self, part: f64) -> Result<bool, RobotError> {
         self.place(part)?;
         Ok(any_within(self.checked, self.placed, self.margin))
+    }
+
+    /// One of this many parts that is blocked.
+    fn any_blocked(&mut self, steps: u64) -> Result<Option<FirstContact>, RobotError> {
+        for k in std::iter::once(steps).chain(halving(steps)) {
+            let blocked = k as f64 / steps as f64;
+            if self.is_blocked(blocked)? {
+                return Ok(Some(FirstContact { free: 0.0, blocked }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The first of this many parts that is blocked, with the part before it halved.
+    fn first_blocked(&mut self, steps: u64) -> Result<Option<FirstContact>, RobotError> {
+        let at = |k: u64| k as f64 / steps as f64;
+        for k in 0..=steps {
+            if !self.is_blocked(at(k))? {
+                continue;
+            }
+            let mut contact = FirstContact { free: at(k.saturating_sub(1)), blocked: at(k) };
+            for _ in 0..if k == 0 { 0 } else { HALVINGS } {
+                let middle = 0.5 * (contact.free + contact.blocked);
+                match self.is_blocked(middle)? {
+                    true => contact.blocked = middle,
+                    false => contact.free = middle,
+                }
+            }
+            return Ok(Some(contact));
+        }
+        Ok(None)
     }
 
     /// The first part that cannot be proved free.
@@ -120,56 +120,31 @@ impl<'a, C: Checked> Motion<'a, C> {
     }
 }
 
-/// Where a straight motion is not free, as a part of it from 0 to 1; `None` if it is free.
-pub(super) fn blocked(
+/// Where a straight motion is not free: the first such place, or any; `None` if it is free.
+pub(super) fn contact(
     checked: &impl Checked,
     ends: [&[f64]; 2],
     settings: &EdgeSettings,
-    workspace: &mut Workspace,
-) -> Result<Option<f64>, RobotError> {
-    let (mut motion, course) = Motion::new(checked, ends, settings, workspace)?;
-    let steps = match course {
-        Course::Proved(rates) => {
-            return Ok(motion.unproved(&rates)?.map(|contact| contact.blocked));
-        }
-        Course::Sampled(steps) => steps,
-    };
-    for k in std::iter::once(steps).chain(halving(steps)) {
-        let part = k as f64 / steps as f64;
-        if motion.is_blocked(part)? {
-            return Ok(Some(part));
-        }
-    }
-    Ok(None)
-}
-
-/// Where a straight motion first is not free; `None` if it is free.
-pub(super) fn first_contact(
-    checked: &impl Checked,
-    ends: [&[f64]; 2],
-    settings: &EdgeSettings,
-    workspace: &mut Workspace,
+    is_first: bool,
+    placed: &mut Placed,
 ) -> Result<Option<FirstContact>, RobotError> {
-    let (mut motion, course) = Motion::new(checked, ends, settings, workspace)?;
-    let steps = match course {
-        Course::Proved(rates) => return motion.unproved(&rates),
-        Course::Sampled(steps) => steps,
+    let margin = check_margin(settings.margin)?;
+    let travel = checked.shapes().travel(ends[0], ends[1])?;
+    let mut motion = Motion { checked, ends, margin, placed, configuration: ends[0].to_vec() };
+    let Some(resolution) = settings.resolution else {
+        return motion.unproved(&checked.rates(&travel));
     };
-    for k in 0..=steps {
-        let at = |k: u64| k as f64 / steps as f64;
-        if motion.is_blocked(at(k))? {
-            let mut contact = FirstContact { free: at(k.saturating_sub(1)), blocked: at(k) };
-            for _ in 0..if k == 0 { 0 } else { HALVINGS } {
-                let middle = 0.5 * (contact.free + contact.blocked);
-                match motion.is_blocked(middle)? {
-                    true => contact.blocked = middle,
-                    false => contact.free = middle,
-                }
-            }
-            return Ok(Some(contact));
-        }
+    if !(resolution.is_finite() && resolution > 0.0) {
+        return Err(RobotError::Setting("a resolution is finite, and above 0 m"));
     }
-    Ok(None)
+    let steps = (checked.farthest(&travel) / resolution).ceil().max(1.0);
+    if steps > MAX_SAMPLES as f64 {
+        return Err(RobotError::Steps { most: MAX_SAMPLES });
+    }
+    match is_first {
+        true => motion.first_blocked(steps as u64),
+        false => motion.any_blocked(steps as u64),
+    }
 }
 
 /// The part of a motion in which no pair can come nearer than `margin` (m), at most 1.

@@ -137,7 +137,7 @@ pub enum RobotError {
         /// What is wrong with it.
         reason: String,
     },
-    /// The computation was cancelled: [`Proximity::cancellable`](super::Proximity::cancellable).
+    /// The computation was cancelled: [`Queries::in_collision_batch_into`](super::Queries::in_collision_batch_into).
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// An unusable mesh file.

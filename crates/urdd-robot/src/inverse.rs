@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion};
 
 use super::Robot;
 use super::error::RobotError;
+use super::names::check_link;
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::ConfigurationError;
 use urdd_kinematics::inverse::{Conditions, Goal, Inverse, InverseSettings};
@@ -18,35 +19,25 @@ pub struct Target(Goal);
 impl Target {
     /// A target pose for the link's frame.
     pub fn pose(link: usize, pose: Isometry3<f64>) -> Self {
-        Self(Goal {
-            link,
-            point: Point3::origin(),
-            position: Some(pose.translation.vector.into()),
-            rotation: Some(pose.rotation),
-            weights: None,
-        })
+        Self::new(link, Some(pose.translation.vector.into()), Some(pose.rotation))
     }
 
     /// A target position for the origin of the link's frame, in metres. The link's rotation is free.
     pub fn position(link: usize, position: [f64; 3]) -> Self {
-        Self(Goal {
-            link,
-            point: Point3::origin(),
-            position: Some(position.into()),
-            rotation: None,
-            weights: None,
-        })
+        Self::new(link, Some(position.into()), None)
     }
 
     /// A target rotation for the link's frame. The link's position is free.
     pub fn rotation(link: usize, rotation: UnitQuaternion<f64>) -> Self {
-        Self(Goal {
-            link,
-            point: Point3::origin(),
-            position: None,
-            rotation: Some(rotation),
-            weights: None,
-        })
+        Self::new(link, None, Some(rotation))
+    }
+
+    fn new(
+        link: usize,
+        position: Option<Point3<f64>>,
+        rotation: Option<UnitQuaternion<f64>>,
+    ) -> Self {
+        Self(Goal { link, point: Point3::origin(), position, rotation, weights: None })
     }
 
     /// Multiplies the errors by factors of at least 0, before they are compared with the tolerances: those of the
@@ -159,30 +150,17 @@ impl Robot {
         start: &[f64],
         settings: &InverseSettings,
     ) -> Result<Inverse, RobotError> {
-        self.inverse_kinematics_cancellable(target, start, settings, &Cancellation::default())
-    }
-
-    /// As [`Robot::inverse_kinematics`], with cancellation, which takes effect before the next restart.
-    ///
-    /// # Errors
-    /// As there, and [`RobotError::Cancelled`].
-    pub fn inverse_kinematics_cancellable(
-        &self,
-        target: &Target,
-        start: &[f64],
-        settings: &InverseSettings,
-        cancellation: &Cancellation,
-    ) -> Result<Inverse, RobotError> {
-        let accepts = |_: &[f64]| true;
-        self.inverse_kinematics_where(target, start, settings, &accepts, cancellation)
+        let on = Cancellation::default();
+        self.inverse_kinematics_where(target, start, settings, &|_| true, &on)
     }
 
     /// As [`Robot::inverse_kinematics`], for solutions that `accepts` allows: those without collision, for example, and
     /// at a distance from obstacles. The search goes on with other random configurations until one is allowed. If all
-    /// are refused, the verdict is [`Verdict::Refused`](crate::Verdict::Refused), with the first of them.
+    /// are refused, the verdict is [`Verdict::Refused`](crate::Verdict::Refused), with the first of them. A cancellation
+    /// takes effect before the next restart.
     ///
     /// ```
-    /// use urdd_robot::{InverseSettings, Robot, RobotError, ShapeKind, Target, World};
+    /// use urdd_robot::{InverseSettings, Queries, Robot, RobotError, ShapeKind, Target, World};
     ///
     /// # fn ask(robot: &Robot, target: Target, world: &World) -> Result<(), RobotError> {
     /// let proximity = robot.proximity(ShapeKind::Pieces)?;
@@ -211,11 +189,7 @@ impl Robot {
         let kinematics = &self.motion()?.kinematics;
         let known = self.configurations()?;
         let dofs = known.num_dofs();
-        let (link, count) = (target.link(), kinematics.num_links());
-        if link >= count {
-            let (what, index) = ("link", link);
-            return Err(RobotError::OutOfRange { what, index, count });
-        }
+        check_link(target.link(), kinematics.num_links())?;
         target.check()?;
         check(settings, dofs)?;
         if let Some(index) = settings.locked.iter().copied().find(|dof| *dof >= dofs) {

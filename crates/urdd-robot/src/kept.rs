@@ -4,13 +4,6 @@ use nalgebra::Isometry3;
 
 use urdd_geometry::Mesh;
 
-/// The largest speed and the largest effort of each DOF.
-#[derive(Debug)]
-pub(super) struct Limits {
-    pub velocities: Vec<f64>,
-    pub efforts: Vec<f64>,
-}
-
 /// The mass of a link.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LinkMass {

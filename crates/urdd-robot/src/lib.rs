@@ -6,7 +6,7 @@
 //! module that can be read. A module that cannot be read is an error that names the module and says how to generate it.
 //!
 //! ```
-//! use urdd_robot::{Robot, ShapeKind};
+//! use urdd_robot::{Queries, Robot, ShapeKind};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/../../conformance/robots/gripper.urdf");
@@ -30,6 +30,7 @@
 //! `urdf_module`.
 
 mod batch;
+mod batches;
 mod checked;
 mod collision_model;
 mod description;
@@ -48,7 +49,7 @@ mod named_configurations;
 mod names;
 mod obstacle;
 pub mod proximity;
-mod questions;
+mod queries;
 mod robot;
 mod shapes;
 mod skip_edits;
@@ -56,6 +57,7 @@ mod skips;
 mod space;
 mod statistics;
 mod textured;
+mod workspace;
 pub mod world;
 
 #[doc(hidden)]
@@ -71,9 +73,8 @@ pub use memory::has_room;
 pub use mesh::LinkVisual;
 pub use named_configurations::EditedConfigurations;
 pub use obstacle::{Obstacle, World};
-pub use proximity::{
-    Cancellable, Gradient, Overlap, PairDistance, PairGradient, Proximity, Workspace,
-};
+pub use proximity::{Gradient, Overlap, PairDistance, PairGradient, Proximity};
+pub use queries::Queries;
 pub use robot::Robot;
 pub use shapes::ShapeKind;
 pub use skip_edits::EditedSkips;

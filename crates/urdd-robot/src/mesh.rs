@@ -52,18 +52,13 @@ impl<'a> Meshes<'a> {
         let meshes = lists.filter_map(|list| list.links.get(link)?.get(piece));
         let paths: Vec<&MeshPath> = meshes.flat_map(|mesh| &mesh.paths).collect();
         let of_format = paths.iter().find(|path| path.format == self.format);
-        let path = of_format.or(paths.first());
-        match path {
-            Some(path) => {
-                let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
-                // STL repeats each vertex for each of its triangles.
-                mesh.weld();
-                match mesh.vertices.is_empty() {
-                    true => Err(fault(path.path, "it has no vertex".to_owned())),
-                    false => Ok(mesh),
-                }
-            }
-            None => Err(RobotError::Missing(self.meshes.kind)),
+        let path = of_format.or(paths.first()).ok_or(RobotError::Missing(self.meshes.kind))?;
+        let mut mesh = read(self.part, self.meshes.profile, path.path)?.merged();
+        // STL repeats each vertex for each of its triangles.
+        mesh.weld();
+        match mesh.vertices.is_empty() {
+            true => Err(fault(path.path, "it has no vertex".to_owned())),
+            false => Ok(mesh),
         }
     }
 

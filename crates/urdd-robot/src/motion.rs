@@ -34,14 +34,29 @@ impl Motion {
         })
     }
 
-    /// Number of configurations in the slice. For a robot without DOFs, an empty slice is one configuration.
-    pub(super) fn batch(&self, configurations: &[f64]) -> Result<usize, RobotError> {
-        let (found, dofs) = (configurations.len(), self.kinematics.num_dofs());
+    /// For a robot without DOFs, an empty slice is one configuration.
+    pub(super) fn rows<'a>(&self, values: &'a [f64]) -> Result<Rows<'a>, RobotError> {
+        let (found, dofs) = (values.len(), self.kinematics.num_dofs());
         match dofs {
-            0 if found == 0 => Ok(1),
+            0 if found == 0 => Ok(Rows { values, dofs, count: 1 }),
             0 => Err(RobotError::Batch { found, dofs }),
             _ if !found.is_multiple_of(dofs) => Err(RobotError::Batch { found, dofs }),
-            _ => Ok(found / dofs),
+            _ => Ok(Rows { values, dofs, count: found / dofs }),
         }
+    }
+}
+
+/// Configurations that are stored one after another.
+#[derive(Clone, Copy)]
+pub(super) struct Rows<'a> {
+    values: &'a [f64],
+    dofs: usize,
+    pub count: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// Configuration `k`.
+    pub fn row(&self, k: usize) -> &'a [f64] {
+        &self.values[k * self.dofs..(k + 1) * self.dofs]
     }
 }

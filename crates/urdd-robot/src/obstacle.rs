@@ -109,12 +109,10 @@ impl World {
     }
 }
 
+/// Each constructor fails with [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, if a point or
+/// the pose is not finite or farther than 1e9 m from the origin, or if there are no points.
 impl Obstacle {
     /// A box: the pose of its centre and axes, and its half extents, in metres.
-    ///
-    /// # Errors
-    /// [`RobotError::Obstacle`] if a size is not finite, negative or larger than 1e9 m, or if a point or the pose is not
-    /// finite or farther than 1e9 m from the origin.
     pub fn cuboid(
         name: &str,
         pose: Isometry3<f64>,
@@ -127,18 +125,12 @@ impl Obstacle {
     }
 
     /// A sphere: its centre and radius, in metres.
-    ///
-    /// # Errors
-    /// As [`Obstacle::cuboid`].
     pub fn sphere(name: &str, centre: [f64; 3], radius: f64) -> Result<Self, RobotError> {
         Self::swept(name, Translation3::from(centre).into(), &[[0.0; 3]], radius)
     }
 
     /// A capsule: all points within `radius` of a segment along the z axis of its frame, from `-half_length` to
     /// `half_length`.
-    ///
-    /// # Errors
-    /// As [`Obstacle::cuboid`].
     pub fn capsule(
         name: &str,
         pose: Isometry3<f64>,
@@ -152,9 +144,6 @@ impl Obstacle {
 
     /// A cylinder along the z axis of its frame, from `-half_length` to `half_length`. It is approximated by a
     /// circumscribed prism with 64 sides, which exceeds the radius by up to 0.13 %.
-    ///
-    /// # Errors
-    /// As [`Obstacle::cuboid`].
     pub fn cylinder(
         name: &str,
         pose: Isometry3<f64>,
@@ -174,18 +163,12 @@ impl Obstacle {
     }
 
     /// The convex hull of points, in metres.
-    ///
-    /// # Errors
-    /// As [`Obstacle::cuboid`], and if there are no points.
     pub fn hull(name: &str, pose: Isometry3<f64>, points: &[[f64; 3]]) -> Result<Self, RobotError> {
         Self::swept(name, pose, points, 0.0)
     }
 
     /// A mesh, decomposed into convex pieces as `urdd generate` does for links, at the same cost. Cavities remain as
     /// far as the decomposition preserves them. [`Obstacle::hull`] is fast, and fills cavities.
-    ///
-    /// # Errors
-    /// As [`Obstacle::hull`].
     pub fn mesh(name: &str, pose: Isometry3<f64>, mesh: &Mesh) -> Result<Self, RobotError> {
         // Checks the limits of the points before the decomposition.
         let mut whole = Self::hull(name, pose, &mesh.vertices)?;
@@ -260,6 +243,6 @@ pub(crate) fn check_pose(name: &str, pose: &Isometry3<f64>) -> Result<(), RobotE
     }
 }
 
-fn fault(name: &str, reason: &ShapeError) -> RobotError {
+pub(crate) fn fault(name: &str, reason: &ShapeError) -> RobotError {
     RobotError::Obstacle { name: name.to_owned(), reason: reason.to_string() }
 }

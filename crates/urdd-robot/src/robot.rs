@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use super::error::RobotError;
-use super::kept::{Limits, LinkMass, LinkShape};
+use super::kept::{LinkMass, LinkShape};
 use super::motion::Motion;
 use super::space::Configurations;
 use urdd_directory::root::{ReadError, Root};
@@ -32,7 +32,8 @@ pub struct Robot {
     motion: OnceLock<Arc<Motion>>,
     configurations: OnceLock<Configurations>,
     pub(super) named: OnceLock<Vec<NamedConfiguration>>,
-    pub(super) limits: OnceLock<Limits>,
+    /// The largest speeds, and the largest efforts.
+    pub(super) limits: OnceLock<[Vec<f64>; 2]>,
     pub(super) masses: OnceLock<Vec<LinkMass>>,
     pub(super) shapes: [OnceLock<Vec<LinkShape>>; ShapeKind::ALL.len()],
 }

@@ -111,10 +111,7 @@ fn shapes(part: &Urdd, from: ModuleKind, meshes: &[ModuleKind]) -> Result<Shapes
     if let Some((full, pieces)) = shape_lists(document) {
         return Ok(Shapes {
             full: full.iter().map(|link| link.get()).collect(),
-            pieces: pieces
-                .iter()
-                .map(|shape| (shape.link_idx.get(), shape.piece_idx.get()))
-                .collect(),
+            pieces: pieces.iter().map(|one| (one.link_idx.get(), one.piece_idx.get())).collect(),
         });
     }
     for kind in meshes {

@@ -20,49 +20,36 @@ pub struct PairStatistics {
     pub max: f64,
 }
 
-/// The statistics of all pairs of shapes of one kind.
-pub(super) struct AllStatistics {
-    part: Urdd,
-    kind: ShapeKind,
-}
-
-impl AllStatistics {
-    pub fn pair(&self, i: usize, j: usize) -> Option<PairStatistics> {
-        let one = statistics(self.part.document(MODULE)?)?[self.kind as usize]?;
-        Some(PairStatistics {
-            mean: at(one.mean, i, j)?,
-            min: at(one.min, i, j)?,
-            max: at(one.max, i, j)?,
-        })
+impl PairStatistics {
+    /// Those of two shapes of a kind; `None` if `part` has none of that module, kind or pair.
+    pub(super) fn of(part: &Urdd, kind: ShapeKind, i: usize, j: usize) -> Option<Self> {
+        let one = statistics(part.document(MODULE)?)?[kind as usize]?;
+        let [mean, min, max] = [one.mean, one.min, one.max].map(|matrix| at(matrix, i, j));
+        Some(PairStatistics { mean: mean?, min: min?, max: max? })
     }
 }
 
+/// Each method fails if the files of the URDD cannot be listed.
 impl Robot {
-    /// The statistics of a kind of shapes; without a pair if the module is missing or has none for this kind.
-    pub(super) fn statistics(&self, kind: ShapeKind) -> Result<AllStatistics, RobotError> {
-        Ok(AllStatistics { part: self.part_as_it_is(&[MODULE])?, kind })
+    /// The module of statistics, if there is one.
+    pub(super) fn statistics(&self) -> Result<Urdd, RobotError> {
+        self.part_as_it_is(&[MODULE])
     }
 
     /// Number of configurations that the statistics cover; `None` if the URDD does not record it.
-    ///
-    /// # Errors
-    /// If the files of the URDD cannot be listed.
     pub fn num_samples(&self) -> Result<Option<u32>, RobotError> {
-        let part = self.part_as_it_is(&[MODULE])?;
+        let part = self.statistics()?;
         let six = part.document(MODULE).and_then(statistics);
         Ok(six.and_then(|six| six.into_iter().flatten().find_map(|one| one.num_samples)))
     }
 
     /// The statistics of a pair of shapes of a kind, by their indices (SPEC 8.1); `None` if the URDD has none.
-    ///
-    /// # Errors
-    /// If the files of the URDD cannot be listed.
     pub fn pair_statistics(
         &self,
         kind: ShapeKind,
         i: usize,
         j: usize,
     ) -> Result<Option<PairStatistics>, RobotError> {
-        Ok(self.statistics(kind)?.pair(i, j))
+        Ok(PairStatistics::of(&self.statistics()?, kind, i, j))
     }
 }

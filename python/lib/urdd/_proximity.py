@@ -11,26 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._answers import Pair, PairDistance, PairGradient, PairOverlap, ShapeKind
-from ._arrays import (
-    Bools,
-    Floats,
-    Indices,
-    batched,
-    edges,
-    number_of_pairs,
-    one_configuration,
-    optional_array,
-    scalar,
-)
+from ._arrays import Floats, Indices, batched, one_configuration
 from ._description import RobotDescription
 from ._options import words
+from ._queries import Queries
 from ._world import World
 
 if TYPE_CHECKING:
     from . import _urdd
 
 
-class Proximity:
+class Proximity(Queries["_urdd._Near", PairDistance, PairGradient, PairOverlap]):
     """The shapes of one kind, prepared for distances: ``robot.proximity("pieces")``.
 
     Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: :meth:`penetrations` says how far.
@@ -114,11 +105,6 @@ class Proximity:
         return self._core
 
     @property
-    def dof_names(self) -> tuple[str, ...]:
-        """The names of the DOFs."""
-        return self._dof_names
-
-    @property
     def kind(self) -> ShapeKind:
         """The kind of the shapes."""
         return self._core.kind
@@ -159,82 +145,23 @@ class Proximity:
             )
         ]
 
-    def distances(self, q: ArrayLike) -> Floats:
-        """(..., pairs): the distance of each pair that is not skipped, metres."""
-        return batched(q, self._dof_names, self._core.distances)
-
     def self_distance(self, q: ArrayLike) -> Floats:
         """(...): the minimum distance over all pairs, metres; infinite if there are no pairs."""
-        return batched(q, self._dof_names, self._core.self_distance)
-
-    def in_collision(self, q: ArrayLike) -> Bools:
-        """(...): whether any pair touches or overlaps. The fastest query: it stops at the first collision."""
-        return batched(q, self._dof_names, self._core.in_collision)
-
-    def is_within(self, q: ArrayLike, margin: float) -> Bools:
-        """(...): whether any pair is at most ``margin`` metres apart. Stops at the first such pair. With a margin above
-        0, pairs count whose links can move against each other."""
-        return batched(q, self._dof_names, lambda rows: self._core.is_within(rows, margin))
-
-    def blocked_edge(
-        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
-    ) -> Floats:
-        """(...): where the straight motion from ``start`` to ``end`` is blocked, as a part of it from 0 to 1; NaN where
-        it is free. Only collisions of the robot with itself count.
-
-        With a ``resolution`` (metres), configurations are checked between which no point of the robot travels farther,
-        the end and the halves first: the answer is one that is blocked, and need not be the first, which
-        :meth:`first_contact` has. With ``None``, the motion is proved free by conservative advancement: it then needs
-        0.1 mm more than the ``margin``, and the answer is the first part where it has less.
-
-        Raises:
-            ValueError: for a margin below 0, a resolution that is not above 0, or a motion that needs more than a
-                million configurations, or 100,000 steps of a proof.
-        """
-        starts, ends, batch = edges(start, end, self._dof_names)
-        return scalar(self._core.blocked_edge(starts, ends, margin, resolution).reshape(batch))
-
-    def first_contact(
-        self, start: ArrayLike, end: ArrayLike, *, margin: float = 0.0, resolution: float | None = 0.01
-    ) -> Floats:
-        """(..., 2): the last part of the straight motion from ``start`` to ``end`` that is known to be free (0 if the
-        start is not), and the first that is blocked; both NaN where the motion is free.
-
-        With a ``resolution``, configurations are checked in order, and the part between the first that is blocked and
-        the one before is halved ten times: between the two no point of the robot travels farther than a thousandth of
-        the resolution. A contact that begins and ends between two configurations can be missed. With ``None``, all up
-        to the first part is proved free.
-
-        Raises:
-            ValueError: as :meth:`blocked_edge`.
-        """
-        starts, ends, batch = edges(start, end, self._dof_names)
-        return self._core.first_contact(starts, ends, margin, resolution).reshape((*batch, 2))
-
-    def gradients(self, q: ArrayLike, k: int = 1) -> list[PairGradient]:
-        """The ``k`` nearest pairs in one configuration, nearest first, with the gradients of their distances."""
-        return [
-            PairGradient(*_answer(near), optional_array(gradient))
-            for near, gradient in self._core.gradients(one_configuration(q, self._dof_names), number_of_pairs(k))
-        ]
-
-    def penetrations(self, q: ArrayLike) -> list[PairOverlap]:
-        """The pairs that touch or overlap in one configuration, with the least translation that separates them."""
-        found = self._core.penetrations(one_configuration(q, self._dof_names))
-        return [
-            PairOverlap(*_answer(near), depth, np.array(direction), np.array(gradient, dtype=np.float64))
-            for near, depth, direction, gradient in found
-        ]
-
-    def nearest(self, q: ArrayLike, k: int = 1) -> list[PairDistance]:
-        """The ``k`` nearest pairs in one configuration, nearest first; all pairs if there are fewer."""
-        found = self._core.nearest(one_configuration(q, self._dof_names), number_of_pairs(k))
-        return [PairDistance(*_answer(near)) for near in found]
+        return batched(q, self._dof_names, self._core.min_distance)
 
     def collisions(self, q: ArrayLike) -> list[PairDistance]:
         """The pairs that touch or overlap in one configuration."""
         found = self._core.collisions(one_configuration(q, self._dof_names))
-        return [PairDistance(*_answer(near)) for near in found]
+        return [self._distance(near) for near in found]
+
+    def _distance(self, near: _urdd._Near) -> PairDistance:
+        return PairDistance(*_answer(near))
+
+    def _gradient(self, near: _urdd._Near, gradient: Floats | None) -> PairGradient:
+        return PairGradient(*_answer(near), gradient)
+
+    def _overlap(self, near: _urdd._Near, depth: float, direction: Floats, gradient: Floats) -> PairOverlap:
+        return PairOverlap(*_answer(near), depth, direction, gradient)
 
     def __reduce__(self) -> tuple[type[Proximity], tuple[RobotDescription, ShapeKind, list[tuple[Any, ...]]]]:
         return type(self), (self._robot, self.kind, self._changes)

@@ -7,7 +7,7 @@ use super::export;
 use nalgebra::Isometry3;
 use urdd_export::{Choices, Export, Format, Note, SphereBudget};
 use urdd_format::rate::interval;
-use urdd_robot::{Robot, ShapeKind};
+use urdd_robot::{Queries, Robot, ShapeKind};
 
 use testkit::robots::{made, made_of, our_robots};
 

@@ -5,7 +5,7 @@ use roxmltree::Document;
 use urdd_export::{Choices, Format, Note};
 use urdd_format::link_shapes_simple_skips::SkipReason;
 use urdd_format::link_shapes_skips::SkippedReason;
-use urdd_robot::{Robot, ShapeKind};
+use urdd_robot::{Queries, Robot, ShapeKind};
 
 use testkit::robots::{made, our_robots};
 

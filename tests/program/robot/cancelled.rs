@@ -8,7 +8,7 @@ use urdd_directory::read_error::ReadError;
 use urdd_directory::source::{Disk, OpenFile, Source};
 use urdd_format::registry::ModuleKind;
 use urdd_generate::{GenerateError, Progress, Settings, generate};
-use urdd_robot::{Robot, RobotError, ShapeKind};
+use urdd_robot::{Obstacle, Queries, Robot, RobotError, ShapeKind, World};
 use urdd_validate::settings::Settings as ValidateSettings;
 use urdd_validate::{ValidateError, validate, validate_source};
 
@@ -124,20 +124,28 @@ fn batches_of_distances_stop() {
             asked.join().unwrap()
         })
     };
+    let ball = Obstacle::sphere("ball", [0.5, 0.0, 0.5], 0.1).unwrap();
+    let around = proximity.world_proximity(&World::new([ball])).unwrap();
+    let (count, some) = (batch.len() / q.len(), &batch[..q.len() * 10_000]);
     for found in [
-        stopped(&|token| proximity.cancellable(token).in_collision_batch(&batch).map(drop)),
-        stopped(&|token| proximity.cancellable(token).self_distance_batch(&batch).map(drop)),
-        stopped(&|token| {
-            proximity.cancellable(token).distances_batch(&batch[..q.len() * 10_000]).map(drop)
+        stopped(&|on| proximity.in_collision_batch_into(&batch, on, &mut vec![false; count])),
+        stopped(&|on| proximity.min_distance_batch_into(&batch, on, &mut vec![0.0; count])),
+        stopped(&|on| {
+            let mut out = vec![0.0; 10_000 * proximity.num_pairs()];
+            proximity.distances_batch_into(some, on, &mut out)
         }),
+        stopped(&|on| around.min_distance_batch_into(&batch, on, &mut vec![0.0; count])),
     ] {
         assert!(matches!(found, Err(RobotError::Cancelled(_))), "{found:?}");
     }
     // Without a cancellation, the result is the same.
-    let few = &batch[..q.len() * 3];
-    let token = Cancellation::default();
-    let until = proximity.cancellable(&token);
-    assert_eq!(until.distances_batch(few), proximity.distances_batch(few));
-    assert_eq!(until.in_collision_batch(few), proximity.in_collision_batch(few));
-    assert_eq!(until.self_distance_batch(few), proximity.self_distance_batch(few));
+    let (few, on) = (&batch[..q.len() * 3], Cancellation::default());
+    let (mut touches, mut least) = ([false; 3], [0.0; 3]);
+    let mut distances = vec![0.0; 3 * proximity.num_pairs()];
+    proximity.in_collision_batch_into(few, &on, &mut touches).unwrap();
+    proximity.min_distance_batch_into(few, &on, &mut least).unwrap();
+    proximity.distances_batch_into(few, &on, &mut distances).unwrap();
+    assert_eq!(proximity.in_collision_batch(few).unwrap(), touches);
+    assert_eq!(proximity.min_distance_batch(few).unwrap(), least);
+    assert_eq!(proximity.distances_batch(few).unwrap(), distances);
 }

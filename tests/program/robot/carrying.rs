@@ -1,7 +1,7 @@
 //! Objects that links carry, and obstacles that move. Beside closed forms, and each beside the other.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use urdd_robot::{EdgeSettings, Obstacle, Proximity, Robot, RobotError, ShapeKind, World};
+use urdd_robot::{EdgeSettings, Obstacle, Proximity, Queries, Robot, RobotError, ShapeKind, World};
 
 use super::planning::{SLIDE, robot_of};
 use testkit::robots::made_of;

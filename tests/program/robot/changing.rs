@@ -14,7 +14,7 @@ use urdd_directory::read_error::ReadError;
 use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_generate::{Settings, generate};
-use urdd_robot::{InverseSettings, Robot, RobotError, ShapeKind, Target};
+use urdd_robot::{InverseSettings, Queries, Robot, RobotError, ShapeKind, Target};
 
 use crate::robot::made_of;
 

@@ -1,5 +1,5 @@
 use testkit::trials::sample;
-use urdd_robot::{PairDistance, Robot, ShapeKind};
+use urdd_robot::{PairDistance, Queries, Robot, ShapeKind};
 
 use crate::robot::{made, made_of, our_robots};
 
@@ -228,7 +228,7 @@ fn many_at_once_are_each_by_itself_for_any_number_of_threads() {
         pool.install(|| {
             (
                 proximity.in_collision_batch(&batch).unwrap(),
-                proximity.self_distance_batch(&batch).unwrap(),
+                proximity.min_distance_batch(&batch).unwrap(),
                 proximity.distances_batch(&batch).unwrap(),
             )
         })

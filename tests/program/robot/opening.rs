@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use urdd_directory::listing::Listing;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::source::{Disk, Memory, OpenFile, Source};
-use urdd_robot::{Robot, RobotError, ShapeKind};
+use urdd_robot::{Queries, Robot, RobotError, ShapeKind};
 
 use crate::robot::{made, our_robots};
 

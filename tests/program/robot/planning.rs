@@ -5,7 +5,9 @@ use std::path::Path;
 
 use nalgebra::{Isometry3, Point3};
 use urdd_kinematics::ForwardKinematics;
-use urdd_robot::{EdgeSettings, FirstContact, Obstacle, Robot, RobotError, ShapeKind, World};
+use urdd_robot::{
+    EdgeSettings, FirstContact, Obstacle, Queries, Robot, RobotError, ShapeKind, World,
+};
 
 use testkit::robots::{made, made_of, our_robots};
 

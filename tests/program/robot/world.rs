@@ -5,7 +5,7 @@ use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query;
 use parry3d_f64::shape::{Capsule, ConvexPolyhedron, Cuboid, Shape};
 use urdd_geometry::Mesh;
-use urdd_robot::{Obstacle, ObstacleDistance, Robot, RobotError, ShapeKind, World};
+use urdd_robot::{Obstacle, ObstacleDistance, Queries, Robot, RobotError, ShapeKind, World};
 
 use crate::robot::{made, made_of, our_robots};
 
@@ -337,4 +337,34 @@ fn moved_obstacles_are_those_that_are_made_there() {
         assert!(elsewhere.obstacles()[0].at(wrong).is_err());
     }
     assert_eq!(moving.distances(&q).unwrap(), before);
+}
+
+#[test]
+fn many_at_once_are_each_by_itself() {
+    let (_folder, path) = made(&our_robots()[8].1);
+    let robot = Robot::open(path).unwrap();
+    let proximity = robot.proximity(ShapeKind::Pieces).unwrap();
+    let slab = Obstacle::cuboid("slab", at(0.8, 0.0, 0.25), [0.5, 0.5, 0.05]).unwrap();
+    let ball = Obstacle::sphere("ball", [0.5, 0.0, 0.5], 0.1).unwrap();
+    let around = proximity.world_proximity(&World::new([slab, ball])).unwrap();
+    let all: Vec<Vec<f64>> = (0..50).map(|k| robot.configurations().unwrap().random(k)).collect();
+    let (batch, pairs) = (all.concat(), around.num_pairs());
+    let (collide, least) =
+        (around.in_collision_batch(&batch).unwrap(), around.min_distance_batch(&batch).unwrap());
+    let values = around.distances_batch(&batch).unwrap();
+    assert!(collide.contains(&true) && collide.contains(&false));
+    for (k, q) in all.iter().enumerate() {
+        let found = around.closest_points(q).unwrap();
+        let distances: Vec<f64> = found.iter().map(|one| one.distance).collect();
+        for (one, other) in distances.iter().zip(&values[k * pairs..(k + 1) * pairs]) {
+            assert!((one - other).abs() < 1e-9);
+        }
+        assert_eq!(values[k * pairs..(k + 1) * pairs], around.distances(q).unwrap());
+        assert_eq!(
+            (collide[k], Some(least[k])),
+            (least[k] == 0.0, around.min_distance(q).unwrap())
+        );
+        let touching = around.collisions(q).unwrap();
+        assert_eq!(touching.len(), distances.iter().filter(|distance| **distance == 0.0).count());
+    }
 }

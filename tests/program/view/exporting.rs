@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use urdd_directory::listing::EntryKind;
 use urdd_directory::root::Root;
 use urdd_directory::source::Archive;
-use urdd_robot::{Robot, ShapeKind};
+use urdd_robot::{Queries, Robot, ShapeKind};
 use urdd_view::{Collection, may_hold_page, page_with};
 
 use super::asking::made;

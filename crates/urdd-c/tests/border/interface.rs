@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use nalgebra::{Isometry3, Vector3};
 use urdd_c::*;
-use urdd_robot::{EdgeSettings, ShapeKind, World};
+use urdd_robot::{EdgeSettings, Queries, ShapeKind, World};
 
 /// A URDD of the welding arm, with every module, for all tests.
 static ARM: LazyLock<(tempfile::TempDir, PathBuf)> = LazyLock::new(|| {
@@ -179,7 +179,7 @@ fn distances_and_collisions_are_those_of_rust() {
         assert_eq!(colliding, *known.in_collision_batch(&q).unwrap());
         assert!(colliding.contains(&true) && colliding.contains(&false));
         ok(urdd_proximity_self_distance(made, q.as_ptr(), 64, 6, least.as_mut_ptr()));
-        assert_eq!(least, *known.self_distance_batch(&q).unwrap());
+        assert_eq!(least, *known.min_distance_batch(&q).unwrap());
         for (k, row) in q.chunks(6).enumerate().take(8) {
             let (mut one, mut d) = (false, f64::NAN);
             ok(urdd_proximity_in_collision(made, row.as_ptr(), 1, 6, &mut one));

@@ -5,7 +5,7 @@ use std::ptr::{null, null_mut};
 use nalgebra::{Point3, Vector3};
 use urdd_c::Verdict::{Limits, OutOfReach, Reached, Refused, Unknown};
 use urdd_c::*;
-use urdd_robot::ShapeKind;
+use urdd_robot::{Queries, ShapeKind};
 
 use crate::interface::{arm, fails, ok, open, samples};
 

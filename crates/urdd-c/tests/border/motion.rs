@@ -4,7 +4,7 @@ use std::ptr::{null, null_mut};
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use urdd_c::*;
-use urdd_robot::{EdgeSettings, Obstacle as Body, ShapeKind, World};
+use urdd_robot::{EdgeSettings, Obstacle as Body, Queries, ShapeKind, World};
 
 use crate::interface::{arm, c, fails, ok, open, proximity, samples, text};
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::body::Shape;
 use super::{Pair, Proximity};
 use crate::error::RobotError;
-use crate::obstacle::Obstacle;
+use crate::names::check_link;
+use crate::obstacle::{Obstacle, fault};
 
 impl Proximity {
     /// These shapes and an object that a link carries, such as a tool or what a gripper holds: every query then includes
@@ -36,11 +37,7 @@ impl Proximity {
     /// that does not exist; [`RobotError::Obstacle`] if a link or an attached object has its name, or
     /// a point of it is farther than 1e9 m from the link's origin.
     pub fn attach(&self, link: usize, object: &Obstacle) -> Result<Proximity, RobotError> {
-        let count = self.motion.links.len();
-        if link >= count {
-            let what = "link";
-            return Err(RobotError::OutOfRange { what, index: link, count });
-        }
+        check_link(link, self.motion.links.len())?;
         if self.names.iter().any(|name| **name == *object.name()) {
             return Err(RobotError::Obstacle {
                 name: object.name().to_owned(),
@@ -52,19 +49,16 @@ impl Proximity {
         let mut with = self.clone();
         let owner = with.names.len();
         with.names.push(Arc::from(object.name()));
-        let others = self.shapes.iter().enumerate();
         let bodies = self.motion.kinematics.rigid_bodies();
-        let others = others.filter(|(_, shape)| {
+        let meets = |shape: &usize| {
+            let shape = &self.shapes[*shape];
             bodies[shape.link] != bodies[link] && !ignored.contains(&shape.owner)
-        });
-        let others: Vec<usize> = others.map(|(place, _)| place).collect();
+        };
+        let others: Vec<usize> = (0..self.shapes.len()).filter(meets).collect();
         for (piece, part) in object.parts.iter().enumerate() {
             let place = with.shapes.len();
-            let placed = part.placed(object.pose()).map_err(|reason| {
-                let (name, reason) = (object.name().to_owned(), reason.to_string());
-                RobotError::Obstacle { name, reason }
-            });
-            let (core, sphere) = placed?;
+            let placed = part.placed(object.pose());
+            let (core, sphere) = placed.map_err(|reason| fault(object.name(), &reason))?;
             let (core, radius) = (Arc::new(core), part.radius);
             with.shapes.push(Shape { link, owner, piece, core, radius, sphere, is_ball: false });
             let pair = |other: &usize| Pair { shapes: [*other, place], mean: None };

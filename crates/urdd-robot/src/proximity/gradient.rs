@@ -1,8 +1,8 @@
 //! Gradients of distances with respect to the configuration.
 
 use super::vector::to_root;
-use super::workspace::{Derivative, Placed};
 use super::{PairDistance, Proximity};
+use crate::workspace::{Derivative, Placed};
 use urdd_geometry::convex::Penetration;
 use urdd_geometry::vector::{norm, sub};
 
@@ -49,7 +49,8 @@ impl Proximity {
         direction: [f64; 3],
         memory: &'a mut Derivative,
     ) -> &'a [f64] {
-        let (kinematics, dofs) = (&self.motion.kinematics, self.num_dofs());
+        let kinematics = &self.motion.kinematics;
+        let dofs = kinematics.num_dofs();
         memory.jacobian.resize(6 * dofs, 0.0);
         memory.of_dofs.clear();
         memory.of_dofs.resize(dofs, 0.0);

@@ -1,30 +1,20 @@
 //! Distances and collisions between the links of a robot.
 //!
-//! [`Robot::proximity`] prepares the shapes of one kind and their pairs that are not skipped. Then
-//! [`Proximity::distances`] returns the distance of each pair, [`Proximity::closest_points`] the closest points too,
-//! [`Proximity::nearest`] the nearest pairs, [`Proximity::self_distance`] the minimum distance, and
-//! [`Proximity::in_collision`] a yes or no, which is the fastest query. The batch methods run on rayon's thread pool; those
-//! that take a [`Workspace`] do not allocate.
-//! Results do not depend on the number of threads or on the batch.
+//! [`Robot::proximity`] prepares the shapes of one kind and their pairs that are not skipped. [`Queries`](crate::Queries)
+//! has what can be asked. [`Proximity::attach`] adds an object that a link carries, [`Proximity::without`] leaves pairs out.
 //!
-//! [`Proximity::attach`] adds an object that a link carries, [`Proximity::without`] leaves pairs out.
-//! [`Proximity::is_within`] answers for a margin, [`Proximity::gradients`] has the derivatives of distances, and
-//! [`Proximity::blocked_edge`] and [`Proximity::first_contact`] check a straight motion.
-//!
-//! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: [`Proximity::penetrations`] says how far.
+//! Distances are accurate to 1e-9 m, and 0 for shapes that touch or overlap: `penetrations` says how far. Results do not
+//! depend on the number of threads or on the batch.
 //! Bounding spheres, of each shape and of all shapes of a link, exclude distant pairs. They are computed from the
 //! shapes themselves, so a wrong box or sphere in the URDD cannot hide a collision between hulls or pieces.
 
 mod attach;
-mod batch;
 mod body;
-mod bound;
 mod gradient;
 mod query;
 mod swept;
 mod vector;
 mod without;
-mod workspace;
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -32,22 +22,21 @@ use std::sync::Arc;
 use super::Robot;
 use super::error::RobotError;
 use super::motion::Motion;
-use super::names::index;
+use super::names::{check_link, index};
 use super::shapes::ShapeKind;
 use super::skips::Skips;
+use super::statistics::PairStatistics;
+use super::workspace::Placed;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::Level;
 use urdd_geometry::convex::across::columns;
 use urdd_kinematics::Travel;
 
-pub use batch::Cancellable;
 pub(super) use body::Shape;
 pub use gradient::{Gradient, Overlap, PairGradient};
 pub(super) use gradient::{in_root, toward};
 pub(super) use swept::{SweptPair, Waiting, penetration_of, witnesses};
 pub(super) use vector::{relative, to_root};
-pub(super) use workspace::Placed;
-pub use workspace::Workspace;
 
 /// The distance between two shapes, and their closest points.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +63,7 @@ pub struct PairDistance {
 /// The shapes of one kind, prepared for distances.
 #[derive(Debug, Clone)]
 pub struct Proximity {
-    motion: Arc<Motion>,
+    pub(super) motion: Arc<Motion>,
     pub(super) kind: ShapeKind,
     /// Of the links, then of the attached objects.
     pub(super) names: Vec<Arc<str>>,
@@ -127,9 +116,6 @@ impl Robot {
 
     /// As [`Robot::proximity`], for the pairs of shapes that `wanted` selects instead of those that are not skipped.
     /// `wanted` receives the link and the piece of each shape.
-    ///
-    /// # Errors
-    /// As [`Robot::proximity`].
     pub fn proximity_of(
         &self,
         kind: ShapeKind,
@@ -148,16 +134,13 @@ impl Robot {
         wanted: impl Fn([&Shape; 2], Option<(usize, usize)>) -> bool,
     ) -> Result<Proximity, RobotError> {
         let motion = Arc::clone(self.shared_motion()?);
-        let statistics = self.statistics(kind)?;
+        let statistics = self.statistics()?;
         let index: HashMap<(usize, usize), usize> =
             skips.places().iter().enumerate().map(|(index, place)| (*place, index)).collect();
         let count = motion.links.len();
         let mut shapes = Vec::new();
         for shape in self.shapes(kind)? {
-            if shape.link >= count {
-                let (what, index) = ("link", shape.link);
-                return Err(RobotError::OutOfRange { what, index, count });
-            }
+            check_link(shape.link, count)?;
             let own = Shape::of(shape.link, shape.piece, &shape.solid);
             shapes.push(own.map_err(|error| RobotError::Unusable {
                 module: kind.module(),
@@ -173,7 +156,7 @@ impl Robot {
                 if a.link == b.link || !wanted([a, b], both) {
                     continue;
                 }
-                let recorded = both.and_then(|(i, j)| statistics.pair(i, j));
+                let recorded = both.and_then(|(i, j)| PairStatistics::of(&statistics, kind, i, j));
                 let mean = recorded.map(|pair| pair.mean);
                 pairs.push(Pair { shapes: [i, j], mean: mean.filter(|mean| *mean > 0.0) });
             }
@@ -204,17 +187,7 @@ impl Proximity {
         self.shapes.len()
     }
 
-    /// Number of pairs that are checked.
-    pub fn num_pairs(&self) -> usize {
-        self.pairs.len()
-    }
-
-    /// Number of DOFs: the length of a configuration.
-    pub fn num_dofs(&self) -> usize {
-        self.motion.kinematics.num_dofs()
-    }
-
-    /// The link and the piece of both shapes of each pair that is checked, in the order of [`Proximity::distances`]: by
+    /// The link and the piece of both shapes of each pair that is checked, in the order of [`distances`](crate::Queries::distances): by
     /// first link, second link, and pieces.
     pub fn pairs(&self) -> impl ExactSizeIterator<Item = [(usize, usize); 2]> {
         let place = |shape: usize| (self.shapes[shape].link, self.shapes[shape].piece);
@@ -230,17 +203,6 @@ impl Proximity {
     /// The bodies of [`Proximity::pairs`], as [`PairDistance::body_idxs`].
     pub fn pair_bodies(&self) -> impl ExactSizeIterator<Item = [usize; 2]> {
         self.pairs.iter().map(|pair| pair.shapes.map(|shape| self.shapes[shape].owner))
-    }
-
-    /// The root link.
-    pub(super) fn root(&self) -> usize {
-        self.motion.kinematics.root()
-    }
-
-    /// The name of a link.
-    pub fn link_name(&self, link: usize) -> Option<&str> {
-        let names = &self.names[..self.motion.links.len()];
-        names.get(link).map(|name| &**name)
     }
 
     /// Number of bodies: links and attached objects.
@@ -275,18 +237,11 @@ impl Proximity {
         self.pairs.sort_by_key(|pair| (links(pair), pair.shapes));
         self.groups.clear();
         let bodies = self.motion.kinematics.rigid_bodies();
-        for (at, pair) in self.pairs.iter().enumerate() {
+        for (first, links) in self.pairs.iter().map(links).enumerate() {
+            let (moves, end) = (bodies[links[0]] != bodies[links[1]], first + 1);
             match self.groups.last_mut() {
-                Some(group) if group.links == links(pair) => group.end = at + 1,
-                _ => self.groups.push(Group {
-                    links: links(pair),
-                    moves: {
-                        let [a, b] = links(pair);
-                        bodies[a] != bodies[b]
-                    },
-                    first: at,
-                    end: at + 1,
-                }),
+                Some(group) if group.links == links => group.end = end,
+                _ => self.groups.push(Group { links, moves, first, end }),
             }
         }
         let count = self.motion.links.len();
@@ -299,13 +254,7 @@ impl Proximity {
         &self.names[shape.owner]
     }
 
-    /// The links and the centres of the shapes, placed.
-    fn placed(&self, configuration: &[f64]) -> Result<Placed, RobotError> {
-        let mut placed = Placed::default();
-        self.place(configuration, &mut placed)?;
-        Ok(placed)
-    }
-
+    /// Places the links and the centres of the shapes.
     pub(super) fn place(
         &self,
         configuration: &[f64],
@@ -323,10 +272,5 @@ impl Proximity {
 
     pub(super) fn travel(&self, start: &[f64], end: &[f64]) -> Result<Travel<'_>, RobotError> {
         Ok(self.motion.kinematics.travel(start, end)?)
-    }
-
-    /// The pose of link `b` in the frame of link `a`.
-    fn relative(placed: &Placed, a: usize, b: usize) -> [[f64; 3]; 4] {
-        relative(&placed.links[a], &placed.links[b])
     }
 }

@@ -3,110 +3,71 @@
 use std::sync::Arc;
 
 use arrayvec::ArrayVec;
+use rayon::prelude::*;
 
 use super::swept::{SweptPair, Waiting};
-use super::workspace::{Placed, Workspace};
-use super::{Gradient, Group, Overlap, PairDistance, Proximity, Rounding};
-use crate::batch::check_room;
-use crate::checked::{Checked, closest, least};
-use crate::edge::{EdgeSettings, FirstContact};
+use super::vector::{relative, to_root};
+use super::{Group, PairDistance, Proximity, Rounding};
+use crate::checked::Checked;
 use crate::error::RobotError;
-use crate::questions::questions;
+use crate::queries::Queries;
+use crate::workspace::{Placed, Workspace, with_workspace};
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair};
-use urdd_geometry::vector::norm;
+use urdd_geometry::vector::{dot, norm, sub};
 use urdd_kinematics::Travel;
 
 impl Proximity {
-    /// The distance and the closest points of each pair that is checked, in the order of [`Proximity::pairs`].
-    /// `configuration` has one value for each DOF, rad or m; values beyond the bounds are allowed.
-    ///
-    /// # Errors
-    /// [`RobotError::Configuration`] if the length differs from the number of DOFs or a value is not finite.
-    pub fn closest_points(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
-        let placed = self.placed(configuration)?;
-        Ok(self.witnesses(&placed, 0..self.pairs.len()))
-    }
-
-    /// The distance of each pair that is checked, in metres, in the order of [`Proximity::pairs`].
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
-        let mut values = vec![0.0; self.pairs.len()];
-        self.distances_with(configuration, &mut Workspace::default(), &mut values)?;
-        Ok(values)
-    }
-
-    /// As [`Proximity::distances`], into `out`, with memory that is used again: it does not allocate.
-    ///
-    /// # Errors
-    /// As there, and [`RobotError::Room`] if the length of `out` differs from the number of pairs.
-    pub fn distances_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-        out: &mut [f64],
-    ) -> Result<(), RobotError> {
-        check_room(out.len(), 1, self.pairs.len())?;
-        let placed = &mut workspace.placed;
-        self.place(configuration, placed)?;
-        let mut pairs = [0; AT_ONCE];
-        for (chunk, out) in out.chunks_mut(AT_ONCE).enumerate() {
-            for (k, pair) in pairs.iter_mut().enumerate() {
-                *pair = chunk * AT_ONCE + k;
-            }
-            self.values(placed, &pairs[..out.len()], out);
-        }
-        Ok(())
-    }
-
-    /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn self_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
-        self.self_distance_with(configuration, &mut Workspace::default())
-    }
-
-    /// As [`Proximity::self_distance`], with memory that is used again: it does not allocate.
+    /// The minimum distance over all pairs, in metres; `None` if there are no pairs. The other name of
+    /// [`Queries::min_distance`] for the robot's own pairs.
     ///
     /// # Errors
     /// As there.
-    pub fn self_distance_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-    ) -> Result<Option<f64>, RobotError> {
-        let nearest = least(self, configuration, 1, workspace)?;
-        Ok(nearest.first().map(|(distance, _)| *distance))
+    pub fn self_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
+        self.min_distance(configuration)
     }
 
-    /// The pairs that touch or overlap, in the order of [`Proximity::pairs`].
+    /// For each two links with checked pairs of shapes, by index: the number of configurations in which any of these
+    /// pairs is in contact.
     ///
     /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn collisions(&self, configuration: &[f64]) -> Result<Vec<PairDistance>, RobotError> {
-        let placed = self.placed(configuration)?;
-        let near = (0..self.pairs.len()).filter(|pair| self.bound(&placed, *pair) <= 0.0);
-        let near: Vec<usize> = near.collect();
-        let mut touching = Vec::new();
-        for pairs in near.chunks(AT_ONCE) {
-            let mut values = [0.0; AT_ONCE];
-            self.values(&placed, pairs, &mut values[..pairs.len()]);
-            let both = pairs.iter().zip(values);
-            touching.extend(both.filter(|(_, value)| *value == 0.0).map(|(pair, _)| *pair));
-        }
-        Ok(self.witnesses(&placed, touching))
+    /// As [`Queries::in_collision_batch`].
+    pub fn contacts_of_links(
+        &self,
+        configurations: &[f64],
+    ) -> Result<Vec<([usize; 2], usize)>, RobotError> {
+        let rows = self.motion.rows(configurations)?;
+        let found = (0..rows.count).into_par_iter().map(|k| {
+            with_workspace(|Workspace { placed, .. }| {
+                self.place(rows.row(k), placed)?;
+                let touches = |group: &Group| self.any_touches(placed, std::slice::from_ref(group));
+                Ok(self.groups.iter().map(touches).collect())
+            })
+        });
+        let found: Vec<Vec<bool>> = found.collect::<Result<_, RobotError>>()?;
+        let count = |at: usize| found.iter().filter(|one| one[at]).count();
+        Ok(self.groups.iter().enumerate().map(|(at, group)| (group.links, count(at))).collect())
+    }
+
+    /// Whether the bounding spheres of two links are disjoint. True if a link has no shapes.
+    fn are_apart(&self, placed: &Placed, links: [usize; 2]) -> bool {
+        let [Some(a), Some(b)] = links.map(|link| self.spheres[link]) else {
+            return true;
+        };
+        let p = to_root(&placed.links[links[0]], a.centre);
+        let q = to_root(&placed.links[links[1]], b.centre);
+        let between = sub(q, p);
+        let reach = a.radius + b.radius;
+        dot(between, between) > reach * reach * (1.0 + 1e-12)
     }
 
     /// Whether any pair in these groups touches, for the given placement of the links.
-    pub(super) fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
+    fn any_touches(&self, placed: &Placed, groups: &[Group]) -> bool {
         let mut waiting = Waiting::new(self.level);
         for group in groups {
             if self.are_apart(placed, group.links) {
                 continue;
             }
-            let pose = Self::relative(placed, group.links[0], group.links[1]);
+            let pose = relative(&placed.links[group.links[0]], &placed.links[group.links[1]]);
             for pair in group.first..group.end {
                 if self.bound(placed, pair) > 0.0 {
                     continue;
@@ -123,33 +84,10 @@ impl Proximity {
         waiting.any_touches()
     }
 
-    /// The distances of some pairs, at most [`AT_ONCE`].
-    pub(super) fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
-        if self.rounding != Rounding::Balls {
-            let cores = pairs.iter();
-            let cores = cores.map(|pair| self.cores(*pair, self.pose(placed, *pair)));
-            let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
-            across::distances(self.level, &cores, values);
-        }
-        if self.rounding == Rounding::None {
-            return;
-        }
-        for (value, pair) in values.iter_mut().zip(pairs) {
-            *value = self.rounded(placed, *pair, *value);
-        }
-    }
-
-    /// The distance of a pair, from that of its cores.
-    fn rounded(&self, placed: &Placed, pair: usize, cores: f64) -> f64 {
-        match self.are_balls(pair) {
-            true => self.bound(placed, pair).max(0.0),
-            false => (cores - self.radii(pair)).max(0.0),
-        }
-    }
-
-    pub(super) fn pose(&self, placed: &Placed, pair: usize) -> [[f64; 3]; 4] {
-        let [a, b] = self.pairs[pair].shapes.map(|shape| self.shapes[shape].link);
-        Self::relative(placed, a, b)
+    /// The pose of the second shape's link in the frame of the first one's.
+    fn pose(&self, placed: &Placed, pair: usize) -> [[f64; 3]; 4] {
+        let [a, b] = self.pairs[pair].shapes.map(|shape| &placed.links[self.shapes[shape].link]);
+        relative(a, b)
     }
 
     /// Whether a pair is two balls: the bound of their distance is the distance.
@@ -175,22 +113,11 @@ impl Proximity {
         let sphere = self.spheres[link].as_ref();
         sphere.map_or(0.0, |sphere| norm(sphere.centre) + sphere.radius)
     }
-
-    fn witnesses(
-        &self,
-        placed: &Placed,
-        pairs: impl IntoIterator<Item = usize>,
-    ) -> Vec<PairDistance> {
-        let mut all = Vec::new();
-        closest(self, placed, pairs, |pair, distance, points| {
-            all.push(self.found(placed, pair, distance, points));
-        });
-        all
-    }
 }
 
 impl Checked for Proximity {
-    type Found = PairDistance;
+    type Pair = PairDistance;
+    const BLOCK: usize = 32;
 
     fn shapes(&self) -> &Proximity {
         self
@@ -208,11 +135,26 @@ impl Checked for Proximity {
     }
 
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {
-        Proximity::bound(self, placed, pair)
+        let [a, b] = self.pairs[pair].shapes;
+        let apart = norm(sub(placed.centres[b], placed.centres[a]));
+        apart - self.shapes[a].sphere.radius - self.shapes[b].sphere.radius
     }
 
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
-        Proximity::values(self, placed, pairs, values);
+        if self.rounding != Rounding::Balls {
+            let cores = pairs.iter().map(|pair| self.cores(*pair, self.pose(placed, *pair)));
+            let cores: ArrayVec<PlacedPair, AT_ONCE> = cores.collect();
+            across::distances(self.level, &cores, values);
+        }
+        if self.rounding == Rounding::None {
+            return;
+        }
+        for (value, pair) in values.iter_mut().zip(pairs) {
+            *value = match self.are_balls(*pair) {
+                true => self.bound(placed, *pair).max(0.0),
+                false => (*value - self.radii(*pair)).max(0.0),
+            };
+        }
     }
 
     fn touches(&self, placed: &Placed) -> bool {
@@ -239,7 +181,7 @@ impl Checked for Proximity {
     ) -> PairDistance {
         let shapes = self.pairs[pair].shapes.map(|shape| &self.shapes[shape]);
         let distance = match self.are_balls(pair) {
-            true => Proximity::bound(self, placed, pair).max(0.0),
+            true => self.bound(placed, pair).max(0.0),
             false => distance,
         };
         PairDistance {
@@ -265,9 +207,8 @@ impl Checked for Proximity {
 
     fn farthest(&self, travel: &Travel) -> f64 {
         let links = self.groups.iter().flat_map(|group| group.links);
-        let of = |link: usize| travel.of_points(link, self.radius(link), self.root());
+        let of =
+            |link: usize| travel.of_points(link, self.radius(link), self.motion.kinematics.root());
         links.map(of).fold(0.0, f64::max)
     }
 }
-
-questions! { PairDistance, impl Proximity }

@@ -8,7 +8,7 @@ use urdd_geometry::vector::{norm, sub};
 
 /// Two placed shapes.
 #[derive(Clone, Copy)]
-pub(crate) struct SweptPair<'a> {
+pub struct SweptPair<'a> {
     pub cores: PlacedPair<'a>,
     /// The shapes are all points that are at most this far from their cores, m.
     pub radii: [f64; 2],
@@ -28,32 +28,24 @@ pub(crate) fn witnesses(
 /// How far two shapes overlap, in the frame of the first; `None` if they are apart.
 pub(crate) fn penetration_of(level: Level, pair: &SweptPair) -> Option<Penetration> {
     let [a, b] = pair.radii;
-    let cores = pair.cores;
-    let found = penetration(&cores).map(|found| {
-        let [p, q] = found.points;
-        let along =
-            |point: [f64; 3], by: f64| [0, 1, 2].map(|k| point[k] + by * found.direction[k]);
-        Penetration {
-            depth: found.depth + a + b,
-            direction: found.direction,
-            points: [along(p, a), along(q, -b)],
+    let (depth, direction, [p, q]) = match penetration(&pair.cores) {
+        Some(found) => (found.depth + a + b, found.direction, found.points),
+        None if a + b == 0.0 => return None,
+        None => {
+            // The cores are apart.
+            let [Witness { points, .. }] = across::witnesses(level, &[pair.cores])[..] else {
+                return None;
+            };
+            let between = sub(points[1], points[0]);
+            let length = norm(between);
+            if !(length > 0.0 && length <= a + b) {
+                return None;
+            }
+            (a + b - length, between.map(|x| x / length), points)
         }
-    });
-    if found.is_some() || a + b == 0.0 {
-        return found;
-    }
-    // The cores are apart.
-    let [witness] = across::witnesses(level, &[cores])[..] else {
-        return None;
     };
-    let [p, q] = witness.points;
-    let between = sub(q, p);
-    let length = norm(between);
-    (length > 0.0 && length <= a + b).then(|| {
-        let direction = between.map(|x| x / length);
-        let along = |point: [f64; 3], by: f64| [0, 1, 2].map(|k| point[k] + by * direction[k]);
-        Penetration { depth: a + b - length, direction, points: [along(p, a), along(q, -b)] }
-    })
+    let along = |point: [f64; 3], by: f64| [0, 1, 2].map(|k| point[k] + by * direction[k]);
+    Some(Penetration { depth, direction, points: [along(p, a), along(q, -b)] })
 }
 
 /// The distance and closest points of two shapes enlarged by radii.

@@ -43,9 +43,8 @@ impl Proximity {
         &self,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Result<Proximity, RobotError> {
-        let bodies: Result<HashSet<usize>, _> =
-            names.into_iter().map(|one| self.body(one)).collect();
-        let bodies = bodies?;
+        let bodies = names.into_iter().map(|one| self.body(one));
+        let bodies: HashSet<usize> = bodies.collect::<Result<_, _>>()?;
         let is_kept = |shape: usize| !bodies.contains(&self.shapes[shape].owner);
         let (mut with, mut places) = (self.clone(), Vec::new());
         with.shapes.clear();

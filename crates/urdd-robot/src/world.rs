@@ -1,4 +1,46 @@
-//! Distances and collisions between a robot and obstacles.
+//! Obstacles around a robot, and its distances to them.
+//!
+//! A [`World`] is a list of [`Obstacle`](crate::Obstacle)s: boxes, spheres, capsules, cylinders and meshes.
+//! [`Proximity::world_proximity`] combines a robot's shapes of one kind with a world. [`WorldProximity`] then has the
+//! same [`Queries`](crate::Queries) as [`Proximity`]. Skips do not apply: every shape of the robot is tested against every obstacle,
+//! except for links that the obstacle ignores.
+//!
+//! ```
+//! use nalgebra::Isometry3;
+//! use urdd_robot::{Obstacle, Queries, Robot, ShapeKind, World};
+//!
+//! # fn ask(urdd: &str) -> Result<(), urdd_robot::RobotError> {
+//! let robot = Robot::open(urdd)?;
+//! let table = Obstacle::cuboid("table", Isometry3::translation(0.0, 0.0, -0.05), [1.0, 1.0, 0.05])?;
+//! let ball = Obstacle::sphere("ball", [0.4, 0.0, 0.3], 0.1)?;
+//! let world = World::new([table.ignoring("base_link"), ball]);
+//! let proximity = robot.proximity(ShapeKind::Pieces)?;
+//! let proximity = proximity.world_proximity(&world)?;
+//! let q = robot.configurations()?.zero();
+//! if !proximity.in_collision(&q)? {
+//!     let nearest = &proximity.nearest(&q, 1)?[0];
+//!     println!("{} is {} m from {}", nearest.link, nearest.distance, nearest.obstacle);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Positions are in the root link's frame, in metres. To move the robot's base, apply the inverse motion to the world.
+//!
+//! Obstacles that move only move: [`Obstacle::at`](crate::Obstacle::at) and [`WorldProximity::move_obstacles`] prepare nothing again, and the
+//! latter does not allocate. A control loop, with `poses` from a tracker:
+//!
+//! ```
+//! # use nalgebra::Isometry3;
+//! # use urdd_robot::{Proximity, Queries, RobotError, World};
+//! # fn cycle(proximity: &Proximity, world: &World, q: &[f64], poses: &[Isometry3<f64>]) -> Result<(), RobotError> {
+//! let mut around = proximity.world_proximity(world)?;
+//! // In each cycle:
+//! around.move_obstacles(0, poses)?;
+//! let distance = around.min_distance(q)?;
+//! # Ok(())
+//! # }
+//! ```
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -6,15 +48,11 @@ use std::sync::Arc;
 use arrayvec::ArrayVec;
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use crate::batch::check_room;
-use crate::checked::{Checked, closest, least};
-use crate::edge::{EdgeSettings, FirstContact};
-use crate::error::RobotError;
-use crate::obstacle::{Part, World, check_pose};
-use crate::proximity::{
-    Gradient, Overlap, Placed, Proximity, Shape, SweptPair, Waiting, Workspace, relative, to_root,
-};
-use crate::questions::questions;
+use super::checked::Checked;
+use super::error::RobotError;
+use super::obstacle::{Part, World, check_pose};
+use super::proximity::{Gradient, Proximity, Shape, SweptPair, Waiting, relative, to_root};
+use super::workspace::Placed;
 use urdd_geometry::bounding_sphere::BoundingSphere;
 use urdd_geometry::convex::across::{self, AT_ONCE, PlacedPair, columns};
 use urdd_geometry::vector::{dot, norm, sub};
@@ -117,11 +155,8 @@ impl Proximity {
     }
 }
 
-impl<P: Deref<Target = Proximity>> WorldProximity<P> {
+impl<P: Deref<Target = Proximity> + Sync> WorldProximity<P> {
     /// As [`Proximity::world_proximity`], with borrowed or shared shapes.
-    ///
-    /// # Errors
-    /// As there.
     pub fn new(proximity: P, world: &World) -> Result<Self, RobotError> {
         let mut parts = Vec::new();
         let mut ignored = Vec::new();
@@ -187,11 +222,6 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
         self.pair_bodies().map(|body| &*self.proximity.names[body])
     }
 
-    /// Number of [pairs](WorldProximity::pairs).
-    pub fn num_pairs(&self) -> usize {
-        self.tested().count()
-    }
-
     /// The shapes of the robot and the obstacles that are tested against each other.
     fn tested(&self) -> impl Iterator<Item = [usize; 2]> {
         (0..self.pairs.len()).filter(|pair| self.is_first(*pair)).map(|pair| self.of(pair))
@@ -201,98 +231,6 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     fn of(&self, pair: usize) -> [usize; 2] {
         let [shape, part] = self.pairs[pair].map(|index| index as usize);
         [shape, self.parts[part].obstacle]
-    }
-
-    /// Whether a pair is the first of its shape and its obstacle.
-    fn is_first(&self, pair: usize) -> bool {
-        pair == 0 || self.of(pair - 1) != self.of(pair)
-    }
-
-    /// The distance of each of the [pairs](WorldProximity::pairs), in metres.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn distances(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
-        let mut values = vec![0.0; self.num_pairs()];
-        self.distances_with(configuration, &mut Workspace::default(), &mut values)?;
-        Ok(values)
-    }
-
-    /// As [`WorldProximity::distances`], into `out`, with memory that is used again: it does not allocate.
-    ///
-    /// # Errors
-    /// As there, and [`RobotError::Room`] if the length of `out` differs from the number of pairs.
-    pub fn distances_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-        out: &mut [f64],
-    ) -> Result<(), RobotError> {
-        check_room(out.len(), 1, self.num_pairs())?;
-        self.proximity.place(configuration, &mut workspace.placed)?;
-        let mut at = 0;
-        for first in (0..self.pairs.len()).step_by(AT_ONCE) {
-            let pairs = first..self.pairs.len().min(first + AT_ONCE);
-            let pairs: ArrayVec<usize, AT_ONCE> = pairs.collect();
-            let mut values = [0.0; AT_ONCE];
-            self.values(&workspace.placed, &pairs, &mut values[..pairs.len()]);
-            for (pair, value) in pairs.into_iter().zip(values) {
-                at += usize::from(self.is_first(pair));
-                let out = &mut out[at - 1];
-                *out = if self.is_first(pair) { value } else { out.min(value) };
-            }
-        }
-        Ok(())
-    }
-
-    /// The minimum distance over all pairs, in metres; `None` if there are no pairs.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn min_distance(&self, configuration: &[f64]) -> Result<Option<f64>, RobotError> {
-        self.min_distance_with(configuration, &mut Workspace::default())
-    }
-
-    /// As [`WorldProximity::min_distance`], with memory that is used again: it does not allocate.
-    ///
-    /// # Errors
-    /// As there.
-    pub fn min_distance_with(
-        &self,
-        configuration: &[f64],
-        workspace: &mut Workspace,
-    ) -> Result<Option<f64>, RobotError> {
-        let nearest = least(self, configuration, 1, workspace)?;
-        Ok(nearest.first().map(|(distance, _)| *distance))
-    }
-
-    /// For each shape of the robot and each tested obstacle, the distance to the obstacle's nearest part. Sorted by
-    /// shape, in the order of links and pieces, then by obstacle.
-    ///
-    /// # Errors
-    /// As [`Proximity::closest_points`].
-    pub fn closest_points(
-        &self,
-        configuration: &[f64],
-    ) -> Result<Vec<ObstacleDistance>, RobotError> {
-        let mut placed = Placed::default();
-        self.proximity.place(configuration, &mut placed)?;
-        let mut all: Vec<ObstacleDistance> = Vec::new();
-        closest(self, &placed, 0..self.pairs.len(), |pair, distance, points| {
-            let found = self.found(&placed, pair, distance, points);
-            match all.last_mut() {
-                Some(last) if !self.is_first(pair) && distance >= last.distance => {}
-                Some(last) if !self.is_first(pair) => *last = found,
-                _ => all.push(found),
-            }
-        });
-        Ok(all)
-    }
-
-    /// Number of pairs of a shape of the robot and a convex part of an obstacle: the most that
-    /// [`WorldProximity::nearest`] returns.
-    pub fn num_pairs_of_parts(&self) -> usize {
-        self.pairs.len()
     }
 
     /// The shape of the robot and the part of an obstacle of a pair.
@@ -314,8 +252,10 @@ impl<P: Deref<Target = Proximity>> WorldProximity<P> {
     }
 }
 
-impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
-    type Found = ObstacleDistance;
+impl<P: Deref<Target = Proximity> + Sync> Checked for WorldProximity<P> {
+    type Pair = ObstacleDistance;
+    /// There may be very many obstacles.
+    const BLOCK: usize = 1;
 
     fn shapes(&self) -> &Proximity {
         &self.proximity
@@ -325,21 +265,27 @@ impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
         self.pairs.len()
     }
 
+    fn is_first(&self, pair: usize) -> bool {
+        pair == 0 || self.of(pair - 1) != self.of(pair)
+    }
+
+    fn num_answers(&self) -> usize {
+        self.tested().count()
+    }
+
     /// Pairs of a shape of the robot share its rate.
     fn within(&self, _: f64) -> impl Iterator<Item = (usize, usize)> {
         self.pairs.iter().enumerate().map(|(pair, [shape, _])| (pair, *shape as usize))
     }
 
     fn bound(&self, placed: &Placed, pair: usize) -> f64 {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
-        let radius = self.proximity.shapes[shape].sphere.radius;
-        self.parts[part].bound(placed.centres[shape], radius)
+        let (own, other) = self.both(pair);
+        other.bound(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius)
     }
 
     fn is_beyond(&self, placed: &Placed, pair: usize, distance: f64) -> bool {
-        let [shape, part] = self.pairs[pair].map(|index| index as usize);
-        let radius = self.proximity.shapes[shape].sphere.radius;
-        self.parts[part].is_beyond(placed.centres[shape], radius, distance)
+        let (own, other) = self.both(pair);
+        other.is_beyond(placed.centres[self.pairs[pair][0] as usize], own.sphere.radius, distance)
     }
 
     fn values(&self, placed: &Placed, pairs: &[usize], values: &mut [f64]) {
@@ -389,7 +335,7 @@ impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
 
     /// One for each shape of the robot.
     fn rates(&self, travel: &Travel) -> Vec<f64> {
-        let root = self.proximity.root();
+        let root = self.proximity.motion.kinematics.root();
         let shapes = self.proximity.shapes.iter();
         let rate = shapes.map(|shape| {
             let radius = norm(shape.sphere.centre) + shape.sphere.radius;
@@ -402,5 +348,3 @@ impl<P: Deref<Target = Proximity>> Checked for WorldProximity<P> {
         self.rates(travel).into_iter().fold(0.0, f64::max)
     }
 }
-
-questions! { ObstacleDistance, impl<P: Deref<Target = Proximity>> WorldProximity<P> }

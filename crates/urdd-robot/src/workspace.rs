@@ -1,5 +1,6 @@
-//! Memory of queries on one configuration.
+//! What a thread keeps from one query to the next, so that queries on one configuration do not allocate.
 
+use std::cell::RefCell;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -7,14 +8,25 @@ use arrayvec::ArrayVec;
 use nalgebra::Isometry3;
 use urdd_geometry::convex::across::AT_ONCE;
 
-/// Memory for queries on one configuration, which the next query uses again. Then they do not allocate:
-/// [`Proximity::in_collision_with`](super::Proximity::in_collision_with) and others. One for each thread; it fits every
-/// robot and world.
+/// Memory for queries on one configuration. It fits every robot and world.
 #[derive(Debug, Default)]
-pub struct Workspace {
-    pub(crate) placed: Placed,
-    pub(crate) least: Least,
-    pub(crate) derivative: Derivative,
+pub(crate) struct Workspace {
+    pub placed: Placed,
+    pub least: Least,
+    pub derivative: Derivative,
+}
+
+thread_local! {
+    static WORKSPACE: RefCell<Workspace> = RefCell::default();
+}
+
+/// Runs with this thread's memory. A query within a query gets memory of its own, and so does one of a thread that is
+/// ending, which keeps nothing any more.
+pub(crate) fn with_workspace<T>(act: impl FnOnce(&mut Workspace) -> T) -> T {
+    let mut memory = WORKSPACE.try_with(RefCell::take).unwrap_or_default();
+    let found = act(&mut memory);
+    let _ = WORKSPACE.try_with(|kept| kept.replace(memory));
+    found
 }
 
 /// The derivative of a distance for each DOF, and the Jacobian of a point.
@@ -26,7 +38,7 @@ pub(crate) struct Derivative {
 
 /// The placement of all links in one configuration.
 #[derive(Debug, Default)]
-pub(crate) struct Placed {
+pub struct Placed {
     pub poses: Vec<Isometry3<f64>>,
     /// For each link, the columns of its rotation matrix, then its translation.
     pub links: Vec<[[f64; 3]; 4]>,
