@@ -12,8 +12,7 @@ use crate::data::{PACKED, URDD};
 use crate::tree::{Tree, TreeError};
 
 /// A test case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Case {
     /// Code of the rule under test.
     pub code: String,
@@ -36,13 +35,11 @@ pub struct Case {
     /// Files whose size and hash in `urdd.json` are not updated after the changes.
     pub hashes_kept: BTreeSet<String>,
     /// Where the URDD is in a zip archive; `None` for a folder.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub packed: Option<Packed>,
 }
 
 /// The kind of case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Only the rule under test finds something.
     Invalid,
@@ -61,8 +58,7 @@ pub enum Verdict {
 }
 
 /// An expected finding.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Expected {
     /// Code of the rule.
     pub code: String,

@@ -3,8 +3,8 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use json_patch::Patch;
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde::Deserialize;
+use serde_json::{Map, Value};
 
 use crate::tree::{FilePath, Node, Tree};
 use urdd_directory::canonical;
@@ -14,17 +14,41 @@ use urdd_directory::json;
 const MAX_REPEATED: usize = 1 << 27;
 
 /// A change of one file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct Change {
     /// The file, relative to the URDD's root.
     pub file: FilePath,
     /// The action.
-    #[serde(flatten)]
     pub action: Action,
 }
 
+/// A change in JSON: the action is a key beside `file`.
+#[derive(Deserialize)]
+struct Written {
+    file: FilePath,
+    #[serde(flatten)]
+    action: Map<String, Value>,
+}
+
+impl TryFrom<Written> for Change {
+    type Error = String;
+
+    fn try_from(Written { file, action }: Written) -> Result<Change, String> {
+        let [key] = action.keys().collect::<Vec<_>>()[..] else {
+            let keys = action.keys().cloned().collect::<Vec<_>>().join(", ");
+            return Err(format!(
+                "a change of {file} needs one action beside `file`, and has {{{keys}}}"
+            ));
+        };
+        let reason = format!("{key} of {file}");
+        let action = serde_json::from_value(Value::Object(action));
+        Ok(Change { action: action.map_err(|error| format!("{reason}: {error}"))?, file })
+    }
+}
+
 /// An action on a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
     /// RFC 6902 operations on a JSON document. Updates `module.yaml` beside it.
@@ -82,12 +106,6 @@ pub enum Action {
 /// `true`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Yes;
-
-impl Serialize for Yes {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        true.serialize(serializer)
-    }
-}
 
 impl<'de> Deserialize<'de> for Yes {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -8,28 +8,18 @@ use std::sync::Arc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePath(Vec<u8>);
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
     Text(String),
     Bytes { base64: String },
-}
-
-impl Serialize for FilePath {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match std::str::from_utf8(&self.0) {
-            Ok(text) => Written::Text(text.to_owned()),
-            Err(_) => Written::Bytes { base64: STANDARD.encode(&self.0) },
-        }
-        .serialize(serializer)
-    }
 }
 
 impl<'de> Deserialize<'de> for FilePath {
