@@ -64,9 +64,8 @@ def described(change: dict[str, Any]) -> list[str]:
     name = change["file"]
     file = code(name if isinstance(name, str) else repr(b64decode(name["base64"])))
     match change:
-        case {"patch": steps} | {"patch_alone": steps}:
-            alone = ", and `module.yaml` stays" if "patch_alone" in change else ""
-            return [f"{file}: {step(given)}{alone}" for given in steps]
+        case {"patch": steps}:
+            return [f"{file}: {step(given)}" for given in steps]
         case {"replace": given} | {"replace_all": given}:
             every = "every " if "replace_all" in change else ""
             return [f"{file}: {every}{code(given['from'])} becomes {code(given['by'])}"]

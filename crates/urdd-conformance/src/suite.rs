@@ -2,10 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::case::Case;
+use crate::case::{Case, RuleCases};
 use crate::change::ChangeError;
 use crate::data::{BASES, CASES, COMPUTED, CopiesError, Data, Files, URDD};
-use crate::rule_cases::RuleCases;
 use crate::seal;
 use crate::tree::Tree;
 

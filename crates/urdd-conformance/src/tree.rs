@@ -12,7 +12,8 @@ use serde::Deserialize;
 
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct FilePath(Vec<u8>);
 
 #[derive(Deserialize)]
@@ -22,14 +23,14 @@ enum Written {
     Bytes { base64: String },
 }
 
-impl<'de> Deserialize<'de> for FilePath {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(match Written::deserialize(deserializer)? {
-            Written::Text(text) => FilePath(text.into_bytes()),
-            Written::Bytes { base64 } => {
-                FilePath(STANDARD.decode(base64).map_err(<D::Error as serde::de::Error>::custom)?)
-            }
-        })
+impl TryFrom<Written> for FilePath {
+    type Error = base64::DecodeError;
+
+    fn try_from(path: Written) -> Result<FilePath, Self::Error> {
+        Ok(FilePath(match path {
+            Written::Text(text) => text.into_bytes(),
+            Written::Bytes { base64 } => STANDARD.decode(base64)?,
+        }))
     }
 }
 
