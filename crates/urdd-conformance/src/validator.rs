@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use semver::Version;
 use serde::Serialize;
 
-use crate::case::{Case, Verdict};
-use crate::catalogue::{Item, ItemKind, items};
+use crate::case::{Case, Kind, Verdict};
+use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
 use crate::printed_codes;
@@ -298,7 +298,7 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
             true => legacy.push(fault),
             false => totals.push(fault),
         }
-        if item.kind != ItemKind::Invalid && !is_legacy(item) {
+        if item.kind != Kind::Invalid && !is_legacy(item) {
             sound.push(fault);
         }
         if looks_crashed(plan, &ran) {
