@@ -1,4 +1,4 @@
-"""The cases of a rule, from conformance/invalid: what is changed, and what the validator must say."""
+"""The cases of a rule, from conformance/cases and conformance/computed: what is changed, and what the validator must say."""
 
 from __future__ import annotations
 
@@ -12,21 +12,31 @@ from text import code
 SHOWN = 8
 
 
-def section(folder: Path) -> str:
-    """The cases in this folder as Markdown; a case is invalid or a near miss."""
-    all_cases = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))]
-    if not all_cases:
-        return ""
-    all_cases.sort(key=lambda case: (case["kind"] != "invalid", case["name"]))
-    return "\n".join(one(case) for case in all_cases)
+def section(suite: Path, rule: str) -> str:
+    """The cases of a rule as Markdown: the invalid ones, then the near misses."""
+    files = [suite / folder / f"{rule}.json" for folder in ("cases", "computed")]
+    rules = [json.loads(path.read_text(encoding="utf-8")) for path in files if path.exists()]
+    texts = [
+        one(case, rule, invalid, cases["verdict"])
+        for invalid in (True, False)
+        for cases in rules
+        for case in cases.get("invalid" if invalid else "near_misses", [])
+    ]
+    return "\n".join(texts)
 
 
-def one(case: dict[str, Any]) -> str:
-    title = case["title"].split(": ", 1)[-1]
-    kind = "has the fault" if case["kind"] == "invalid" else "comes near it, and is right"
-    must = "must reject it" if case["verdict"] == "reject" else "must accept it"
-    lines = [f"### {title}", "", f"`{case['name']}` {kind}: a validator {must}. Base: `{case['base']}`.", ""]
-    changes = [change for given in case["changes"] for change in described(given)]
+def one(case: dict[str, Any], rule: str, invalid: bool, verdict: str) -> str:
+    kind = "has the fault" if invalid else "comes near it, and is right"
+    must = "must reject it" if invalid and verdict == "reject" else "must accept it"
+    lines = [
+        f"### {case['name'].replace('-', ' ')}",
+        "",
+        f"`{case['name']}` {kind}: a validator {must}. Base: `{case['base']}`.",
+        "",
+    ]
+    if note := case.get("note"):
+        lines += [note, ""]
+    changes = [change for given in case.get("changes", []) for change in described(given)]
     lines += [f"- {change}" for change in changes[:SHOWN]]
     if len(changes) > SHOWN:
         lines.append(f"- and {len(changes) - SHOWN} more changes")
@@ -34,9 +44,9 @@ def one(case: dict[str, Any]) -> str:
         lines.append("- nothing is changed: the base itself is the case")
     if packed := case.get("packed"):
         lines.append("- packed as a zip archive, " + {"at_root": "at its root", "in_folder": "in a folder"}[packed])
-    if case["hashes_kept"]:
-        lines.append("- hashes in `urdd.json` stay as they were for " + ", ".join(map(code, case["hashes_kept"])))
-    found = [f"{given['code']} at {place(given)}" for given in case["expected"]]
+    if kept := case.get("hashes_kept"):
+        lines.append("- hashes in `urdd.json` stay as they were for " + ", ".join(map(code, kept)))
+    found = [f"{rule} at {place(given)}" for given in case.get("expected", [])]
     if found:
         more = f" and {len(found) - SHOWN} more places" if len(found) > SHOWN else ""
         lines += ["", "`urdd validate` finds " + "; ".join(found[:SHOWN]) + more + "."]
@@ -44,7 +54,7 @@ def one(case: dict[str, Any]) -> str:
 
 
 def place(finding: dict[str, Any]) -> str:
-    words = [finding["file"], finding["pointer"]]
+    words = [finding.get("file"), finding.get("pointer")]
     return code(" ".join(word for word in words if word)) if any(words) else "the URDD"
 
 
@@ -54,9 +64,8 @@ def described(change: dict[str, Any]) -> list[str]:
     name = change["file"]
     file = code(name if isinstance(name, str) else repr(b64decode(name["base64"])))
     match change:
-        case {"patch": steps} | {"patch_alone": steps}:
-            alone = ", and `module.yaml` stays" if "patch_alone" in change else ""
-            return [f"{file}: {step(given)}{alone}" for given in steps]
+        case {"patch": steps}:
+            return [f"{file}: {step(given)}" for given in steps]
         case {"replace": given} | {"replace_all": given}:
             every = "every " if "replace_all" in change else ""
             return [f"{file}: {every}{code(given['from'])} becomes {code(given['by'])}"]

@@ -32,7 +32,7 @@ def page(rule: Rule, known: set[str], codes: set[str], root: Path) -> str:
     if number is None:
         clause = "[about URDFs](../docs/lint.md)" + ("" if rule["on_by_default"] else ", off by default")
     effect = f"; concerns *{rule['consequence']}*" if rule["consequence"] else ""
-    found = cases.section(root / "conformance/invalid" / rule["code"])
+    found = cases.section(root / "conformance", rule["code"])
     head = f"---\ntitle: {rule['code']} {rule['name']}\nsearch:\n  boost: 4\n---\n"
     facts = f"{badge(rule['severity'])} {clause}; since urdd {rule['since']}{effect}"
     text = f"{head}\n# {rule['code']} {rule['name']}\n\n{facts}\n\n{explanation}\n"

@@ -1,104 +1,60 @@
-//! Every rule has an invalid case that only it catches, and a near miss that it accepts.
+//! The rules and their cases in `conformance/`: one case alone ([`one_case`]), and the cases and bases that are computed
+//! here ([`computed`]). `tests/program/conformance` judges the whole suite.
 //!
-//! A case is a valid URDD with one change. The valid URDD comes from `tests/support`, a producer that shares no code
-//! with the validator.
+//! A case that a person can write is data: `conformance/cases`. The cases here have meshes, other robots, or numbers that
+//! follow from a number of SPEC.md. Each is a valid URDD with one change. The valid URDD comes from `testkit`, a producer
+//! that shares no code with the validator.
 
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
-#[cfg(unix)]
-mod as_data;
+mod bases;
 mod bounds;
 mod chain;
-mod composition;
+mod computed;
 mod connections;
-mod directory;
 mod dof;
-mod extension_annotations;
-mod extensions;
-mod json;
 mod kinematics;
 mod learned;
-mod legacy;
-mod legacy_core;
-mod legacy_robot;
 mod mesh_files;
 mod meshes;
 mod messages;
-mod named_configurations;
 mod numbers;
 mod one_case;
-mod packed;
-mod schema;
 mod shapes;
 mod source;
 mod two_faults;
 mod urdf;
 mod usable;
-mod yaml;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 use testkit::fixture::Fixture;
-use urdd_conformance::archive::{self, Packed};
-use urdd_conformance::data::{PACKED, URDD};
-use urdd_conformance::tree::Tree;
+use testkit::robot::Robot;
 use urdd_format::report;
 use urdd_validate::code::Code;
 use urdd_validate::settings::Settings;
-use urdd_validate::{Run, rules, validate, validate_source};
+use urdd_validate::{Run, validate, validate_source};
 
 /// How a URDD is built.
-pub enum Make {
-    /// In memory.
-    Fixture(Box<dyn Fn() -> Fixture>),
-    /// Written into a folder.
-    Folder(Box<dyn Fn(&Path)>),
-}
+type Make = Box<dyn Fn() -> Fixture>;
 
-impl Make {
-    /// Writes it into a folder.
-    pub fn write(&self, folder: &Path) {
-        match self {
-            Make::Fixture(make) => make().write_to(folder),
-            Make::Folder(write) => write(folder),
-        }
-    }
-}
-
-/// A URDD with one change, and the validator's expected findings. Cases are written here as code, and become the data
-/// in `conformance/` (see [`as_data`]), on which they are judged.
+/// A computed URDD with one change.
 pub struct Case {
     code: Code,
     name: &'static str,
     make: Make,
-    /// The URDD before the change, if known.
-    base: Option<Make>,
+    /// The URDD before the change.
+    base: Make,
     caught: bool,
-    /// Where the URDD is in a zip archive; `None` for a folder.
-    packed: Option<Packed>,
 }
 
 impl Case {
-    /// Writes its URDD below a folder, and returns the URDD's path.
-    fn write(&self, folder: &Path) -> PathBuf {
-        let root = folder.join(URDD);
-        std::fs::create_dir(&root).expect("the URDD's folder");
-        self.make.write(&root);
-        let Some(packed) = self.packed else {
-            return root;
-        };
-        let tree = Tree::read(&root, &root).expect("what was just written");
-        let path = folder.join(PACKED);
-        archive::write(&tree, packed, &path).expect("an archive");
-        path
+    /// Its id: code, slash, name.
+    fn id(&self) -> String {
+        format!("{}/{}", self.code, self.name)
     }
-}
-
-/// The URDD that most cases change, in the canonical emission.
-pub fn toy() -> Fixture {
-    canonical(Fixture::toy())
 }
 
 /// The same fixture, in the canonical emission, in which the suite seals.
@@ -108,7 +64,7 @@ pub fn canonical(mut fixture: Fixture) -> Fixture {
     fixture
 }
 
-/// A change of [`toy`] that exactly this rule catches. Mirrors and hashes follow it.
+/// A change of the toy that exactly this rule catches. Mirrors and hashes follow it.
 pub fn invalid(code: Code, name: &'static str, change: impl Fn(&mut Fixture) + 'static) -> Case {
     changed(code, name, true, Fixture::toy, change)
 }
@@ -131,53 +87,35 @@ pub fn changed(
     Case {
         code,
         name,
-        make: Make::Fixture(Box::new(move || {
+        make: Box::new(move || {
             let mut fixture = base();
             change(&mut fixture);
             canonical(fixture)
-        })),
-        base: Some(Make::Fixture(Box::new(move || unchanged()))),
+        }),
+        base: Box::new(move || unchanged()),
         caught,
-        packed: None,
     }
 }
 
-/// A URDD (a legacy one, say) that `write` writes into a folder named `robot`, the only one in its parent folder. All
-/// findings except infos are compared.
-pub fn in_folder(
-    code: Code,
-    name: &'static str,
-    caught: bool,
-    write: impl Fn(&Path) + 'static,
-) -> Case {
-    Case { code, name, make: Make::Folder(Box::new(write)), base: None, caught, packed: None }
+/// A valid URDD of class Core of this robot.
+pub fn valid(code: Code, name: &'static str, robot: fn() -> Robot) -> Case {
+    changed(code, name, false, move || Fixture::core(&robot()), |_| {})
 }
 
 fn cases() -> Vec<Case> {
     [
-        directory::cases(),
-        packed::cases(),
-        json::cases(),
-        yaml::cases(),
-        schema::cases(),
-        extensions::cases(),
-        extension_annotations::cases(),
         urdf::cases(),
         source::cases(),
         dof::cases(),
         chain::cases(),
         connections::cases(),
         bounds::cases(),
-        composition::cases(),
         meshes::cases(),
         mesh_files::cases(),
         usable::cases(),
         shapes::cases(),
         kinematics::cases(),
         learned::cases(),
-        named_configurations::cases(),
-        legacy::cases(),
-        legacy_core::cases(),
         numbers::cases(),
     ]
     .into_iter()
@@ -216,26 +154,4 @@ fn the_base_is_valid() {
         toy.write_to(root);
     };
     assert_eq!(findings(&toy), BTreeMap::new());
-}
-
-#[test]
-fn every_rule_has_an_invalid_case_and_a_near_miss() {
-    let mut untested: BTreeSet<String> = BTreeSet::new();
-    let cases = cases();
-    for rule in rules::all() {
-        for (caught, kind) in [(true, "invalid case"), (false, "near miss")] {
-            if !cases.iter().any(|case| case.code == rule.code && case.caught == caught) {
-                untested.insert(format!("{}: no {kind}", rule.code));
-            }
-        }
-    }
-    assert_eq!(untested, BTreeSet::new());
-}
-
-#[test]
-fn case_names_are_unique() {
-    let mut names = BTreeSet::new();
-    for case in cases() {
-        assert!(names.insert((case.code, case.name)), "{} {}", case.code, case.name);
-    }
 }

@@ -1,13 +1,16 @@
-//! `URDD_CASE=SRC009 cargo test --test rules asked_for` judges these cases at once, from the closures, before any of
-//! them is data. The value is a code or a prefix of one, or code, slash and name: `URDD_CASE=SRC009/nan`.
-//! `URDD_CASE=numbers` selects those that are made from the list of numbers.
+//! `URDD_CASE=SRC009 cargo test --test rules asked_for` judges these cases at once. The value is a code or a prefix of
+//! one, or code, slash and name: `URDD_CASE=SRC009/nan`. `URDD_CASE=numbers` selects those that are made from the list of
+//! numbers.
 //!
 //! `URDD_RULE=mute` runs them with a rule that finds nothing: every invalid case must fail. `URDD_RULE=alarm` runs them
 //! with a rule that always finds something: every near miss must fail.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::path::Path;
 
+use urdd_conformance::case::{Case, Kind};
+use urdd_conformance::judge;
+use urdd_conformance::suite::Suite;
 use urdd_findings::description::Description;
 use urdd_findings::finding::{Finding, Findings};
 use urdd_format::report::Severity as Shown;
@@ -15,8 +18,6 @@ use urdd_validate::rule::Rule;
 use urdd_validate::rules;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate_with;
-
-use crate::{Case, cases};
 
 /// The substitute for the rule of a case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,36 +45,42 @@ fn stands_in(rule: &'static Rule, stand: Stand) -> &'static Rule {
     Box::leak(Box::new(Rule { check, description, ..*rule }))
 }
 
-/// What is wrong with the judgement of a case; `None` if nothing is.
-fn fault(case: &Case, stand: Stand) -> Option<String> {
+/// What is wrong with a case, or with its judgement; `None` if nothing is.
+fn fault(suite: &Suite, case: &Case, stand: Stand) -> Option<String> {
     let rules: Vec<&'static Rule> = rules::all()
         .into_iter()
-        .map(|rule| match rule.code == case.code {
+        .map(|rule| match rule.code.as_str() == case.code {
             true => stands_in(rule, stand),
             false => rule,
         })
         .collect();
     let folder = testkit::temporary::folder();
-    judged(case, &case.write(folder.path()), &rules)
-}
-
-fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
-    let code = case.code.as_str();
-    let run = validate_with(&[root], &Settings::default(), rules).expect("something to examine");
+    let root = folder.path().join(case.urdd());
+    let made = suite.tree(case).map_err(|error| error.to_string());
+    let written = made.and_then(|urdd| case.write(&urdd, &root).map_err(|error| error.to_string()));
+    if let Err(error) = written {
+        return Some(format!("{}: cannot be made: {error}", case.id()));
+    }
+    let run = validate_with(&[&root], &Settings::default(), &rules).expect("something to examine");
     let report = run.report;
     let findings: Vec<_> = report
         .urdds
         .iter()
         .flat_map(|urdd| &urdd.findings)
-        .filter(|finding| finding.severity != Shown::Info || finding.code == code)
+        .filter(|finding| finding.severity != Shown::Info || finding.code == case.code)
         .collect();
-    let own = findings.iter().any(|finding| finding.code == code);
-    let others = findings.iter().any(|finding| finding.code != code);
-    if own == case.caught && !others {
-        return None;
+    let own = findings.iter().any(|finding| finding.code == case.code);
+    let others = findings.iter().any(|finding| finding.code != case.code);
+    let caught = case.kind == Kind::Invalid;
+    if own == caught && !others {
+        // The right rule; the places count too.
+        return match stand {
+            Stand::Itself => judge::difference(case, &report),
+            _ => None,
+        };
     }
-    let mut text = format!("{code}/{}", case.name);
-    text += match (case.caught, own, others) {
+    let mut text = case.id();
+    text += match (caught, own, others) {
         (true, true, _) => ", an invalid case: other rules find something too",
         (true, false, true) => {
             ", an invalid case: other rules find something, and this one does not"
@@ -94,74 +101,82 @@ fn judged(case: &Case, root: &Path, rules: &[&'static Rule]) -> Option<String> {
     }
     // Why the rule found nothing: it may not have run.
     let mut checks = report.urdds.iter().flat_map(|urdd| &urdd.checks);
-    if let (false, Some(check)) = (own, checks.find(|check| check.code == code)) {
+    if let (false, Some(check)) = (own, checks.find(|check| check.code == case.code)) {
         let reason = check.reason.as_deref().unwrap_or_default();
-        let _ = write!(text, "\n    {code} itself: {} {reason}", check.status);
+        let _ = write!(text, "\n    {} itself: {} {reason}", case.code, check.status);
     }
     Some(text)
 }
 
-/// The cases that `URDD_CASE` selects, and the substitute for their rule.
-fn asked() -> Option<(String, Stand)> {
-    let start = std::env::var("URDD_CASE").ok()?;
-    let stand = match std::env::var("URDD_RULE").as_deref() {
+/// The substitute that `URDD_RULE` names.
+fn stand() -> Stand {
+    match std::env::var("URDD_RULE").as_deref() {
         Err(_) => Stand::Itself,
         Ok("mute") => Stand::Mute,
         Ok("alarm") => Stand::Alarm,
         Ok(other) => panic!("URDD_RULE={other}: write `mute` or `alarm`"),
-    };
-    Some((start, stand))
-}
-
-/// The prefix of the selected cases. If set, tests of all other cases are skipped.
-pub fn asked_for() -> Option<String> {
-    asked().map(|(start, _)| start)
-}
-
-/// The cases whose code/name has this prefix.
-pub fn beginning_with(start: &str) -> Vec<Case> {
-    if start == "numbers" {
-        return crate::numbers::cases();
     }
-    let mut cases = cases();
-    cases.retain(|case| format!("{}/{}", case.code, case.name).starts_with(start));
-    cases
+}
+
+/// The prefix of the selected cases, by `URDD_CASE`. If set, tests of all other cases are skipped.
+pub fn asked_for() -> Option<String> {
+    std::env::var("URDD_CASE").ok()
+}
+
+/// Whether a case of this id is among those that begin so.
+pub fn begins(start: &str) -> impl Fn(&str) -> bool {
+    let numbers = (start == "numbers").then(crate::numbers::cases);
+    let numbers: Option<BTreeSet<String>> =
+        numbers.map(|cases| cases.iter().map(crate::Case::id).collect());
+    move |id| match &numbers {
+        Some(numbers) => numbers.contains(id),
+        None => id.starts_with(start),
+    }
+}
+
+/// The suite, with the cases that begin so alone.
+fn beginning_with(start: &str) -> Suite {
+    let mut suite = urdd::suite::carried().unwrap_or_else(|error| panic!("{error}"));
+    let begins = begins(start);
+    suite.cases.retain(|case| begins(&case.id()));
+    suite
 }
 
 #[test]
 fn a_case_that_is_asked_for_is_judged() {
-    // Without a selection, a few: tests/conformance checks the cases of all rules.
-    let (start, stand) = asked().unwrap_or(("DOF001".to_owned(), Stand::Itself));
-    let cases = beginning_with(&start);
-    assert!(
-        !cases.is_empty(),
-        "no case in tests/rules begins with {start:?}; write the code, or code/name"
-    );
-    // A case that cannot be made is told beside the others.
-    let judged = |case: &Case| {
-        let fault = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| fault(case, stand)));
-        fault.unwrap_or_else(|_| Some(format!("{}/{}: cannot be made", case.code, case.name)))
+    // Without a selection, a few: tests/program/conformance checks the cases of all rules.
+    let (start, stand) = match asked_for() {
+        Some(start) => (start, stand()),
+        None => ("DOF001".to_owned(), Stand::Itself),
     };
-    let faults: Vec<String> = cases.iter().filter_map(judged).collect();
+    let suite = beginning_with(&start);
+    assert!(
+        !suite.cases.is_empty(),
+        "no case in conformance begins with {start:?}; write the code, or code/name"
+    );
+    let fault = |case| fault(&suite, case, stand);
+    let faults: Vec<String> = suite.cases.iter().filter_map(fault).collect();
     assert!(
         faults.is_empty(),
         "{} of {} cases are judged wrong:\n\n{}\n",
         faults.len(),
-        cases.len(),
+        suite.cases.len(),
         faults.join("\n\n")
     );
-    println!("{} cases are judged right", cases.len());
+    println!("{} cases are judged right", suite.cases.len());
 }
 
 /// Both failures are visible: that of the invalid case without the rule, and that of the near miss with a rule that
 /// always finds something.
 #[test]
 fn cases_fail_with_another_rule() {
-    for case in beginning_with("DOF001") {
-        let id = format!("DOF001/{}", case.name);
-        assert_eq!(fault(&case, Stand::Itself), None);
-        let (mute, alarm) = (fault(&case, Stand::Mute), fault(&case, Stand::Alarm));
-        let wrong = if case.caught { mute } else { alarm };
+    let suite = beginning_with("DOF001");
+    for case in &suite.cases {
+        let fault = |stand| fault(&suite, case, stand);
+        assert_eq!(fault(Stand::Itself), None);
+        let (mute, alarm) = (fault(Stand::Mute), fault(Stand::Alarm));
+        let wrong = if case.kind == Kind::Invalid { mute } else { alarm };
+        let id = case.id();
         let wrong = wrong.unwrap_or_else(|| panic!("{id} passes with another rule"));
         assert!(wrong.starts_with(&id), "{wrong}");
     }

@@ -8,9 +8,8 @@ use urdd_format::link_shapes_skips::SkipEdit;
 use urdd_format::urdf::{Axis, Joint, JointType, Link};
 use urdd_validate::code::Code::*;
 
-use crate::legacy_robot::LegacyRobot;
-use crate::meshes::{boxy, legacy, robot_of, without_shapes};
-use crate::{Case, changed, invalid, near_miss};
+use crate::meshes::{boxy, robot_of};
+use crate::{Case, changed};
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::robot::*;
 
@@ -24,12 +23,6 @@ pub fn number(fixture: &Fixture, module: &str, pointer: &str) -> f64 {
     fixture.get(module, pointer).as_f64().expect("a number")
 }
 
-fn scale(fixture: &mut Fixture, module: &str, pointer: &str, factor: f64) {
-    let old = number(fixture, module, pointer);
-    assert_ne!(old, 0.0);
-    fixture.set(module, pointer, json!(old * factor));
-}
-
 /// Sets both elements of a pair.
 pub fn set_pair(
     fixture: &mut Fixture,
@@ -40,23 +33,6 @@ pub fn set_pair(
 ) {
     fixture.set(module, &format!("{matrix}/{i}/{j}"), to.clone());
     fixture.set(module, &format!("{matrix}/{j}/{i}"), to);
-}
-
-fn exchange_rows(fixture: &mut Fixture, module: &str, matrix: &str, i: usize, j: usize) {
-    let rows = fixture.doc_mut(module).pointer_mut(matrix);
-    let rows = rows.and_then(Value::as_array_mut).expect("a matrix");
-    assert_ne!(rows[i], rows[j]);
-    rows.swap(i, j);
-}
-
-/// The first pair of hulls whose contact is never, sometimes or always, according to `reason`.
-fn pair_that_is(fixture: &Fixture, reason: &str) -> (usize, usize) {
-    let rows = fixture.get(SIMPLE, "/reasons/full_convex_hulls").as_array();
-    let rows = rows.expect("a matrix");
-    let size = rows.len();
-    let mut pairs = (0..size).flat_map(|i| (i + 1..size).map(move |j| (i, j)));
-    let found = pairs.find(|(i, j)| rows[*i][*j] == json!(reason));
-    found.expect("the toy has every reason")
 }
 
 /// Two boxes that stay 0.9 m apart.
@@ -92,42 +68,8 @@ fn edit(link_a: &str, link_b: &str, skip: bool) -> SkipEdit {
 }
 
 pub fn cases() -> Vec<Case> {
-    let mut cases = lists();
-    cases.extend(fits::cases());
-    cases.extend(distances::cases());
-    cases.extend(matrices());
-    cases.extend(skips());
-    cases.extend(legacy_cases());
-    cases
-}
-
-/// SHP001 to SHP004.
-fn lists() -> Vec<Case> {
-    vec![
-        invalid(SHP001, "box-too-many", |f| {
-            f.set(APPROXIMATIONS, "/full_obbs/-", Value::Null);
-        }),
-        invalid(SHP001, "distance-missing", |f| {
-            f.remove(REACH, "/decomposition_obbs_maximum_distances/14");
-        }),
-        changed(SHP001, "no-shapes", false, without_shapes, |_| {}),
-        invalid(SHP002, "sphere-missing", |f| {
-            f.set(APPROXIMATIONS, "/full_bounding_spheres/1", Value::Null);
-        }),
-        invalid(SHP002, "distance-of-nothing", |f| {
-            f.set(REACH, "/full_obbs_maximum_distances/4", json!(0.5));
-        }),
-        changed(SHP002, "no-shapes", false, without_shapes, |_| {}),
-        invalid(SHP003, "negative-half-extent", |f| {
-            scale(f, APPROXIMATIONS, "/full_obbs/1/half_extents/2", -1.0);
-        }),
-        invalid(SHP003, "no-extent", |f| {
-            f.set(APPROXIMATIONS, "/full_obbs/1/half_extents", json!([0, 0, 0]));
-        }),
-        invalid(SHP003, "no-radius", |f| {
-            let pointer = "/decomposition_bounding_spheres/0/1/radius";
-            f.set(APPROXIMATIONS, pointer, json!(0.0));
-        }),
+    let mut cases = distances::cases();
+    cases.extend([
         changed(
             SHP003,
             "very-thin",
@@ -139,169 +81,6 @@ fn lists() -> Vec<Case> {
             },
             |_| {},
         ),
-        invalid(SHP004, "box-reaches-farther", |f| {
-            scale(f, REACH, "/full_obbs_maximum_distances/0", 1.0 + 1e-7);
-        }),
-        invalid(SHP004, "sphere-reaches-less", |f| {
-            let pointer = "/decomposition_bounding_spheres_maximum_distances/0/1";
-            scale(f, REACH, pointer, 1.0 - 1e-7);
-        }),
-        invalid(SHP004, "hull-out-of-its-box", |f| {
-            let pointer = "/full_convex_hulls_maximum_distances/0";
-            scale(f, REACH, pointer, 1.5);
-        }),
-        invalid(SHP004, "negative-for-a-piece", |f| {
-            let pointer = "/decomposition_convex_hulls_maximum_distances/0/0";
-            scale(f, REACH, pointer, -1.0);
-        }),
-        near_miss(SHP004, "rounded", |f| {
-            scale(f, REACH, "/full_obbs_maximum_distances/0", 1.0 + 1e-10);
-            let pointer = "/full_bounding_spheres_maximum_distances/0";
-            scale(f, REACH, pointer, 1.0 - 1e-10);
-        }),
-    ]
-}
-
-/// SHP005 to SHP010, SHP015, SHP016.
-fn matrices() -> Vec<Case> {
-    vec![
-        invalid(SHP005, "row-missing", |f| {
-            f.remove(STATISTICS, "/full_obbs/min_distances/3");
-        }),
-        invalid(SHP005, "element-too-many", |f| {
-            f.set(SKIPS, "/decomposition_obbs_skips/3/-", json!(true));
-        }),
-        changed(SHP005, "no-shapes", false, without_shapes, |_| {}),
-        invalid(SHP006, "distance-one-way", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let pointer = format!("/full_convex_hulls/max_distances/{i}/{j}");
-            scale(f, STATISTICS, &pointer, 1.0 + 1e-6);
-        }),
-        invalid(SHP006, "skip-one-way", |f| {
-            let pointer = "/full_obbs_skips/0/1";
-            let old = f.get(SKIPS, pointer).as_bool().expect("a skip");
-            f.set(SKIPS, pointer, json!(!old));
-        }),
-        invalid(SHP006, "simple-skip-one-way", |f| {
-            let pointer = "/decomposition_obbs_simple_skips/0/4";
-            let old = f.get(SIMPLE, pointer).as_bool().expect("a skip");
-            f.set(SIMPLE, pointer, json!(!old));
-        }),
-        invalid(SHP006, "reason-one-way", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let pointer = format!("/reasons/full_convex_hulls/{j}/{i}");
-            f.set(SIMPLE, &pointer, json!("None"));
-        }),
-        // Rows in another order also make the diagonal and pairs of entries wrong: one mistake.
-        invalid(SHP006, "rows-of-skips-exchanged", |f| {
-            exchange_rows(f, SKIPS, "/full_obbs_skips", 0, 1);
-        }),
-        invalid(SHP006, "rows-of-simple-skips-exchanged", |f| {
-            exchange_rows(f, SIMPLE, "/full_convex_hulls_simple_skips", 0, 1);
-        }),
-        invalid(SHP006, "rows-of-reasons-exchanged", |f| {
-            exchange_rows(f, SIMPLE, "/reasons/full_convex_hulls", 0, 1);
-        }),
-        invalid(SHP006, "rows-of-distances-exchanged", |f| {
-            exchange_rows(f, STATISTICS, "/full_obbs/max_distances", 1, 3);
-        }),
-        near_miss(SHP006, "rounded-one-way", |f| {
-            let (i, j) = pair_that_is(f, "None");
-            let pointer = format!("/full_convex_hulls/mean_distances/{i}/{j}");
-            scale(f, STATISTICS, &pointer, 1.0 + 1e-12);
-        }),
-        invalid(SHP007, "distance-to-itself", |f| {
-            f.set(STATISTICS, "/full_obbs/mean_distances/3/3", json!(0.1));
-        }),
-        invalid(SHP007, "not-skipped-against-itself", |f| {
-            f.set(SKIPS, "/full_obbs_skips/2/2", json!(false));
-        }),
-        // These two shapes are alike with respect to all others, and not skipped with respect to each other.
-        invalid(SHP007, "rows-exchanged-and-symmetric", |f| {
-            exchange_rows(f, SIMPLE, "/full_convex_hulls_simple_skips", 6, 7);
-        }),
-        near_miss(SHP007, "rounded-to-itself", |f| {
-            f.set(STATISTICS, "/full_obbs/mean_distances/3/3", json!(1e-15));
-        }),
-        invalid(SHP008, "mean-above-largest", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let max = number(f, STATISTICS, &format!("/full_convex_hulls/max_distances/{i}/{j}"));
-            let matrix = "/full_convex_hulls/mean_distances";
-            set_pair(f, STATISTICS, matrix, (i, j), json!(max * (1.0 + 1e-10)));
-        }),
-        invalid(SHP008, "smallest-above-mean", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let max = number(f, STATISTICS, &format!("/full_convex_hulls/max_distances/{i}/{j}"));
-            let matrix = "/full_convex_hulls/min_distances";
-            set_pair(f, STATISTICS, matrix, (i, j), json!(max * 1.1));
-        }),
-        changed(SHP008, "mean-rounded", false, two_boxes, |f| {
-            let mean = number(f, STATISTICS, "/full_obbs/mean_distances/0/1");
-            let matrix = "/full_obbs/mean_distances";
-            set_pair(f, STATISTICS, matrix, (0, 1), json!(mean * (1.0 + 4.5e-16)));
-        }),
-        invalid(SHP009, "depth", |f| {
-            let pair = pair_that_is(f, "None");
-            set_pair(f, STATISTICS, "/full_convex_hulls/min_distances", pair, json!(-0.01));
-        }),
-        near_miss(SHP009, "negative-zero", |f| {
-            let pair = pair_that_is(f, "None");
-            set_pair(f, STATISTICS, "/full_convex_hulls/min_distances", pair, json!(-0.0));
-        }),
-        invalid(SHP010, "links-exchanged", |f| {
-            f.set(SIMPLE, "/full_shapes/0", json!(1));
-            f.set(SIMPLE, "/full_shapes/1", json!(0));
-        }),
-        invalid(SHP010, "another-piece", |f| {
-            f.set(SKIPS, "/decomposition_shapes/1/piece_idx", json!(0));
-        }),
-        invalid(SHP010, "shape-missing", |f| {
-            f.remove(STATISTICS, "/full_shapes/3");
-        }),
-        changed(SHP010, "no-shapes", false, without_shapes, |_| {}),
-        invalid(SHP015, "left-out", |f| {
-            f.set(STATISTICS, "/decomposition_obbs", Value::Null);
-        }),
-        invalid(SHP015, "reasons-left-out", |f| {
-            let pointer = "/reasons/decomposition_bounding_spheres";
-            f.set(SIMPLE, pointer, Value::Null);
-        }),
-        invalid(SHP015, "skips-left-out-with-the-statistics", |f| {
-            for shapes in ["convex_hulls", "obbs", "bounding_spheres"] {
-                f.set(STATISTICS, &format!("/decomposition_{shapes}"), Value::Null);
-                f.set(SIMPLE, &format!("/decomposition_{shapes}_simple_skips"), Value::Null);
-                f.set(SIMPLE, &format!("/reasons/decomposition_{shapes}"), Value::Null);
-                f.set(SKIPS, &format!("/decomposition_{shapes}_skips"), Value::Null);
-            }
-        }),
-        changed(SHP015, "empty", false, without_shapes, |f| {
-            assert_eq!(f.get(SKIPS, "/decomposition_obbs_skips"), &json!([]));
-        }),
-        invalid(SHP016, "none", |f| {
-            f.set(STATISTICS, "/num_samples", json!(0));
-        }),
-        // Two boxes that do not move are equally far apart in one sample and in eight.
-        changed(SHP016, "one", false, two_boxes, |f| {
-            f.set(STATISTICS, "/num_samples", json!(1));
-        }),
-    ]
-}
-
-/// SHP011 to SHP014.
-fn skips() -> Vec<Case> {
-    vec![
-        invalid(SHP011, "skip-too-many", |f| {
-            let pair = pair_that_is(f, "None");
-            set_pair(f, SIMPLE, "/full_convex_hulls_simple_skips", pair, json!(true));
-        }),
-        invalid(SHP011, "skip-too-few", |f| {
-            let pair = pair_that_is(f, "Always");
-            set_pair(f, SIMPLE, "/full_convex_hulls_simple_skips", pair, json!(false));
-        }),
-        invalid(SHP011, "pieces-of-one-link", |f| {
-            let matrix = "/decomposition_obbs_simple_skips";
-            set_pair(f, SIMPLE, matrix, (0, 1), json!(false));
-        }),
         // Their boxes are 0.9 mm apart.
         changed(
             SHP011,
@@ -317,17 +96,6 @@ fn skips() -> Vec<Case> {
                 assert_eq!(skip, &json!(true));
             },
         ),
-        invalid(SHP012, "never-for-none", |f| {
-            let pair = pair_that_is(f, "None");
-            set_pair(f, SIMPLE, "/reasons/full_convex_hulls", pair, json!("Never"));
-        }),
-        invalid(SHP012, "adjacent-for-always", |f| {
-            let pair = pair_that_is(f, "Always");
-            set_pair(f, SIMPLE, "/reasons/full_convex_hulls", pair, json!("Adjacent"));
-        }),
-        invalid(SHP012, "diagonal", |f| {
-            f.set(SIMPLE, "/reasons/full_obbs/2/2", json!("Always"));
-        }),
         changed(
             SHP012,
             "adjacent-and-always",
@@ -342,14 +110,6 @@ fn skips() -> Vec<Case> {
                 assert_eq!(reason, &json!("Always"));
             },
         ),
-        invalid(SHP013, "adjacent-and-not-skipped", |f| {
-            let pair = pair_that_is(f, "Adjacent");
-            set_pair(f, SKIPS, "/full_convex_hulls_skips", pair, json!(false));
-        }),
-        invalid(SHP013, "reason-no-longer-skipped", |f| {
-            let reasons = json!(["SameLink", "Always", "Default"]);
-            f.set(SKIPS, "/skipped_reasons", reasons);
-        }),
         changed(
             SHP026,
             "touching-at-zero-is-default",
@@ -417,26 +177,6 @@ fn skips() -> Vec<Case> {
                 assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Default"));
             },
         ),
-        invalid(SHP027, "out-of-order", |f| {
-            let reasons = json!(["SameLink", "Adjacent", "Always", "Default"]);
-            f.set(SKIPS, "/skipped_reasons", reasons);
-        }),
-        invalid(SHP027, "twice", |f| {
-            f.set(SKIPS, "/skipped_reasons/-", json!("Default"));
-        }),
-        changed(SHP027, "never-too", false, two_boxes, |f| {
-            assert_eq!(f.get(SIMPLE, "/reasons/full_obbs/0/1"), &json!("Adjacent"));
-            f.set(SKIPS, "/skipped_reasons/-", json!("Never"));
-        }),
-        invalid(SHP013, "skipped-without-an-edit", |f| {
-            let pair = pair_that_is(f, "None");
-            let old = f.get(SKIPS, &format!("/full_convex_hulls_skips/{}/{}", pair.0, pair.1));
-            let new = json!(!old.as_bool().expect("a skip"));
-            set_pair(f, SKIPS, "/full_convex_hulls_skips", pair, new);
-        }),
-        invalid(SHP013, "edit-without-effect", |f| {
-            f.set(SKIPS, "/edits/0/skip", json!(false));
-        }),
         changed(
             SHP013,
             "edited-twice",
@@ -451,9 +191,6 @@ fn skips() -> Vec<Case> {
             },
             |_| {},
         ),
-        invalid(SHP014, "unknown-link", |f| {
-            f.set(SKIPS, "/edits/0/link_b", json!("nobody"));
-        }),
         changed(
             SHP014,
             "link-without-shapes",
@@ -461,28 +198,6 @@ fn skips() -> Vec<Case> {
             || Fixture::full_with_edits(&toy_robot(), vec![edit("frame", "base", true)]),
             |_| {},
         ),
-    ]
-}
-
-/// The published modules: spheres measured on tessellated ones, negative distances, edits unrecorded.
-fn legacy_cases() -> Vec<Case> {
-    let reach = |sphere: f64| move || LegacyRobot::new("robot", 0.0).with_shapes(sphere);
-    let matrices = |max: f64, simple: bool, skips: [[bool; 2]; 2]| {
-        move || LegacyRobot::new("robot", 0.0).with_matrices(max, simple, skips)
-    };
-    let edited = [[true, true], [true, true]];
-    vec![
-        legacy(SHP004, "legacy-sphere-too-small", true, reach(0.49)),
-        legacy(SHP004, "legacy-sphere-too-large", true, reach(0.501)),
-        legacy(SHP004, "legacy-sphere-just-too-small", true, reach(0.5 - 0.5 * 0.00503)),
-        legacy(SHP004, "legacy-sphere-just-tessellated", false, reach(0.5 - 0.5 * 0.00497)),
-        legacy(SHP004, "legacy-sphere-tessellated", false, reach(0.499)),
-        legacy(SHP006, "legacy-edit-of-one-element", true, {
-            matrices(0.3, false, [[true, true], [false, true]])
-        }),
-        legacy(SHP011, "legacy-skip-too-few", true, matrices(-0.01, false, edited)),
-        legacy(SHP011, "legacy-depth", false, matrices(-0.01, true, edited)),
-        legacy(SHP009, "legacy-depth", false, matrices(-0.01, true, edited)),
-        legacy(SHP013, "legacy-edit", false, matrices(0.3, false, edited)),
-    ]
+    ]);
+    cases
 }

@@ -1,7 +1,7 @@
 use urdd_format::urdf::{Axis, Inertia, Inertial, JointType, Limit, Mass, Mimic};
 use urdd_validate::code::Code::{self, *};
 
-use crate::{Case, changed, invalid, near_miss};
+use crate::{Case, changed};
 use testkit::fixture::{Fixture, toy_robot};
 use testkit::robot::{Robot, cuboid, joint, limit, link, mesh, visual};
 
@@ -25,8 +25,6 @@ fn fine(code: Code, name: &'static str, change: impl Fn(&mut Robot) + 'static) -
 
 pub fn cases() -> Vec<Case> {
     let mut cases = limits();
-    cases.extend(masses());
-    cases.extend(inertias());
     cases.extend(files());
     cases
 }
@@ -65,16 +63,6 @@ fn limits() -> Vec<Case> {
             robot.joint_mut("slide").limit = limit_from(Some(-0.5));
             // They have no meaning for a continuous joint.
             robot.joint_mut("spin").limit = limit(1.0, -1.0);
-        }),
-        odd(SRC002, "beyond-its-lower-limit", |robot| {
-            robot.joint_mut("right").limit = limit(-0.03, 0.0);
-        }),
-        odd(SRC002, "through-a-chain-of-mimics", |robot| {
-            // left: 0 to 0.04; right: -left; tip: 10 right + 0.1.
-            robot.joint_mut("tip").limit = limit(-0.299, 1.0);
-        }),
-        odd(SRC002, "of-a-fixed-joint", |robot| {
-            robot.joint_mut("frozen").limit = limit(-1.0, 0.49);
         }),
         fine(SRC002, "to-the-very-end", |robot| {
             robot.joint_mut("tip").limit = limit(-0.299_999_9, 0.1);
@@ -124,68 +112,6 @@ pub fn of(mass: f64, [ixx, iyy, izz]: [f64; 3]) -> Option<Inertial> {
     })
 }
 
-fn masses() -> Vec<Case> {
-    vec![
-        odd(SRC003, "negative", |robot| {
-            robot.link_mut("base").inertial = of(-1.0, [1.0; 3]);
-        }),
-        odd(SRC003, "moved-without-mass", |robot| {
-            robot.link_mut("arm").inertial = of(0.0, [0.0; 3]);
-        }),
-        odd(SRC003, "moved-and-mass-left-out", |robot| {
-            let inertial = robot.link_mut("turret").inertial.as_mut().expect("it has");
-            inertial.mass = None;
-            inertial.inertia = None;
-        }),
-        odd(SRC003, "inertia-without-mass", |robot| {
-            robot.link_mut("frame").inertial = of(0.0, [1.0; 3]);
-        }),
-        fine(SRC003, "frames-without-mass", |robot| {
-            // Fixed to a body with mass; fixed to the root; moved, without a note.
-            robot.link_mut("frame").inertial = of(0.0, [0.0; 3]);
-            robot.link_mut("base").inertial = of(0.0, [0.0; 3]);
-            robot.link_mut("arm").inertial = None;
-            robot.link_mut("frame").inertial = of(1e-6, [1e-9; 3]);
-        }),
-    ]
-}
-
-fn inertias() -> Vec<Case> {
-    vec![
-        odd(SRC004, "negative-moment", |robot| {
-            robot.link_mut("base").inertial = of(1.0, [1.0, 1.0, -1.0]);
-        }),
-        odd(SRC004, "products-larger-than-moments", |robot| {
-            let inertial = robot.link_mut("arm").inertial.as_mut().expect("it has");
-            inertial.inertia.as_mut().expect("it has").ixy = Some(0.1);
-        }),
-        odd(SRC004, "cut-to-zero", |robot| {
-            robot.link_mut("arm").inertial = of(1.0, [1.0, 1.0, 0.0]);
-        }),
-        odd(SRC004, "point-mass-that-is-turned", |robot| {
-            robot.link_mut("turret").inertial = of(1.0, [0.0; 3]);
-        }),
-        fine(SRC004, "point-masses-that-do-no-harm", |robot| {
-            // Fixed to a link with inertia; moved by a prismatic joint.
-            robot.link_mut("frame").inertial = of(1.0, [0.0; 3]);
-            robot.link_mut("tool/ü 1").inertial = of(1.0, [0.0; 3]);
-        }),
-        fine(SRC004, "mass-without-a-tensor", |robot| {
-            let inertial = robot.link_mut("turret").inertial.as_mut().expect("it has");
-            inertial.inertia = None;
-        }),
-        fine(SRC004, "thin-rod", |robot| {
-            robot.link_mut("arm").inertial = of(1.0, [0.083, 0.083, 1e-9]);
-        }),
-        odd(SRC005, "too-large-by-little", |robot| {
-            robot.link_mut("arm").inertial = of(1.0, [0.01, 0.02, 0.030_001]);
-        }),
-        fine(SRC005, "flat-plate", |robot| {
-            robot.link_mut("arm").inertial = of(1.0, [0.01, 0.02, 0.030_000_01]);
-        }),
-    ]
-}
-
 fn files() -> Vec<Case> {
     let with_mesh = |file: &'static str| {
         move || {
@@ -201,15 +127,6 @@ fn files() -> Vec<Case> {
     vec![
         changed(SRC007, "not-found", true, with_mesh("lost.stl"), |_| {}),
         changed(SRC007, "found", false, with_mesh("found.stl"), |_| {}),
-        invalid(SRC008, "second-axis", |urdd| {
-            urdd.urdf_replace(
-                "<axis xyz=\"0 0 2\"/>",
-                "<axis xyz=\"0 0 2\"/><axis xyz=\"0 0 2\"/>",
-            );
-        }),
-        invalid(SRC008, "second-shape", |urdd| {
-            urdd.urdf_replace("</geometry>", "<sphere radius=\"1\"/></geometry>");
-        }),
         changed(
             SRC008,
             "the-first-counts-that-says-nothing",
@@ -221,9 +138,5 @@ fn files() -> Vec<Case> {
             },
             |urdd| urdd.urdf_replace("<axis/>", "<axis/><axis xyz=\"0 0 2\"/>"),
         ),
-        near_miss(SRC008, "not-shapes", |urdd| {
-            urdd.urdf_replace("</geometry>", "<plane/><plane/></geometry>");
-            urdd.urdf_replace("</material>", "<specular/><specular/></material>");
-        }),
     ]
 }

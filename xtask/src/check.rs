@@ -28,18 +28,14 @@ const TESTS: &[(&str, &str)] = &[
         "look which is right, the case or the validator; `cargo xtask update` writes what the validator finds now",
     ),
     (
-        "conformance::cases::",
-        "cargo xtask update, after every rule has its two cases in tests/rules",
+        "conformance::cases::every_rule_has",
+        "write the case in conformance/cases: each rule has one that it catches, and one that comes near and passes",
     ),
+    ("conformance::cases::", "see the message; conformance/README.md says what a case has"),
     (
-        "as_data::the_suite_is_what",
-        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules as_data for one rule; read what it wrote",
+        "computed::the_suite_has",
+        "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules computed for one rule; read what it wrote",
     ),
-    (
-        "every_rule_has_an_invalid_case",
-        "write the case in tests/rules: each rule has one that it catches, and one that comes near and passes",
-    ),
-    ("case_names_are_unique", "give the case another name"),
     ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
     ("published_schemas::the_committed_schemas", UPDATE),
     (
@@ -69,7 +65,7 @@ const UPDATE: &str = "cargo xtask update, and read what it wrote";
 
 /// Folders and files in which a scaffold leaves a TODO.
 const SCAFFOLDED: &[&str] =
-    &["SPEC.md", "crates/urdd-format/src", "crates/urdd-validate/src/rules", "tests/rules"];
+    &["SPEC.md", "crates/urdd-format/src", "crates/urdd-validate/src/rules", "conformance/cases"];
 
 /// Runs every check; returns whether all passed.
 ///
@@ -205,11 +201,11 @@ mod tests {
     #[test]
     fn what_is_left_to_write_is_found() {
         let folder = tempfile::tempdir().expect("a folder");
-        let rules = folder.path().join("tests/rules");
+        let rules = folder.path().join("conformance/cases");
         fs::create_dir_all(&rules).expect("a folder");
-        fs::write(rules.join("a.rs"), "one\n  todo!(\"x\")\n").expect("written");
+        fs::write(rules.join("A.json"), "one\n  \"todo-x\"\n").expect("written");
         fs::write(folder.path().join("SPEC.md"), "TODO: say it\n").expect("written");
-        let places = ["SPEC.md:1: TODO: say it", "tests/rules/a.rs:2: todo!(\"x\")"];
+        let places = ["SPEC.md:1: TODO: say it", "conformance/cases/A.json:2: todo-x\""];
         assert_eq!(left_to_write(folder.path()), places);
     }
 }

@@ -11,7 +11,8 @@ const CODES: &str = "crates/urdd-findings/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";
-const CASES: &str = "tests/rules/main.rs";
+const CASES: &str = "conformance/cases";
+const BASES: &str = "tests/rules/bases.rs";
 
 /// Families whose cases need no meshes; they use the small base.
 const CORE: &[&str] = &["URD", "SRC", "DOF", "CHN", "CON", "BND", "KIN"];
@@ -85,14 +86,15 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
         edits.set(SPEC, mark_clause(&edits.read(SPEC)?, clause, code)?);
         steps.push(format!("Say it in {SPEC}, clause {clause}: one sentence with MUST or SHOULD, instead of the TODO."));
     }
-    let test = format!("tests/rules/{room}.rs");
-    edits.set(&test, add_cases(&edits.read(&test)?, code, &test)?);
+    let cases = format!("{CASES}/{code}.json");
+    let base = base(&edits.read(BASES)?, family, &room);
+    edits.create(&cases, two_cases(name, severity, base, about))?;
     edits.write()?;
     steps.extend([
         format!("Write the rule: {rule_path}."),
-        format!("Write its two cases: {test}, at the end of fn cases."),
+        format!("Write its two cases: {cases}; conformance/README.md says how."),
+        format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules computed      (writes what the validator finds into `expected`: is it right?)"),
         format!("URDD_CASE={code} cargo test --test rules asked_for      (and with URDD_RULE=mute, URDD_RULE=alarm: see both fail)"),
-        format!("URDD_UPDATE=1 URDD_CASE={code} cargo test --test rules as_data      (writes the cases as data; read what it wrote)"),
         "cargo xtask update       (writes again what is generated)".to_owned(),
         "cargo xtask check        (says what is left; before you send, .ci/quick runs it)".to_owned(),
     ]);
@@ -100,8 +102,8 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     Ok(lines.map(|(number, step)| format!("{}. {step}\n", number + 1)).collect())
 }
 
-/// Adds a family without rules: its folder, the first code's place, and its file of cases. Families of modules come
-/// before the legacy ones.
+/// Adds a family without rules: its folder, the first code's place, and where it is about a module, a base of its cases
+/// that has it. Families of modules come before the legacy ones.
 fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
     check_name(&room.replace('_', "-"))?;
     let family = &code[..3];
@@ -116,9 +118,10 @@ fn new_family(edits: &mut Edits, code: &str, room: &str) -> Result<(), String> {
     edits.create(&format!("{RULES}/{room}/mod.rs"), family_list(family, &about))?;
     edits.insert_module(ALL, &format!("pub mod {room};"))?;
     edits.insert_before(ALL, "        legacy::rules(),", &format!("        {room}::rules(),\n"))?;
-    edits.create(&format!("tests/rules/{room}.rs"), family_cases(edits, family, room))?;
-    edits.insert_module(CASES, &format!("mod {room};"))?;
-    edits.insert_before(CASES, "        legacy::cases(),", &format!("        {room}::cases(),\n"))
+    match is_module(edits, room) {
+        false => Ok(()),
+        true => edits.insert_before(BASES, "        (\"composition\",", &small_base(room)),
+    }
 }
 
 /// Whether a family is about a module of version 1 that has its type in a file of that name.
@@ -127,27 +130,18 @@ fn is_module(edits: &Edits, room: &str) -> bool {
     registry.is_ok_and(|text| text.contains(&format!("({room}::")))
 }
 
-/// The file of a new family's cases.
-fn family_cases(edits: &Edits, family: &str, room: &str) -> String {
-    let cases = "\npub fn cases() -> Vec<crate::Case> {\n    vec![\n    ]\n}\n";
-    if !is_module(edits, room) {
-        return format!("//! {family}.\n\nuse urdd_validate::code::Code::*;\n{cases}");
-    }
+/// A base that has a new module, in the list of bases.
+fn small_base(room: &str) -> String {
     let kind = camel(room);
     format!(
-        r#"//! {family}: `{room}_module`.
-
-use serde_json::json;
-use urdd_format::registry::ModuleKind;
-use urdd_validate::code::Code::*;
-
-use testkit::fixture::{{Fixture, toy_robot}};
-
-/// A small URDD that has the module.
-fn base() -> Fixture {{
-    Fixture::core_with(&toy_robot(), ModuleKind::{kind}, json!({{ "values": [] }}))
-}}
-{cases}"#
+        r#"        (
+            "{room}",
+            base(|| {{
+                let module = json!({{ "values": [] }});
+                Fixture::core_with(&toy_robot(), ModuleKind::{kind}, module)
+            }}),
+        ),
+"#
     )
 }
 
@@ -301,43 +295,44 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {{
     )
 }
 
-/// Adds two cases to be written to the family's `cases()`, at the end of the list that it consists of, or of the one that
-/// it collects.
-fn add_cases(text: &str, code: &str, path: &str) -> Result<String, String> {
-    let base = if CORE.contains(&&code[..3]) {
-        "|| testkit::fixture::Fixture::core(&testkit::fixture::toy_robot())"
-    } else if text.contains("\nfn base() ->") {
-        "base"
+/// The base of a rule's cases: the smallest that has what the rule is about.
+fn base<'a>(bases: &str, family: &str, room: &'a str) -> &'a str {
+    if bases.contains(&format!("\"{room}\",")) {
+        room
+    } else if CORE.contains(&family) {
+        "toy_core"
     } else {
-        "testkit::fixture::Fixture::toy"
-    };
-    let unexpected = || format!("{path} is not as expected: no fn cases with a list");
-    let start = text.find("\npub fn cases() ").ok_or_else(unexpected)?;
-    let length = text[start..].find("\n}\n").ok_or_else(unexpected)?;
-    let (function, tail) = text.split_at(start + length);
-    let case = |caught: bool, name: &str, what: &str| {
+        "toy"
+    }
+}
+
+/// A file of two cases to be written.
+fn two_cases(name: &str, severity: &str, base: &str, module: Option<&str>) -> String {
+    let verdict = if severity == "Error" { "reject" } else { "accept" };
+    let file = format!("{}_module/module.json", module.unwrap_or("urdf"));
+    let case = |name: &str| {
         format!(
-            r#"        crate::changed(
-            {code},
-            "todo-name-{name}",
-            {caught},
-            {base},
-            |_urdd| todo!("{code}: change the URDD {what}"),
-        ),
-"#
+            r#"    {{
+      "name": "todo-name-{name}",
+      "base": "{base}",
+      "changes": [
+        {{"file": "{file}", "patch": [{{"op": "replace", "path": "/TODO", "value": 0}}]}}
+      ]
+    }}"#
         )
     };
-    let invalid = case(
-        true,
-        "the-fault",
-        "so that exactly this rule catches it: `urdd.set(module, pointer, value)`",
-    );
-    let near = case(false, "what-comes-near", "so that it comes near the fault, and is right");
-    if let Some(head) = function.strip_suffix("    ]") {
-        Ok(format!("{head}{invalid}{near}    ]{tail}"))
-    } else if let Some(head) = function.strip_suffix("    cases") {
-        Ok(format!("{head}    cases.extend([\n{invalid}{near}    ]);\n    cases{tail}"))
-    } else {
-        Err(unexpected())
-    }
+    let (invalid, near) = (case("the-fault"), case("what-comes-near"));
+    format!(
+        r#"{{
+  "rule": "{name}",
+  "verdict": "{verdict}",
+  "invalid": [
+{invalid}
+  ],
+  "near_misses": [
+{near}
+  ]
+}}
+"#
+    )
 }

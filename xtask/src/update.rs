@@ -22,7 +22,7 @@ const GENERATED: &[&str] = &[
 
 /// The tests that write what they compare with.
 const WRITERS: &[&str] = &[
-    "as_data::the_suite_is_what",
+    "computed::the_suite_has",
     "conformance::cases::the_pages_say",
     "snapshots::",
     "spec_agrees::the_tables_of_fields",

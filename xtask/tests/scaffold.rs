@@ -30,7 +30,8 @@ fn source() -> TempDir {
         "crates/urdd-findings/src/code.rs",
         "crates/urdd-validate/src/rules",
         "SPEC.md",
-        "tests/rules",
+        "conformance/cases",
+        "tests/rules/bases.rs",
     ] {
         copy(&repository.join(part), &folder.path().join(part));
     }
@@ -95,19 +96,15 @@ fn a_rule_gets_all_of_its_files() {
         .find(|clause| clause.trim_start().starts_with("**6.1.7**"))
         .expect("the clause");
     assert!(clause.trim_end().ends_with(&format!("[{code}]")), "{clause}");
-    // In the list of the family's cases, which is in the list of all.
-    let test = text(root, "tests/rules/source.rs");
-    let cases = test.split("pub fn cases()").nth(1).expect("the cases");
-    let own = cases.split("\n}\n").next().expect("their end");
-    assert!(
-        own.matches("Fixture::core").count() == 2
-            && own.contains(&format!("todo!(\"{code}: "))
-            && own.contains(&format!(
-                "{code},\n            \"todo-name-the-fault\",\n            true,"
-            ))
-            && own.ends_with("    ]);\n    cases"),
-        "{own}"
-    );
+    let cases = text(root, &format!("conformance/cases/{code}.json"));
+    for words in [
+        "\"rule\": \"made-of-cheese\"",
+        "\"verdict\": \"accept\"",
+        "\"invalid\": [\n    {\n      \"name\": \"todo-name-the-fault\",\n      \"base\": \"toy_core\"",
+        "\"near_misses\": [\n    {\n      \"name\": \"todo-name-what-comes-near\",\n      \"base\": \"toy_core\"",
+    ] {
+        assert!(cases.contains(words), "{words}: {cases}");
+    }
 
     // The second time, it is taken.
     let again = new_rule(root, &[&code, "made-of-cheese"]);
@@ -177,9 +174,10 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
             "crates/urdd-validate/src/rules/battery_pack/no_values.rs",
             "needs [ModuleV1(Kind::BatteryPack)]",
         ),
-        ("tests/rules/main.rs", "mod battery_pack;\nmod bounds;"),
-        ("tests/rules/main.rs", "battery_pack::cases(),\n        legacy::cases(),"),
-        ("tests/rules/battery_pack.rs", "ModuleKind::BatteryPack"),
+        ("tests/rules/bases.rs", "            \"battery_pack\",\n            base(|| {"),
+        ("tests/rules/bases.rs", "ModuleKind::BatteryPack"),
+        ("conformance/cases/BAT002.json", "\"base\": \"battery_pack\""),
+        ("conformance/cases/BAT002.json", "\"file\": \"battery_pack_module/module.json\""),
     ] {
         let text = text(root, path);
         assert!(text.contains(words), "{path} has no {words:?}:\n{text}");

@@ -6,13 +6,13 @@ use std::path::Path;
 
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::data::URDD;
 use crate::tree::{Node, Tree, TreeError, make_folder};
 
 /// Where in its archive a URDD is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Packed {
     /// At the archive's root.

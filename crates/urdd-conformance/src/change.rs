@@ -3,8 +3,8 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use json_patch::Patch;
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde::Deserialize;
+use serde_json::{Map, Value};
 
 use crate::tree::{FilePath, Node, Tree};
 use urdd_directory::canonical;
@@ -14,23 +14,45 @@ use urdd_directory::json;
 const MAX_REPEATED: usize = 1 << 27;
 
 /// A change of one file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct Change {
     /// The file, relative to the URDD's root.
     pub file: FilePath,
     /// The action.
-    #[serde(flatten)]
     pub action: Action,
 }
 
+/// A change in JSON: the action is a key beside `file`.
+#[derive(Deserialize)]
+struct Written {
+    file: FilePath,
+    #[serde(flatten)]
+    action: Map<String, Value>,
+}
+
+impl TryFrom<Written> for Change {
+    type Error = String;
+
+    fn try_from(Written { file, action }: Written) -> Result<Change, String> {
+        let [key] = action.keys().collect::<Vec<_>>()[..] else {
+            let keys = action.keys().cloned().collect::<Vec<_>>().join(", ");
+            return Err(format!(
+                "a change of {file} needs one action beside `file`, and has {{{keys}}}"
+            ));
+        };
+        let reason = format!("{key} of {file}");
+        let action = serde_json::from_value(Value::Object(action));
+        Ok(Change { action: action.map_err(|error| format!("{reason}: {error}"))?, file })
+    }
+}
+
 /// An action on a file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Action {
     /// RFC 6902 operations on a JSON document. Updates `module.yaml` beside it.
     Patch(Patch),
-    /// As `Patch`, but without updating `module.yaml`.
-    PatchAlone(Patch),
     /// Replaces the first occurrence of `from` by `by`.
     Replace {
         /// Text to replace.
@@ -83,12 +105,6 @@ pub enum Action {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Yes;
 
-impl Serialize for Yes {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        true.serialize(serializer)
-    }
-}
-
 impl<'de> Deserialize<'de> for Yes {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match bool::deserialize(deserializer)? {
@@ -100,40 +116,38 @@ impl<'de> Deserialize<'de> for Yes {
 
 /// Why a change cannot be applied.
 #[derive(Debug, thiserror::Error)]
-pub enum ChangeError {
+#[error("{file}: {reason}")]
+pub struct ChangeError {
+    /// The file.
+    pub file: FilePath,
+    /// Reason.
+    pub reason: Misfit,
+}
+
+/// How a change does not fit its file.
+#[derive(Debug, thiserror::Error)]
+pub enum Misfit {
     /// The file does not exist.
-    #[error("{0}: there is no such file to change")]
-    Missing(FilePath),
+    #[error("there is no such file to change")]
+    Missing,
+    /// The file to copy does not exist.
+    #[error("there is no {0} to copy")]
+    NoOriginal(FilePath),
     /// Not a JSON document.
-    #[error("{0}: this is not JSON, and cannot be patched")]
-    NotJson(FilePath),
+    #[error("this is not JSON, and cannot be patched")]
+    NotJson,
     /// The patch does not apply.
-    #[error("{file}: {error}")]
-    Patch {
-        /// The file.
-        file: FilePath,
-        /// Reason.
-        error: json_patch::PatchError,
-    },
+    #[error(transparent)]
+    Patch(#[from] json_patch::PatchError),
     /// The text to replace does not occur.
-    #[error("{file}: the text {from:?} was not found")]
-    NotThere {
-        /// The file.
-        file: FilePath,
-        /// The text.
-        from: String,
-    },
-    /// The bytes to replace are beyond the end of the file.
-    #[error("{0}: the file is too short for this change")]
-    Outside(FilePath),
+    #[error("the text {0:?} was not found")]
+    NotThere(String),
+    /// The bytes to replace are beyond the end of the file, or there would be too many.
+    #[error("the file is too short or too long for this change")]
+    Outside,
     /// Not base64.
-    #[error("{file}: not base64: {error}")]
-    Base64 {
-        /// The file.
-        file: FilePath,
-        /// Reason.
-        error: base64::DecodeError,
-    },
+    #[error("not base64: {0}")]
+    Base64(#[from] base64::DecodeError),
 }
 
 impl Change {
@@ -142,131 +156,101 @@ impl Change {
     /// # Errors
     /// If it does not fit the tree.
     pub fn apply(&self, tree: &mut Tree) -> Result<(), ChangeError> {
-        let file = || self.file.clone();
-        match &self.action {
-            Action::Patch(patch) => self.patch(patch, true, tree),
-            Action::PatchAlone(patch) => self.patch(patch, false, tree),
-            Action::Replace { from, by } => self.replace(from, by, 1, tree),
-            Action::ReplaceAll { from, by } => self.replace(from, by, usize::MAX, tree),
+        let done = self.changed(tree);
+        done.map_err(|reason| ChangeError { file: self.file.clone(), reason })
+    }
+
+    fn changed(&self, tree: &mut Tree) -> Result<(), Misfit> {
+        let bytes = match &self.action {
+            Action::Patch(patch) => return self.patch(patch, tree),
+            Action::Delete(Yes) => return self.clear(tree),
+            Action::CopyOf(original) => return self.copy(original, tree),
+            Action::LinkTo(target) => return self.become_node(Node::Link(target.clone()), tree),
+            Action::Folder(Yes) => return self.become_node(Node::Folder, tree),
+            Action::Write(text) => text.as_bytes().to_vec(),
+            Action::WriteBase64(text) => STANDARD.decode(text)?,
+            Action::Replace { from, by } => self.replaced(from, by, 1, tree)?,
+            Action::ReplaceAll { from, by } => self.replaced(from, by, usize::MAX, tree)?,
             Action::Splice { at, remove, insert_base64 } => {
                 let mut bytes = self.bytes(tree)?.to_vec();
-                let insert = self.base64(insert_base64)?;
-                let outside = || ChangeError::Outside(file());
                 let end = at.checked_add(*remove).filter(|end| *end <= bytes.len());
-                bytes.splice(*at..end.ok_or_else(outside)?, insert);
-                tree.put(file(), bytes);
-                Ok(())
+                let end = end.ok_or(Misfit::Outside)?;
+                bytes.splice(*at..end, STANDARD.decode(insert_base64)?);
+                bytes
             }
             Action::Repeat { at, text, times } => {
                 let mut bytes = self.bytes(tree)?.to_vec();
-                let end = at.checked_add(text.len());
-                let there = end.and_then(|end| bytes.get(*at..end));
-                let (true, Some(end)) = (there == Some(text.as_bytes()), end) else {
-                    return Err(ChangeError::NotThere { file: file(), from: text.clone() });
-                };
+                let not_there = || Misfit::NotThere(text.clone());
+                let end = at.checked_add(text.len()).ok_or_else(not_there)?;
+                if bytes.get(*at..end) != Some(text.as_bytes()) {
+                    return Err(not_there());
+                }
                 if text.len().saturating_mul(*times) > MAX_REPEATED {
-                    return Err(ChangeError::Outside(file()));
+                    return Err(Misfit::Outside);
                 }
                 bytes.splice(*at..end, text.repeat(*times).into_bytes());
-                tree.put(file(), bytes);
-                Ok(())
-            }
-            Action::Write(text) => {
-                tree.put(file(), text.as_bytes());
-                Ok(())
-            }
-            Action::WriteBase64(text) => {
-                let bytes = self.base64(text)?;
-                tree.put(file(), bytes);
-                Ok(())
+                bytes
             }
             Action::CutTo(length) => {
                 let bytes = self.bytes(tree)?;
-                let bytes = bytes.get(..*length).unwrap_or(bytes).to_vec();
-                tree.put(file(), bytes);
-                Ok(())
+                bytes.get(..*length).unwrap_or(bytes).to_vec()
             }
-            Action::Delete(Yes) => self.delete(tree),
-            Action::CopyOf(other) => {
-                let found: Vec<(FilePath, Node)> = tree
-                    .nodes
-                    .iter()
-                    .filter(|(path, _)| path.is_within(other))
-                    .map(|(path, node)| (path.moved(other, &self.file), node.clone()))
-                    .collect();
-                if found.is_empty() {
-                    return Err(ChangeError::Missing(other.clone()));
-                }
-                tree.nodes.extend(found);
-                Ok(())
-            }
-            Action::LinkTo(target) => {
-                self.clear(tree);
-                tree.nodes.insert(file(), Node::Link(target.clone()));
-                Ok(())
-            }
-            Action::Folder(Yes) => {
-                self.clear(tree);
-                tree.nodes.insert(file(), Node::Folder);
-                Ok(())
-            }
-        }
+        };
+        tree.put(self.file.clone(), bytes);
+        Ok(())
     }
 
-    fn bytes<'a>(&self, tree: &'a Tree) -> Result<&'a [u8], ChangeError> {
+    fn bytes<'a>(&self, tree: &'a Tree) -> Result<&'a [u8], Misfit> {
         match tree.nodes.get(&self.file) {
             Some(Node::File(bytes)) => Ok(bytes),
-            _ => Err(ChangeError::Missing(self.file.clone())),
+            _ => Err(Misfit::Missing),
         }
     }
 
-    fn base64(&self, text: &str) -> Result<Vec<u8>, ChangeError> {
-        STANDARD
-            .decode(text)
-            .map_err(|error| ChangeError::Base64 { file: self.file.clone(), error })
+    fn replaced(&self, from: &str, by: &str, most: usize, tree: &Tree) -> Result<Vec<u8>, Misfit> {
+        let text = std::str::from_utf8(self.bytes(tree)?).ok();
+        let text = text.filter(|text| text.contains(from));
+        let text = text.ok_or_else(|| Misfit::NotThere(from.to_owned()))?;
+        Ok(text.replacen(from, by, most).into_bytes())
     }
 
-    fn replace(
-        &self,
-        from: &str,
-        by: &str,
-        most: usize,
-        tree: &mut Tree,
-    ) -> Result<(), ChangeError> {
-        let not_there = || ChangeError::NotThere { file: self.file.clone(), from: from.to_owned() };
-        let text = std::str::from_utf8(self.bytes(tree)?).map_err(|_| not_there())?;
-        if !text.contains(from) {
-            return Err(not_there());
-        }
-        let text = text.replacen(from, by, most);
-        tree.put(self.file.clone(), text.into_bytes());
-        Ok(())
-    }
-
-    fn clear(&self, tree: &mut Tree) {
-        tree.nodes.retain(|path, _| !path.is_within(&self.file));
-    }
-
-    fn delete(&self, tree: &mut Tree) -> Result<(), ChangeError> {
+    /// Removes the file, or all below the folder.
+    fn clear(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let before = tree.nodes.len();
-        self.clear(tree);
-        if tree.nodes.len() == before {
-            return Err(ChangeError::Missing(self.file.clone()));
+        tree.nodes.retain(|path, _| !path.is_within(&self.file));
+        match tree.nodes.len() == before {
+            true => Err(Misfit::Missing),
+            false => Ok(()),
         }
+    }
+
+    fn become_node(&self, node: Node, tree: &mut Tree) -> Result<(), Misfit> {
+        tree.nodes.retain(|path, _| !path.is_within(&self.file));
+        tree.nodes.insert(self.file.clone(), node);
         Ok(())
     }
 
-    fn patch(&self, patch: &Patch, mirrored: bool, tree: &mut Tree) -> Result<(), ChangeError> {
+    fn copy(&self, original: &FilePath, tree: &mut Tree) -> Result<(), Misfit> {
+        let nodes = tree.nodes.iter().filter(|(path, _)| path.is_within(original));
+        let copies = nodes.map(|(path, node)| (path.moved(original, &self.file), node.clone()));
+        let copies: Vec<(FilePath, Node)> = copies.collect();
+        match copies.is_empty() {
+            true => Err(Misfit::NoOriginal(original.clone())),
+            false => {
+                tree.nodes.extend(copies);
+                Ok(())
+            }
+        }
+    }
+
+    fn patch(&self, patch: &Patch, tree: &mut Tree) -> Result<(), Misfit> {
         let bytes = self.bytes(tree)?;
-        let not_json = |_| ChangeError::NotJson(self.file.clone());
-        let mut document = json::read(bytes).map_err(not_json)?.value;
+        let mut document = json::read(bytes).map_err(|_| Misfit::NotJson)?.value;
         // Keep a one-line document on one line, as legacy documents are.
         let on_one_line = !bytes.contains(&b'\n');
-        json_patch::patch(&mut document, patch)
-            .map_err(|error| ChangeError::Patch { file: self.file.clone(), error })?;
+        json_patch::patch(&mut document, patch)?;
         tree.put(self.file.clone(), text_of(&document, on_one_line));
-        if mirrored
-            && let Some(mirror) = mirror_of(&self.file)
+        if let Some(mirror) = mirror_of(&self.file)
             && let Some(Node::File(_)) = tree.nodes.get(&mirror)
         {
             tree.put(mirror, canonical::yaml_string(&document).into_bytes());

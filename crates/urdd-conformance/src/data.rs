@@ -13,7 +13,11 @@ pub const VALID: &str = "valid";
 pub const BASES: &str = "bases";
 /// Files of bases that equal another base's file: both paths relative to [`BASES`]. Only the other file is stored.
 pub const COPIES: &str = "bases/copies.json";
-/// Cases, including near misses: one folder per code.
+/// Cases that people write, including near misses: one file per code.
+pub const CASES: &str = "cases";
+/// Cases that the tests of rules compute, in the same form.
+pub const COMPUTED: &str = "computed";
+/// Cases in an exported suite: one folder per code.
 pub const INVALID: &str = "invalid";
 /// The URDD's folder within its case's folder; other files may be beside it.
 pub const URDD: &str = "robot";

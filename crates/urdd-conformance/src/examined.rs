@@ -1,6 +1,7 @@
 //! Validates what a producer wrote.
 
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::path::Path;
 
 use urdd_directory::cancellation::Cancellation;
@@ -27,16 +28,11 @@ pub fn examine(
     let mut urdds = run.report.urdds;
     match (urdds.pop(), urdds.is_empty()) {
         (Some(urdd), true) if urdd.verdict == Verdict::Unreadable => Err(urdd.reason),
-        (Some(urdd), true) if urdd.path == folder_name(out) => Ok(urdd),
+        (Some(urdd), true) if out.file_name() == Some(OsStr::new(&urdd.path)) => Ok(urdd),
         _ => Err(Some(
             "{out} itself must be the URDD: one URDD, without a folder around it".to_owned(),
         )),
     }
-}
-
-fn folder_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default();
-    name.to_string_lossy().into_owned()
 }
 
 /// The codes of findings, sorted.

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use crate::catalogue::{CATALOGUE, Catalogue, ItemKind, items};
+use crate::case::Kind;
+use crate::catalogue::{CATALOGUE, Catalogue, items};
 use crate::data::{Data, INVALID, ROBOTS, VALID, VECTORS};
 use crate::refused::{self, REFUSED};
 use crate::suite::{CaseError, Suite};
@@ -90,7 +91,7 @@ pub fn export(suite: &Suite, folder: &Path) -> Result<Exported, ExportError> {
     let mut items = items(suite);
     items.retain(|item| !left_out.contains(&item.id));
     let count = |valid: bool| {
-        let matching = items.iter().filter(|item| (item.kind == ItemKind::Valid) == valid);
+        let matching = items.iter().filter(|item| (item.kind == Kind::Valid) == valid);
         matching.count()
     };
     let exported = Exported {

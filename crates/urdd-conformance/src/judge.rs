@@ -27,7 +27,8 @@ pub fn verdict(report: &Report) -> Verdict {
     }
 }
 
-/// Describes how a report differs from what the case expects; `None` if it matches.
+/// Describes how a report differs from what the case expects, with places as files of cases have them; `None` if it
+/// matches.
 pub fn difference(case: &Case, report: &Report) -> Option<String> {
     let (found, verdict) = (found(&case.code, report), verdict(report));
     if found == case.expected && verdict == case.verdict {
@@ -35,9 +36,12 @@ pub fn difference(case: &Case, report: &Report) -> Option<String> {
     }
     let list = |findings: &[Expected]| -> String {
         let line = |finding: &Expected| {
-            let file = finding.file.as_deref().unwrap_or("no file");
-            let pointer = finding.pointer.as_deref().unwrap_or_default();
-            format!("\n    {} {file} {pointer}", finding.code)
+            let parts = [("file", &finding.file), ("pointer", &finding.pointer)].into_iter();
+            let part = |(key, value): (_, &Option<String>)| {
+                value.as_ref().map(|value| format!("\"{key}\": {value:?}"))
+            };
+            let place = parts.filter_map(part).collect::<Vec<_>>().join(", ");
+            format!("\n    {} {{{place}}}", finding.code)
         };
         match findings.is_empty() {
             true => " nothing".to_owned(),

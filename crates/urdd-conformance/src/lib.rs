@@ -2,8 +2,8 @@
 //!
 //! The conformance suite: its cases, and what runs a producer or a validator on them (`urdd conformance`).
 //!
-//! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a base with changes. It becomes a [`tree::Tree`],
-//! which is written to disk for validation.
+//! The caller brings the suite's files ([`data::Data`]); `conformance/README.md` describes them. A [`case::Case`] is a
+//! base with changes. It becomes a [`tree::Tree`], which is written to disk for validation.
 
 pub mod archive;
 pub mod case;
@@ -21,7 +21,6 @@ pub mod run_error;
 pub mod seal;
 pub mod skips;
 pub mod suite;
-pub mod tally;
 pub mod tree;
 pub mod valid;
 pub mod validator;

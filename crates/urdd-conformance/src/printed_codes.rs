@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::case::Verdict;
-use crate::catalogue::{Item, ItemKind};
+use crate::case::{Kind, Verdict};
+use crate::catalogue::Item;
 use urdd_format::conformance::PrintedCodes;
 use urdd_format::index::Count;
 use urdd_validate::code::Code;
@@ -69,9 +69,9 @@ pub fn score<'a>(
         };
         let is_printed = codes.iter().any(|printed| printed.as_str() == code);
         match (item.kind, item.verdict) {
-            (ItemKind::Valid, _) | (ItemKind::Invalid, Verdict::Accept) => continue,
-            (ItemKind::Invalid, Verdict::Reject) if !is_printed => missing.push(item.id.clone()),
-            (ItemKind::NearMiss, _) if is_printed => extra.push(item.id.clone()),
+            (Kind::Valid, _) | (Kind::Invalid, Verdict::Accept) => continue,
+            (Kind::Invalid, Verdict::Reject) if !is_printed => missing.push(item.id.clone()),
+            (Kind::NearMiss, _) if is_printed => extra.push(item.id.clone()),
             _ => {}
         }
         of += 1;

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::case::Case;
+use crate::case::{Case, RuleCases};
 use crate::change::ChangeError;
-use crate::data::{BASES, CopiesError, Data, Files, INVALID, URDD};
+use crate::data::{BASES, CASES, COMPUTED, CopiesError, Data, Files, URDD};
 use crate::seal;
 use crate::tree::Tree;
 
@@ -25,26 +25,31 @@ pub enum SuiteError {
     /// A list of equal files is damaged.
     #[error(transparent)]
     Copies(#[from] CopiesError),
-    /// A case file is invalid.
+    /// A file of cases is invalid.
     #[error("{path}: {error}")]
-    Case {
-        /// Its file.
+    Cases {
+        /// The file.
         path: String,
         /// Reason.
         error: serde_json::Error,
     },
+    /// Two cases of a rule have the same name.
+    #[error("{0}: two cases have this name")]
+    Twice(String),
 }
 
 /// Why a case cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum CaseError {
     /// The base does not exist.
-    #[error("{case}: there is no base {base:?}")]
+    #[error("{case}: there is no base {base:?}; `bases/` has {known}")]
     NoBase {
         /// The case.
         case: String,
         /// The base that it names.
         base: String,
+        /// The bases.
+        known: String,
     },
     /// A change does not apply.
     #[error("{case}: {error}")]
@@ -72,13 +77,21 @@ impl Suite {
             (name.to_owned(), tree)
         };
         let bases = names.into_iter().map(base).collect();
-        let case = |(path, text): (&str, &[u8])| -> Result<Case, SuiteError> {
-            serde_json::from_slice(text)
-                .map_err(|error| SuiteError::Case { path: format!("{INVALID}/{path}"), error })
-        };
-        let mut cases: Vec<Case> = data.below(INVALID).map(case).collect::<Result<_, _>>()?;
+        let mut cases = Vec::new();
+        for folder in [CASES, COMPUTED] {
+            for (name, text) in data.below(folder) {
+                let rule: RuleCases = serde_json::from_slice(text).map_err(|error| {
+                    SuiteError::Cases { path: format!("{folder}/{name}"), error }
+                })?;
+                cases.extend(rule.cases(name.trim_end_matches(".json")));
+            }
+        }
         cases.sort_by(|a, b| (&a.code, &a.name).cmp(&(&b.code, &b.name)));
-        Ok(Suite { data, bases, cases })
+        let mut pairs = cases.iter().zip(cases.iter().skip(1));
+        match pairs.find(|(one, next)| (&one.code, &one.name) == (&next.code, &next.name)) {
+            Some((one, _)) => Err(SuiteError::Twice(one.id())),
+            None => Ok(Suite { data, bases, cases }),
+        }
     }
 
     /// Builds the URDD of a case.
@@ -87,9 +100,11 @@ impl Suite {
     /// If the base does not exist, or a change does not apply.
     pub fn tree(&self, case: &Case) -> Result<Tree, CaseError> {
         let base = self.bases.get(&case.base);
-        let mut tree = base
-            .cloned()
-            .ok_or_else(|| CaseError::NoBase { case: case.id(), base: case.base.clone() })?;
+        let mut tree = base.cloned().ok_or_else(|| CaseError::NoBase {
+            case: case.id(),
+            base: case.base.clone(),
+            known: self.bases.keys().cloned().collect::<Vec<_>>().join(", "),
+        })?;
         for change in &case.changes {
             change
                 .apply(&mut tree)

@@ -8,38 +8,29 @@ use std::sync::Arc;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// A path with forward slashes, relative to the URDD's root; `../` leads to files beside the URDD. Stored as bytes,
 /// because most systems allow names that are not UTF-8.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct FilePath(Vec<u8>);
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(untagged)]
 enum Written {
     Text(String),
     Bytes { base64: String },
 }
 
-impl Serialize for FilePath {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match std::str::from_utf8(&self.0) {
-            Ok(text) => Written::Text(text.to_owned()),
-            Err(_) => Written::Bytes { base64: STANDARD.encode(&self.0) },
-        }
-        .serialize(serializer)
-    }
-}
+impl TryFrom<Written> for FilePath {
+    type Error = base64::DecodeError;
 
-impl<'de> Deserialize<'de> for FilePath {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(match Written::deserialize(deserializer)? {
-            Written::Text(text) => FilePath(text.into_bytes()),
-            Written::Bytes { base64 } => {
-                FilePath(STANDARD.decode(base64).map_err(<D::Error as serde::de::Error>::custom)?)
-            }
-        })
+    fn try_from(path: Written) -> Result<FilePath, Self::Error> {
+        Ok(FilePath(match path {
+            Written::Text(text) => text.into_bytes(),
+            Written::Bytes { base64 } => STANDARD.decode(base64)?,
+        }))
     }
 }
 

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use semver::Version;
 use serde::Serialize;
 
-use crate::case::{Case, Verdict};
-use crate::catalogue::{Item, ItemKind, items};
+use crate::case::{Case, Kind, Verdict};
+use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
 use crate::export::write_valid;
 use crate::printed_codes;
@@ -20,12 +20,12 @@ use crate::process::{End, Ran, Template};
 use crate::run_error::{RunError, with_threads};
 use crate::skips::{Skip, SkipError};
 use crate::suite::Suite;
-use crate::tally::Tally;
 use crate::tree::TreeError;
 use crate::valid;
 use crate::workplace::{Workplace, relative};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_format::conformance::{CaseFault, GroupScore, ValidatorResult, WrongCase};
+use urdd_format::conformance::{CaseFault, CaseScore, GroupScore, ValidatorResult, WrongCase};
+use urdd_format::index::Count;
 use urdd_format::registry::Profile;
 use urdd_format::report::Tool;
 use urdd_validate::code::Code;
@@ -263,12 +263,26 @@ fn check_skips(skips: &[Skip], urdds: &[Chosen]) -> Result<(), SkipError> {
     }
 }
 
+/// How cases were judged; `None` for right.
+type Faults = Vec<Option<CaseFault>>;
+
+fn counted(faults: &[Option<CaseFault>]) -> CaseScore {
+    let count = |fault| Count::saturating(faults.iter().filter(|one| **one == fault).count());
+    CaseScore {
+        of: Count::saturating(faults.len()),
+        right: count(None),
+        missed: count(Some(CaseFault::Missed)),
+        false_alarms: count(Some(CaseFault::FalseAlarm)),
+        undecided: count(Some(CaseFault::Undecided)),
+    }
+}
+
 fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult {
-    let (mut totals, mut sound) = (Tally::default(), Tally::default());
-    let mut legacy = Tally::default();
+    let (mut totals, mut sound) = (Faults::new(), Faults::new());
+    let mut legacy = Faults::new();
     let mut crashed = Vec::new();
-    let mut families: BTreeMap<&str, Tally> = BTreeMap::new();
-    let mut codes: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut families: BTreeMap<&str, Faults> = BTreeMap::new();
+    let mut codes: BTreeMap<&str, Faults> = BTreeMap::new();
     let (mut wrong, mut not_run) = (Vec::new(), Vec::new());
     let (mut relevant, mut used) = (BTreeSet::new(), BTreeSet::new());
     let printed = items.iter().zip(&ran).filter(|(item, _)| !is_legacy(item));
@@ -281,18 +295,18 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
         };
         let fault = fault(plan, item.verdict, &ran.end);
         match is_legacy(item) {
-            true => legacy.add(fault),
-            false => totals.add(fault),
+            true => legacy.push(fault),
+            false => totals.push(fault),
         }
-        if item.kind != ItemKind::Invalid && !is_legacy(item) {
-            sound.add(fault);
+        if item.kind != Kind::Invalid && !is_legacy(item) {
+            sound.push(fault);
         }
         if looks_crashed(plan, &ran) {
             crashed.push(item.id.clone());
         }
         if let Some(code) = item.code.as_deref() {
-            families.entry(family(code)).or_default().add(fault);
-            codes.entry(code).or_default().add(fault);
+            families.entry(family(code)).or_default().push(fault);
+            codes.entry(code).or_default().push(fault);
         }
         let mut reason = None;
         for skip in plan.skips.iter().filter(|skip| covers(skip, item)) {
@@ -316,12 +330,12 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
     // Skips of cases that were not run are not stale.
     let stale = |skip: &&Skip| relevant.contains(&skip.line) && !used.contains(&skip.line);
     let stale_skips: Vec<String> = plan.skips.iter().filter(stale).map(Skip::what).collect();
-    let groups = |tallies: BTreeMap<&str, Tally>| {
-        let group = |(name, tally): (&str, Tally)| GroupScore {
+    let groups = |judged: BTreeMap<&str, Faults>| {
+        let group = |(name, faults): (&str, Faults)| GroupScore {
             name: name.to_owned(),
-            score: tally.score(),
+            score: counted(&faults),
         };
-        tallies.into_iter().map(group).collect()
+        judged.into_iter().map(group).collect()
     };
     let excused = wrong.iter().all(|case| case.skipped_since.is_some());
     ValidatorResult {
@@ -329,9 +343,9 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
         spec_version: plan.spec_version.to_string(),
         command: plan.command.words().to_vec(),
         passed: excused && stale_skips.is_empty(),
-        totals: totals.score(),
-        sound: sound.score(),
-        legacy: legacy.score(),
+        totals: counted(&totals),
+        sound: counted(&sound),
+        legacy: counted(&legacy),
         families: groups(families),
         codes: groups(codes),
         printed_codes,

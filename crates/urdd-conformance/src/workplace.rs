@@ -7,11 +7,10 @@ use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 
 /// A temporary or a persistent folder.
-pub enum Workplace {
-    /// Removed on drop.
-    Temporary(TempDir),
-    /// Persistent.
-    Kept(PathBuf),
+pub struct Workplace {
+    path: PathBuf,
+    /// Removes the folder on drop, if it is temporary.
+    _temporary: Option<TempDir>,
 }
 
 /// Why the working folder cannot be created.
@@ -41,7 +40,7 @@ impl Workplace {
     pub fn new(keep: Option<&Path>) -> Result<Workplace, WorkplaceError> {
         let Some(path) = keep else {
             let folder = tempfile::tempdir().map_err(WorkplaceError::Temporary)?;
-            return Ok(Workplace::Temporary(folder));
+            return Ok(Workplace { path: folder.path().to_owned(), _temporary: Some(folder) });
         };
         let failed = |error| WorkplaceError::Folder { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
@@ -50,15 +49,12 @@ impl Workplace {
         }
         // Absolute, because the command may change its current folder.
         let path = std::path::absolute(path).map_err(failed)?;
-        Ok(Workplace::Kept(path))
+        Ok(Workplace { path, _temporary: None })
     }
 
     /// Its path.
     pub fn path(&self) -> &Path {
-        match self {
-            Workplace::Temporary(folder) => folder.path(),
-            Workplace::Kept(path) => path,
-        }
+        &self.path
     }
 }
 

@@ -97,6 +97,9 @@ fn a_case_is_of_one_rule() {
         assert_eq!(case.expected.is_empty(), case.kind == Kind::NearMiss, "{id}");
         let rejected = case.kind == Kind::Invalid && rule.severity == Severity::Error;
         assert_eq!(case.verdict == Verdict::Reject, rejected, "{id}");
+        let near = if case.kind == Kind::NearMiss { "near " } else { "" };
+        let title = format!("{near}{}: {}", rule.name, case.name.replace('-', " "));
+        assert_eq!(case.title, title, "{id}: its file says the name of the rule");
     }
 }
 
@@ -117,4 +120,53 @@ fn every_base_is_used() {
     let suite = suite();
     let used: BTreeSet<&String> = suite.cases.iter().map(|case| &case.base).collect();
     assert_eq!(used, suite.bases.keys().collect());
+}
+
+/// What is wrong with a file of cases, or a case, is said with its place.
+#[test]
+fn a_wrong_case_says_what_is_wrong() {
+    let file = |case: &str| {
+        format!(r#"{{"rule": "r", "verdict": "reject", "near_misses": [{{"name": "a", {case}}}]}}"#)
+    };
+    let error = |text: String, base: &str| {
+        let files = [("cases/DOF001.json", text.as_str()), ("bases/toy/robot/a.txt", base)];
+        let files = files.map(|(path, text)| (path.to_owned(), text.as_bytes().to_vec()));
+        match Suite::of(files.into()) {
+            Err(error) => error.to_string(),
+            Ok(suite) => suite.tree(&suite.cases[0]).expect_err("it does not fit").to_string(),
+        }
+    };
+    let change = |change: &str| file(&format!(r#""base": "toy", "changes": [{{{change}}}]"#));
+    for (text, words) in [
+        (file(r#""base": "toy", "cahnges": []"#), "cases/DOF001.json: unknown field `cahnges`"),
+        (file(r#""changes": []"#), "missing field `base` at line 1"),
+        (file(r#""base": "tyo""#), r#"DOF001/a: there is no base "tyo"; `bases/` has toy"#),
+        (
+            change(r#""file": "a.txt", "wirte": "b""#),
+            "wirte of a.txt: unknown variant `wirte`, expected one of `patch`",
+        ),
+        (
+            change(r#""file": "a.txt", "write": "b", "delete": true"#),
+            "a change of a.txt needs one action beside `file`, and has {write, delete}",
+        ),
+        (
+            change(r#""file": "a.txt", "patch": [{"op": "set", "path": "/a"}]"#),
+            "patch of a.txt: unknown variant `set`",
+        ),
+        (
+            change(r#""file": "a.txt", "patch": [{"op": "remove", "path": "/b"}]"#),
+            "DOF001/a: a.txt: operation '/0' failed at path '/b'",
+        ),
+        (
+            change(r#""file": "a.txt", "replace": {"from": "z", "by": "y"}"#),
+            r#"DOF001/a: a.txt: the text "z" was not found"#,
+        ),
+        (
+            file(r#""base": "toy"}, {"name": "a", "base": "toy""#),
+            "DOF001/a: two cases have this name",
+        ),
+    ] {
+        let error = error(text, r#"{"a": 1}"#);
+        assert!(error.contains(words), "{error}\nhas not: {words}");
+    }
 }

@@ -30,12 +30,6 @@ fn second(bytes: &[u8]) -> usize {
     20 + u32::from_le_bytes(length) as usize
 }
 
-fn change_obj(f: &mut Fixture, change: impl Fn(&str) -> String) {
-    let path = path(f, PLAIN, BASE, "obj");
-    let obj = String::from_utf8(f.file(&path).to_vec()).expect("text");
-    f.put_file(&path, change(&obj));
-}
-
 pub fn cases() -> Vec<Case> {
     let mut cases = chunks();
     cases.extend(open());
@@ -91,16 +85,6 @@ fn open() -> Vec<Case> {
                 let nodes = gltf["nodes"].as_array_mut();
                 let nodes: &mut Vec<Value> = nodes.expect("a list");
                 nodes.push(json!({ "mesh": 0, "skin": 0, "translation": [1, 0, 0] }));
-            });
-        }),
-        near_miss(MSH013, "curve-in-the-obj", |f| {
-            change_obj(f, |obj| format!("{obj}cstype bezier\ndeg 1\ncurv 0 1 1 2\nend\nl 1 2\n"));
-        }),
-        near_miss(MSH013, "quad-in-the-obj", |f| {
-            change_obj(f, |obj| {
-                let triangles = "f 1 5 3\nf 3 5 7\n";
-                assert!(obj.contains(triangles), "{obj}");
-                obj.replacen(triangles, "f 5 7 3 1\n", 1)
             });
         }),
     ]

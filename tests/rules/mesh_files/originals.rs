@@ -1,12 +1,11 @@
 //! MSH015 and MSH016: plain meshes, and the files that the URDF names.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use urdd_validate::code::Code::*;
 
 use super::{ALL, bare, put, read, rewrite, up};
-use crate::legacy_robot::LegacyRobot;
-use crate::meshes::{ORIGINAL, PLAIN, legacy};
-use crate::{Case, changed, in_folder, invalid, near_miss};
+use crate::meshes::{ORIGINAL, PLAIN};
+use crate::{Case, changed, invalid, near_miss};
 use testkit::fixture::Fixture;
 
 /// Makes a side of the tool's box, in the file that the URDF names, an L of six corners and a quad. The plain mesh has
@@ -78,14 +77,6 @@ pub fn cases() -> Vec<Case> {
                 mesh.triangles.pop();
             });
         }),
-        in_folder(MSH015, "legacy-origin-left-out", true, |root| {
-            let mut robot = LegacyRobot::new("robot", 0.0);
-            for link in [0, 1] {
-                robot.doc("urdf_module")["links"][link]["visual"][0]["origin"]["xyz"] =
-                    json!([0.0, 0.25, 0.0]);
-            }
-            robot.write(root);
-        }),
         near_miss(MSH015, "computed-in-binary32", |f| {
             rewrite(f, PLAIN, ALL, |mesh| {
                 for vertex in &mut mesh.vertices {
@@ -99,42 +90,9 @@ pub fn cases() -> Vec<Case> {
         invalid(MSH015, "face-cut-overlaps", |f| {
             cut_face(f, [[0, 1, 2], [0, 2, 4], [0, 4, 5], [2, 4, 3]])
         }),
-        legacy(MSH015, "legacy", false, || LegacyRobot::new("robot", 0.0)),
-        invalid(MSH016, "called-unusable", |f| {
-            f.set(ORIGINAL, "/files/0/usable", json!(false));
-        }),
         changed(MSH016, "called-usable", true, bare, |f| {
             f.set(ORIGINAL, "/files/0/usable", json!(true));
         }),
-        invalid(MSH016, "side-file-that-is-not-named", |f| {
-            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
-            let sides = |file: &Value| file["side_files"] != json!([]);
-            let with = files.iter().position(sides).expect("a side file");
-            let without = files.iter().position(|file| !sides(file)).expect("none");
-            let side = files[with]["side_files"].clone();
-            f.set(ORIGINAL, &format!("/files/{without}/side_files"), side);
-        }),
         changed(MSH016, "without-a-surface", false, bare, |_| {}),
-        near_miss(MSH016, "names-what-is-not-carried", |f| {
-            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
-            let obj = files.iter().filter_map(|file| file["path"].as_str());
-            let obj = obj.filter(|path| path.ends_with(".obj")).map(str::to_owned);
-            let obj = obj.max().expect("an OBJ");
-            let text = String::from_utf8(f.file(&obj).to_vec()).expect("text");
-            f.put_file(&obj, format!("mtllib gone.mtl\n{text}"));
-        }),
-        near_miss(MSH016, "side-file-outside-of-meshes", |f| {
-            let files = f.get(ORIGINAL, "/files").as_array().expect("a list");
-            let obj = |file: &Value| file["path"].as_str().is_some_and(|p| p.ends_with(".obj"));
-            let at = files.iter().position(obj).expect("an OBJ");
-            let path = crate::meshes::text(f, ORIGINAL, &format!("/files/{at}/path"));
-            let up = "../".repeat(path.matches('/').count());
-            let text = String::from_utf8(f.file(&path).to_vec()).expect("text");
-            f.put_file(&path, format!("mtllib {up}materials/steel.mtl\n{text}"));
-            f.put_file("materials/steel.mtl", *b"newmtl steel\nKd 0.5 0.5 0.5\n");
-            let sides = f.doc_mut(ORIGINAL).pointer_mut(&format!("/files/{at}/side_files"));
-            let sides = sides.and_then(Value::as_array_mut).expect("a list");
-            sides.insert(0, json!("materials/steel.mtl"));
-        }),
     ]
 }

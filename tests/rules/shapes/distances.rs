@@ -4,10 +4,9 @@ use serde_json::json;
 use urdd_format::urdf::{Axis, JointType};
 use urdd_validate::code::Code::*;
 
-use super::{REACH, STATISTICS, number, pair_that_is, set_pair, two_boxes};
-use crate::legacy_robot::LegacyRobot;
-use crate::meshes::{boxy, legacy, robot_of};
-use crate::{Case, changed, invalid, near_miss};
+use super::{REACH, STATISTICS, number, set_pair};
+use crate::meshes::{boxy, robot_of};
+use crate::{Case, changed};
 use testkit::fixture::Fixture;
 use testkit::robot::*;
 
@@ -64,22 +63,7 @@ pub fn cases() -> Vec<Case> {
         assert_ne!(old, 0.0);
         set_pair(f, STATISTICS, matrix, pair, json!(old * factor));
     };
-    let skipped = [[true, true], [true, true]];
-    let sliding = |lower: f64, upper: f64| {
-        move || {
-            let robot = LegacyRobot::new("robot", 0.0).sliding(lower, upper);
-            robot.with_shapes(0.5).with_matrices(0.0, true, skipped)
-        }
-    };
     vec![
-        changed(SHP022, "smallest-is-less", true, two_boxes, move |f| {
-            scale_pair(f, "/full_obbs/min_distances", (0, 1), 0.99);
-        }),
-        changed(SHP022, "rounded", false, two_boxes, move |f| {
-            scale_pair(f, "/full_obbs/min_distances", (0, 1), 1.0 - 1e-7);
-        }),
-        // Each of the two agrees with the distance, and they do not agree with each other.
-        changed(SHP022, "fixed-joint-between", true, two_boxes, |f| moved_apart(f, 1.0)),
         changed(
             SHP022,
             "locked-joint-between",
@@ -108,36 +92,6 @@ pub fn cases() -> Vec<Case> {
                 }
             }
         }),
-        invalid(SHP024, "mean", |f| {
-            let (i, j) = pair_that_is(f, "Never");
-            let at = |key: &str| format!("/full_convex_hulls/{key}_distances/{i}/{j}");
-            let [mean, max] = ["mean", "max"].map(|key| number(f, STATISTICS, &at(key)));
-            let matrix = "/full_convex_hulls/mean_distances";
-            set_pair(f, STATISTICS, matrix, (i, j), json!(mean + 0.5 * (max - mean)));
-        }),
-        invalid(SHP024, "largest", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_obbs/max_distances", pair, 1.01);
-        }),
-        invalid(SHP024, "smallest", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_bounding_spheres/min_distances", pair, 0.99);
-        }),
-        invalid(SHP024, "a-sample-too-many", |f| {
-            f.set(STATISTICS, "/num_samples", json!(9));
-        }),
-        changed(SHP024, "rigid-and-elsewhere", true, two_boxes, move |f| {
-            for key in ["mean", "min", "max"] {
-                scale_pair(f, &format!("/full_obbs/{key}_distances"), (0, 1), 1.01);
-            }
-        }),
-        near_miss(SHP024, "rounded", move |f| {
-            let pair = pair_that_is(f, "Never");
-            scale_pair(f, "/full_obbs/max_distances", pair, 1.0 + 1e-7);
-        }),
         changed(SHP024, "seven-digits", false, turning_boxes, to_seven_digits),
-        legacy(SHP025, "legacy-stale", true, sliding(-1.0, 1.0)),
-        legacy(SHP025, "legacy-always-in-contact", false, sliding(-1.0, -0.95)),
-        legacy(SHP025, "legacy-always-apart", false, sliding(0.1, 0.5)),
     ]
 }
