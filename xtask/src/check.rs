@@ -36,6 +36,15 @@ const TESTS: &[(&str, &str)] = &[
         "computed::the_suite_has",
         "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules computed for one rule; read what it wrote",
     ),
+    (
+        "cases::a_rule_alone",
+        "look which is right, the rule or crates/urdd-lint/tests/cases/CODE/invalid.urdf: its rule alone finds something there",
+    ),
+    ("cases::a_near_miss", "nothing is found in crates/urdd-lint/tests/cases/CODE/near_miss.urdf"),
+    (
+        "cases::every_code_of_the_family",
+        "see the message; list the rule in crates/urdd-lint/src/rules/mod.rs",
+    ),
     ("a_case_that_is_asked_for", "see the message, and `urdd explain` of the rule"),
     ("published_schemas::the_committed_schemas", UPDATE),
     (
@@ -91,7 +100,18 @@ pub fn run(root: &Path) -> Result<bool, String> {
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
-    let tests = ["test", "--locked", "--no-fail-fast", "--test", "program", "--test", "rules"];
+    let tests = [
+        "test",
+        "--locked",
+        "--no-fail-fast",
+        "--workspace",
+        "--test",
+        "program",
+        "--test",
+        "rules",
+        "--test",
+        "lint",
+    ];
     let failed = |error| format!("cargo cannot be run: {error}");
     // In view: it takes long. What cargo prints after tests that failed is left out.
     let built = cargo(root).args(tests).arg("--no-run").status();

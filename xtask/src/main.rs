@@ -1,6 +1,7 @@
 //! Commands for contributors, run by `cargo xtask`: see CONTRIBUTING.md.
 
 mod check;
+mod new_lint_rule;
 mod new_module;
 mod new_rule;
 mod source;
@@ -19,7 +20,7 @@ cargo xtask update
 cargo xtask new-rule CODE name-of-the-fault [--clause 6.1.7] [--severity error|warning|info] [--family FOLDER]
     Makes the files of a new rule: the rule, its code, its place in SPEC.md, and its two cases.
     The code is the family and its next free number (such as SRC010); the name states the fault.
-    A family that is new gets a folder: --family battery.
+    A family that is new gets a folder: --family battery. A rule of lint (LNT060) has no clause.
 
 cargo xtask new-module NAME
     Makes the files of a new module of the format: its type, its entries in the registry, its place in SPEC.md.
@@ -57,6 +58,15 @@ fn run(command: &str, words: &[String]) -> Result<bool, String> {
     let text = match (command, plain.as_slice()) {
         ("check", []) => return check::run(&root),
         ("update", []) => return update::run(&root),
+        ("new-rule", [code, name]) if code.starts_with("LNT") => {
+            if let Some(option) =
+                ["--clause", "--family"].iter().find(|&&name| options.contains_key(name))
+            {
+                return Err(format!("{option} is not for rules of lint"));
+            }
+            let severity = options.get("--severity").map_or("warning", String::as_str);
+            new_lint_rule::make(&root, code, name, severity)?
+        }
         ("new-rule", [code, name]) => {
             let option = |name: &str| options.get(name).map(String::as_str);
             let new = new_rule::NewRule {

@@ -5,9 +5,7 @@ use std::path::Path;
 
 use crate::source::{Edits, camel, with_module};
 
-/// The family of the rules about URDFs.
-const OF_LINT: &str = "LNT";
-const CODES: &str = "crates/urdd-findings/src/code.rs";
+pub const CODES: &str = "crates/urdd-findings/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";
@@ -40,22 +38,12 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let family = family(code)?;
     check_name(name)?;
     let clause = new.clause.unwrap_or("TODO");
-    let severity = match new.severity {
-        "error" => "Error",
-        "warning" => "Warning",
-        "info" => "Info",
-        other => return Err(format!("--severity {other}: write error, warning or info")),
-    };
+    let severity = severity(new.severity)?;
     let mut edits = Edits::new(root);
     let room = match (room_of(root, family)?, new.family) {
         (Some(room), None) => room,
         (Some(room), Some(_)) => {
             return Err(format!("{family} is the family of {RULES}/{room}: leave out --family"));
-        }
-        (None, _) if family == OF_LINT => {
-            return Err(format!(
-                "{OF_LINT} are the rules about URDFs: copy one of crates/urdd-lint/src/rules with its cases, and add the code to {CODES}; CONTRIBUTING.md has the steps"
-            ));
         }
         (None, None) => {
             return Err(format!(
@@ -67,7 +55,7 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
             room.to_owned()
         }
     };
-    edits.set(CODES, add_code(&edits.read(CODES)?, code)?);
+    edits.set(CODES, add_code(&edits.read(CODES)?, code, 1)?);
     let module = name.replace('-', "_");
     let rule_path = format!("{RULES}/{room}/{module}.rs");
     // If the module is as scaffolded, the rule can already read the values.
@@ -158,7 +146,7 @@ fn family(code: &str) -> Result<&str, String> {
     }
 }
 
-fn check_name(name: &str) -> Result<(), String> {
+pub fn check_name(name: &str) -> Result<(), String> {
     let word = |word: &str| {
         !word.is_empty()
             && word.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit())
@@ -172,8 +160,18 @@ fn check_name(name: &str) -> Result<(), String> {
     }
 }
 
-/// Inserts a code into the list of codes, after the last one of its family.
-fn add_code(text: &str, code: &str) -> Result<String, String> {
+/// A severity as the source has it.
+pub fn severity(word: &str) -> Result<&'static str, String> {
+    match word {
+        "error" => Ok("Error"),
+        "warning" => Ok("Warning"),
+        "info" => Ok("Info"),
+        other => Err(format!("--severity {other}: write error, warning or info")),
+    }
+}
+
+/// Inserts a code into the list of codes, after the last one of its family. Its number is at least `least`.
+pub fn add_code(text: &str, code: &str, least: u32) -> Result<String, String> {
     let (family, number) = (&code[..3], &code[3..]);
     let (start, end) = text
         .split_once("\ncodes! {")
@@ -186,7 +184,7 @@ fn add_code(text: &str, code: &str) -> Result<String, String> {
         return Ok(text.to_owned());
     }
     let last = known.last().ok_or(format!("{CODES} has no family {family}"))?;
-    let next = last[3..].parse::<u32>().unwrap_or(0) + 1;
+    let next = least.max(last[3..].parse::<u32>().unwrap_or(0) + 1);
     if number.parse::<u32>() != Ok(next) {
         return Err(format!(
             "{code}: the next free code of the family is {family}{next:03}; codes are never used again"
@@ -217,7 +215,7 @@ fn room_of(root: &Path, family: &str) -> Result<Option<String>, String> {
 }
 
 /// Adds the rule to the sorted modules and the sorted rules of the family's `mod.rs`.
-fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
+pub fn register(text: &str, module: &str, path: &str) -> Result<String, String> {
     let text = with_module(text, &format!("mod {module};"), path)?;
     let unexpected = || format!("{path} is not as expected: no list of rules");
     let (head, rest) = text.split_once("rules! {").ok_or_else(unexpected)?;

@@ -32,6 +32,8 @@ fn source() -> TempDir {
         "SPEC.md",
         "conformance/cases",
         "tests/rules/bases.rs",
+        "crates/urdd-lint/src/rules",
+        "benches/evaluation/lint/evidence.md",
     ] {
         copy(&repository.join(part), &folder.path().join(part));
     }
@@ -206,7 +208,10 @@ fn what_does_not_fit_writes_nothing() {
     for (arguments, words) in [
         (&["SRC999", "a-name"][..], "next free code"),
         (&["ABC001", "a-name"], "no family ABC"),
-        (&["LNT999", "a-name"], "crates/urdd-lint/src/rules"),
+        (&["LNT999", "a-name"], "next free code"),
+        (&["LNT054", "a-name"], "next free code of the family is LNT055"),
+        (&["LNT055", "a-name", "--clause", "6.1"], "not for rules of lint"),
+        (&["LNT055", "misspelt"], "is there already"),
         (&["ABC002", "a-name", "--family", "abc"], "is ABC001"),
         (&["ABC001", "a-name", "--family", "a b"], "is not a name"),
         (&["ABC001", "a-name", "--family", "source"], "is there already"),
@@ -225,4 +230,22 @@ fn what_does_not_fit_writes_nothing() {
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
     assert_eq!(text(root, "crates/urdd-findings/src/code.rs"), before);
+}
+
+#[test]
+fn a_rule_of_lint_has_its_files() {
+    let folder = source();
+    let root = folder.path();
+    // LNT054 is a candidate that was given up.
+    let output = new_rule(root, &["LNT055", "fault-of-links"]);
+    assert!(output.status.success(), "{output:?}");
+    let rule = text(root, "crates/urdd-lint/src/rules/fault_of_links.rs");
+    assert!(rule.contains("LNT055 \"fault-of-links\", Warning, WrongMotion"), "{rule}");
+    let list = text(root, "crates/urdd-lint/src/rules/mod.rs");
+    assert!(list.contains("mod fault_of_links;\n") && list.contains(" fault_of_links,"), "{list}");
+    assert!(text(root, "crates/urdd-findings/src/code.rs").contains("LNT053 LNT055"));
+    for case in ["invalid", "near_miss"] {
+        let case = text(root, &format!("crates/urdd-lint/tests/cases/LNT055/{case}.urdf"));
+        assert!(case.starts_with("<robot name="));
+    }
 }

@@ -56,3 +56,16 @@ pub(crate) use declare_lint;
 /// `off by default`, in a declaration.
 #[allow(non_upper_case_globals)]
 pub(crate) const off: bool = false;
+
+/// Lists the rules, one file each, as `all()`.
+macro_rules! rules {
+    ($($file:ident),+ $(,)?) => {
+        /// Every rule, in the order of their codes.
+        pub fn all() -> Vec<&'static $crate::rule::LintRule> {
+            let mut rules = vec![$($file::Declared::RULE),+];
+            rules.sort_by_key(|rule| rule.description.code);
+            rules
+        }
+    };
+}
+pub(crate) use rules;

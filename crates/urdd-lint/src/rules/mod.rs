@@ -47,57 +47,19 @@ mod visual_without_collision;
 mod xacro_not_expanded;
 mod zero_outside_limits;
 
-use crate::rule::LintRule;
+use crate::rule::rules;
 
-/// Every rule, in the order of their codes.
-pub fn all() -> Vec<&'static LintRule> {
-    let mut rules = vec![
-        absolute_path::Declared::RULE,
-        absurd_velocity_or_effort::Declared::RULE,
-        angle_looks_like_degrees::Declared::RULE,
-        axis_missing::Declared::RULE,
-        axis_not_unit::Declared::RULE,
-        backslash_in_path::Declared::RULE,
-        center_of_mass_outside::Declared::RULE,
-        collada_unit::Declared::RULE,
-        collada_up_axis::Declared::RULE,
-        color_out_of_range::Declared::RULE,
-        continuous_with_limits::Declared::RULE,
-        gazebo_reference_unknown::Declared::RULE,
-        heavy_collision_mesh::Declared::RULE,
-        inertia_beyond_geometry::Declared::RULE,
-        inertia_far_below_geometry::Declared::RULE,
-        inertial_incomplete::Declared::RULE,
-        letter_case::Declared::RULE,
-        limit_incomplete::Declared::RULE,
-        limits_look_like_degrees::Declared::RULE,
-        material_not_defined::Declared::RULE,
-        mesh_in_millimetres::Declared::RULE,
-        mesh_names_clash::Declared::RULE,
-        mesh_not_found::Declared::RULE,
-        mesh_not_readable::Declared::RULE,
-        mirrored_scale::Declared::RULE,
-        misplaced::Declared::RULE,
-        misspelt::Declared::RULE,
-        moving_link_without_inertial::Declared::RULE,
-        name_refused::Declared::RULE,
-        odd_density::Declared::RULE,
-        package_not_found::Declared::RULE,
-        root_link_with_inertial::Declared::RULE,
-        ros2_control_unknown_joint::Declared::RULE,
-        same_default_inertia::Declared::RULE,
-        self_collision_in_default::Declared::RULE,
-        size_not_positive::Declared::RULE,
-        srdf_unknown_name::Declared::RULE,
-        stl_refused::Declared::RULE,
-        texture_missing::Declared::RULE,
-        transmission_unknown_joint::Declared::RULE,
-        unknown_element_or_attribute::Declared::RULE,
-        visual_and_collision_apart::Declared::RULE,
-        visual_without_collision::Declared::RULE,
-        xacro_not_expanded::Declared::RULE,
-        zero_outside_limits::Declared::RULE,
-    ];
-    rules.sort_by_key(|rule| rule.description.code);
-    rules
+rules! {
+    absolute_path, absurd_velocity_or_effort, angle_looks_like_degrees, axis_missing,
+    axis_not_unit, backslash_in_path, center_of_mass_outside, collada_unit, collada_up_axis,
+    color_out_of_range, continuous_with_limits, gazebo_reference_unknown, heavy_collision_mesh,
+    inertia_beyond_geometry, inertia_far_below_geometry, inertial_incomplete, letter_case,
+    limit_incomplete, limits_look_like_degrees, material_not_defined, mesh_in_millimetres,
+    mesh_names_clash, mesh_not_found, mesh_not_readable, mirrored_scale, misplaced, misspelt,
+    moving_link_without_inertial, name_refused, odd_density, package_not_found,
+    root_link_with_inertial, ros2_control_unknown_joint, same_default_inertia,
+    self_collision_in_default, size_not_positive, srdf_unknown_name, stl_refused,
+    texture_missing, transmission_unknown_joint, unknown_element_or_attribute,
+    visual_and_collision_apart, visual_without_collision, xacro_not_expanded,
+    zero_outside_limits,
 }
