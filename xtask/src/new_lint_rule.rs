@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::new_rule::{CODES, add_code, check_name, register, severity};
+use crate::new_rule::{CODES, add_code, check_name, next_version, register, severity};
 use crate::source::Edits;
 
 const RULES: &str = "crates/urdd-lint/src/rules";
@@ -24,7 +24,10 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
     let least = candidates.max().unwrap_or(0) + 1;
     edits.set(CODES, add_code(&edits.read(CODES)?, code, least)?);
     let module = name.replace('-', "_");
-    edits.create(&format!("{RULES}/{module}.rs"), rule(code, name, severity))?;
+    edits.create(
+        &format!("{RULES}/{module}.rs"),
+        rule(code, name, severity, &next_version(&edits)?),
+    )?;
     let list = format!("{RULES}/mod.rs");
     edits.set(&list, register(&edits.read(&list)?, &module, &list)?);
     for case in ["invalid", "near_miss"] {
@@ -40,7 +43,7 @@ pub fn make(root: &Path, code: &str, name: &str, severity_word: &str) -> Result<
     ))
 }
 
-fn rule(code: &str, name: &str, severity: &str) -> String {
+fn rule(code: &str, name: &str, severity: &str, since: &str) -> String {
     format!(
         r#"use crate::rule::declare_lint;
 use crate::subject::Subject;
@@ -50,7 +53,7 @@ declare_lint! {{
     /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: what goes wrong in which program, and what to do.
-    {code} "{name}", {severity}, WrongMotion, since "1.3.0", off by default
+    {code} "{name}", {severity}, WrongMotion, since "{since}", off by default
 }}
 
 fn check(urdf: &Subject, findings: &mut Findings) -> Option<()> {{

@@ -9,6 +9,7 @@ pub const CODES: &str = "crates/urdd-findings/src/code.rs";
 const RULES: &str = "crates/urdd-validate/src/rules";
 const ALL: &str = "crates/urdd-validate/src/rules/mod.rs";
 const SPEC: &str = "SPEC.md";
+const CHANGES: &str = "CHANGELOG.md";
 const CASES: &str = "conformance/cases";
 const BASES: &str = "tests/rules/bases.rs";
 
@@ -62,7 +63,8 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
     let types = edits.read(&format!("crates/urdd-format/src/{room}.rs"));
     let has_values = types.is_ok_and(|text| text.contains("pub values: Vec<f64>,"));
     let about = has_values.then_some(room.as_str());
-    edits.create(&rule_path, rule(code, name, severity, clause, about))?;
+    let since = next_version(&edits)?;
+    edits.create(&rule_path, rule(code, name, severity, clause, &since, about))?;
     let list = format!("{RULES}/{room}/mod.rs");
     edits.set(&list, register(&edits.read(&list)?, &module, &list)?);
     let mut steps = Vec::new();
@@ -71,7 +73,11 @@ pub fn make(root: &Path, new: &NewRule) -> Result<String, String> {
             "Say it in {SPEC}: one sentence with MUST or SHOULD, and [{code}] after it; write its clause into {rule_path}."
         ));
     } else {
-        edits.set(SPEC, mark_clause(&edits.read(SPEC)?, clause, code)?);
+        let spec = edits.read(SPEC)?;
+        edits.set(SPEC, mark_clause(&spec, clause, code)?);
+        if let Some(room) = about {
+            check_clause(&spec, clause, room)?;
+        }
         steps.push(format!("Say it in {SPEC}, clause {clause}: one sentence with MUST or SHOULD, instead of the TODO."));
     }
     let cases = format!("{CASES}/{code}.json");
@@ -248,7 +254,34 @@ fn mark_clause(text: &str, clause: &str, code: &str) -> Result<String, String> {
     Ok(format!("{} TODO: say what MUST or SHOULD be. [{code}]{tail}", head.trim_end()))
 }
 
-fn rule(code: &str, name: &str, severity: &str, clause: &str, module: Option<&str>) -> String {
+/// The version that is being made: the first of CHANGELOG.md.
+pub fn next_version(edits: &Edits) -> Result<String, String> {
+    let text = edits.read(CHANGES)?;
+    let first = text.lines().find_map(|line| line.strip_prefix("## ")?.split_once(','));
+    let (version, _) = first.ok_or(format!("{CHANGES} has no version"))?;
+    Ok(version.to_owned())
+}
+
+/// A clause about another module would get the code in silence.
+fn check_clause(text: &str, clause: &str, room: &str) -> Result<(), String> {
+    let before = text.split(&format!("\n**{clause}**")).next().unwrap_or_default();
+    let heading = before.lines().rfind(|line| line.starts_with("##")).unwrap_or_default();
+    match heading.contains(&format!("`{room}_module`")) {
+        true => Ok(()),
+        false => Err(format!(
+            "clause {clause} is not about {room}_module: it stands below \"{heading}\""
+        )),
+    }
+}
+
+fn rule(
+    code: &str,
+    name: &str,
+    severity: &str,
+    clause: &str,
+    since: &str,
+    module: Option<&str>,
+) -> String {
     // Rules about unusual robots judge the source.
     let need = match (module, code.starts_with("SRC")) {
         (Some(room), _) => format!("ModuleV1(Kind::{})", camel(room)),
@@ -275,7 +308,7 @@ declare_rule! {{
     /// TODO: what is wrong, in one sentence.
     ///
     /// TODO: why it matters, and what to do.
-    {code} "{name}", {severity}, clause "{clause}", since "1.0.0",
+    {code} "{name}", {severity}, clause "{clause}", since "{since}",
     phase References, needs [{need}],
 }}
 

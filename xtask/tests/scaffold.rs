@@ -30,6 +30,7 @@ fn source() -> TempDir {
         "crates/urdd-findings/src/code.rs",
         "crates/urdd-validate/src/rules",
         "SPEC.md",
+        "CHANGELOG.md",
         "conformance/cases",
         "tests/rules/bases.rs",
         "crates/urdd-lint/src/rules",
@@ -149,6 +150,9 @@ fn a_module_and_a_family_of_rules_get_all_of_their_files() {
     let first = format!("{clause}.1");
     succeeds("new-module", &["battery_pack"]);
     succeeds("new-rule", &["BAT001", "no-values", "--family", "battery_pack", "--clause", &first]);
+    let elsewhere = new_rule(root, &["BAT002", "odd-values", "--clause", "6.1.7"]);
+    let said = String::from_utf8_lossy(&elsewhere.stderr).into_owned();
+    assert!(said.contains("6.1.7 is not about battery_pack_module"), "{said}");
     succeeds("new-rule", &["BAT002", "odd-values", "--clause", &first]);
 
     for (path, words) in [
