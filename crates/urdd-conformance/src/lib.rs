@@ -6,6 +6,7 @@
 //! base with changes. It becomes a [`tree::Tree`], which is written to disk for validation.
 
 pub mod archive;
+mod batch;
 pub mod case;
 pub mod catalogue;
 pub mod change;

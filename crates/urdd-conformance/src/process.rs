@@ -29,6 +29,10 @@ pub enum End {
     TimeLimit,
     /// Failed to start.
     NotStarted(String),
+    /// In a batch: ended, or closed its output, without an answer.
+    NoAnswer,
+    /// In a batch: an answer that begins with no number.
+    NotAVerdict(String),
 }
 
 impl std::fmt::Display for End {
@@ -38,6 +42,10 @@ impl std::fmt::Display for End {
             End::Signal(signal) => write!(f, "ended by {signal}"),
             End::TimeLimit => f.write_str("stopped at the time limit"),
             End::NotStarted(error) => write!(f, "could not be started: {error}"),
+            End::NoAnswer => f.write_str("ended without an answer"),
+            End::NotAVerdict(answer) => {
+                write!(f, "answered {answer:?}, which begins with no number")
+            }
         }
     }
 }
@@ -65,6 +73,11 @@ const CRASHES: &[&str] = &[
 ];
 
 impl Ran {
+    /// A command that printed nothing.
+    pub(crate) fn without_output(end: End) -> Self {
+        Ran { end, stdout: String::new(), stderr: String::new(), codes: BTreeSet::new() }
+    }
+
     /// Whether it seems to have crashed, so that its exit status says nothing.
     pub fn looks_crashed(&self) -> bool {
         CRASHES.iter().any(|words| self.stderr.contains(words))
@@ -86,6 +99,9 @@ pub enum TemplateError {
     /// A placeholder is missing.
     #[error("the command has no {{{0}}}; put it where the path belongs")]
     Missing(&'static str),
+    /// A placeholder where there is none.
+    #[error("with --batch, folders are lines of standard input: leave {{{0}}} out of the command")]
+    Batch(&'static str),
 }
 
 impl Template {
@@ -105,6 +121,18 @@ impl Template {
         }
         let words = words.to_vec();
         Ok(Template { words })
+    }
+
+    /// A command that gets its folders one by one, and so has no placeholder.
+    ///
+    /// # Errors
+    /// If the command is empty, or has the placeholder.
+    pub fn batch(words: &[String], name: &'static str) -> Result<Template, TemplateError> {
+        let template = Template::new(words, &[])?;
+        match Template::new(words, &[name]) {
+            Ok(_) => Err(TemplateError::Batch(name)),
+            Err(_) => Ok(template),
+        }
     }
 
     /// The words as given.
@@ -133,14 +161,7 @@ impl Template {
         command.args(words.map(filled));
         let mut running = match Running::start(command) {
             Ok(running) => running,
-            Err(error) => {
-                return Ok(Ran {
-                    end: End::NotStarted(error.to_string()),
-                    stdout: String::new(),
-                    stderr: String::new(),
-                    codes: BTreeSet::new(),
-                });
-            }
+            Err(error) => return Ok(Ran::without_output(End::NotStarted(error.to_string()))),
         };
         let (stdout, stderr) = running.streams();
         let (stdout, stderr) = (stdout.map(Tail::of), stderr.map(Tail::of));
@@ -165,13 +186,13 @@ fn end(status: ExitStatus) -> End {
 }
 
 /// The end of a stream, and the codes in it. It is read concurrently so that the command never blocks on a full pipe.
-struct Tail {
+pub(crate) struct Tail {
     kept: Arc<Mutex<(VecDeque<u8>, Scan)>>,
     reader: JoinHandle<()>,
 }
 
 impl Tail {
-    fn of(mut stream: impl Read + Send + 'static) -> Tail {
+    pub(crate) fn of(mut stream: impl Read + Send + 'static) -> Tail {
         let kept = Arc::new(Mutex::new((VecDeque::new(), Scan::default())));
         let shared = kept.clone();
         let reader = thread::spawn(move || {
@@ -188,7 +209,7 @@ impl Tail {
         Tail { kept, reader }
     }
 
-    fn finish(self) -> (String, BTreeSet<Code>) {
+    pub(crate) fn finish(self) -> (String, BTreeSet<Code>) {
         let start = Instant::now();
         while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
             thread::sleep(PAUSE);

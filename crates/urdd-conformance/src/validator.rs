@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use semver::Version;
 use serde::Serialize;
 
+use crate::batch::Batch;
 use crate::case::{Case, Kind, Verdict};
 use crate::catalogue::{Item, items};
 use crate::data::{ROBOTS, VALID};
@@ -33,8 +34,10 @@ use urdd_validate::code::Code;
 /// Settings of a validator run.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    /// The command, with `{dir}`.
+    /// The command, with `{dir}` unless it is a batch.
     pub command: Template,
+    /// Whether a process of the command judges many URDDs.
+    pub is_batch: bool,
     /// The version of the specification that the validator implements.
     pub spec_version: Version,
     /// Time limit per URDD.
@@ -136,8 +139,9 @@ pub fn run(
             },
         )?;
     }
+    let batch = plan.is_batch.then(|| Batch::new(plan.command.words()));
     let judge = |urdd: &Chosen| -> Result<Option<Ran>, RunError> {
-        let ran = judge(plan, suite, urdd, &folder)?;
+        let ran = judge(plan, batch.as_ref(), suite, urdd, &folder)?;
         match &ran {
             Some(ran) => observe(&Event::Judged(Judged {
                 id: &urdd.item.id,
@@ -197,6 +201,7 @@ fn is_legacy(item: &Item) -> bool {
 /// Runs the command on one URDD; `None` if this operating system cannot represent it.
 fn judge(
     plan: &Plan,
+    batch: Option<&Batch>,
     suite: &Suite,
     urdd: &Chosen,
     folder: &Workplace,
@@ -217,7 +222,10 @@ fn judge(
     let Some(shown) = shown else {
         return Ok(None);
     };
-    let ran = plan.command.run(&[("dir", &shown)], plan.limit, &plan.cancellation)?;
+    let ran = match batch {
+        None => plan.command.run(&[("dir", &shown)], plan.limit, &plan.cancellation)?,
+        Some(batch) => batch.ask(&shown, plan.limit, &plan.cancellation)?,
+    };
     if let (Some(case), Some(around), None) = (urdd.case, path.parent(), &plan.keep) {
         debug_assert!(path.ends_with(case.urdd()));
         fs::remove_dir_all(around)

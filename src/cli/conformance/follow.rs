@@ -88,6 +88,15 @@ impl Follow {
         self.bar.tick();
     }
 
+    /// Prints a line while it runs.
+    pub fn say(&self, line: &str) {
+        match self.lines {
+            // Nobody may read it.
+            Some(_) => drop(writeln!(std::io::stderr().lock(), "{line}")),
+            None => self.bar.println(line),
+        }
+    }
+
     /// Records a finished item.
     pub fn done(&self, wrong: bool, result: Option<&impl Serialize>) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);

@@ -42,6 +42,12 @@ pub struct ValidatorArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(i32).range(1..=255))]
     reject_status: i32,
 
+    /// Judges many URDDs by one process, for a validator that starts slowly: the command has no {dir}, reads a folder a line
+    /// from standard input, and answers each with a line that begins with the exit status it would have had, such as `0` or
+    /// `1 DOF003`. It flushes each answer. Each of --jobs has a process of its own.
+    #[arg(long)]
+    batch: bool,
+
     #[command(flatten)]
     run: RunArguments,
 }
@@ -52,10 +58,14 @@ pub fn run(arguments: &ValidatorArguments) -> ExitCode {
 }
 
 fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, String> {
-    let command =
-        Template::new(&arguments.run.command, &["dir"]).map_err(|error| error.to_string())?;
+    let command = match arguments.batch {
+        true => Template::batch(&arguments.run.command, "dir"),
+        false => Template::new(&arguments.run.command, &["dir"]),
+    };
+    let command = command.map_err(|error| error.to_string())?;
     let plan = Plan {
         command,
+        is_batch: arguments.batch,
         spec_version: arguments.spec_version.clone(),
         limit: arguments.run.limit(),
         skips: arguments.run.skips(1, SKIP_FORM)?,
@@ -70,7 +80,12 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Str
     let follow = arguments.run.follow()?;
     let observe = |event: &Event| match event {
         Event::Start(of) => follow.start(*of),
-        Event::Judged(judged) => follow.done(judged.fault.is_some(), Some(judged)),
+        Event::Judged(judged) => {
+            if let Some(fault) = judged.fault {
+                follow.say(&format!("{} {}: {}", judged.id, named(fault), judged.end));
+            }
+            follow.done(judged.fault.is_some(), Some(judged));
+        }
         Event::NotRun => follow.done(false, None::<&Judged>),
     };
     let result = run_validator(&plan, &suite, &observe).map_err(|error| error.to_string());
@@ -82,13 +97,17 @@ fn result(arguments: &ValidatorArguments, signals: &Signals) -> Result<bool, Str
     Ok(result.passed)
 }
 
+fn named(fault: CaseFault) -> &'static str {
+    match fault {
+        CaseFault::Missed => "missed",
+        CaseFault::FalseAlarm => "FALSE ALARM",
+        CaseFault::Undecided => "no verdict",
+    }
+}
+
 fn human(result: &ValidatorResult, out: &mut String) -> std::fmt::Result {
     for case in &result.wrong {
-        let fault = match case.fault {
-            CaseFault::Missed => "missed",
-            CaseFault::FalseAlarm => "FALSE ALARM",
-            CaseFault::Undecided => "no verdict",
-        };
+        let fault = named(case.fault);
         let skipped = match &case.skipped_since {
             Some(reason) => format!(" (skipped: {reason})"),
             None => String::new(),

@@ -14,7 +14,7 @@ mod linux;
 mod other;
 
 use std::io;
-use std::process::{ChildStderr, ChildStdout, Command, ExitStatus, Stdio};
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -51,6 +51,17 @@ impl Running {
     pub fn start(mut command: Command) -> io::Result<Running> {
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         Tree::start(command).map(Running)
+    }
+
+    /// Starts a program as [`Running::start`] does, with a pipe for its standard input.
+    ///
+    /// # Errors
+    /// If it cannot be started.
+    pub fn start_with_input(mut command: Command) -> io::Result<(Running, ChildStdin)> {
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut tree = Tree::start(command)?;
+        let input = tree.input().ok_or(io::ErrorKind::BrokenPipe)?;
+        Ok((Running(tree), input))
     }
 
     /// Its standard output and standard error; only the first call returns them.

@@ -1,7 +1,7 @@
 //! Programs on systems other than Linux: process groups or job objects.
 
 use std::io;
-use std::process::{ChildStderr, ChildStdout, Command, ExitStatus};
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
 
 use process_wrap::std::{ChildWrapper, CommandWrap};
 
@@ -15,6 +15,10 @@ impl Tree {
         #[cfg(windows)]
         command.wrap(process_wrap::std::JobObject);
         command.spawn().map(Tree)
+    }
+
+    pub fn input(&mut self) -> Option<ChildStdin> {
+        self.0.stdin().take()
     }
 
     pub fn streams(&mut self) -> (Option<ChildStdout>, Option<ChildStderr>) {
