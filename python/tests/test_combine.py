@@ -117,7 +117,7 @@ def write(folder: Path, text: str) -> Path:
         ("name = ", "string|value", (1, 8)),
         ('nmae = "a"\n', "did you mean `name`", (1, 1)),
         ('name = "a"\n', "there is no part", None),
-        ('[[part]]\nid = "a"\n', "`source` is missing", (1, 1)),
+        ('[[part]]\nid = "a"\n', "missing field `source`", (1, 1)),
         ('[[part]]\nid = "a"\nsource = 3\n', "string", (3, 10)),
         (
             '[[part]]\nid = "arm"\nsource = "ARM"\n\n[[part]]\nid = "b"\nsource = "ARM"\n'

@@ -1,6 +1,5 @@
 //! `urdd combine`.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -77,8 +76,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     process::adopt_orphans();
     let mut settings = arguments.making.settings(Vec::new(), &signals)?;
     let pool = arguments.making.pool()?;
-    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
-    let printer = Printer::new(arguments.making.format, false, is_terminal);
+    let printer = Printer::new(arguments.making.format, false);
     if let (Some(legacy), None) = (&arguments.from, &arguments.output) {
         return print_recipe(legacy);
     }
@@ -86,10 +84,10 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
     let source = arguments.from.as_ref().or(arguments.sources.first());
     let job =
         Job { source: source.cloned().unwrap_or_default(), name: target.display().to_string() };
-    let mut unsaid = Vec::new();
+    let mut legacy_notes = Vec::new();
     let recipe = match (arguments.sources.as_slice(), &arguments.at) {
         ([], _) => Recipe::of_legacy(&job.source).map(|(recipe, notes)| {
-            unsaid = notes;
+            legacy_notes = notes;
             recipe
         }),
         ([file], None) => Recipe::read(file),
@@ -119,7 +117,7 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
                 |part: &Path| urdd_validate::find_errors(part, &settings.cancellation);
             let distrusted = check_parts(&recipe, &settings, find_errors)?;
             let mut made = combine(&recipe, &target, &settings, &distrusted, &*progress)?;
-            made.notes.splice(..0, unsaid);
+            made.notes.splice(..0, legacy_notes);
             Ok(made)
         })
     });
@@ -138,7 +136,9 @@ fn put_together(arguments: &CombineArguments) -> Result<u8, String> {
 
 /// Prints the recipe of a legacy URDD, and what it leaves open.
 fn print_recipe(legacy: &Path) -> Result<u8, String> {
-    match Recipe::of_legacy(legacy) {
+    let here = std::env::current_dir().unwrap_or_default();
+    let recipe = Recipe::of_legacy(legacy);
+    match recipe.and_then(|(recipe, notes)| Ok((recipe.to_toml(&here)?, notes))) {
         Err(error) => {
             output::error(&error.to_string());
             Ok(FAILED)
@@ -147,8 +147,7 @@ fn print_recipe(legacy: &Path) -> Result<u8, String> {
             for note in notes {
                 output::error(&format!("note: {note}"));
             }
-            let here = std::env::current_dir().unwrap_or_default();
-            output::print_raw(&recipe.to_toml(&here)).map(|()| 0)
+            output::print_raw(&recipe).map(|()| 0)
         }
     }
 }

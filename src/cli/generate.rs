@@ -1,6 +1,6 @@
 //! `urdd generate`.
 
-use std::io::{IsTerminal, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -72,11 +72,7 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
             "`-` cannot be part of a batch: it reads one robot from standard input".to_owned()
         );
     }
-    let printer = Printer::new(
-        arguments.making.format,
-        is_batch,
-        std::io::stderr().is_terminal() && !output::is_dumb(),
-    );
+    let printer = Printer::new(arguments.making.format, is_batch);
     let failed = if is_batch {
         let mut jobs =
             robots::jobs(&robots).map_err(|error| escape::line(&error.to_string()).into_owned())?;
@@ -94,8 +90,8 @@ fn generate(arguments: &GenerateArguments) -> Result<u8, String> {
         if arguments.shard.is_some() {
             return Err("--shard is for batches: give several robots, or a folder".to_owned());
         }
-        let source = robots.into_iter().next();
-        let source = source.ok_or("no robot given; give a URDF or xacro file")?;
+        let source =
+            robots.into_iter().next().ok_or("no robot given; give a URDF or xacro file")?;
         check_used(arguments, &settings, [source.as_path()])?;
         one(source, &arguments.output, &settings, &pool, &printer)?
     };
@@ -138,17 +134,13 @@ fn one(
     printer: &Printer,
 ) -> Result<usize, String> {
     use urdd_generate::batch::Observer;
-    let piped = match source.as_os_str() == STANDARD_INPUT {
-        true => Some(standard_input()?),
-        false => None,
-    };
+    let piped = if source.as_os_str() == STANDARD_INPUT { Some(standard_input()?) } else { None };
     let job = Job { source, name: output.display().to_string() };
     let progress = printer.begin_robot(&job);
     let outcome = pool.install(|| {
         batch::caught(&job.source, || match piped {
             Some(urdf) => {
-                let shown = "standard input";
-                generate_text(urdf, shown, Path::new("."), output, settings, &*progress)
+                generate_text(urdf, "standard input", Path::new("."), output, settings, &*progress)
             }
             None => urdd_generate::generate(&job.source, output, settings, &*progress),
         })

@@ -1,6 +1,7 @@
 //! The output of `urdd generate`: results, notes, and progress on a terminal.
 
 use std::collections::BTreeMap;
+use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 
 use clap::ValueEnum;
@@ -17,7 +18,7 @@ use urdd_generate::{GenerateError, Generated, Progress, SourceError};
 use urdd_source::robots::Job;
 
 /// Maximum number of notes of a kind that are printed individually.
-const MOST_TOLD: usize = 3;
+const MAX_NOTES: usize = 3;
 
 /// How results are written.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -52,7 +53,8 @@ struct Bars {
 }
 
 impl Printer {
-    pub(super) fn new(format: Format, is_batch: bool, is_terminal: bool) -> Self {
+    pub(super) fn new(format: Format, is_batch: bool) -> Self {
+        let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
         let bars =
             is_terminal.then(|| Bars { all: MultiProgress::new(), batch: ProgressBar::hidden() });
         Printer { format, is_batch, bars, unprinted: Mutex::new(None), totals: Mutex::default() }
@@ -104,16 +106,11 @@ impl Printer {
     pub(super) fn combined(&self, job: &Job, outcome: &Result<Combined, CombineError>) {
         match (self.format, outcome) {
             (Format::Json, Ok(made)) => self.print(&line(&combined_as_json(job, made))),
-            (Format::Json, Err(error)) => self.print(&line(&json!({
-                "source": job.source.display().to_string(),
-                "output": job.name,
-                "status": "failed",
-                "error": { "code": error.code(), "message": error.to_string() },
-            }))),
+            (Format::Json, Err(error)) => self.print(&line(&failure(job, error.code(), error))),
             (Format::Human, Ok(made)) => {
                 self.print(&summary(job, &made.generated));
                 let notes = made.notes.iter().map(|note| format!("note: {note}"));
-                for text in notes.chain(notes_told(&made.generated.notes, false)) {
+                for text in notes.chain(note_lines(&made.generated.notes, false)) {
                     self.error(&text);
                 }
             }
@@ -166,7 +163,7 @@ impl Observer for Printer {
             (Format::Json, outcome) => self.print(&line(&as_json(job, outcome))),
             (Format::Human, Ok(made)) => {
                 self.print(&summary(job, made));
-                for text in notes_told(&made.notes, self.is_batch) {
+                for text in note_lines(&made.notes, self.is_batch) {
                     self.error(&text);
                 }
             }
@@ -254,19 +251,19 @@ fn summary(job: &Job, made: &Generated) -> String {
 }
 
 /// Notes as lines. Folds many notes of a kind into one line; in a batch, all notes of a kind.
-fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
+fn note_lines(notes: &[Note], is_batch: bool) -> Vec<String> {
     let mut by_kind: BTreeMap<NoteKind, Vec<&Note>> = BTreeMap::new();
     for note in notes {
         by_kind.entry(note.kind).or_default().push(note);
     }
-    let most = if is_batch { 1 } else { MOST_TOLD };
+    let most = if is_batch { 1 } else { MAX_NOTES };
     let mut lines = Vec::new();
     for (kind, notes) in by_kind {
         // Folding a single remaining note would not save a line.
-        let told = if notes.len() <= most + 1 { notes.len() } else { most };
-        lines.extend(notes[..told].iter().map(|note| format!("note: {note}")));
-        if told < notes.len() {
-            let more = notes.len() - told;
+        let shown = if notes.len() <= most + 1 { notes.len() } else { most };
+        lines.extend(notes[..shown].iter().map(|note| format!("note: {note}")));
+        if shown < notes.len() {
+            let more = notes.len() - shown;
             lines.push(format!(
                 "note: and {more} more of this kind ({}); --format json lists them all",
                 kind.as_str()
@@ -277,12 +274,10 @@ fn notes_told(notes: &[Note], is_batch: bool) -> Vec<String> {
 }
 
 fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
-    let mut object = json!({
-        "source": job.source.display().to_string(),
-        "output": job.name,
-    });
-    let more = match outcome {
+    match outcome {
         Ok(made) => json!({
+            "source": job.source.display().to_string(),
+            "output": job.name,
             "status": if made.changed { "generated" } else { "unchanged" },
             "robot": made.robot_name,
             "links": made.num_links,
@@ -299,15 +294,21 @@ fn as_json(job: &Job, outcome: &Result<Generated, GenerateError>) -> Value {
             },
             "notes": made.notes.iter().map(note_as_json).collect::<Vec<_>>(),
         }),
-        Err(error) => json!({
-            "status": "failed",
-            "error": { "code": error.code(), "message": error.to_string(), "faults": faults(error) },
-        }),
-    };
-    if let (Some(object), Value::Object(more)) = (object.as_object_mut(), more) {
-        object.extend(more);
+        Err(error) => {
+            let mut failed = failure(job, error.code(), error);
+            failed["error"]["faults"] = faults(error).into();
+            failed
+        }
     }
-    object
+}
+
+fn failure(job: &Job, code: &str, error: &impl ToString) -> Value {
+    json!({
+        "source": job.source.display().to_string(),
+        "output": job.name,
+        "status": "failed",
+        "error": { "code": code, "message": error.to_string() },
+    })
 }
 
 fn combined_as_json(job: &Job, made: &Combined) -> Value {
@@ -338,8 +339,7 @@ fn faults(error: &GenerateError) -> Vec<Value> {
         GenerateError::Source(SourceError::Refused { faults, .. }) => faults.as_slice(),
         _ => &[],
     };
-    let told = faults.iter().map(|placed| {
+    faults.iter().map(|placed| {
         json!({ "line": placed.line, "column": placed.column, "message": placed.fault.to_string() })
-    });
-    told.collect()
+    }).collect()
 }

@@ -1,6 +1,6 @@
 //! `urdd view`.
 
-use std::io::{BufRead, IsTerminal, Read, Write};
+use std::io::{BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -113,11 +113,10 @@ fn view(arguments: &ViewArguments) -> Result<u8, Failure> {
         add(path, arguments.xacro.xacro, &collection)?;
     }
     let robots = collection.robots();
-    let is_terminal = std::io::stderr().is_terminal() && !output::is_dumb();
     let live = Live {
         folder: temporary.path(),
         settings: &settings,
-        observer: &Printer::new(Format::Human, false, is_terminal),
+        observer: &Printer::new(Format::Human, false),
         pause: FIRST_THE_PICTURE,
     };
     if let Some(folder) = &arguments.export {

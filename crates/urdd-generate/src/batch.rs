@@ -38,8 +38,7 @@ impl std::str::FromStr for Shard {
 impl Shard {
     /// The jobs of this shard.
     pub fn of(self, jobs: Vec<Job>) -> Vec<Job> {
-        let mine = jobs.into_iter().enumerate();
-        let mine = mine.filter(|(idx, _)| idx % self.of == self.number - 1);
+        let mine = jobs.into_iter().enumerate().filter(|(idx, _)| idx % self.of == self.number - 1);
         mine.map(|(_, job)| job).collect()
     }
 }
@@ -87,11 +86,9 @@ pub fn caught(
     make: impl FnOnce() -> Result<Generated, GenerateError>,
 ) -> Result<Generated, GenerateError> {
     catch_unwind(AssertUnwindSafe(make)).unwrap_or_else(|crash| {
-        let words = crash.downcast_ref::<String>().cloned();
-        let words = words.or_else(|| crash.downcast_ref::<&str>().map(|text| (*text).to_owned()));
-        Err(GenerateError::Internal {
-            file: source.display().to_string(),
-            reason: words.unwrap_or_else(|| "it crashed".to_owned()),
-        })
+        let words = crash.downcast_ref::<String>().map(String::as_str);
+        let words = words.or_else(|| crash.downcast_ref::<&str>().copied());
+        let file = source.display().to_string();
+        Err(GenerateError::internal(&file, words.unwrap_or("it crashed")))
     })
 }

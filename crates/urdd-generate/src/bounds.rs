@@ -6,7 +6,6 @@ use urdd_format::bounds::BoundsModule;
 use urdd_format::dof::{DofModule, Quantity};
 use urdd_format::urdf::{JointType, UrdfModule};
 
-/// Builds the module.
 pub(super) fn bounds_module(robot: &UrdfModule, dof: &DofModule) -> BoundsModule {
     let mut module = BoundsModule {
         bounds: Vec::new(),

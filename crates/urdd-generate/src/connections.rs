@@ -108,10 +108,7 @@ fn descents(root_paths: &[LinkPath]) -> Vec<Vec<Option<Vec<LinkIdx>>>> {
         to.map(|(to, path)| {
             let own = LinkIdx(from as u32);
             let depth = path.links.iter().position(|link| *link == own)?;
-            match to == from {
-                true => Some(vec![own]),
-                false => Some(path.links[depth + 1..].to_vec()),
-            }
+            if to == from { Some(vec![own]) } else { Some(path.links[depth + 1..].to_vec()) }
         })
         .collect()
     };

@@ -2,28 +2,26 @@
 
 use super::donor::edits::{Decisions, Edits};
 use super::error::GenerateError;
-use super::kinematics_samples::SamplesError;
+use super::kinematics_samples::kinematics_samples_module;
 use super::meshes::names::mesh_files;
 use super::named::Named;
 use super::progress::Progress;
 use super::settings::Settings;
-use super::shapes::statistics::Kinematics;
-use super::{bounds, chain, dof, kinematics_samples};
+use super::{bounds, chain, dof};
 use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
 use urdd_format::composition::CompositionModule;
 use urdd_format::dof::DofModule;
-use urdd_format::kinematics_samples::KinematicsSamplesModule;
+use urdd_format::kinematics_samples::{ConfigurationKind, KinematicsSamplesModule};
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::MeshFiles;
 use urdd_format::registry::ModuleKind;
-use urdd_kinematics::ConfigurationError;
+use urdd_kinematics::{ConfigurationError, ConfigurationSpace, ForwardKinematics, KinematicsError};
 use urdd_source::Source;
 use urdd_source::fault::Fault;
 use urdd_source::note::{Note, NoteKind};
 use urdd_source::urdf::shortened;
 
-/// What all stages may use.
 pub(crate) struct Context<'a> {
     pub source: &'a Source,
     pub settings: &'a Settings,
@@ -34,6 +32,8 @@ pub(crate) struct Context<'a> {
     pub dof: DofModule,
     pub chain: ChainModule,
     pub bounds: BoundsModule,
+    pub space: ConfigurationSpace,
+    pub kinematics: ForwardKinematics,
     pub samples: KinematicsSamplesModule,
     /// The user's edits of the skips.
     pub edits: Edits,
@@ -41,11 +41,11 @@ pub(crate) struct Context<'a> {
     pub named: Named,
 }
 
-/// The fault of a robot whose poses cannot be computed; names the joint above the link where it shows.
-fn no_poses(error: &SamplesError, chain: &ChainModule) -> Fault {
-    let SamplesError::Sample { kind, error: ConfigurationError::Overflow { link_idx } } = error
-    else {
-        return Fault::NoPoses(error.to_string());
+/// The fault of a robot whose poses cannot be computed in a configuration; names the joint above the link where it
+/// shows.
+fn no_poses(kind: ConfigurationKind, error: &ConfigurationError, chain: &ChainModule) -> Fault {
+    let ConfigurationError::Overflow { link_idx } = error else {
+        return Fault::NoPoses(format!("{kind}: {error}"));
     };
     let mut joints = chain.joints_in_chain.iter();
     let joint = joints.find(|joint| joint.child_link_idx.get() == *link_idx);
@@ -72,8 +72,11 @@ impl<'a> Context<'a> {
         let dof = dof::dof_module(&reading.robot, &reading.tree).map_err(refused)?;
         let chain = chain::chain_module(&reading.robot, &reading.tree);
         let bounds = bounds::bounds_module(&reading.robot, &dof);
-        let samples = kinematics_samples::kinematics_samples_module(&dof, &chain, &bounds)
-            .map_err(|error| refused(no_poses(&error, &chain)))?;
+        let overflow = |error: KinematicsError| refused(Fault::NoPoses(error.to_string()));
+        let space = ConfigurationSpace::new(&dof, &chain, &bounds).map_err(overflow)?;
+        let kinematics = ForwardKinematics::new(&chain, &dof).map_err(overflow)?;
+        let samples = kinematics_samples_module(&space, &kinematics)
+            .map_err(|(kind, error)| refused(no_poses(kind, &error, &chain)))?;
         Ok(Context {
             named: Named::of(&decisions.configurations, &dof, &bounds),
             edits: Edits::of(decisions, &chain),
@@ -84,13 +87,10 @@ impl<'a> Context<'a> {
             dof,
             chain,
             bounds,
+            space,
+            kinematics,
             samples,
         })
-    }
-
-    /// The modules from which configurations and link poses are computed.
-    pub fn kinematics(&self) -> Kinematics<'_> {
-        (&self.dof, &self.chain, &self.bounds)
     }
 
     /// The skip reasons of the settings, otherwise those of the user's decisions; sorted, without duplicates.
@@ -110,8 +110,7 @@ impl<'a> Context<'a> {
 
     /// Reports that a module's work on a mesh of a link is finished.
     pub fn finished(&self, kind: ModuleKind, link: usize) {
-        let name = &self.chain.links_in_chain[link].name;
-        self.progress.link(kind, name);
+        self.progress.link(kind, &self.chain.links_in_chain[link].name);
     }
 
     /// A note about the whole robot.
@@ -127,7 +126,7 @@ impl<'a> Context<'a> {
     }
 
     /// The error for geometry out of the range that can be computed.
-    pub fn unmeasurable(&self, reason: String) -> GenerateError {
-        GenerateError::Geometry { file: self.source.shown.clone(), reason }
+    pub fn unmeasurable(&self, reason: impl ToString) -> GenerateError {
+        GenerateError::Geometry { file: self.source.shown.clone(), reason: reason.to_string() }
     }
 }

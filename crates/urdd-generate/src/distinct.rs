@@ -36,8 +36,7 @@ pub fn for_each_content<T: Clone + Send>(
         Ok(work(first, mesh))
     });
     let made: Vec<T> = made.collect::<Result<_, Cancelled>>()?;
-    let made = places.into_iter().map(|place| made[place].clone());
-    Ok(made.collect())
+    Ok(places.into_iter().map(|place| made[place].clone()).collect())
 }
 
 /// A mesh, compared by the bits of its numbers. Its hash is that of a few of them: hashing all took longer than comparing

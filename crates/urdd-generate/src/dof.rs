@@ -6,26 +6,18 @@ use urdd_format::urdf::{JointType, UrdfModule};
 use urdd_source::fault::Fault;
 use urdd_source::urdf::Tree;
 
-const TRANSLATIONS: [(&str, Quantity); 3] = [
-    ("/trans_x", Quantity::Length),
-    ("/trans_y", Quantity::Length),
-    ("/trans_z", Quantity::Length),
-];
-const ROTATIONS: [(&str, Quantity); 3] =
-    [("/rot_x", Quantity::Angle), ("/rot_y", Quantity::Angle), ("/rot_z", Quantity::Angle)];
-
 /// The name suffix and the quantity of each DOF of a joint (SPEC 5.8).
 fn dofs_of(joint_type: JointType) -> Vec<(&'static str, Quantity)> {
+    use Quantity::{Angle, Length};
+    let translations = [("/trans_x", Length), ("/trans_y", Length), ("/trans_z", Length)];
+    let rotations = [("/rot_x", Angle), ("/rot_y", Angle), ("/rot_z", Angle)];
     match joint_type {
         JointType::Fixed => Vec::new(),
-        JointType::Revolute | JointType::Continuous => vec![("", Quantity::Angle)],
-        JointType::Prismatic => vec![("", Quantity::Length)],
-        JointType::Planar => {
-            let [x, y, _] = TRANSLATIONS;
-            vec![x, y, ("/rot", Quantity::Angle)]
-        }
-        JointType::Floating => [TRANSLATIONS, ROTATIONS].concat(),
-        JointType::Spherical => ROTATIONS.to_vec(),
+        JointType::Revolute | JointType::Continuous => vec![("", Angle)],
+        JointType::Prismatic => vec![("", Length)],
+        JointType::Planar => [&translations[..2], &[("/rot", Angle)]].concat(),
+        JointType::Floating => [translations, rotations].concat(),
+        JointType::Spherical => rotations.to_vec(),
     }
 }
 
@@ -48,8 +40,7 @@ pub(super) fn dof_module(robot: &UrdfModule, tree: &Tree) -> Result<DofModule, F
                 });
             }
         }
-        let own = (first..dofs.len()).map(|dof| DofIdx(dof as u32));
-        joint_to_dofs.push(own.collect::<Vec<_>>());
+        joint_to_dofs.push((first..dofs.len()).map(|dof| DofIdx(dof as u32)).collect::<Vec<_>>());
     }
     let mimics = resolve(robot, tree, &joint_to_dofs)?;
     Ok(DofModule {

@@ -23,7 +23,7 @@ pub enum GenerateError {
     #[error(transparent)]
     Source(SourceError),
     /// The URDF names files outside its folders; it must not make the user publish them.
-    #[error("{}", OutsideMeshes(file, meshes))]
+    #[error("{}", outside_meshes(file, meshes))]
     Outside {
         /// The file, as the user named it.
         file: String,
@@ -31,7 +31,7 @@ pub enum GenerateError {
         meshes: Vec<OutsideMesh>,
     },
     /// Something had to be assumed, and `Settings::strict` forbids that.
-    #[error("{}", Assumptions(notes))]
+    #[error("{}", assumptions(notes))]
     Strict {
         /// What was assumed; never empty.
         notes: Vec<Note>,
@@ -136,30 +136,9 @@ impl GenerateError {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum EditsFault {
-    /// The file cannot be read.
-    #[error("the file cannot be read: {0}")]
-    Unreadable(String),
-    /// The document has no edits.
-    #[error("`edits` is missing")]
-    NoEdits,
-    /// `edits` is not a list.
-    #[error("`edits` must be a list")]
-    NotAList,
-    /// An edit is invalid.
-    #[error("this edit cannot be used: {0}")]
-    Edit(String),
-    /// A named configuration is invalid.
-    #[error("this configuration cannot be used: {}", escape::line(.0))]
-    Configuration(String),
-    /// An edit names a link that the URDD does not have.
-    #[error("this edit names the link `{}`, but the robot of this URDD has no such link", escape::line(.0))]
-    UnknownLink(String),
-    /// There is a YAML file but no JSON file.
-    #[error("this file may contain edits, but module.json is missing beside it")]
-    NoJson,
-    /// The YAML file differs from the JSON file.
-    #[error("this file differs from module.json, which takes precedence: {0}")]
-    Yaml(String),
+    /// They cannot be read, or cannot be used: what is wrong.
+    #[error("{0}")]
+    Unusable(String),
     /// The selected modules do not include the edits.
     #[error(
         "it holds {0} edit{s}, but the requested modules leave out link_shapes_skips_module; add `link_shapes_skips` to `--modules`",
@@ -181,44 +160,29 @@ pub struct OutsideMesh {
     pub path: PathBuf,
 }
 
-/// Formats meshes outside the allowed folders, one per line.
-struct OutsideMeshes<'a>(&'a str, &'a [OutsideMesh]);
-
-impl fmt::Display for OutsideMeshes<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let OutsideMeshes(file, meshes) = self;
-        let file = escape::line(file);
-        for mesh in meshes.iter().take(MOST_SHOWN) {
-            writeln!(
-                f,
-                "{file}:{}:{}: mesh `{}` is outside of the folders of the robot and its packages, at {}",
-                mesh.line,
-                mesh.column,
-                escape::line(&mesh.name),
-                escape::line(&mesh.path.display().to_string())
-            )?;
-        }
-        if meshes.len() > MOST_SHOWN {
-            writeln!(f, "{file}: and {} more such meshes", meshes.len() - MOST_SHOWN)?;
-        }
-        write!(
-            f,
-            "{file}: a URDD carries its meshes, and a URDF must not make you publish other files; if you want to publish these, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
-        )
-    }
+/// One line for each of the first items, and one with the number of the others, `more` of them.
+fn shown<T>(items: &[T], line: impl Fn(&T) -> String, more: impl Fn(usize) -> String) -> String {
+    let (first, others) = items.split_at(items.len().min(MOST_SHOWN));
+    let others = (!others.is_empty()).then(|| more(others.len()));
+    first.iter().map(line).chain(others).map(|line| line + "\n").collect()
 }
 
-/// Formats the notes that are errors, one per line.
-struct Assumptions<'a>(&'a [Note]);
+fn outside_meshes(file: &str, meshes: &[OutsideMesh]) -> String {
+    let file = escape::line(file);
+    let mesh = |OutsideMesh { line, column, name, path }: &OutsideMesh| {
+        let (name, path) = (escape::line(name), path.display().to_string());
+        let path = escape::line(&path);
+        format!(
+            "{file}:{line}:{column}: mesh `{name}` is outside of the folders of the robot and its packages, at {path}"
+        )
+    };
+    let lines = shown(meshes, mesh, |more| format!("{file}: and {more} more such meshes"));
+    format!(
+        "{lines}{file}: a URDD carries its meshes, and a URDF must not make you publish other files; if you want to publish these, give their folder: `--allow-folder FOLDER`, or `--package NAME=FOLDER`"
+    )
+}
 
-impl fmt::Display for Assumptions<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for note in self.0.iter().take(MOST_SHOWN) {
-            writeln!(f, "{note}")?;
-        }
-        if self.0.len() > MOST_SHOWN {
-            writeln!(f, "and {} more", self.0.len() - MOST_SHOWN)?;
-        }
-        f.write_str("nothing was written: --strict allows no assumption that changes the robot")
-    }
+fn assumptions(notes: &[Note]) -> String {
+    let lines = shown(notes, ToString::to_string, |more| format!("and {more} more"));
+    format!("{lines}nothing was written: --strict allows no assumption that changes the robot")
 }

@@ -9,10 +9,11 @@ use super::context::Context;
 use super::error::GenerateError;
 use super::made::{Digests, Made, made};
 use super::meshes::written::WrittenMesh;
-use crate::train::{self, MOST_PAIRS, NoModel, Subject, Useless};
+use crate::train::{self, MOST_PAIRS, NoModel, Subject};
 use urdd_directory::writer::sha256;
 use urdd_format::chain::ChainModule;
 use urdd_format::dof::Quantity;
+use urdd_format::escape;
 use urdd_format::index::DofIdx;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule;
@@ -21,7 +22,6 @@ use urdd_format::root_metadata::Sha256;
 use urdd_format::self_collision_model::{AngleInput, LengthInput, ModelInput, RotationVectorInput};
 use urdd_format::urdf::JointType;
 use urdd_geometry::convex::BodyPairs;
-use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 use urdd_source::note::NoteKind;
 
 /// Distances are clipped at this fraction of the largest distance between two hulls.
@@ -38,21 +38,12 @@ pub(super) fn self_collision_model(
     statistics: &LinkShapesDistanceStatisticsModule,
     digests: &Digests,
 ) -> Result<Made, GenerateError> {
-    let unusable = |error: &dyn std::fmt::Display| context.unmeasurable(error.to_string());
-    let (dof, chain, bounds) = context.kinematics();
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|e| unusable(&e))?;
-    let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(&e))?;
-    let pairs = pairs(pieces, skips).map_err(|e| unusable(&e))?;
+    let pairs = pairs(pieces, skips).map_err(|error| context.unmeasurable(error))?;
     let trained_on = trained_on(context, skips, digests);
-    let model = match pairs.bodies().len() > MOST_PAIRS {
-        true => Err(Useless::ManyPairs { most: MOST_PAIRS }),
-        false => inputs(context, &pairs),
-    };
-    let model = model.map_err(NoModel::OfNoUse);
-    let model = model.and_then(|inputs| {
+    let model = inputs(context, &pairs).map_err(NoModel::OfNoUse).and_then(|inputs| {
         let subject = Subject {
-            kinematics: &kinematics,
-            space: &space,
+            kinematics: &context.kinematics,
+            space: &context.space,
             inputs,
             pairs: &pairs,
             clip_distance: clip_distance(statistics),
@@ -60,8 +51,7 @@ pub(super) fn self_collision_model(
             effort: context.settings.model_effort,
         };
         let progress = |done: usize, total: usize| {
-            let kind = ModuleKind::SelfCollisionModel;
-            context.progress.part(kind, done, total);
+            context.progress.part(ModuleKind::SelfCollisionModel, done, total);
         };
         train::train(subject, &context.settings.cancellation, &progress)
     });
@@ -78,7 +68,7 @@ pub(super) fn self_collision_model(
             })
         }
         Err(NoModel::Cancelled(cancelled)) => Err(cancelled.into()),
-        Err(NoModel::Configuration(error)) => Err(unusable(&error)),
+        Err(NoModel::Configuration(error)) => Err(context.unmeasurable(error)),
     }
 }
 
@@ -90,8 +80,7 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
     let in_order = |vertices: &[[f64; 3]]| {
         let mut vertices = vertices.to_vec();
         vertices.sort_by(|a, b| {
-            let keys = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
-            keys.fold(Ordering::Equal, Ordering::then)
+            a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).fold(Ordering::Equal, Ordering::then)
         });
         vertices.dedup();
         vertices
@@ -130,8 +119,7 @@ fn pairs(pieces: &[Vec<WrittenMesh>], skips: &LinkShapesSkipsModule) -> Result<B
 
 fn clip_distance(statistics: &LinkShapesDistanceStatisticsModule) -> f64 {
     let distances = &statistics.full_convex_hulls.max_distances;
-    let largest = distances.iter().flatten().copied().fold(0.0, f64::max);
-    train::rounded(CLIP * largest)
+    train::rounded(CLIP * distances.iter().flatten().copied().fold(0.0, f64::max))
 }
 
 /// SHA-256 over the concatenated hashes of all files that the model depends on: SPEC 8.8.7.
@@ -154,7 +142,7 @@ fn trained_on(context: &Context, skips: &LinkShapesSkipsModule, digests: &Digest
 }
 
 /// The network's inputs: the DOFs that move the links of a pair relative to each other.
-fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Useless> {
+fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, String> {
     let dofs: BTreeSet<usize> = pairs
         .bodies()
         .flat_map(|links| between(&context.chain, links))
@@ -175,8 +163,8 @@ fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Usele
         let index = |dof: usize| DofIdx(u32::try_from(dof).unwrap_or(u32::MAX));
         match (of.quantity, joint_type) {
             (Quantity::Length, JointType::Floating | JointType::Planar) => {
-                let dof = of.name.clone();
-                return Err(Useless::NoLimits { dof });
+                let name = escape::line(&of.name);
+                return Err(format!("DOF `{name}` is a length without limits"));
             }
             (Quantity::Length, _) => {
                 let [lower, upper] = context.bounds.bounds[dof];
@@ -194,28 +182,19 @@ fn inputs(context: &Context, pairs: &BodyPairs) -> Result<Vec<ModelInput>, Usele
                 }
             }
             (Quantity::Angle, _) => {
-                let dof_idx = index(dof);
-                inputs.push(ModelInput::Angle(AngleInput { dof_idx }));
+                inputs.push(ModelInput::Angle(AngleInput { dof_idx: index(dof) }));
             }
         }
     }
     Ok(inputs)
 }
 
-/// The joints on the path between two links.
 fn between(chain: &ChainModule, [a, b]: [usize; 2]) -> Vec<usize> {
-    let up = |link: usize| {
-        let joint = move |link: &usize| {
-            let joint = chain.links_in_chain[*link].parent_joint_idx?;
-            Some(joint.get())
-        };
-        let above = move |link: &usize| {
-            let link = chain.links_in_chain[*link].parent_link_idx?;
-            Some(link.get())
-        };
-        std::iter::successors(Some(link), above).map_while(move |link| joint(&link))
+    let links = &chain.links_in_chain;
+    let above = |link: &usize| Some(links[*link].parent_link_idx?.get());
+    let joints = |link: usize| -> BTreeSet<usize> {
+        let path = std::iter::successors(Some(link), above);
+        path.filter_map(|link| Some(links[link].parent_joint_idx?.get())).collect()
     };
-    let of_a: BTreeSet<usize> = up(a).collect();
-    let of_b: BTreeSet<usize> = up(b).collect();
-    of_a.symmetric_difference(&of_b).copied().collect()
+    joints(a).symmetric_difference(&joints(b)).copied().collect()
 }

@@ -43,7 +43,6 @@ pub mod meshes;
 mod metadata;
 mod modules;
 mod named;
-mod named_configurations;
 mod product;
 mod progress;
 mod robot;

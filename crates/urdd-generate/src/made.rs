@@ -12,7 +12,6 @@ use urdd_source::note::Note;
 /// The SHA-256 of each file that was written or kept, by its path.
 pub(super) type Digests = HashMap<String, String>;
 
-/// What a stage returns.
 pub(super) struct Made<T = ()> {
     /// The module; `None` if it is of no use for this robot.
     pub document: Option<Document>,
@@ -23,7 +22,6 @@ pub(super) struct Made<T = ()> {
     pub product: T,
 }
 
-/// A file of a module.
 pub(super) struct MadeFile {
     /// Path relative to the URDD's root.
     pub path: String,

@@ -7,7 +7,7 @@ use super::distinct::for_each_content;
 use super::donor::links::LinkMesh;
 use super::error::GenerateError;
 use super::made::{Made, MadeFile, made_with};
-use super::meshes::original::{OriginalMeshes, original_meshes};
+use super::meshes::original::OriginalMeshes;
 use super::meshes::plain::link_geometries;
 use super::meshes::written::{Shading, WrittenMesh, files_of};
 use super::settings::Settings;
@@ -21,19 +21,6 @@ use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::decompose;
 use urdd_geometry::hull::ConvexHull;
-
-pub(super) fn original(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
-    let mut original = original_meshes(context.source, context.settings, context.progress)?;
-    let files = std::mem::take(&mut original.files).into_iter();
-    let files = files.map(|(path, bytes)| MadeFile { path, bytes });
-    let made = made_with(&original.module, files.collect(), ())?;
-    Ok(Made {
-        document: made.document,
-        files: made.files,
-        notes: std::mem::take(&mut original.notes),
-        product: original,
-    })
-}
 
 pub(super) fn plain(
     context: &Context,
@@ -70,14 +57,9 @@ pub(super) fn plain(
             Ok((Some(PlainMesh { geometry, files }), contents, Some(mesh)))
         })
         .collect::<Result<_, GenerateError>>()?;
-    let (mut link_meshes, mut files, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
-    for (plain, contents, mesh) in written {
-        link_meshes.push(plain);
-        files.extend(contents);
-        meshes.push(mesh);
-    }
+    let (link_meshes, files, meshes): (_, Vec<_>, _) = written.into_iter().collect();
     let module = PlainMeshesModule { preferred_geometry: preferred, link_meshes };
-    made_with(&module, files, meshes)
+    made_with(&module, files.into_iter().flatten().collect(), meshes)
 }
 
 pub(super) fn hulls(
@@ -151,10 +133,8 @@ fn not_taken<'a>(
     plain: &'a [Option<WrittenMesh>],
     taken: &[Option<Vec<LinkMesh>>],
 ) -> (Vec<usize>, Vec<&'a Mesh>) {
-    let links = plain.iter().zip(taken).enumerate();
-    let to_do = links.filter(|(_, (_, taken))| taken.is_none());
-    let to_do = to_do.filter_map(|(link, (plain, _))| Some((link, &plain.as_ref()?.mesh)));
-    to_do.unzip()
+    let to_do = plain.iter().zip(taken).enumerate().filter(|(_, (_, taken))| taken.is_none());
+    to_do.filter_map(|(link, (plain, _))| Some((link, &plain.as_ref()?.mesh))).unzip()
 }
 
 /// The solids of each link: those that are taken, or the next of those that were built, in the colour of the link.
@@ -172,8 +152,7 @@ fn solids(
         }
         let color = plain.color;
         let solid = |mesh| LinkMesh { mesh: WrittenMesh { mesh, color }, files: None };
-        let built = built.next().unwrap_or_default();
-        built.into_iter().map(solid).collect()
+        built.next().unwrap_or_default().into_iter().map(solid).collect()
     });
     links.collect()
 }
@@ -197,11 +176,7 @@ fn write(
             solids.collect()
         })
         .collect::<Result<_, GenerateError>>()?;
-    let (mut names, mut contents) = (Vec::new(), Vec::new());
-    for link in written {
-        let (of_link, files): (Vec<_>, Vec<_>) = link.into_iter().unzip();
-        names.push(of_link);
-        contents.extend(files.into_iter().flatten());
-    }
-    Ok((names, contents))
+    let links = written.into_iter().map(|link| link.into_iter().unzip());
+    let (names, contents): (_, Vec<Vec<Vec<MadeFile>>>) = links.unzip();
+    Ok((names, contents.into_iter().flatten().flatten().collect()))
 }

@@ -17,7 +17,6 @@ pub(super) const INPUTS_KEY: &str = "x_urdd_inputs";
 /// Key in the source: the file as found, if the stored text differs.
 pub(super) const FOUND_KEY: &str = "x_urdd_found";
 
-/// A module of the new URDD.
 pub(super) struct Entry {
     pub module: ModuleEntry,
     pub inputs: Option<String>,

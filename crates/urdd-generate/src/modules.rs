@@ -34,7 +34,6 @@ struct Begun {
     inputs: Option<String>,
 }
 
-/// The modules so far.
 pub(super) struct Modules<'a> {
     context: &'a Context<'a>,
     selected: BTreeSet<ModuleKind>,
@@ -95,8 +94,7 @@ impl<'a> Modules<'a> {
         }
         let Settings { cancellation, .. } = self.context.settings;
         cancellation.check()?;
-        let total = self.selected.len();
-        self.context.progress.module(kind, self.num_started, total);
+        self.context.progress.module(kind, self.num_started, self.selected.len());
         self.num_started += 1;
         let inputs = inputs::text(kind, self.context).map(|text| {
             let modules = self.entries.iter().map(|entry| &entry.module);
@@ -113,7 +111,6 @@ impl<'a> Modules<'a> {
         Ok(Some(Begun { kind, inputs }))
     }
 
-    /// Writes what the stage of a module made.
     fn end(
         &mut self,
         Begun { kind, inputs }: Begun,
@@ -150,8 +147,7 @@ impl<'a> Modules<'a> {
         inputs: Option<String>,
         kept: bool,
     ) {
-        let digests = files.iter();
-        let digests = digests.map(|file| (file.path.clone(), file.sha256.as_str().to_owned()));
+        let digests = files.iter().map(|file| (file.path.clone(), file.sha256.as_str().to_owned()));
         self.digests.extend(digests);
         self.entries.push(metadata::entry(kind, files, inputs));
         self.made.push(MadeModule { kind, kept });
@@ -162,8 +158,5 @@ impl<'a> Modules<'a> {
 pub(super) fn check_assumptions(notes: &[Note], settings: &Settings) -> Result<(), GenerateError> {
     let notes = notes.iter().filter(|note| note.kind.changes_robot());
     let notes: Vec<Note> = notes.filter(|_| settings.strict).cloned().collect();
-    match notes.is_empty() {
-        true => Ok(()),
-        false => Err(GenerateError::Strict { notes }),
-    }
+    if notes.is_empty() { Ok(()) } else { Err(GenerateError::Strict { notes }) }
 }

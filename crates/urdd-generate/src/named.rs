@@ -9,7 +9,6 @@ use urdd_format::named_configurations::{
 /// The user's named configurations, for this robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Named {
-    /// The configurations.
     pub configurations: Vec<NamedConfiguration>,
     /// Positions that this robot cannot have: what is wrong with each.
     pub lost: Vec<String>,

@@ -17,7 +17,6 @@ use urdd_format::registry::ModuleKind;
 /// Reads the product of a stage from the files of its module.
 pub(super) type Load<T> = fn(&Root, ModuleKind) -> Result<T, GenerateError>;
 
-/// The product of a stage.
 pub(super) struct Product<T> {
     known: OnceLock<T>,
     kind: ModuleKind,
@@ -44,7 +43,6 @@ impl<T> Product<T> {
     }
 }
 
-/// Reads the document of a module.
 pub(super) fn document<T: DeserializeOwned>(
     root: &Root,
     kind: ModuleKind,
@@ -53,7 +51,6 @@ pub(super) fn document<T: DeserializeOwned>(
     read.map_err(|reason| GenerateError::internal(kind.folder(), reason))
 }
 
-/// Reads the plain mesh of each link.
 pub(super) fn plain(
     root: &Root,
     kind: ModuleKind,
@@ -63,7 +60,6 @@ pub(super) fn plain(
     one_each(root, links.map(|link| link.map(|mesh| &mesh.files)))
 }
 
-/// Reads the hull of each link.
 pub(super) fn hulls(
     root: &Root,
     kind: ModuleKind,
@@ -76,17 +72,14 @@ fn one_each<'a>(
     root: &Root,
     links: impl Iterator<Item = Option<&'a MeshFiles>>,
 ) -> Result<Vec<Option<WrittenMesh>>, GenerateError> {
-    let meshes = links.map(|link| link.map(|files| read_mesh(root, files)));
-    meshes.map(Option::transpose).collect()
+    links.map(|link| link.map(|files| read_mesh(root, files))).map(Option::transpose).collect()
 }
 
-/// Reads the pieces of each link.
 pub(super) fn pieces(
     root: &Root,
     kind: ModuleKind,
 ) -> Result<Vec<Vec<WrittenMesh>>, GenerateError> {
     let module: Arc<ConvexDecompositionMeshesModule> = document(root, kind)?;
     let links = module.link_pieces.iter();
-    let pieces = links.map(|link| link.iter().map(|files| read_mesh(root, files)).collect());
-    pieces.collect()
+    links.map(|link| link.iter().map(|files| read_mesh(root, files)).collect()).collect()
 }

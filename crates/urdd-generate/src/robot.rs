@@ -146,7 +146,6 @@ struct Written {
     found: Option<FileEntry>,
 }
 
-/// Writes the modules and the source.
 fn write(
     context: &Context,
     replaced: Option<&Donor>,
@@ -164,7 +163,6 @@ fn write(
 }
 
 impl Written {
-    /// The text of `urdd.json`.
     fn metadata(&self, robot: &str, extensions: Vec<Value>) -> Result<String, GenerateError> {
         let Written { carried, found, entries, .. } = self;
         let document = metadata::document(robot, carried, found.as_ref(), entries, extensions)?;
@@ -200,8 +198,8 @@ fn make(
     check_assumptions(&source.notes, settings)?;
     // From here on, no other run changes the target.
     let staging = Staging::begin(target, &settings.cancellation)?;
-    let replaced = Root::open_folder(target).ok().and_then(Donor::open);
-    let replaced = replaced.as_ref();
+    let donor = Root::open_folder(target).ok().and_then(Donor::open);
+    let replaced = donor.as_ref();
     let decisions = match settings.drop_edits {
         true => Decisions::default(),
         false => Decisions {
@@ -219,25 +217,18 @@ fn make(
     let context = Context::new(source, settings, composition, decisions, progress)?;
     let content = staging.content();
     let writer = Writer::new(content);
-    let root = Root::open_folder(content);
-    let root =
-        root.map_err(|error| GenerateError::internal(&content.display().to_string(), error))?;
+    let root = Root::open_folder(content)
+        .map_err(|error| GenerateError::internal(&content.display().to_string(), error))?;
     let mut written = write(&context, replaced, &writer, root)?;
     if target.is_dir() {
         others::carry_over(target, replaced, content)?;
         let kinds: Vec<_> = written.made.iter().map(|module| module.kind).collect();
         for kind in others::left_behind(content, &kinds) {
-            written.notes.push(Note {
-                kind: NoteKind::LeftBehind,
-                file: target.join(kind.folder()).display().to_string(),
-                line: 0,
-                column: 0,
-                problem: format!(
-                    "files of yours are here, and `{}` is not made",
-                    kind.name()
-                ),
-                assumed: "they stay, and `urdd validate` reports the folder (DIR003) until you move them away".to_owned(),
-            });
+            let file = target.join(kind.folder()).display().to_string();
+            let problem = format!("files of yours are here, and `{}` is not made", kind.name());
+            let assumed = "they stay, and `urdd validate` reports the folder (DIR003) until you move them away";
+            let note = context.note(NoteKind::LeftBehind, problem, assumed);
+            written.notes.push(Note { file, ..note });
         }
     }
     if !content.join(GIT_ATTRIBUTES_FILE).exists() {
@@ -281,8 +272,7 @@ fn check_target(
     let is_empty = fs::read_dir(&canonical).is_ok_and(|mut entries| entries.next().is_none());
     let is_free = is_empty || replaced.is_some_and(Donor::is_ours) || !canonical.is_dir();
     if !is_free && !settings.force {
-        let path = target.to_owned();
-        return Err(StagingError::Occupied { path }.into());
+        return Err(StagingError::Occupied { path: target.to_owned() }.into());
     }
     Ok(())
 }
@@ -290,8 +280,7 @@ fn check_target(
 /// Whether the replaced URDD is identical to the byte: its metadata, and each file by its hash. The files of kept modules
 /// were checked before.
 fn is_same(replaced: &Donor, target: &Path, text: &str, made: &[MadeModule]) -> bool {
-    let path = target.join(ROOT_METADATA);
-    if fs::read(path).ok().as_deref() != Some(text.as_bytes()) {
+    if fs::read(target.join(ROOT_METADATA)).ok().as_deref() != Some(text.as_bytes()) {
         return false;
     }
     let source = match &replaced.metadata.source {

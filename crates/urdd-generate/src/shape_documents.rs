@@ -53,8 +53,7 @@ pub fn simple_skips(module: &Arc<SimpleSkipsModule>) -> Result<Document, serde_j
         ("decomposition_shapes", value(&module.decomposition_shapes)?),
     ];
     members.extend(matrices(module, |m| m));
-    let reasons = matrices(module, |m| &m.reasons).collect();
-    members.push(("reasons", Member::Object(reasons)));
+    members.push(("reasons", Member::Object(matrices(module, |m| &m.reasons).collect())));
     Ok(Document::Object(members))
 }
 

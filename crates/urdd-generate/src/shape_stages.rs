@@ -4,64 +4,34 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::error::GenerateError;
-use super::made::{Made, made, made_with, streamed};
+use super::made::{Made, made_with, streamed};
 use super::shape_documents;
 use super::shapes::approximations::approximations;
-use super::shapes::max_distances::max_distances;
 use super::shapes::statistics::{Shapes, at_default_configuration, statistics};
 use super::shapes::{ConvexMeshes, MOST_PIECES_WITH_MATRICES, Shape, simple_skips};
 use urdd_format::link_shapes_approximations::LinkShapesApproximationsModule as Approximations;
 use urdd_format::link_shapes_distance_statistics::LinkShapesDistanceStatisticsModule as Statistics;
 use urdd_format::link_shapes_simple_skips::LinkShapesSimpleSkipsModule as SimpleSkips;
 use urdd_format::link_shapes_skips::LinkShapesSkipsModule as Skips;
-use urdd_format::registry::ModuleKind;
 use urdd_format::skips::skips_module;
-use urdd_geometry::hull::HullError;
 use urdd_source::note::NoteKind;
 
 /// `known` are the boxes and spheres that a donor has: of the hulls, then of the pieces.
 pub(super) fn boxes_and_spheres(
     context: &Context,
-    solids: ConvexMeshes,
+    solids: &ConvexMeshes,
     known: Vec<Option<Shape>>,
 ) -> Result<Made<Arc<Approximations>>, GenerateError> {
-    let internal = |error: HullError| GenerateError::internal(&context.source.shown, error);
-    let finished = |link| context.finished(ModuleKind::LinkShapesApproximations, link);
-    let module = approximations(&solids, known, &context.settings.cancellation, &finished)?;
-    let module = Arc::new(module.map_err(internal)?);
+    let module = Arc::new(approximations(context, solids, known)?);
     made_with(&*module, Vec::new(), Arc::clone(&module))
-}
-
-pub(super) fn distances_from_origin(
-    solids: ConvexMeshes,
-    approximations: &Approximations,
-) -> Result<Made, GenerateError> {
-    made(&max_distances(&solids, approximations))
-}
-
-/// Prepares all shapes for distances.
-pub(super) fn prepared(
-    context: &Context,
-    solids: ConvexMeshes,
-    approximations: &Approximations,
-) -> Result<Shapes, GenerateError> {
-    let shapes = Shapes::new(&solids, approximations, &context.chain);
-    shapes.map_err(|reason| context.unmeasurable(reason))
 }
 
 pub(super) fn distance_statistics(
     context: &Context,
-    solids: ConvexMeshes,
+    solids: &ConvexMeshes,
     shapes: &Shapes,
 ) -> Result<Made<Arc<Statistics>>, GenerateError> {
-    let module = statistics(
-        &solids,
-        shapes,
-        context.kinematics(),
-        context.settings.num_samples,
-        &context.settings.cancellation,
-    )?;
-    let module = Arc::new(module.map_err(|reason| context.unmeasurable(reason))?);
+    let module = Arc::new(statistics(context, solids, shapes)?);
     let mut made = streamed(shape_documents::statistics(&module), Arc::clone(&module))?;
     if module.decomposition_convex_hulls.is_none() {
         let pieces = module.decomposition_shapes.len();
@@ -81,10 +51,8 @@ pub(super) fn skips_by_distance(
     shapes: &Shapes,
     statistics: &Statistics,
 ) -> Result<Made<Arc<SimpleSkips>>, GenerateError> {
-    let default = at_default_configuration(shapes, context.kinematics())
-        .map_err(|reason| context.unmeasurable(reason))?;
-    let module = simple_skips::simple_skips(statistics, &default, &context.chain);
-    let module = Arc::new(module);
+    let default = at_default_configuration(context, shapes)?;
+    let module = Arc::new(simple_skips::simple_skips(statistics, &default, &context.chain));
     streamed(shape_documents::simple_skips(&module), module)
 }
 

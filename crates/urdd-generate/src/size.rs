@@ -36,8 +36,7 @@ pub(super) fn check(source: &Source) -> Result<(), GenerateError> {
         .links
         .iter()
         .map(|link| link.visual.len() + link.collision.len() + link.unknown_elements.len());
-    let joints = robot.joints.iter();
-    let of_joints = joints.map(|joint| joint.unknown_elements.len());
+    let of_joints = robot.joints.iter().map(|joint| joint.unknown_elements.len());
     let elements = shapes.chain(of_joints).sum::<usize>()
         + robot.materials.len()
         + robot.unknown_elements.len();

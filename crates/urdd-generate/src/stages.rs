@@ -9,11 +9,15 @@ use super::donor::links::DonorLinks;
 use super::error::GenerateError;
 use super::made::{Made, made, streamed};
 use super::meshes::MeshCount;
+use super::meshes::original::original_meshes;
 use super::modules::Modules;
-use super::named_configurations::named_configurations;
+use super::named::Named;
 use super::shapes::ConvexMeshes;
+use super::shapes::max_distances::max_distances;
+use super::shapes::statistics::Shapes;
 use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
 use urdd_directory::document::{Document, Member, Rows};
+use urdd_format::named_configurations::NamedConfigurationsModule;
 use urdd_format::registry::ModuleKind as Kind;
 use urdd_source::note::NoteKind;
 
@@ -30,7 +34,7 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     modules.add(Kind::Composition, |_| made(&context.composition))?;
     modules.add(Kind::NamedConfigurations, |_| named_configurations(context))?;
 
-    let original = modules.add(Kind::OriginalMeshes, |_| meshes::original(context))?;
+    let original = modules.add(Kind::OriginalMeshes, |_| original_meshes(context))?;
     let count = original.as_ref().map(|original| original.count);
     // Moved: the contents of mesh files are dropped with this stage.
     let plain = modules.product(Kind::PlainMeshes, product::plain, move |digests| {
@@ -55,26 +59,25 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
     let kind = Kind::LinkShapesApproximations;
     let approximations = modules.product(kind, product::document, |digests| {
         let solids = solids()?;
-        shapes::boxes_and_spheres(context, solids, donors.shapes(context, &solids, digests))
+        shapes::boxes_and_spheres(context, &solids, donors.shapes(context, &solids, digests))
     })?;
     modules.add(Kind::LinkShapesMaxDistanceFromOrigin, |_| {
-        shapes::distances_from_origin(solids()?, approximations.get()?)
+        made(&max_distances(&solids()?, approximations.get()?))
     })?;
     // Preparing the shapes takes long. The next two stages use them.
     let known = OnceCell::new();
     let prepared = || match known.get() {
         Some(shapes) => Ok(shapes),
-        None => shapes::prepared(context, solids()?, approximations.get()?)
+        None => Shapes::new(context, &solids()?, approximations.get()?)
             .map(|shapes| known.get_or_init(|| shapes)),
     };
     let kind = Kind::LinkShapesDistanceStatistics;
     let statistics = modules.product(kind, product::document, |_| {
-        shapes::distance_statistics(context, solids()?, prepared()?)
+        shapes::distance_statistics(context, &solids()?, prepared()?)
     })?;
     let kind = Kind::LinkShapesSimpleSkips;
     let simple_skips = modules.product(kind, product::document, |_| {
-        let statistics = statistics.get()?;
-        shapes::skips_by_distance(context, prepared()?, statistics)
+        shapes::skips_by_distance(context, prepared()?, statistics.get()?)
     })?;
     drop(known);
     let skips = modules.product(Kind::LinkShapesSkips, product::document, |_| {
@@ -110,4 +113,14 @@ fn connections(context: &Context) -> Result<Made, GenerateError> {
     ]);
     let made = streamed(Ok(document), ())?;
     Ok(Made { notes: too_large.into_iter().collect(), ..made })
+}
+
+/// SPEC 6.7, from the user's decisions.
+fn named_configurations(context: &Context) -> Result<Made, GenerateError> {
+    let Named { configurations, lost } = &context.named;
+    let assumed = "the position is left out; the DOF has its default value there";
+    let note = |problem: &String| context.note(NoteKind::LeftOut, problem.clone(), assumed);
+    let notes = lost.iter().map(note).collect();
+    let configurations = configurations.clone();
+    Ok(Made { notes, ..made(&NamedConfigurationsModule { configurations })? })
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use urdd_generate::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
+use urdd_format::escape;
+use urdd_generate::combine::{CombineError, PartFault, Recipe, check_parts};
 
 use crate::combine::support::{core, findings, ours, put_together};
 use crate::export::names::parsed;
@@ -48,10 +49,10 @@ fn a_recipe_takes_parts_from_its_own_folder() {
     ] {
         let made = put_together(&one(source), &repository, &core());
         let error = made.expect_err("a part from outside");
-        let CombineError::Part { fault: PartFault::Outside { allow, .. }, .. } = &error else {
-            panic!("{source}: {error:?}");
-        };
-        assert_eq!(Path::new(allow), outside);
+        let allow = escape::shell(outside.to_str().expect("a path"));
+        let words = error.to_string();
+        assert!(words.contains("the folder of the recipe"), "{source}: {words}");
+        assert!(words.ends_with(&format!("add --allow-folder {allow}")), "{source}: {words}");
         // Nothing in it is read either.
         let recipe = Recipe::from_toml(&one(source), "cell.toml", &repository).expect("a recipe");
         let look = |path: &Path| -> Result<Vec<String>, _> { panic!("{} is read", path.display()) };
@@ -129,7 +130,7 @@ fn xacro_runs_for_no_file_that_only_a_recipe_names() {
             assert!(said.contains("not the name of a folder"), "{said}");
         }
         let error = Recipe::of_legacy(&folder.join("legacy")).expect_err("not beside it");
-        assert!(matches!(error, CombineError::Part { fault: PartFault::NotBeside, .. }));
+        assert!(error.to_string().contains("not the name of a folder"), "{error}");
     }
     // The user names it.
     let two = ["combine", "evil.xacro", "tool.urdf", "--at", "a", "-o", "out"];
@@ -151,10 +152,10 @@ fn the_urdf_of_a_legacy_part_is_inside_of_it() {
     for target in ["../secret.urdf", "/dev/zero"] {
         std::os::unix::fs::symlink(target, &urdf).expect("a link");
         let error = put_together(&one("part"), folder, &core()).expect_err("not a file of it");
-        assert!(
-            matches!(error, CombineError::Part { fault: PartFault::Unreadable { .. }, .. }),
-            "{error:?}"
-        );
+        let CombineError::Part { fault: PartFault::Unusable(why), .. } = &error else {
+            panic!("{error:?}");
+        };
+        assert!(why.starts_with("robot.urdf: "), "{why}");
         fs::remove_file(&urdf).expect("a link");
     }
     let made = std::process::Command::new("mkfifo").arg(&urdf).status();
@@ -184,16 +185,31 @@ fn very_many_parts_are_refused_before_they_are_read() {
     let CombineError::Recipe { fault, .. } = error else {
         panic!("{error}");
     };
-    assert!(matches!(*fault, RecipeFault::TooManyLinks { limit: 2_000, .. }), "{fault}");
+    assert!(
+        fault.starts_with("a robot has at most 2000 links, and the parts have 10000"),
+        "{fault}"
+    );
     // Few parts with too many links: none is read after the one that exceeds the limit.
     fs::write(folder.join("two.urdf"), TWO).expect("a file");
     let error = put_together(&chain(1_001), folder, &core()).expect_err("too many");
     let CombineError::Recipe { fault, .. } = error else {
         panic!("{error}");
     };
-    assert!(matches!(*fault, RecipeFault::TooManyLinks { found: 2_002, .. }), "{fault}");
+    assert!(
+        fault.starts_with("a robot has at most 2000 links, and the parts have 2002"),
+        "{fault}"
+    );
     // This once took minutes: the checks took time cubic in the number of parts.
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+}
+
+/// Whether a recipe is refused for a word that a URDF cannot hold.
+fn is_of_word(fault: &str) -> bool {
+    let kinds = ["the name `", "the prefix `", "the link `", "the joint `"];
+    let reasons =
+        ["only white space; write a name", "cannot contain; remove it", "; write at most"];
+    kinds.iter().any(|kind| fault.starts_with(kind))
+        && reasons.iter().any(|why| fault.contains(why))
 }
 
 #[test]
@@ -214,7 +230,7 @@ fn words_that_no_urdf_can_hold_are_refused_with_their_place() {
         let CombineError::Recipe { fault, at, .. } = error else {
             panic!("{recipe:?}: {error}");
         };
-        assert!(matches!(*fault, RecipeFault::BadWord { .. }), "{fault}");
+        assert!(is_of_word(&fault), "{fault}");
         let at = at.expect("a place");
         assert_eq!((at.line, at.column), (line, column), "{recipe:?}");
     }
@@ -224,7 +240,7 @@ fn words_that_no_urdf_can_hold_are_refused_with_their_place() {
         let CombineError::Recipe { fault, .. } = error else {
             panic!("{error}");
         };
-        assert!(matches!(*fault, RecipeFault::BadWord { what: "the name", .. }), "{fault}");
+        assert!(is_of_word(&fault) && fault.starts_with("the name `"), "{fault}");
     }
 }
 
@@ -274,7 +290,7 @@ fn very_long_names_are_not_compared() {
     let CombineError::Recipe { fault, .. } = error else {
         panic!("{error}");
     };
-    assert!(matches!(*fault, RecipeFault::Unknown { nearest: None, .. }));
+    assert!(fault.starts_with("part `p` has no link `nnn") && !fault.contains("mean"), "{fault}");
 }
 
 #[test]
@@ -339,7 +355,7 @@ fn every_text_in_a_recipe_stays_a_text() {
                 fs::remove_dir_all(made).expect("a folder");
             }
             Err(CombineError::Recipe { fault, .. }) => {
-                assert!(matches!(*fault, RecipeFault::BadWord { .. }), "{text:?}: {fault}");
+                assert!(is_of_word(&fault), "{text:?}: {fault}");
             }
             Err(error) => panic!("{text:?}: {error}"),
         }

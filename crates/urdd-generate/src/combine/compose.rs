@@ -7,26 +7,57 @@ use super::error::CombineError;
 use super::frozen::origin_text;
 use super::names::escaped;
 use super::part::Loaded;
-use super::recipe::{JointDescription, Part, Recipe, Word};
-use super::recipe_fault::{RecipeFault, joint_type_word};
+use super::recipe::{Attachment, Part, Recipe, Word};
 use super::rewrite::Rewritten;
 use super::trim::Trim;
-use urdd_format::urdf::Material;
+use urdd_format::composition::PartSource;
+use urdd_format::urdf::{Joint, Link, Material};
 use urdd_source::origin::has_quaternions;
 use urdd_xml::number::numbers;
 
-/// A loaded part and the selection of what is kept of it.
-pub(super) struct Taken<'a> {
+/// A part of the combined robot: what is loaded, and what is kept of it.
+pub(super) struct Member<'a> {
     pub part: &'a Part,
     /// Shared by all parts with the same source.
     pub loaded: Rc<Loaded>,
     pub trim: Trim,
 }
 
-impl Taken<'_> {
+impl Member<'_> {
     /// A name of the part as it appears in the combined robot.
     pub fn renamed(&self, name: &str) -> String {
         format!("{}{name}", self.part.prefix.text)
+    }
+
+    /// The name of one of its links in the combined robot.
+    ///
+    /// # Errors
+    /// If the part has no such link, or it is dropped.
+    pub fn link(&self, recipe: &Recipe, name: &str, at: &Word) -> Result<String, CombineError> {
+        let part = &self.part.id.text;
+        let idx = recipe.find(part, "link", &self.loaded.links, name, at)?;
+        let Some(with) = self.trim.dropped_links[idx] else {
+            return Ok(self.renamed(name));
+        };
+        let with = &self.part.drop[with].text;
+        let fault = format!("the link `{name}` of part `{part}` is dropped, with `{with}`");
+        Err(recipe.refused(at, fault))
+    }
+
+    pub fn is_urdd(&self) -> bool {
+        matches!(self.loaded.source, PartSource::Urdd(_))
+    }
+
+    /// The links that are not dropped.
+    pub fn kept_links(&self) -> impl Iterator<Item = &Link> {
+        let links = self.loaded.robot.links.iter().enumerate();
+        links.filter(|(idx, _)| self.trim.keeps_link(*idx)).map(|(_, link)| link)
+    }
+
+    /// The joints that are not dropped.
+    pub fn kept_joints(&self) -> impl Iterator<Item = &Joint> {
+        let joints = self.loaded.robot.joints.iter().enumerate();
+        joints.filter(|(idx, _)| self.trim.keeps_joint(*idx)).map(|(_, joint)| joint)
     }
 
     /// The name of its root link in the combined robot.
@@ -36,7 +67,7 @@ impl Taken<'_> {
 }
 
 /// The URDF version of the combined robot: the highest of all parts.
-pub(super) fn version(parts: &[Taken]) -> Option<String> {
+pub(super) fn version(parts: &[Member]) -> Option<String> {
     let number = |version: &str| -> Option<(u64, u64)> {
         let (major, minor) = version.trim().split_once('.')?;
         Some((major.parse().ok()?, minor.parse().ok()?))
@@ -45,35 +76,35 @@ pub(super) fn version(parts: &[Taken]) -> Option<String> {
     versions.max_by_key(|version| (has_quaternions(Some(version)), number(version)))
 }
 
-/// What holds a part.
 pub(super) struct Held<'a> {
     /// The holding part; `None` for the base.
     pub part: Option<usize>,
     /// Its link, by the name in the combined robot.
     pub link: String,
-    pub joint: &'a JointDescription,
+    pub joint: &'a Attachment,
 }
 
-/// What holds a part; `None` for a root part without a base.
+/// What holds each part; `None` for a root part without a base.
 ///
 /// # Errors
-/// If its attachment does not name a part; an earlier check rules this out.
-pub(super) fn held<'a>(
+/// If an attachment names a part or a link that does not exist, or a dropped link.
+pub(super) fn holders<'a>(
     recipe: &'a Recipe,
-    parts: &[Taken<'a>],
-    taken: &Taken<'a>,
-) -> Result<Option<Held<'a>>, CombineError> {
-    let Some(attach) = &taken.part.attach else {
-        return Ok(recipe.base.as_ref().map(|base| Held {
-            part: None,
-            link: base.link.text.clone(),
-            joint: &base.joint,
-        }));
+    parts: &[Member<'a>],
+) -> Result<Vec<Option<Held<'a>>>, CombineError> {
+    let holder = |member: &Member<'a>| {
+        let Some(joint) = &member.part.attach else {
+            let base = recipe.base.as_ref();
+            return Ok(base.map(|joint| Held { part: None, link: joint.to.text.clone(), joint }));
+        };
+        let (part, link) = recipe.target(&joint.to)?;
+        let link = match part {
+            Some(part) => parts[part].link(recipe, link, &joint.to)?,
+            None => link.to_owned(),
+        };
+        Ok(Some(Held { part, link, joint }))
     };
-    let (part, link) = recipe.target(&attach.to)?;
-    let link = part.map_or_else(|| link.to_owned(), |part| parts[part].renamed(link));
-    let joint = &attach.joint;
-    Ok(Some(Held { part, link, joint }))
+    parts.iter().map(holder).collect()
 }
 
 /// Checks that names are unique. Returns, for each part, the indices of top-level materials that an earlier part also
@@ -83,7 +114,7 @@ pub(super) fn held<'a>(
 /// The first name that occurs twice.
 pub(super) fn check_names(
     recipe: &Recipe,
-    parts: &[Taken],
+    parts: &[Member],
 ) -> Result<Vec<BTreeSet<usize>>, CombineError> {
     let mut known: BTreeMap<(&'static str, String), String> = BTreeMap::new();
     let mut add = |what, name: String, from: &str, at: &Word| {
@@ -91,26 +122,20 @@ pub(super) fn check_names(
         clash(recipe, what, &name, before, from.to_owned(), at)
     };
     if let Some(base) = &recipe.base {
-        add("link", base.link.text.clone(), "`[base]`", &base.link)?;
+        add("link", base.to.text.clone(), "`[base]`", &base.to)?;
     }
-    for taken in parts {
-        let (part, robot) = (taken.part, &taken.loaded.robot);
+    for member in parts {
+        let part = member.part;
         let from = format!("part `{}`", part.id.text);
-        for (idx, link) in robot.links.iter().enumerate() {
-            if taken.trim.keeps_link(idx) {
-                add("link", taken.renamed(&link.name), &from, &part.id)?;
-            }
+        for link in member.kept_links() {
+            add("link", member.renamed(&link.name), &from, &part.id)?;
         }
-        for (idx, joint) in robot.joints.iter().enumerate() {
-            if taken.trim.keeps_joint(idx) {
-                add("joint", taken.renamed(&joint.name), &from, &part.id)?;
-            }
+        for joint in member.kept_joints() {
+            add("joint", member.renamed(&joint.name), &from, &part.id)?;
         }
-        let attach = part.attach.as_ref().map(|attach| &attach.joint.name);
-        let base = recipe.base.as_ref().map(|base| &base.joint.name);
-        if let Some(name) = attach.or(base) {
+        if let Some(attach) = part.attach.as_ref().or(recipe.base.as_ref()) {
             let of = format!("the joint that attaches part `{}`", part.id.text);
-            add("joint", name.text.clone(), &of, name)?;
+            add("joint", attach.name.text.clone(), &of, &attach.name)?;
         }
     }
     materials(recipe, parts)
@@ -118,7 +143,7 @@ pub(super) fn check_names(
 
 fn clash(
     recipe: &Recipe,
-    what: &'static str,
+    what: &str,
     name: &str,
     before: Option<String>,
     second: String,
@@ -127,17 +152,18 @@ fn clash(
     let Some(first) = before else {
         return Ok(());
     };
-    let name = name.to_owned();
-    let fault = RecipeFault::Clash { what, name, first, second };
+    let fault = format!(
+        "the {what} `{name}` comes from {first} and from {second}; give one of them a `prefix`, or another name"
+    );
     Err(recipe.refused(at, fault))
 }
 
 /// Materials with the same name must look the same in all parts. Within a part, the first counts.
-fn materials(recipe: &Recipe, parts: &[Taken]) -> Result<Vec<BTreeSet<usize>>, CombineError> {
+fn materials(recipe: &Recipe, parts: &[Member]) -> Result<Vec<BTreeSet<usize>>, CombineError> {
     let mut known: BTreeMap<String, (usize, &Material)> = BTreeMap::new();
     let mut repeated = Vec::new();
-    for (idx, taken) in parts.iter().enumerate() {
-        let robot = &taken.loaded.robot;
+    for (idx, member) in parts.iter().enumerate() {
+        let robot = &member.loaded.robot;
         let visuals = robot.links.iter().flat_map(|link| &link.visual);
         let inline = visuals.filter_map(|visual| visual.material.as_ref());
         let top = robot.materials.iter().enumerate();
@@ -151,16 +177,15 @@ fn materials(recipe: &Recipe, parts: &[Taken]) -> Result<Vec<BTreeSet<usize>>, C
             if name.is_empty() || !has_look {
                 continue;
             }
-            let name = taken.renamed(name);
+            let name = member.renamed(name);
             let Some((of, first)) = known.get(&name).filter(|(of, _)| *of != idx) else {
                 known.entry(name).or_insert((idx, material));
                 continue;
             };
             if (&first.color, &first.texture) != (&material.color, &material.texture) {
                 let first = format!("part `{}`", parts[*of].part.id.text);
-                let second = format!("part `{}`, where it looks different", taken.part.id.text);
-                let at = &taken.part.id;
-                clash(recipe, "material", &name, Some(first), second, at)?;
+                let second = format!("part `{}`, where it looks different", member.part.id.text);
+                clash(recipe, "material", &name, Some(first), second, &member.part.id)?;
                 continue;
             }
             again.extend(place);
@@ -176,32 +201,31 @@ fn materials(recipe: &Recipe, parts: &[Taken]) -> Result<Vec<BTreeSet<usize>>, C
 /// If parts use one XML prefix for different namespaces, or the same name for transmissions and the like.
 pub(super) fn urdf(
     recipe: &Recipe,
-    parts: &[Taken],
+    parts: &[Member],
+    holders: &[Option<Held>],
     rewritten: &[Rewritten],
 ) -> Result<String, CombineError> {
     let mut namespaces: BTreeMap<&str, &str> = BTreeMap::new();
-    let mut own: BTreeMap<&str, &Taken> = BTreeMap::new();
-    for (taken, text) in parts.iter().zip(rewritten) {
+    let mut own: BTreeMap<&str, &Member> = BTreeMap::new();
+    for (member, text) in parts.iter().zip(rewritten) {
         for (prefix, uri) in &text.namespaces {
             let first = *namespaces.entry(prefix).or_insert(uri);
             if first != uri {
-                let fault = RecipeFault::Namespace {
-                    prefix: prefix.clone(),
-                    first: first.to_owned(),
-                    second: uri.clone(),
-                    part: taken.part.id.text.clone(),
-                };
-                return Err(recipe.refused(&taken.part.id, fault));
+                let part = &member.part.id;
+                let fault = format!(
+                    "the XML prefix `{prefix}` means `{first}` in one part and `{uri}` in part `{}`; rename one of them in its URDF",
+                    part.text
+                );
+                return Err(recipe.refused(part, fault));
             }
         }
         for name in &text.own {
-            let before = own.insert(name, taken);
+            let before = own.insert(name, member);
             // Duplicates within one part are allowed.
-            let before = before.filter(|before| before.part.id != taken.part.id);
+            let before = before.filter(|before| before.part.id != member.part.id);
             let first = before.map(|before| format!("part `{}`", before.part.id.text));
-            let second = format!("part `{}`", taken.part.id.text);
-            let what = "transmission or ros2_control";
-            clash(recipe, what, name, first, second, &taken.part.id)?;
+            let second = format!("part `{}`", member.part.id.text);
+            clash(recipe, "transmission or ros2_control", name, first, second, &member.part.id)?;
         }
     }
     let mut text =
@@ -216,11 +240,11 @@ pub(super) fn urdf(
     }
     text += ">\n";
     if let Some(base) = &recipe.base {
-        text += &format!("  <link name=\"{}\"/>\n", escaped(&base.link.text));
+        text += &format!("  <link name=\"{}\"/>\n", escaped(&base.to.text));
     }
-    for (taken, rewritten) in parts.iter().zip(rewritten) {
-        if let Some(held) = held(recipe, parts, taken)? {
-            text += &joint(held.joint, &held.link, &taken.root());
+    for ((member, held), rewritten) in parts.iter().zip(holders).zip(rewritten) {
+        if let Some(held) = held {
+            text += &joint(held.joint, &held.link, &member.root());
         }
         text += &rewritten.inner;
         text.push('\n');
@@ -229,11 +253,11 @@ pub(super) fn urdf(
     Ok(text)
 }
 
-fn joint(described: &JointDescription, parent: &str, child: &str) -> String {
+fn joint(described: &Attachment, parent: &str, child: &str) -> String {
     let mut text = format!(
         "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n    <child link=\"{}\"/>\n    {}\n",
         escaped(&described.name.text),
-        joint_type_word(described.joint_type),
+        described.joint.text,
         escaped(parent),
         escaped(child),
         origin_text(described.xyz, described.rpy),

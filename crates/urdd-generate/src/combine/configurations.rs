@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::compose::Taken;
+use super::compose::Member;
 use super::error::CombineError;
 use super::note::Note;
 use super::recipe::Recipe;
@@ -14,18 +14,18 @@ use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, Do
 /// If they are too long together.
 pub(super) fn of_parts(
     recipe: &Recipe,
-    parts: &[Taken],
+    parts: &[Member],
     notes: &mut Vec<Note>,
 ) -> Result<Vec<ConfigurationEdit>, CombineError> {
     let (mut edits, mut length) = (Vec::new(), 0);
     let mut names = HashSet::new();
-    for taken in parts {
-        let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
-        for edit in &taken.loaded.configurations {
+    for member in parts {
+        let mut note = |kind, text| notes.push(Note::of_part(kind, &member.part.id.text, text));
+        for edit in &member.loaded.configurations {
             let words = edit.positions.iter().map(|position| position.dof_name.len());
             length += edit.name.as_str().len() + words.sum::<usize>();
-            recipe.check_length(taken.part, "the named configurations", length)?;
-            let renamed = ConfigurationName::new(taken.renamed(edit.name.as_str()));
+            recipe.check_length(member.part, "the named configurations", length)?;
+            let renamed = ConfigurationName::new(member.renamed(edit.name.as_str()));
             let Some(name) = renamed.filter(|name| names.insert(name.clone())) else {
                 note(
                     "configuration-lost",
@@ -38,9 +38,9 @@ pub(super) fn of_parts(
             };
             let mut positions = Vec::new();
             for position in &edit.positions {
-                match moves(taken, &position.dof_name) {
+                match moves(member, &position.dof_name) {
                     true => positions.push(DofPosition {
-                        dof_name: taken.renamed(&position.dof_name),
+                        dof_name: member.renamed(&position.dof_name),
                         ..position.clone()
                     }),
                     false => note(
@@ -59,10 +59,9 @@ pub(super) fn of_parts(
 }
 
 /// Whether the joint of a part's DOF is kept, and not frozen.
-fn moves(taken: &Taken, dof: &str) -> bool {
-    let joints = &taken.loaded.joints;
+fn moves(member: &Member, dof: &str) -> bool {
+    let joints = &member.loaded.joints;
     // The name of a DOF is that of its joint, or has the coordinate after it. Names of joints may hold slashes too.
-    let of_joint = joints.get(dof);
-    let joint = of_joint.or_else(|| joints.get(dof.rsplit_once('/')?.0));
-    joint.is_some_and(|idx| taken.trim.keeps_joint(*idx) && !taken.trim.frozen.contains_key(idx))
+    let joint = joints.get(dof).or_else(|| joints.get(dof.rsplit_once('/')?.0));
+    joint.is_some_and(|idx| member.trim.keeps_joint(*idx) && !member.trim.frozen.contains_key(idx))
 }

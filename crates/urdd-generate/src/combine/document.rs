@@ -18,8 +18,7 @@ pub(super) fn document<T: DeserializeOwned>(
 
 /// The bytes of a document of a URDD.
 pub(super) fn bytes(root: &Root, path: &str) -> Result<Vec<u8>, PartFault> {
-    let bytes = root.read(path, MAX_DOCUMENT_BYTES);
-    bytes.map_err(|error| PartFault::unreadable(path, error))
+    root.read(path, MAX_DOCUMENT_BYTES).map_err(|error| PartFault::unreadable(path, error))
 }
 
 /// The value of a JSON document; `path` names it in faults.

@@ -1,15 +1,14 @@
 //! Why robots cannot be combined.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::recipe_fault::{Place, RecipeFault};
 use crate::GenerateError;
 use urdd_directory::cancellation::Cancelled;
 use urdd_directory::position::Position;
 use urdd_format::escape;
+use urdd_format::nearest::nearest;
 
 /// Why robots cannot be combined. Nothing was written, and an existing URDD is unchanged.
 #[derive(Debug, Error)]
@@ -32,19 +31,19 @@ pub enum CombineError {
         reason: String,
     },
     /// The recipe is invalid.
-    #[error("{}{}: {fault}", escape::line(file), Place(*at))]
+    #[error("{}{}: {fault}", escape::line(file), at.map(|at| format!(":{at}")).unwrap_or_default())]
     Recipe {
         /// The file of the recipe.
         file: String,
         /// The position in it; `None` for a recipe from the command line, or for the recipe as a whole.
         at: Option<Position>,
-        /// What is wrong.
-        fault: Box<RecipeFault>,
+        /// What is wrong, and what to do; on one line.
+        fault: String,
     },
     /// A part cannot be used.
-    #[error("{}{}: {fault}", About(&(!id.is_empty()).then(|| id.clone())), escape::line(source_path))]
+    #[error("{}{}: {fault}", about(Some(id)), escape::line(source_path))]
     Part {
-        /// The part.
+        /// The part; empty for a legacy URDD that becomes a recipe.
         id: String,
         /// Its source as written in the recipe.
         source_path: String,
@@ -52,7 +51,7 @@ pub enum CombineError {
         fault: PartFault,
     },
     /// The URDD of a part, or of the combined robot, cannot be generated.
-    #[error("{}{error}", About(id))]
+    #[error("{}{error}", about(id.as_ref()))]
     Generate {
         /// The part; `None` for the combined robot.
         id: Option<String>,
@@ -67,15 +66,15 @@ impl From<Cancelled> for CombineError {
     }
 }
 
-struct About<'a>(&'a Option<String>);
+/// The part that a message is about.
+fn about(id: Option<&String>) -> String {
+    let id = id.filter(|id| !id.is_empty());
+    id.map_or_else(String::new, |id| format!("part `{}`: ", escape::line(id)))
+}
 
-impl fmt::Display for About<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Some(id) => write!(f, "part `{}`: ", escape::line(id)),
-            None => Ok(()),
-        }
-    }
+/// The suggestion of a similar name, if there is one.
+pub(super) fn did_you_mean<'a>(known: impl Iterator<Item = &'a str>, name: &str) -> String {
+    nearest(known, name).map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
 impl CombineError {
@@ -100,57 +99,6 @@ impl CombineError {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PartFault {
-    /// The source does not exist, or is not a possible part.
-    #[error(
-        "there is no such URDD or URDF: {0}; a source is a folder or zip archive of a URDD, or a URDF or xacro file, relative to the recipe"
-    )]
-    Missing(String),
-    /// The source is outside the folders from which a recipe may use parts.
-    #[error(
-        "this is {}, outside of {}, the folder of the recipe; to use parts from there, add --allow-folder {}",
-        escape::line(found),
-        escape::line(folder),
-        escape::shell(allow)
-    )]
-    Outside {
-        /// The file or folder, with symbolic links resolved.
-        found: String,
-        /// The folder from which parts may be used.
-        folder: String,
-        /// The folder to allow.
-        allow: String,
-    },
-    /// A legacy module references a part that is not in a sibling folder.
-    #[error(
-        "a legacy module names a part by a folder beside its own, but this is not the name of a folder: correct it, or write a recipe"
-    )]
-    NotBeside,
-    /// A xacro file that is named by the recipe, not by the user.
-    #[error(
-        "the recipe names a xacro file, which runs as a program; if you trust it, allow it with --xacro"
-    )]
-    Xacro,
-    /// A file of the URDD cannot be read.
-    #[error("{}: {reason}", escape::line(file))]
-    Unreadable {
-        /// The file, relative to the URDD's root.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-    /// The URDD contains no URDF.
-    #[error(
-        "this URDD carries no URDF, but parts are combined as URDFs; give the URDF itself as the source"
-    )]
-    NoUrdf,
-    /// It is not a combined URDD from before version 1.
-    #[error(
-        "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which describe how it was combined"
-    )]
-    NotComposed,
-    /// Nothing in its composition can be expressed as a recipe.
-    #[error("a recipe cannot express how it was combined: {}", .0.join("; "))]
-    SaysNothing(Vec<String>),
     /// The part has validation errors.
     #[error(
         "it does not pass `urdd validate`: {}; correct it, or use it anyway: --force", codes.join(", ")
@@ -159,10 +107,25 @@ pub enum PartFault {
         /// The codes of the rules that found errors, with the number of findings.
         codes: Vec<String>,
     },
+    /// It is missing, unreadable, not a robot, or may not be used: what is wrong, and what to do.
+    #[error("{0}")]
+    Unusable(String),
 }
 
 impl PartFault {
+    pub(super) fn unusable(why: impl Into<String>) -> Self {
+        PartFault::Unusable(why.into())
+    }
+
+    /// A file of the part cannot be read, named relative to its root.
     pub(super) fn unreadable(file: &str, reason: impl ToString) -> Self {
-        PartFault::Unreadable { file: file.to_owned(), reason: reason.to_string() }
+        PartFault::unusable(format!("{}: {}", escape::line(file), reason.to_string()))
+    }
+
+    /// The URDD has no URDF.
+    pub(super) fn no_urdf() -> Self {
+        PartFault::unusable(
+            "this URDD carries no URDF, but parts are combined as URDFs; give the URDF itself as the source",
+        )
     }
 }

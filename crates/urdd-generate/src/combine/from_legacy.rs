@@ -5,18 +5,15 @@ use std::path::{Component, Path};
 
 use serde::de::DeserializeOwned;
 
-use super::document::parsed;
+use super::document::document;
 use super::error::{CombineError, PartFault};
 use super::note::Note;
-use super::recipe::{Attachment, BASE, Base, JointDescription, Part, Recipe, Sources, Word};
-use urdd_directory::limits::MAX_DOCUMENT_BYTES;
+use super::recipe::{Attachment, BASE, Frozen, JointLimit, Part, Recipe, Sources, Word};
 use urdd_directory::root::Root;
 use urdd_format::legacy::adjusted_robot::AdjustedRobotModule;
 use urdd_format::legacy::combined_robot::{AttachedRobot, AttachmentPoint, CombinedRobotModule};
 use urdd_format::legacy::creator::{Action, AddChain, CreatorModule};
-use urdd_format::legacy::urdf;
 use urdd_format::registry::ModuleKind;
-use urdd_format::urdf::{JointType, Limit};
 use urdd_kinematics::rotation::{canonical, to_rpy};
 
 /// The name of the world link in the published robots.
@@ -35,20 +32,20 @@ impl Recipe {
             fault,
         };
         let root = Root::open(folder).map_err(|e| refused(PartFault::unreadable("", e)))?;
-        let whole = folder.canonicalize();
-        let whole = whole.map_err(|e| refused(PartFault::unreadable("", e)))?;
-        let beside = whole.parent().unwrap_or(Path::new("/")).to_owned();
+        let whole = folder.canonicalize().map_err(|e| refused(PartFault::unreadable("", e)))?;
+        let beside = whole.parent().unwrap_or(Path::new("/"));
         let mut reader = Reader {
             notes: Vec::new(),
             recipe: Recipe {
                 shown: shown.clone(),
+                text: String::new(),
                 name: Word::default(),
                 base: None,
                 parts: Vec::new(),
-                sources: Sources::In(beside.clone()),
+                sources: Sources::In(beside.to_owned()),
             },
             ids: HashSet::new(),
-            beside: &beside,
+            beside,
         };
         if let Some(module) = read(&root, ModuleKind::CombinedRobot).map_err(refused)? {
             reader.combined(&module);
@@ -57,19 +54,22 @@ impl Recipe {
         } else if let Some(module) = read(&root, ModuleKind::Creator).map_err(refused)? {
             reader.created(&module);
         } else {
-            return Err(refused(PartFault::NotComposed));
+            let fault = "this URDD has no combined_robot_module, adjusted_robot_module or creator_module, which describe how it was combined";
+            return Err(refused(PartFault::unusable(fault)));
         }
-        if reader.recipe.parts.is_empty() {
-            let said = reader.notes.iter().map(ToString::to_string);
-            return Err(refused(PartFault::SaysNothing(said.collect())));
+        let Reader { recipe, notes, .. } = reader;
+        if recipe.parts.is_empty() {
+            let left_out: Vec<String> = notes.iter().map(ToString::to_string).collect();
+            let left_out = left_out.join("; ");
+            let fault = format!("a recipe cannot express how it was combined: {left_out}");
+            return Err(refused(PartFault::unusable(fault)));
         }
-        for part in &reader.recipe.parts {
-            if !is_folder_name(&part.source, &beside) {
-                return Err(part.refused(PartFault::NotBeside));
-            }
+        if let Some(part) = recipe.parts.iter().find(|part| !is_folder_name(&part.source, beside)) {
+            let fault = "a legacy module names a part by a folder beside its own, but this is not the name of a folder: correct it, or write a recipe";
+            return Err(part.refused(PartFault::unusable(fault)));
         }
-        reader.recipe.check()?;
-        Ok((reader.recipe, reader.notes))
+        recipe.check()?;
+        Ok((recipe, notes))
     }
 }
 
@@ -81,20 +81,13 @@ fn is_folder_name(source: &Path, beside: &Path) -> bool {
     is_name && !source.is_file()
 }
 
-/// The corresponding type in version 1.
-fn of_legacy(joint_type: urdf::JointType) -> JointType {
-    let mut types = JointType::ALL.iter().copied();
-    let same = types.find(|of| of.as_str() == joint_type.as_str());
-    same.unwrap_or(JointType::Fixed)
-}
-
 /// The document of a module, if it is there.
 fn read<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<Option<T>, PartFault> {
     let path = format!("{}/module.json", kind.folder());
-    match root.read(&path, MAX_DOCUMENT_BYTES) {
-        Ok(bytes) => parsed(&bytes, &path).map(Some),
-        Err(_) => Ok(None),
+    if root.open_file(&path).is_err() {
+        return Ok(None);
     }
+    document(root, &path).map(|(module, _)| Some(module))
 }
 
 struct Reader<'a> {
@@ -106,8 +99,9 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn unsaid(&mut self, what: String) {
-        self.notes.push(Note::not_said(what));
+    /// Notes content that a recipe cannot express, or that it needs and lacks.
+    fn note(&mut self, text: String) {
+        self.notes.push(Note { kind: "not-said", part: None, text });
     }
 
     fn part(&mut self, robot: &str, prefix: String, attach: Option<Attachment>) -> &mut Part {
@@ -116,71 +110,69 @@ impl Reader<'_> {
         while !self.ids.insert(id.to_ascii_lowercase()) {
             id += &format!("_{}", self.recipe.parts.len());
         }
-        let part = Part::new(id, self.beside.join(robot), prefix);
-        self.recipe.parts.push(Part { attach, ..part });
+        let part = Part::new(id, self.beside.join(robot), prefix, attach);
+        self.recipe.parts.push(part);
         let last = self.recipe.parts.len() - 1;
         &mut self.recipe.parts[last]
+    }
+
+    /// Attaches the next part to the link `world`, which the first of them adds as `[base]`.
+    fn on_world(&mut self, world: &str, joint: Attachment) -> Option<Attachment> {
+        if self.recipe.base.is_some() {
+            return Some(Attachment { to: Word::new(format!("{BASE}/{world}")), ..joint });
+        }
+        self.recipe.base = Some(Attachment { to: Word::new(world), ..joint });
+        None
     }
 
     fn combined(&mut self, module: &CombinedRobotModule) {
         self.recipe.name = Word::new(&module.name);
         for (idx, robot) in module.attached_robots.iter().enumerate() {
             let joint = self.joint(idx, robot);
-            let prefix = format!("robot_{idx}_");
+            let name = &robot.robot_name;
             let attach = match &robot.attachment_point {
-                AttachmentPoint::World if self.recipe.base.is_none() => {
-                    let link = Word::new(WORLD);
-                    self.recipe.base = Some(Base { link, joint });
-                    None
-                }
-                AttachmentPoint::World => {
-                    Some(Attachment { to: Word::new(format!("{BASE}/{WORLD}")), joint })
-                }
+                AttachmentPoint::World => self.on_world(WORLD, joint),
                 AttachmentPoint::Link(link) => {
-                    let holder = self.recipe.parts.get(link.robot_idx.get());
-                    let Some(holder) = holder.map(|part| part.id.text.clone()) else {
-                        let name = &robot.robot_name;
-                        self.unsaid(format!(
+                    let Some(holder) = self.recipe.parts.get(link.robot_idx.get()) else {
+                        self.note(format!(
                             "robot {idx}, `{name}`, is attached to a robot that does not exist; it is left out"
                         ));
                         continue;
                     };
-                    let to = Word::new(format!("{holder}/{}", link.link_name));
-                    Some(Attachment { to, joint })
+                    let to = Word::new(format!("{}/{}", holder.id.text, link.link_name));
+                    Some(Attachment { to, ..joint })
                 }
             };
-            self.part(&robot.robot_name, prefix, attach);
+            self.part(name, format!("robot_{idx}_"), attach);
         }
     }
 
-    fn joint(&mut self, idx: usize, robot: &AttachedRobot) -> JointDescription {
-        let joint_type = of_legacy(robot.joint_type);
-        let moves = joint_type != JointType::Fixed;
+    /// The joint of an attached robot, still without a link above it.
+    fn joint(&mut self, idx: usize, robot: &AttachedRobot) -> Attachment {
+        let joint_type = robot.joint_type.as_str().to_ascii_lowercase();
+        let moves = joint_type != "fixed";
         let axis = robot.axis.xyz;
         if moves && axis == [0.0; 3] {
-            self.unsaid(format!("the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is used"));
+            self.note(format!("the axis of the joint of robot {idx} is 0 0 0; 1 0 0 is used"));
         }
         if moves && (robot.dynamics.is_some() || robot.safety_controller.is_some()) {
-            self.unsaid(format!(
-                "dynamics and soft limits of the joint of robot {idx} are left out"
-            ));
+            self.note(format!("dynamics and soft limits of the joint of robot {idx} are left out"));
         }
-        let is_limited = matches!(joint_type, JointType::Revolute | JointType::Prismatic);
+        let is_limited = matches!(joint_type.as_str(), "revolute" | "prismatic");
         let limit = &robot.limit;
-        JointDescription {
+        let unless_zero = |value: f64| (value != 0.0).then_some(value);
+        Attachment {
+            to: Word::default(),
             name: Word::new(format!("connection_joint_robot_{idx}")),
-            joint_type,
+            joint: Word::new(joint_type),
             xyz: robot.origin.xyz,
             rpy: robot.origin.rpy,
             axis: (moves && axis != [0.0; 3]).then_some(axis),
-            limit: is_limited.then(|| Limit {
+            limit: is_limited.then(|| JointLimit {
                 lower: Some(limit.lower),
                 upper: Some(limit.upper),
-                effort: (limit.effort != 0.0).then_some(limit.effort),
-                velocity: (limit.velocity != 0.0).then_some(limit.velocity),
-                acceleration: None,
-                deceleration: None,
-                jerk: None,
+                effort: unless_zero(limit.effort),
+                velocity: unless_zero(limit.velocity),
             }),
         }
     }
@@ -190,9 +182,8 @@ impl Reader<'_> {
         let part = self.part(&module.base_robot_name, String::new(), None);
         part.drop = module.dead_end_link_names.iter().map(Word::new).collect();
         let fixed = module.fixed_base_joints.iter();
-        part.freeze = fixed.map(|(joint, values)| (Word::new(joint), values.clone())).collect();
-        // Sorted, as in a file.
-        part.freeze.sort_by(|a, b| a.0.text.cmp(&b.0.text));
+        part.freeze =
+            fixed.map(|(joint, at)| (Word::new(joint), Frozen::Each(at.clone()))).collect();
     }
 
     fn created(&mut self, module: &CreatorModule) {
@@ -202,11 +193,11 @@ impl Reader<'_> {
                 Action::AddAlreadyExistingChain(chain)
                 | Action::AddAlreadyExistingEnvironment(chain) => self.chain(idx, chain),
                 other => {
-                    let kind = serde_json::to_value(other).ok();
-                    let kind =
-                        kind.and_then(|value| Some(value.as_object()?.keys().next()?.clone()));
-                    let kind = kind.unwrap_or_default();
-                    self.unsaid(format!(
+                    let kind = serde_json::to_value(other)
+                        .ok()
+                        .and_then(|value| Some(value.as_object()?.keys().next()?.clone()))
+                        .unwrap_or_default();
+                    self.note(format!(
                         "action {idx}, {kind}, creates or changes links, which a recipe cannot do"
                     ));
                 }
@@ -216,7 +207,7 @@ impl Reader<'_> {
 
     fn chain(&mut self, idx: usize, chain: &AddChain) {
         if chain.scale != [1.0; 3] {
-            self.unsaid(format!(
+            self.note(format!(
                 "action {idx} scales `{}`, which a recipe cannot do; its size is unchanged",
                 chain.name
             ));
@@ -226,16 +217,9 @@ impl Reader<'_> {
         let rotation = nalgebra::UnitQuaternion::try_new(rotation, 0.0);
         let rotation = rotation.map(|rotation| canonical(&rotation)).unwrap_or_default();
         let rpy = to_rpy(rotation.to_rotation_matrix().matrix());
-        let xyz = chain.base_offset.translation;
-        let joint = JointDescription::fixed(format!("connection_joint_{idx}"), xyz, rpy);
-        let link = Word::new("world");
-        let attach = match self.recipe.base {
-            Some(_) => Some(Attachment { to: Word::new(format!("{BASE}/world")), joint }),
-            None => {
-                self.recipe.base = Some(Base { link, joint });
-                None
-            }
-        };
+        let pose = [chain.base_offset.translation, rpy];
+        let joint = Attachment::fixed(String::new(), format!("connection_joint_{idx}"), pose);
+        let attach = self.on_world("world", joint);
         self.part(&chain.name, String::new(), attach);
     }
 }

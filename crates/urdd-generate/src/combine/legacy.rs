@@ -33,10 +33,9 @@ pub(super) struct Carried {
 
 /// Reads the URDF of the legacy URDD in `folder`. Opens nothing outside that folder.
 pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
-    let file = urdf_in(folder).ok_or(PartFault::NoUrdf)?;
+    let file = urdf_in(folder).ok_or_else(PartFault::no_urdf)?;
     let root = Root::open_folder(folder).map_err(|e| PartFault::unreadable(&file, e))?;
-    let found = root.read(&file, MAX_SOURCE_BYTES);
-    let found = found.map_err(|e| PartFault::unreadable(&file, e))?;
+    let found = root.read(&file, MAX_SOURCE_BYTES).map_err(|e| PartFault::unreadable(&file, e))?;
     let robot = read_urdf(&found, "robot").map_err(|e| PartFault::unreadable(&file, e))?;
     let text = String::from_utf8(robot.carried).map_err(|e| PartFault::unreadable(&file, e))?;
     let links = &robot.robot.links;
@@ -52,8 +51,8 @@ pub(super) fn read(folder: &Path) -> Result<Carried, PartFault> {
             places.insert(mesh.filename.clone(), place);
         }
     }
-    let document = parse(&text, Kind::Robot);
-    let document = document.map_err(|error| PartFault::unreadable(&file, error.words(&text)))?;
+    let document = parse(&text, Kind::Robot)
+        .map_err(|error| PartFault::unreadable(&file, error.words(&text)))?;
     let mut edits = mesh_edits(&document, &places);
     let mut plain = plain_meshes(&root);
     plain.retain(|idx, place| {
@@ -100,10 +99,14 @@ fn only_mesh(link: &Link) -> Option<&Mesh> {
 fn plain_meshes(root: &Root) -> BTreeMap<usize, String> {
     let folder = ModuleKind::PlainMeshes.folder();
     let module = document(root, &format!("{folder}/module.json"));
-    let module = module.map(|(module, _): (PlainMeshesModule, _)| module);
-    let paths = module.map_or_else(|_| Vec::new(), |of| of.stl_link_mesh_relative_paths);
-    let paths = paths.iter().enumerate();
-    let named = paths.filter_map(|(idx, path)| Some((idx, last_component(path.as_ref()?))));
+    let paths = module.map_or_else(
+        |_| Vec::new(),
+        |(module, _): (PlainMeshesModule, _)| module.stl_link_mesh_relative_paths,
+    );
+    let named = paths
+        .iter()
+        .enumerate()
+        .filter_map(|(idx, path)| Some((idx, last_component(path.as_ref()?))));
     let mut links_of: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (idx, name) in named {
         links_of.entry(name).or_default().push(idx);

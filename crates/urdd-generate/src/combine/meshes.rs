@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use super::error::{CombineError, PartFault};
 use super::part::{Loaded, MeshFile};
 use super::recipe::Part;
+use crate::meshes::layout::common_folder;
 use urdd_directory::cancellation::Cancellation;
 use urdd_directory::limits::MAX_DOCUMENT_BYTES;
 use urdd_format::hexadecimal::hexadecimal;
@@ -93,28 +94,14 @@ impl<'a> Meshes<'a> {
         Ok(())
     }
 
-    /// Moves the files to where the URDF names them, below `folder`. Returns the prefix that all places share, which is
+    /// Moves the files to where the URDF names them, below `folder`. Returns the folder that all places share, which is
     /// left out of the names.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<String, CombineError> {
-        let mut shared: Option<Vec<&str>> = None;
-        for place in self.files.keys() {
-            let mut folders: Vec<&str> = place.split('/').collect();
-            folders.pop();
-            shared = Some(match shared {
-                None => folders,
-                Some(before) => {
-                    let same = before.iter().zip(&folders).take_while(|(a, b)| a == b);
-                    same.map(|(a, _)| *a).collect()
-                }
-            });
-        }
-        let mut shared = shared.unwrap_or_default().join("/");
-        if !shared.is_empty() {
-            shared.push('/');
-        }
+    pub fn write(&self, folder: &Path) -> Result<PathBuf, CombineError> {
+        let places: Vec<&Path> = self.files.keys().map(Path::new).collect();
+        let shared = common_folder(&places);
         for (place, stored) in &self.files {
             let path = folder.join(carried(place, &shared));
             let made = path.parent().map_or(Ok(()), fs::create_dir_all);
@@ -126,16 +113,14 @@ impl<'a> Meshes<'a> {
 }
 
 /// The path of a file in the URDD. The URDF uses the same name, so that it is found from there too.
-pub(super) fn carried(place: &str, shared: &str) -> String {
-    let place = place.strip_prefix(shared).unwrap_or(place);
+pub(super) fn carried(place: &str, shared: &Path) -> String {
+    let place = Path::new(place).strip_prefix(shared).ok().and_then(Path::to_str).unwrap_or(place);
     format!("{}/meshes/{place}", ModuleKind::OriginalMeshes.folder())
 }
 
 fn below_meshes(path: &str) -> &str {
     let folder = ModuleKind::OriginalMeshes.folder();
-    let below = path.strip_prefix(folder);
-    let below = below.and_then(|path| path.strip_prefix("/meshes/"));
-    below.unwrap_or(path)
+    path.strip_prefix(folder).and_then(|path| path.strip_prefix("/meshes/")).unwrap_or(path)
 }
 
 /// The path of a file relative to the folder of another, both below one root.

@@ -11,7 +11,6 @@ mod document;
 mod error;
 mod from_legacy;
 mod frozen;
-mod keys;
 mod legacy;
 mod meshes;
 mod names;
@@ -19,28 +18,25 @@ mod note;
 mod part;
 mod recipe;
 mod recipe_check;
-mod recipe_fault;
 mod recipe_file;
 mod record;
 mod rewrite;
 mod skips;
 mod sources;
-mod toml_file;
-mod toml_text;
 mod trim;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use self::compose::Taken;
+use self::compose::Member;
 use self::meshes::Meshes;
 use self::names::LeftAlone;
 use self::rewrite::{Rewrite, Rewritten};
 use crate::{
     Composed, GenerateError, Generated, MOST_LINKS, Progress, Settings, generate_composed,
 };
-use urdd_format::composition::{CompositionModule, PartSource};
+use urdd_format::composition::CompositionModule;
 use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::Geometry;
 use urdd_source::note::{self as generated, NoteKind};
@@ -50,11 +46,7 @@ use urdd_source::read_urdf;
 pub use check_parts::check_parts;
 pub use error::{CombineError, PartFault};
 pub use note::Note;
-pub use recipe::{
-    Attachment, Base, JointDescription, MAX_RECIPE_BYTES, Part, Recipe, Sources, Word,
-};
-pub use recipe_fault::RecipeFault;
-pub use sources::{SourceKind, source_kind};
+pub use recipe::Recipe;
 
 /// The modules that a part has because of a person, and that are not computed.
 const OF_PEOPLE: [&str; 2] = ["composition_module", "named_configurations_module"];
@@ -87,19 +79,12 @@ pub fn combine(
         error: GenerateError::internal(&recipe.shown, reason),
     };
     let unwritable = CombineError::unwritable;
-    let workplace = tempfile::tempdir();
-    let workplace = workplace.map_err(|error| unwritable(&std::env::temp_dir(), error))?;
+    let workplace =
+        tempfile::tempdir().map_err(|error| unwritable(&std::env::temp_dir(), error))?;
     let mut notes = Vec::new();
-    let parts = take_up(recipe, workplace.path(), settings)?;
-    said(&parts, &mut notes);
-    for taken in &parts {
-        if let Some(attach) = &taken.part.attach {
-            let (holder, link) = recipe.target(&attach.to)?;
-            if let Some(holder) = holder {
-                skips::existing(recipe, &parts[holder], link, &attach.to)?;
-            }
-        }
-    }
+    let parts = load_parts(recipe, workplace.path(), settings)?;
+    note_parts(&parts, &mut notes);
+    let holders = compose::holders(recipe, &parts)?;
     let repeated = compose::check_names(recipe, &parts)?;
     let (edits, skipped_reasons) = skips::decisions(recipe, &parts, &mut notes)?;
     let configurations = configurations::of_parts(recipe, &parts, &mut notes)?;
@@ -110,46 +95,45 @@ pub fn combine(
     }
     let mut files = Meshes::new(store, &settings.cancellation);
     let mut placed = Vec::new();
-    for taken in &parts {
-        placed.push(files.add(taken.part, &taken.loaded, &used_meshes(taken))?);
+    for member in &parts {
+        placed.push(files.add(member.part, &member.loaded, &used_meshes(member))?);
     }
     let shared = files.write(&folder)?;
 
     let quaternions = has_quaternions(compose::version(&parts).as_deref());
     let (mut rewritten, mut length) = (Vec::new(), 0);
-    for ((taken, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
+    for ((member, placed), repeated) in parts.iter().zip(placed).zip(&repeated) {
         settings.cancellation.check()?;
         let carried = placed.into_iter();
         let carried = carried.map(|(name, place)| (name, meshes::carried(&place, &shared)));
         let text = Rewrite {
-            loaded: &taken.loaded,
-            trim: &taken.trim,
-            prefix: &taken.part.prefix.text,
-            names: &names_told(recipe, taken.part)?,
+            loaded: &member.loaded,
+            trim: &member.trim,
+            prefix: &member.part.prefix.text,
+            names: &name_places(recipe, member.part)?,
             meshes: &carried.collect::<BTreeMap<_, _>>(),
             repeated_materials: repeated,
             quaternions,
         };
         let text = text.run().map_err(internal)?;
-        said_of_text(taken, &text, &mut notes);
+        note_text(member, &text, &mut notes);
         length += text.inner.len();
-        recipe.check_length(taken.part, "the URDFs", length)?;
+        recipe.check_length(member.part, "the URDFs", length)?;
         rewritten.push(text);
     }
-    let urdf = compose::urdf(recipe, &parts, &rewritten)?;
+    let urdf = compose::urdf(recipe, &parts, &holders, &rewritten)?;
     settings.cancellation.check()?;
-    let robot = read_urdf(urdf.as_bytes(), &recipe.name.text);
-    let robot = robot.map_err(|error| CombineError::Generate { id: None, error: error.into() })?;
-    let composition = record::composition(recipe, &parts, &robot.robot)?;
+    let robot = read_urdf(urdf.as_bytes(), &recipe.name.text)
+        .map_err(|error| CombineError::Generate { id: None, error: error.into() })?;
+    let composition = record::composition(recipe, &parts, &holders, &robot.robot);
 
     let mut settings = settings.clone();
-    let trusted = parts.iter().filter(|taken| {
-        let is_urdd = matches!(taken.loaded.source, PartSource::Urdd(_));
-        is_urdd && !distrusted.contains(&taken.part.id.text)
-    });
     let mut reused = BTreeSet::new();
-    let trusted = trusted.filter(|taken| reused.insert(Rc::as_ptr(&taken.loaded)));
-    settings.donors = trusted.map(|taken| taken.loaded.root.clone()).collect();
+    let trusted = parts.iter().filter(|member| {
+        let is_trusted = member.is_urdd() && !distrusted.contains(&member.part.id.text);
+        is_trusted && reused.insert(Rc::as_ptr(&member.loaded))
+    });
+    settings.donors = trusted.map(|member| member.loaded.root.clone()).collect();
     let composed = Composed {
         shown: format!("{}.urdf", recipe.name.text),
         folder,
@@ -167,11 +151,11 @@ pub fn combine(
 }
 
 /// Reads the parts, each source once, and checks the size limits of a robot.
-fn take_up<'a>(
+fn load_parts<'a>(
     recipe: &'a Recipe,
     workplace: &Path,
     settings: &Settings,
-) -> Result<Vec<Taken<'a>>, CombineError> {
+) -> Result<Vec<Member<'a>>, CombineError> {
     let mut parts = Vec::new();
     let mut known: BTreeMap<PathBuf, Rc<part::Loaded>> = BTreeMap::new();
     let (mut links, mut length, mut composition_length) = (0, 0, 0);
@@ -187,26 +171,21 @@ fn take_up<'a>(
         };
         known.insert(source.path, loaded.clone());
         let trim = trim::trim(recipe, part, &loaded)?;
-        links += (0..trim.dropped_links.len()).filter(|link| trim.keeps_link(*link)).count();
+        links += trim.dropped_links.iter().filter(|with| with.is_none()).count();
         if links > MOST_LINKS {
-            let fault = RecipeFault::TooManyLinks { found: links, limit: MOST_LINKS };
-            return Err(recipe.refused(&part.id, fault));
+            return Err(recipe.too_many_links(&part.id, links));
         }
         length += loaded.text.len();
         recipe.check_length(part, "the URDFs", length)?;
         composition_length += loaded.composition_length;
-        let what = "the composition modules";
-        recipe.check_length(part, what, composition_length)?;
-        parts.push(Taken { part, loaded, trim });
+        recipe.check_length(part, "the composition modules", composition_length)?;
+        parts.push(Member { part, loaded, trim });
     }
     Ok(parts)
 }
 
-/// The meshes of the kept links.
-fn used_meshes(taken: &Taken) -> BTreeSet<String> {
-    let links = taken.loaded.robot.links.iter().enumerate();
-    let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
-    let geometries = links.flat_map(|(_, link)| {
+fn used_meshes(member: &Member) -> BTreeSet<String> {
+    let geometries = member.kept_links().flat_map(|link| {
         let visual = link.visual.iter().map(|visual| &visual.geometry);
         let collision = link.collision.iter().map(|collision| &collision.geometry);
         visual.chain(collision).flatten()
@@ -218,47 +197,47 @@ fn used_meshes(taken: &Taken) -> BTreeSet<String> {
     names.collect()
 }
 
-/// The texture files of the kept materials.
-fn textures(taken: &Taken) -> BTreeSet<String> {
-    let robot = &taken.loaded.robot;
-    let links = robot.links.iter().enumerate();
-    let links = links.filter(|(idx, _)| taken.trim.keeps_link(*idx));
-    let visuals = links.flat_map(|(_, link)| &link.visual);
+fn textures(member: &Member) -> BTreeSet<String> {
+    let visuals = member.kept_links().flat_map(|link| &link.visual);
     let own = visuals.filter_map(|visual| visual.material.as_ref());
-    let textures = own.chain(&robot.materials);
-    let textures = textures.filter_map(|material| material.texture.as_ref());
+    let materials = own.chain(&member.loaded.robot.materials);
+    let textures = materials.filter_map(|material| material.texture.as_ref());
     textures.map(|texture| texture.filename.clone()).collect()
 }
 
 /// The recipe's `names` of a part: other elements and attributes that name links and joints.
-fn names_told<'a>(recipe: &Recipe, part: &'a Part) -> Result<BTreeSet<&'a str>, CombineError> {
-    let mut told = BTreeSet::new();
+fn name_places<'a>(
+    recipe: &Recipe,
+    part: &'a recipe::Part,
+) -> Result<BTreeSet<&'a str>, CombineError> {
+    let mut places = BTreeSet::new();
     for word in &part.names {
         let mut words = word.text.split('@');
         let is_word = |word: Option<&str>| word.is_none_or(|word| !word.trim().is_empty());
         let fits = is_word(words.next()) && is_word(words.next()) && words.next().is_none();
         if !fits {
-            let fault = RecipeFault::BadName(word.text.clone());
+            let fault = format!(
+                "`{}` does not say where links and joints are named; write `element` for its text, or `element@attribute`",
+                word.text
+            );
             return Err(recipe.refused(word, fault));
         }
-        told.insert(word.text.as_str());
+        places.insert(word.text.as_str());
     }
-    Ok(told)
+    Ok(places)
 }
 
-/// Notes about each part.
-fn said(parts: &[Taken], notes: &mut Vec<Note>) {
-    let is_urdd = |taken: &&Taken| matches!(taken.loaded.source, PartSource::Urdd(_));
-    let urdds = parts.iter().filter(is_urdd);
-    let all: BTreeSet<&String> = urdds.flat_map(|taken| &taken.loaded.modules).collect();
-    for taken in parts {
-        let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
-        for of_part in &taken.loaded.notes {
+fn note_parts(parts: &[Member], notes: &mut Vec<Note>) {
+    let urdds = parts.iter().filter(|member| member.is_urdd());
+    let all: BTreeSet<&String> = urdds.flat_map(|member| &member.loaded.modules).collect();
+    for member in parts {
+        let mut note = |kind, text| notes.push(Note::of_part(kind, &member.part.id.text, text));
+        for of_part in &member.loaded.notes {
             note(of_part.kind.as_str(), of_part.to_string());
         }
-        for link in &taken.loaded.plain_meshes {
-            let idx = taken.loaded.links.get(link);
-            if idx.is_some_and(|idx| taken.trim.keeps_link(*idx)) {
+        for link in &member.loaded.plain_meshes {
+            let idx = member.loaded.links.get(link);
+            if idx.is_some_and(|idx| member.trim.keeps_link(*idx)) {
                 note(
                     "plain-mesh",
                     format!(
@@ -267,7 +246,7 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
                 );
             }
         }
-        for joint in &taken.trim.following {
+        for joint in &member.trim.following {
             note(
                 "following",
                 format!(
@@ -276,7 +255,7 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
             );
         }
         // URDDs store the textures of meshes, not those of materials.
-        for name in textures(taken) {
+        for name in textures(member) {
             note(
                 "texture",
                 format!(
@@ -284,11 +263,11 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
                 ),
             );
         }
-        if !is_urdd(&taken) {
+        if !member.is_urdd() {
             continue;
         }
-        for name in used_meshes(taken) {
-            if !taken.loaded.meshes.contains_key(&name) {
+        for name in used_meshes(member) {
+            if !member.loaded.meshes.contains_key(&name) {
                 note(
                     "mesh-not-found",
                     format!(
@@ -297,27 +276,26 @@ fn said(parts: &[Taken], notes: &mut Vec<Note>) {
                 );
             }
         }
-        let known = ModuleKind::ALL.iter().map(|kind| kind.name());
-        let lacks = known.filter(|name| {
-            let is_name = |module: &&String| module.as_str() == *name;
-            let is_there = taken.loaded.modules.iter().any(|module| is_name(&module));
-            !is_there && all.iter().any(is_name) && !OF_PEOPLE.contains(name)
-        });
-        let lacks: Vec<&str> = lacks.collect();
-        if !lacks.is_empty() {
-            let lacks = lacks.join(", ");
+        let lacks = |name: &&str| {
+            let is_name = |module: &String| module == name;
+            let is_there = member.loaded.modules.iter().any(is_name);
+            !is_there && all.iter().any(|module| is_name(module)) && !OF_PEOPLE.contains(name)
+        };
+        let lacking: Vec<&str> =
+            ModuleKind::ALL.iter().map(|kind| kind.name()).filter(lacks).collect();
+        if !lacking.is_empty() {
+            let lacking = lacking.join(", ");
             note(
                 "unequal-modules",
-                format!("it has no {lacks}, which other parts have; it is computed"),
+                format!("it has no {lacking}, which other parts have; it is computed"),
             );
         }
     }
 }
 
-/// Notes about the text of a part.
-fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
-    let mut note = |kind, text| notes.push(Note::of_part(kind, &taken.part.id.text, text));
-    let is_renamed = !taken.part.prefix.text.is_empty();
+fn note_text(member: &Member, text: &Rewritten, notes: &mut Vec<Note>) {
+    let mut note = |kind, text| notes.push(Note::of_part(kind, &member.part.id.text, text));
+    let is_renamed = !member.part.prefix.text.is_empty();
     for LeftAlone { place, name } in text.left_alone.iter().filter(|_| is_renamed) {
         note(
             "left-alone",
@@ -326,7 +304,7 @@ fn said_of_text(taken: &Taken, text: &Rewritten, notes: &mut Vec<Note>) {
             ),
         );
     }
-    for what in &text.gone {
+    for what in &text.removed {
         note("gone", format!("left out {what}"));
     }
 }

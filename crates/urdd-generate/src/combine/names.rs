@@ -90,7 +90,6 @@ pub(super) struct LeftAlone {
     pub name: String,
 }
 
-/// All names in a URDF.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     pub places: Vec<NamePlace>,
@@ -192,25 +191,21 @@ impl Finder<'_> {
             let (key, value) = (found.name(), found.value());
             let place = format!("{tag}@{key}");
             let is_name = key == "name";
-            let told = self.more.contains(place.as_str());
-            let is_known = told
+            let is_own = is_name && OWN.contains(&tag);
+            let is_known = self.more.contains(place.as_str())
                 || ATTRIBUTES.contains(&key)
                 || (matches!(key, "parent" | "child") && self.links.contains(value))
                 || (is_name && OF_JOINTS.contains(&tag) && self.joints.contains(value));
             let named = match self.named(value) {
-                Some(named) if is_known => Some(named),
-                None if is_name && OWN.contains(&tag) => Some(Named::Own),
-                Some(_) if is_name && OWN.contains(&tag) => Some(Named::Own),
+                Some(named) if is_known => named,
+                _ if is_own => Named::Own,
                 Some(_) => {
-                    let name = value.to_owned();
-                    self.found.left_alone.insert(LeftAlone { place, name });
-                    None
+                    self.found.left_alone.insert(LeftAlone { place, name: value.to_owned() });
+                    continue;
                 }
-                None => None,
+                None => continue,
             };
-            if let Some(named) = named {
-                self.push(value, named, found.range_value(), element);
-            }
+            self.push(value, named, found.range_value(), element);
         }
         let mut texts = element.children().filter(Node::is_text);
         if let (Some(text), None) = (texts.next(), texts.next()) {
@@ -243,8 +238,7 @@ impl Finder<'_> {
             self.push(value, named, text.range(), element);
         } else {
             let place = tag.to_owned();
-            let name = value.to_owned();
-            self.found.left_alone.insert(LeftAlone { place, name });
+            self.found.left_alone.insert(LeftAlone { place, name: value.to_owned() });
         }
     }
 }
@@ -254,8 +248,8 @@ pub(super) fn mesh_edits(document: &Document, names: &BTreeMap<String, String>) 
     let mut edits = Vec::new();
     for (_, link) in children(document.root_element()).filter(|(tag, _)| *tag == "link") {
         let shapes = children(link).filter(|(tag, _)| matches!(*tag, "visual" | "collision"));
-        let geometries = shapes.flat_map(|(_, shape)| children(shape));
-        let geometries = geometries.filter(|(tag, _)| *tag == "geometry");
+        let geometries =
+            shapes.flat_map(|(_, shape)| children(shape)).filter(|(tag, _)| *tag == "geometry");
         let meshes = geometries.flat_map(|(_, geometry)| children(geometry));
         for (_, mesh) in meshes.filter(|(tag, _)| *tag == "mesh") {
             let Some(filename) = attribute(mesh, "filename") else {

@@ -16,14 +16,8 @@ pub struct Note {
 }
 
 impl Note {
-    /// A note about a part.
     pub(super) fn of_part(kind: &'static str, part: &str, text: String) -> Self {
         Note { kind, part: Some(part.to_owned()), text }
-    }
-
-    /// A legacy module has content that a recipe cannot express, or lacks what a recipe needs.
-    pub(super) fn not_said(text: String) -> Self {
-        Note { kind: "not-said", part: None, text }
     }
 }
 

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use super::document::{bytes, document, parsed};
@@ -27,7 +26,6 @@ use urdd_format::urdf::UrdfModule;
 use urdd_source::note::Note;
 use urdd_source::{MAX_SOURCE_BYTES, read_urdf};
 
-/// A loaded part.
 #[derive(Debug)]
 pub(super) struct Loaded {
     /// The URDD: the source, or the one generated from it.
@@ -68,8 +66,9 @@ pub(super) struct MeshFile {
 }
 
 /// The user's decisions about skips.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub(super) struct Skips {
+    #[serde(rename = "skipped_reasons")]
     pub reasons: Vec<SkippedReason>,
     pub edits: Vec<SkipEdit>,
 }
@@ -90,8 +89,7 @@ pub(super) fn load(
         |fault| CombineError::Part { id: id.to_owned(), source_path: shown.clone(), fault };
     let unreadable = |error: ReadError| refused(PartFault::unreadable("", error));
     if source.kind == SourceKind::Urdd {
-        let root = Root::open(&source.path).map_err(unreadable)?;
-        return read(root, None, id).map_err(refused);
+        return read(Root::open(&source.path).map_err(unreadable)?, None, id).map_err(refused);
     }
     let mut settings = settings.clone();
     // Derived modules are only generated for the combined robot.
@@ -106,8 +104,7 @@ pub(super) fn load(
             (made, digest, carried.plain_meshes)
         }
         _ => {
-            let bytes = regular::read(&source.path, MAX_SOURCE_BYTES);
-            let bytes = bytes.map_err(unreadable)?;
+            let bytes = regular::read(&source.path, MAX_SOURCE_BYTES).map_err(unreadable)?;
             let digest = sha256(&Sha256::digest(&bytes));
             let made = generate(&source.path, workplace, &settings, &());
             (made, digest, Vec::new())
@@ -119,39 +116,26 @@ pub(super) fn load(
     Ok(Loaded { notes: made.notes, plain_meshes, ..loaded })
 }
 
-/// Loads a URDD of version 1.
 fn read(root: Root, source: Option<PartSource>, id: &str) -> Result<Loaded, PartFault> {
     let text = bytes(&root, ROOT_METADATA)?;
     let metadata: RootMetadata = parsed(&text, ROOT_METADATA)?;
     let Some(root_metadata::Source::Urdf(urdf)) = &metadata.source else {
-        return Err(PartFault::NoUrdf);
+        return Err(PartFault::no_urdf());
     };
     let robot = read_urdf(&bytes(&root, &urdf.path)?, id)
         .map_err(|error| PartFault::unreadable(&urdf.path, error))?;
     let text_of_urdf = String::from_utf8(robot.carried)
         .map_err(|_| PartFault::unreadable(&urdf.path, "it is not UTF-8"))?;
     let listed = (&root, &metadata);
-    let original: Option<(OriginalMeshesModule, _)> = module(listed, ModuleKind::OriginalMeshes)?;
-    let original = original.map(|(module, _)| meshes(module));
-    let skips: Option<(Value, _)> = module(listed, ModuleKind::LinkShapesSkips)?;
-    let skips = skips.map(|(document, _)| {
-        let of = |key: &str| document.get(key).cloned().unwrap_or_default();
-        let wrong = |error: serde_json::Error| {
-            let path = format!("{}/module.json", ModuleKind::LinkShapesSkips.folder());
-            PartFault::unreadable(&path, error)
-        };
-        Ok(Skips {
-            reasons: Vec::deserialize(&of("skipped_reasons")).map_err(wrong)?,
-            edits: Vec::deserialize(&of("edits")).map_err(wrong)?,
-        })
-    });
+    let original = module(listed, ModuleKind::OriginalMeshes)?;
+    let (skips, _) = module(listed, ModuleKind::LinkShapesSkips)?.unzip();
     let named: Option<(NamedConfigurationsModule, _)> =
         module(listed, ModuleKind::NamedConfigurations)?;
     let named = named.map_or_else(Vec::new, |(module, _)| module.configurations);
     let (composition, composition_length) = module(listed, ModuleKind::Composition)?.unzip();
     Ok(Loaded {
-        meshes: original.unwrap_or_default(),
-        skips: skips.transpose()?,
+        meshes: original.map(|(module, _)| meshes(module)).unwrap_or_default(),
+        skips,
         configurations: named.iter().map(ConfigurationEdit::from).collect(),
         composition,
         composition_length: composition_length.unwrap_or_default(),
@@ -194,6 +178,5 @@ fn module<T: DeserializeOwned>(
 ) -> Result<Option<(T, usize)>, PartFault> {
     let mut listed = metadata.modules.iter();
     let module = listed.find(|module| module.name == kind.name());
-    let module = module.map(|module| document(root, &format!("{}/module.json", module.path)));
-    module.transpose()
+    module.map(|module| document(root, &format!("{}/module.json", module.path))).transpose()
 }

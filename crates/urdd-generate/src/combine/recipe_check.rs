@@ -3,10 +3,10 @@
 
 use std::collections::HashMap;
 
-use super::error::CombineError;
-use super::recipe::{Recipe, Word};
-use super::recipe_fault::RecipeFault;
+use super::error::{CombineError, did_you_mean};
+use super::recipe::{Attachment, Recipe, Word};
 use crate::MOST_LINKS;
+use urdd_format::urdf::JointType;
 use urdd_source::cycles;
 
 /// Maximum length of a robot's name in bytes: files are named after it.
@@ -15,55 +15,66 @@ const MAX_NAME_BYTES: usize = 200;
 /// Maximum length of a prefix in bytes: it is repeated before thousands of names.
 const MAX_PREFIX_BYTES: usize = 100;
 
+/// Maximum number of characters of a word that a message shows.
+const MAX_SHOWN: usize = 60;
+
 impl Recipe {
     /// Checks the number of parts, their names and their attachments.
     pub(super) fn check(&self) -> Result<(), CombineError> {
         if self.parts.is_empty() {
-            return Err(self.refused(&Word::default(), RecipeFault::NoParts));
+            let fault = "there is no part; write one or more tables `[[part]]`, each with `id` and `source`";
+            return Err(self.refused(&Word::default(), fault));
         }
         if let Some(part) = self.parts.get(MOST_LINKS) {
-            let fault = RecipeFault::TooManyLinks { found: self.parts.len(), limit: MOST_LINKS };
-            return Err(self.refused(&part.id, fault));
+            return Err(self.too_many_links(&part.id, self.parts.len()));
         }
         self.check_words()?;
         self.check_ids()?;
         let mut roots = self.parts.iter().filter(|part| part.attach.is_none());
-        let first = roots.next();
-        if let (Some(first), Some(second)) = (first, roots.next()) {
-            let fault = RecipeFault::TwoRoots {
-                first: first.id.text.clone(),
-                second: second.id.text.clone(),
-            };
+        if let (Some(first), Some(second)) = (roots.next(), roots.next()) {
+            let fault = format!(
+                "parts `{}` and `{}` are both unattached, but a robot has one root; give one of them `attach`",
+                first.id.text, second.id.text
+            );
             return Err(self.refused(&second.id, fault));
         }
         self.check_attachments()
     }
 
-    /// Checks that names and prefixes can be written in a URDF.
+    /// The error for more links than a robot may have, or more parts. `found` is their number up to the part at which
+    /// reading stopped.
+    pub(super) fn too_many_links(&self, part: &Word, found: usize) -> CombineError {
+        let fault = format!(
+            "a robot has at most {MOST_LINKS} links, and the parts have {found} or more: use fewer parts, or drop links"
+        );
+        self.refused(part, fault)
+    }
+
+    /// Checks that names and prefixes can be written in a URDF, and that numbers are finite.
     fn check_words(&self) -> Result<(), CombineError> {
         let unlimited = usize::MAX;
         self.check_word("the name", &self.name, MAX_NAME_BYTES)?;
         if let Some(base) = &self.base {
-            self.check_word("the link", &base.link, unlimited)?;
-            self.check_word("the joint", &base.joint.name, unlimited)?;
+            self.check_word("the link", &base.to, unlimited)?;
+            self.check_joint("base", base)?;
         }
         for part in &self.parts {
             if !part.prefix.text.is_empty() {
                 self.check_word("the prefix", &part.prefix, MAX_PREFIX_BYTES)?;
             }
+            for (joint, position) in &part.freeze {
+                if !position.values().iter().all(|value| value.is_finite()) {
+                    return Err(self.refused(joint, "a number of `freeze` is not finite"));
+                }
+            }
             if let Some(attach) = &part.attach {
-                self.check_word("the joint", &attach.joint.name, unlimited)?;
+                self.check_joint("attach", attach)?;
             }
         }
         Ok(())
     }
 
-    fn check_word(
-        &self,
-        what: &'static str,
-        word: &Word,
-        limit: usize,
-    ) -> Result<(), CombineError> {
+    fn check_word(&self, what: &str, word: &Word, limit: usize) -> Result<(), CombineError> {
         let text = &word.text;
         // XML does not allow other control characters, and turns these into spaces.
         let is_unfit = |c: &char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
@@ -79,8 +90,44 @@ impl Recipe {
         } else {
             return Ok(());
         };
-        let found = text.clone();
-        Err(self.refused(word, RecipeFault::BadWord { what, found, why }))
+        let shown = match text.char_indices().nth(MAX_SHOWN) {
+            Some((end, _)) => format!("{}…", &text[..end]),
+            None => text.clone(),
+        };
+        Err(self.refused(word, format!("{what} `{shown}` {why}")))
+    }
+
+    fn check_joint(&self, table: &str, joint: &Attachment) -> Result<(), CombineError> {
+        self.check_word("the joint", &joint.name, usize::MAX)?;
+        let kind = joint.joint.text.as_str();
+        let known: Vec<String> =
+            JointType::ALL.iter().map(|kind| kind.as_str().to_ascii_lowercase()).collect();
+        let limit = joint.limit.unwrap_or_default();
+        let is_limited = matches!(kind, "revolute" | "prismatic");
+        let limits = [limit.lower, limit.upper, limit.effort, limit.velocity];
+        let triples = [Some(joint.xyz), Some(joint.rpy), joint.axis];
+        let mut numbers =
+            limits.into_iter().flatten().chain(triples.into_iter().flatten().flatten());
+        let fault = if !known.iter().any(|known| known == kind) {
+            let nearest = did_you_mean(known.iter().map(String::as_str), kind);
+            format!("unknown joint type `{kind}`{nearest}; expected one of: {}", known.join(", "))
+        } else if !numbers.all(f64::is_finite) {
+            format!("a number of `{table}` is not finite")
+        } else if is_limited && limit.lower.and(limit.upper).is_none() {
+            format!(
+                "a {kind} joint needs limits: `limit = {{ lower = …, upper = …, effort = …, velocity = … }}`"
+            )
+        } else if let (Some(lower), Some(upper)) = (limit.lower, limit.upper)
+            && lower > upper
+        {
+            format!("the lower limit, {lower}, is above the upper one, {upper}")
+        } else if joint.axis == Some([0.0; 3]) {
+            "the axis is 0 0 0, which has no direction".to_owned()
+        } else {
+            return Ok(());
+        };
+        let word = if joint.joint.at.is_some() { &joint.joint } else { &joint.to };
+        Err(self.refused(word, fault))
     }
 
     fn check_ids(&self) -> Result<(), CombineError> {
@@ -89,10 +136,16 @@ impl Recipe {
             let id = &part.id;
             let is_of_id = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
             if id.text.is_empty() || !id.text.chars().all(is_of_id) {
-                return Err(self.refused(id, RecipeFault::BadId(id.text.clone())));
+                let fault =
+                    format!("`{}` is not a valid id; use letters, digits, `_` and `-`", id.text);
+                return Err(self.refused(id, fault));
             }
             if let Some(first) = first_of.insert(id.text.to_ascii_lowercase(), id) {
-                let fault = RecipeFault::IdTwice { id: id.text.clone(), first: first.at };
+                let at = self.position(first).map_or_else(String::new, |at| format!(":{at}"));
+                let fault = format!(
+                    "another part has the id `{}`{at}; ids must differ in more than upper and lower case",
+                    id.text
+                );
                 return Err(self.refused(id, fault));
             }
         }
@@ -113,11 +166,17 @@ impl Recipe {
         };
         let first = &self.parts[ring[0]];
         let at = first.attach.as_ref().map_or(&first.id, |attach| &attach.to);
-        let ids = ring.iter().map(|part| self.parts[*part].id.text.clone());
-        let mut ids: Vec<String> = ids.collect();
-        let fault = match ids.len() {
-            1 => RecipeFault::OnItself(ids.swap_remove(0)),
-            _ => RecipeFault::Ring(ids),
+        let ids: Vec<&str> = ring.iter().map(|part| self.parts[*part].id.text.as_str()).collect();
+        let fault = match ids.as_slice() {
+            [id] => {
+                format!(
+                    "part `{id}` is attached to itself; `attach.to` must name a link of another part"
+                )
+            }
+            ids => format!(
+                "parts are attached in a cycle: `{}`; one part must be unattached, or attached to `[base]`",
+                ids.join("` to `")
+            ),
         };
         Err(self.refused(at, fault))
     }

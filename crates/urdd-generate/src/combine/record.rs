@@ -2,8 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::compose::{Taken, held};
-use super::error::CombineError;
+use super::compose::{Held, Member};
 use super::recipe::Recipe;
 use urdd_format::composition::{
     CompositionBase, CompositionModule, CompositionPart, FrozenJoint, PartAttachment, PartJoint,
@@ -12,65 +11,61 @@ use urdd_format::composition::{
 use urdd_format::index::{JointIdx, LinkIdx, RobotIdx};
 use urdd_format::urdf::UrdfModule;
 
-/// Builds the module of a combined robot.
-///
-/// # Errors
-/// If an attachment does not name a part; an earlier check rules this out.
 pub(super) fn composition(
     recipe: &Recipe,
-    parts: &[Taken],
+    parts: &[Member],
+    holders: &[Option<Held>],
     robot: &UrdfModule,
-) -> Result<CompositionModule, CombineError> {
-    let links = (robot.links.iter().map(|link| link.name.as_str())).zip(0..);
-    let links: HashMap<&str, u32> = links.collect();
-    let joints = (robot.joints.iter().map(|joint| joint.name.as_str())).zip(0..);
-    let joints: HashMap<&str, u32> = joints.collect();
+) -> CompositionModule {
+    let links: HashMap<&str, u32> =
+        (robot.links.iter().map(|link| link.name.as_str())).zip(0..).collect();
+    let joints: HashMap<&str, u32> =
+        (robot.joints.iter().map(|joint| joint.name.as_str())).zip(0..).collect();
     let link = |name: &str| LinkIdx(links.get(name).copied().unwrap_or_default());
     let joint = |name: &str| JointIdx(joints.get(name).copied().unwrap_or_default());
     let mut made = Vec::new();
-    for taken in parts {
-        let (part, of) = (taken.part, &taken.loaded.robot);
-        let attachment = held(recipe, parts, taken)?.map(|held| PartAttachment {
+    for (member, held) in parts.iter().zip(holders) {
+        let (part, of) = (member.part, &member.loaded.robot);
+        let attachment = held.as_ref().map(|held| PartAttachment {
             part_idx: held.part.map(|part| RobotIdx(part as u32)),
             link_idx: link(&held.link),
             joint_idx: joint(&held.joint.name.text),
         });
-        let all_links = of.links.iter().map(|link| &link.name).enumerate();
-        let (kept, dropped): (Vec<_>, Vec<_>) =
-            all_links.partition(|(idx, _)| taken.trim.keeps_link(*idx));
-        let all_joints = of.joints.iter().map(|joint| &joint.name).enumerate();
-        let (kept_joints, dropped_joints): (Vec<_>, Vec<_>) =
-            all_joints.partition(|(idx, _)| taken.trim.keeps_joint(*idx));
-        let names =
-            |list: Vec<(usize, &String)>| list.into_iter().map(|(_, name)| name.clone()).collect();
-        let frozen = taken.trim.frozen.iter().map(|(idx, position)| FrozenJoint {
-            joint_idx: joint(&taken.renamed(&of.joints[*idx].name)),
+        let dropped = |names: &mut dyn Iterator<Item = &String>, dropped: &[Option<usize>]| {
+            let names = names.zip(dropped).filter(|(_, with)| with.is_some());
+            names.map(|(name, _)| name.clone()).collect()
+        };
+        let frozen = member.trim.frozen.iter().map(|(idx, position)| FrozenJoint {
+            joint_idx: joint(&member.renamed(&of.joints[*idx].name)),
             position: position.iter().map(|value| value + 0.0).collect(),
         });
         made.push(CompositionPart {
             id: part.id.text.clone(),
             name: of.name.clone(),
-            source: taken.loaded.source.clone(),
+            source: member.loaded.source.clone(),
             prefix: part.prefix.text.clone(),
-            links: (kept.into_iter())
-                .map(|(_, name)| PartLink {
+            links: (member.kept_links().map(|link| &link.name))
+                .map(|name| PartLink { name: name.clone(), link_idx: link(&member.renamed(name)) })
+                .collect(),
+            joints: (member.kept_joints().map(|joint| &joint.name))
+                .map(|name| PartJoint {
                     name: name.clone(),
-                    link_idx: link(&taken.renamed(name)),
+                    joint_idx: joint(&member.renamed(name)),
                 })
                 .collect(),
-            joints: (kept_joints.into_iter())
-                .map(|(_, name)| PartJoint {
-                    name: name.clone(),
-                    joint_idx: joint(&taken.renamed(name)),
-                })
-                .collect(),
-            dropped_links: names(dropped),
-            dropped_joints: names(dropped_joints),
+            dropped_links: dropped(
+                &mut of.links.iter().map(|link| &link.name),
+                &member.trim.dropped_links,
+            ),
+            dropped_joints: dropped(
+                &mut of.joints.iter().map(|joint| &joint.name),
+                &member.trim.dropped_joints,
+            ),
             frozen_joints: frozen.collect(),
             attachment,
-            composition: taken.loaded.composition.clone().map(Into::into),
+            composition: member.loaded.composition.clone().map(Into::into),
         });
     }
-    let base = recipe.base.as_ref().map(|base| CompositionBase { link_idx: link(&base.link.text) });
-    Ok(CompositionModule { base, parts: made })
+    let base = recipe.base.as_ref().map(|base| CompositionBase { link_idx: link(&base.to.text) });
+    CompositionModule { base, parts: made }
 }

@@ -26,10 +26,9 @@ pub(super) struct Rewritten {
     /// Values that may name links or joints and were left unchanged.
     pub left_alone: BTreeSet<LeftAlone>,
     /// Elements that were removed with what they name.
-    pub gone: Vec<String>,
+    pub removed: Vec<String>,
 }
 
-/// The inputs for rewriting a part's text.
 pub(super) struct Rewrite<'a> {
     pub loaded: &'a Loaded,
     pub trim: &'a Trim,
@@ -55,14 +54,14 @@ impl Rewrite<'_> {
         let found = names::find(&document, &self.loaded.robot, self.names);
         let mut edits = mesh_edits(&document, self.meshes);
         let dropped = self.structure(text, &document, &mut edits);
-        let mut gone = BTreeMap::new();
+        let mut units = BTreeMap::new();
         let mut own = Vec::new();
         for place in &found.places {
             if dropped.contains(&place.top.start) {
                 continue;
             }
             if self.goes(&document, place) {
-                gone.insert(place.unit.start, (place.unit.clone(), place.name.clone()));
+                units.insert(place.unit.start, (place.unit.clone(), place.name.clone()));
                 continue;
             }
             let name = format!("{}{}", self.prefix, place.name);
@@ -72,14 +71,13 @@ impl Rewrite<'_> {
                 own.push(name);
             }
         }
-        let mut told = Vec::new();
-        for (range, name) in gone.values() {
+        let mut removed = Vec::new();
+        for (range, name) in units.values() {
             edits.push(removal(text, range));
             let tag = name_at(&document, range);
-            told.push(format!("`<{tag}>` with `{name}`"));
+            removed.push(format!("`<{tag}>` with `{name}`"));
         }
-        let root = document.root_element();
-        let namespaces = root.namespaces().map(|of| {
+        let namespaces = document.root_element().namespaces().map(|of| {
             let prefix = of.name().unwrap_or_default().to_owned();
             (prefix, of.uri().to_owned())
         });
@@ -90,7 +88,7 @@ impl Rewrite<'_> {
             namespaces,
             own,
             left_alone: found.left_alone,
-            gone: told,
+            removed,
         })
     }
 

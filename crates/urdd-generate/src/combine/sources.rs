@@ -10,10 +10,10 @@ use super::recipe::{Part, Recipe, Sources};
 use crate::Settings;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::source::{is_archive, is_urdd};
+use urdd_format::escape;
 
-/// The kind of a source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SourceKind {
+pub(super) enum SourceKind {
     /// A URDD of version 1: a folder or an archive.
     Urdd,
     /// A URDD from before version 1, which is used through the URDF in it.
@@ -22,23 +22,25 @@ pub enum SourceKind {
     Urdf,
 }
 
-/// The kind of a part's source.
-///
-/// # Errors
-/// If there is none.
-pub fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
+fn source_kind(path: &Path) -> Result<SourceKind, PartFault> {
     if path.is_dir() {
         return match (is_urdd(path), path.join(ROOT_METADATA).is_file()) {
             (_, true) => Ok(SourceKind::Urdd),
             (true, false) => Ok(SourceKind::Legacy),
-            (false, false) => Err(PartFault::Missing("this folder holds none".to_owned())),
+            (false, false) => Err(missing("this folder holds none")),
         };
     }
     match (path.is_file(), is_archive(path)) {
         (true, true) => Ok(SourceKind::Urdd),
         (true, false) => Ok(SourceKind::Urdf),
-        (false, _) => Err(PartFault::Missing("nothing is there".to_owned())),
+        (false, _) => Err(missing("nothing is there")),
     }
+}
+
+fn missing(why: &str) -> PartFault {
+    PartFault::unusable(format!(
+        "there is no such URDD or URDF: {why}; a source is a folder or zip archive of a URDD, or a URDF or xacro file, relative to the recipe"
+    ))
 }
 
 /// The source of a part that may be read.
@@ -62,23 +64,27 @@ impl Recipe {
         let Sources::In(folder) = &self.sources else {
             return Ok(Source { path: source.to_owned(), kind: source_kind(source)? });
         };
-        let nothing = |_| PartFault::Missing("nothing is there".to_owned());
-        let path = source.canonicalize().map_err(nothing)?;
+        let path = source.canonicalize().map_err(|_| missing("nothing is there"))?;
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.clone());
-        let allowed = settings.source.allowed_folders.iter();
-        let mut allowed = allowed.filter_map(|folder| folder.canonicalize().ok());
+        let mut allowed =
+            settings.source.allowed_folders.iter().filter_map(|folder| folder.canonicalize().ok());
         if !path.starts_with(&folder) && !allowed.any(|folder| path.starts_with(folder)) {
             let shown = |path: &Path| path.display().to_string();
-            return Err(PartFault::Outside {
-                allow: shown(path.parent().unwrap_or(&path)),
-                found: shown(&path),
-                folder: shown(&folder),
-            });
+            let [found, folder, allow] =
+                [&path, &folder, path.parent().unwrap_or(&path)].map(shown);
+            return Err(PartFault::unusable(format!(
+                "this is {}, outside of {}, the folder of the recipe; to use parts from there, add --allow-folder {}",
+                escape::line(&found),
+                escape::line(&folder),
+                escape::shell(&allow)
+            )));
         }
         let kind = source_kind(&path)?;
         let is_xacro = path.extension().is_some_and(|ending| ending == "xacro");
         match kind == SourceKind::Urdf && is_xacro && !settings.source.xacro.expand_urdf {
-            true => Err(PartFault::Xacro),
+            true => Err(PartFault::unusable(
+                "the recipe names a xacro file, which runs as a program; if you trust it, allow it with --xacro",
+            )),
             false => Ok(Source { path, kind }),
         }
     }

@@ -1,12 +1,10 @@
 //! Determines which links and joints of a part are dropped, and which joints are frozen.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use super::error::CombineError;
 use super::part::Loaded;
-use super::recipe::{Part, Recipe, Word};
-use super::recipe_fault::RecipeFault;
-use urdd_format::nearest::nearest;
+use super::recipe::{Part, Recipe};
 use urdd_format::urdf::{Joint, JointType};
 use urdd_kinematics::num_dofs;
 
@@ -39,7 +37,7 @@ impl Trim {
 /// # Errors
 /// If the recipe names a missing link or joint, or asks for something impossible.
 pub(super) fn trim(recipe: &Recipe, part: &Part, loaded: &Loaded) -> Result<Trim, CombineError> {
-    let trimmer = Trimmer { recipe, part, loaded, id: part.id.text.clone() };
+    let trimmer = Trimmer { recipe, part, loaded, id: &part.id.text };
     let robot = &loaded.robot;
     let mut is_child = vec![false; robot.links.len()];
     for joint in &robot.joints {
@@ -65,17 +63,19 @@ struct Trimmer<'a> {
     recipe: &'a Recipe,
     part: &'a Part,
     loaded: &'a Loaded,
-    id: String,
+    id: &'a str,
 }
 
 impl Trimmer<'_> {
     fn drop(&self, trim: &mut Trim) -> Result<(), CombineError> {
         let robot = &self.loaded.robot;
         for (with, word) in self.part.drop.iter().enumerate() {
-            let link = self.find("link", &self.loaded.links, word)?;
+            let link = self.recipe.find(self.id, "link", &self.loaded.links, &word.text, word)?;
             if link == trim.root {
-                let fault =
-                    RecipeFault::DropsRoot { part: self.id.clone(), link: word.text.clone() };
+                let fault = format!(
+                    "`{}` is the root of part `{}`, and without it nothing is left; leave out the part, or drop links farther from the root",
+                    word.text, self.id
+                );
                 return Err(self.recipe.refused(word, fault));
             }
             trim.dropped_links[link].get_or_insert(with);
@@ -101,35 +101,32 @@ impl Trimmer<'_> {
     }
 
     fn freeze(&self, trim: &mut Trim) -> Result<(), CombineError> {
-        for (word, values) in &self.part.freeze {
-            let idx = self.find("joint", &self.loaded.joints, word)?;
+        for (word, position) in &self.part.freeze {
+            let name = &word.text;
+            let idx = self.recipe.find(self.id, "joint", &self.loaded.joints, name, word)?;
             let joint = &self.loaded.robot.joints[idx];
-            let part = self.id.clone();
-            let name = joint.name.clone();
-            let refused = |fault| Err(self.recipe.refused(word, fault));
-            if let Some(with) = trim.dropped_joints[idx] {
-                let (what, with) = ("joint", self.part.drop[with].text.clone());
-                return refused(RecipeFault::Dropped { what, part, name, with });
-            }
+            let values = position.values();
+            let joint_of_part = format!("joint `{name}` of part `{}`", self.id);
             let (expected, found) = (num_dofs(joint.joint_type), values.len());
-            if expected == 0 {
-                return refused(RecipeFault::FreezesFixed { part, joint: name });
-            }
-            if expected != found {
-                return refused(RecipeFault::FreezeCount { part, joint: name, expected, found });
-            }
-            if let (Some([lower, upper]), &[value]) = (limits(joint), values.as_slice())
+            let fault = if let Some(with) = trim.dropped_joints[idx] {
+                format!("the {joint_of_part} is dropped, with `{}`", self.part.drop[with].text)
+            } else if expected == 0 {
+                format!("{joint_of_part} is already fixed")
+            } else if expected != found {
+                let plural = if expected == 1 { "" } else { "s" };
+                let are = if found == 1 { "is" } else { "are" };
+                format!("{joint_of_part} has {expected} DOF{plural}, but there {are} {found}")
+            } else if let (Some([lower, upper]), &[value]) = (limits(joint), values)
                 && !(lower..=upper).contains(&value)
             {
-                return refused(RecipeFault::FreezeBeyond {
-                    part,
-                    joint: name,
-                    value,
-                    lower,
-                    upper,
-                });
-            }
-            trim.frozen.insert(idx, values.clone());
+                format!(
+                    "{joint_of_part} moves from {lower} to {upper}, so it cannot be frozen at {value}"
+                )
+            } else {
+                trim.frozen.insert(idx, values.to_vec());
+                continue;
+            };
+            return Err(self.recipe.refused(word, fault));
         }
         Ok(())
     }
@@ -150,12 +147,10 @@ impl Trimmer<'_> {
             };
             if let Some(with) = trim.dropped_joints[driver] {
                 let at = &self.part.drop[with];
-                let fault = RecipeFault::DriverDropped {
-                    part: self.id.clone(),
-                    joint: joint.name.clone(),
-                    driver: mimic.joint.clone(),
-                    with: at.text.clone(),
-                };
+                let fault = format!(
+                    "joint `{}` of part `{}` follows `{}`, which is dropped with `{}`; freeze the joint, or drop its child link too",
+                    joint.name, self.id, mimic.joint, at.text
+                );
                 return Err(self.recipe.refused(at, fault));
             }
             followers[driver].push(idx);
@@ -178,28 +173,8 @@ impl Trimmer<'_> {
             }
         }
         following.sort_unstable();
-        let names = following.into_iter().map(|idx| joints[idx].name.clone());
-        trim.following = names.collect();
+        trim.following = following.into_iter().map(|idx| joints[idx].name.clone()).collect();
         Ok(())
-    }
-
-    fn find(
-        &self,
-        what: &'static str,
-        indices: &HashMap<String, usize>,
-        word: &Word,
-    ) -> Result<usize, CombineError> {
-        indices.get(&word.text).copied().ok_or_else(|| {
-            let mut names: Vec<&str> = indices.keys().map(String::as_str).collect();
-            names.sort_unstable_by_key(|name| indices[*name]);
-            let fault = RecipeFault::Unknown {
-                what,
-                part: self.id.clone(),
-                name: word.text.clone(),
-                nearest: nearest(names.into_iter(), &word.text),
-            };
-            self.recipe.refused(word, fault)
-        })
     }
 }
 

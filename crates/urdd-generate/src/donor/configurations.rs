@@ -3,16 +3,15 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::Donor;
 use super::decided::{Decided, Fault, names};
-use crate::error::{EditsFault, GenerateError};
-use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
+use crate::error::GenerateError;
+use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_format::registry::ModuleKind;
 
-/// Key of the configurations.
 const CONFIGURATIONS: &str = "configurations";
 
 /// Reads the named configurations from a folder that is to be replaced, whatever else is wrong with it.
@@ -31,39 +30,32 @@ pub(crate) fn read(
     };
     let edits = decided.read(replaced, |root, document| {
         let dofs = names(root, ModuleKind::Dof, "dofs");
-        check(parse(document)?, dofs.as_ref())
+        parse(document).and_then(|edits| check(edits, dofs.as_ref())).map_err(|(pointer, words)| {
+            (pointer, format!("this configuration cannot be used: {words}"))
+        })
     })?;
     Ok(edits.unwrap_or_default())
 }
 
-/// The names and positions in the document.
 fn parse(document: &Value) -> Result<Vec<ConfigurationEdit>, Fault> {
-    let list = document.get(CONFIGURATIONS).and_then(Value::as_array);
-    let Some(list) = list else {
-        let words = format!("`{CONFIGURATIONS}` must be a list");
-        return Err((String::new(), EditsFault::Configuration(words)));
+    let Some(list) = document.get(CONFIGURATIONS).and_then(Value::as_array) else {
+        return Err((String::new(), format!("`{CONFIGURATIONS}` must be a list")));
     };
     let edits = list.iter().enumerate().map(|(idx, configuration)| {
-        let read = |key: &str| {
-            let pointer = format!("/{CONFIGURATIONS}/{idx}");
-            match configuration.get(key) {
-                Some(value) => Ok((format!("{pointer}/{key}"), value.clone())),
-                None => {
-                    let words = format!("`{key}` is missing");
-                    Err((pointer, EditsFault::Configuration(words)))
-                }
-            }
-        };
-        let wrong = |pointer: String| {
-            move |error: serde_json::Error| (pointer, EditsFault::Configuration(error.to_string()))
-        };
-        let (pointer, name) = read("name")?;
-        let name = ConfigurationName::deserialize(&name).map_err(wrong(pointer))?;
-        let (pointer, positions) = read("positions")?;
-        let positions: Vec<DofPosition> = Vec::deserialize(&positions).map_err(wrong(pointer))?;
-        Ok(ConfigurationEdit { name, positions })
+        let pointer = format!("/{CONFIGURATIONS}/{idx}");
+        Ok(ConfigurationEdit {
+            name: member(configuration, &pointer, "name")?,
+            positions: member(configuration, &pointer, "positions")?,
+        })
     });
     edits.collect()
+}
+
+fn member<T: DeserializeOwned>(of: &Value, pointer: &str, key: &str) -> Result<T, Fault> {
+    let Some(value) = of.get(key) else {
+        return Err((pointer.to_owned(), format!("`{key}` is missing")));
+    };
+    T::deserialize(value).map_err(|error| (format!("{pointer}/{key}"), error.to_string()))
 }
 
 /// Checks that the edits are unambiguous, and name DOFs of the URDD's own robot. DOFs that only the new robot lacks are
@@ -74,10 +66,8 @@ fn check(
 ) -> Result<Vec<ConfigurationEdit>, Fault> {
     let mut names = HashSet::new();
     for (idx, edit) in edits.iter().enumerate() {
-        let fault = |place: String, words: String| {
-            let pointer = format!("/{CONFIGURATIONS}/{idx}/{place}");
-            Err((pointer, EditsFault::Configuration(words)))
-        };
+        let fault =
+            |place: String, words: String| Err((format!("/{CONFIGURATIONS}/{idx}/{place}"), words));
         if !names.insert(&edit.name) {
             return fault("name".to_owned(), "an earlier one has this name".to_owned());
         }
@@ -85,8 +75,7 @@ fn check(
         for (entry, position) in edit.positions.iter().enumerate() {
             let (name, place) = (&position.dof_name, format!("positions/{entry}"));
             if dofs.is_some_and(|dofs| !dofs.contains(name)) {
-                let words = format!("the robot of this URDD has no DOF `{name}`");
-                return fault(place, words);
+                return fault(place, format!("the robot of this URDD has no DOF `{name}`"));
             }
             if !set.insert(name) {
                 return fault(place, format!("it sets the DOF `{name}` twice"));

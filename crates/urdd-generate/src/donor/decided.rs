@@ -14,6 +14,7 @@ use urdd_directory::position::{self, Position};
 use urdd_directory::root::{ReadError, Root};
 use urdd_directory::text_fault::{KEPT_PER_KIND, TextFaultKind};
 use urdd_directory::yaml;
+use urdd_format::escape;
 use urdd_format::registry::ModuleKind;
 
 /// A module with decisions, in a folder that is to be replaced.
@@ -27,9 +28,8 @@ pub(super) struct Decided<'a> {
 }
 
 /// What is wrong with a document, with its JSON Pointer.
-pub(super) type Fault = (String, EditsFault);
+pub(super) type Fault = (String, String);
 
-/// Its document.
 struct Document {
     value: Value,
     text: String,
@@ -54,7 +54,7 @@ impl Decided<'_> {
         };
         let decisions = parse(&root, &document.value).map_err(|(pointer, fault)| {
             let at = position::locate(&document.text, &pointer);
-            self.refused(&self.path("module.json"), at, fault)
+            self.unusable(&self.path("module.json"), at, fault)
         })?;
         self.check_mirror(&root, &document, replaced)?;
         Ok(Some(decisions))
@@ -66,29 +66,25 @@ impl Decided<'_> {
         let bytes = match root.read(&json_path, MAX_DOCUMENT_BYTES) {
             Ok(bytes) => bytes,
             Err(ReadError::Missing) => {
-                return match root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
-                    Err(ReadError::Missing) => Ok(None),
-                    _ => Err(self.refused(&yaml_path, None, EditsFault::NoJson)),
-                };
+                if let Err(ReadError::Missing) = root.read(&yaml_path, MAX_DOCUMENT_BYTES) {
+                    return Ok(None);
+                }
+                let words = "this file may contain edits, but module.json is missing beside it";
+                return Err(self.unusable(&yaml_path, None, words.to_owned()));
             }
-            Err(error) => {
-                let fault = EditsFault::Unreadable(error.to_string());
-                return Err(self.refused(&json_path, None, fault));
-            }
+            Err(error) => return Err(self.unreadable(&json_path, None, &error.to_string())),
         };
         let document = json::read(&bytes).map_err(|unreadable| {
             let first = unreadable.faults.iter().next();
-            let words = first.map_or_else(String::new, |fault| fault.message.clone());
-            let at = first.and_then(|fault| fault.position);
-            self.refused(&json_path, at, EditsFault::Unreadable(words))
+            let words = first.map_or("", |fault| &fault.message);
+            self.unreadable(&json_path, first.and_then(|fault| fault.position), words)
         })?;
         let twice = document.faults.iter().find(|fault| {
             let pointer = fault.pointer.as_deref().unwrap_or_default();
             fault.kind == TextFaultKind::DuplicateKey && self.is_of_decisions(pointer)
         });
         if let Some(twice) = twice {
-            let fault = EditsFault::Unreadable(twice.message.clone());
-            return Err(self.refused(&json_path, twice.position, fault));
+            return Err(self.unreadable(&json_path, twice.position, &twice.message));
         }
         Ok(Some(Document { value: document.value, text: document.text.to_string() }))
     }
@@ -102,11 +98,10 @@ impl Decided<'_> {
         replaced: Option<&Donor>,
     ) -> Result<(), GenerateError> {
         let path = self.path("module.yaml");
-        let bytes = match is_as_made(replaced, &path) {
-            true => return Ok(()),
-            false => root.read(&path, MAX_DOCUMENT_BYTES),
-        };
-        let Ok(bytes) = bytes else {
+        if is_as_made(replaced, &path) {
+            return Ok(());
+        }
+        let Ok(bytes) = root.read(&path, MAX_DOCUMENT_BYTES) else {
             return Ok(());
         };
         let faults = yaml::check_mirror(&bytes, &document.value);
@@ -119,13 +114,12 @@ impl Decided<'_> {
             TextFaultKind::YamlSyntax | TextFaultKind::YamlNotUtf8 => true,
             _ => false,
         });
-        match differs {
-            None => Ok(()),
-            Some(fault) => {
-                let words = EditsFault::Yaml(fault.message.clone());
-                Err(self.refused(&path, fault.position, words))
-            }
-        }
+        let Some(fault) = differs else {
+            return Ok(());
+        };
+        let words = &fault.message;
+        let words = format!("this file differs from module.json, which takes precedence: {words}");
+        Err(self.unusable(&path, fault.position, words))
     }
 
     pub fn path(&self, file: &str) -> String {
@@ -136,13 +130,19 @@ impl Decided<'_> {
         GenerateError::Edits { file: self.folder.join(path), at, lost: self.what, fault }
     }
 
+    fn unusable(&self, path: &str, at: Option<Position>, words: String) -> GenerateError {
+        self.refused(path, at, EditsFault::Unusable(escape::line(&words).into_owned()))
+    }
+
+    fn unreadable(&self, path: &str, at: Option<Position>, words: &str) -> GenerateError {
+        self.unusable(path, at, format!("the file cannot be read: {words}"))
+    }
+
     fn is_of_decisions(&self, pointer: &str) -> bool {
-        let first = pointer.split('/').nth(1);
-        first.is_some_and(|key| self.keys.contains(&key))
+        pointer.split('/').nth(1).is_some_and(|key| self.keys.contains(&key))
     }
 }
 
-/// Whether a file matches the metadata of its URDD.
 fn is_as_made(replaced: Option<&Donor>, path: &str) -> bool {
     let Some(replaced) = replaced else {
         return false;
@@ -156,6 +156,5 @@ pub(super) fn names(root: &Root, kind: ModuleKind, list: &str) -> Option<HashSet
     let path = format!("{}/module.json", kind.folder());
     let module = json::read(&root.read(&path, MAX_DOCUMENT_BYTES).ok()?).ok()?;
     let listed = module.value.get(list)?.as_array()?;
-    let names = listed.iter().map(|of| Some(of.get("name")?.as_str()?.to_owned()));
-    names.collect()
+    listed.iter().map(|of| Some(of.get("name")?.as_str()?.to_owned())).collect()
 }

@@ -17,19 +17,13 @@ use urdd_format::link_shapes_skips::{SkipEdit, SkippedReason};
 use urdd_format::named_configurations::ConfigurationEdit;
 use urdd_format::registry::ModuleKind;
 
-/// Key of the edits.
 const EDITS: &str = "edits";
-/// Key of the reasons for which pairs are skipped.
 const SKIPPED_REASONS: &str = "skipped_reasons";
 
-/// The user's decisions in a URDD.
 #[derive(Debug, Clone)]
 pub(crate) struct Decisions {
-    /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
-    /// The edits.
     pub edits: Vec<SkipEdit>,
-    /// The named configurations.
     pub configurations: Vec<ConfigurationEdit>,
 }
 
@@ -47,7 +41,6 @@ impl Default for Decisions {
 /// The user's decisions about the skips, checked against the links of a robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Edits {
-    /// The reasons for which pairs are skipped.
     pub skipped_reasons: Vec<SkippedReason>,
     /// Edits whose links the robot has.
     pub kept: Vec<SkipEdit>,
@@ -110,8 +103,10 @@ fn check_links(root: &Root, edits: &[SkipEdit]) -> Result<(), Fault> {
     for (idx, edit) in edits.iter().enumerate() {
         let mut named = [&edit.link_a, &edit.link_b].into_iter();
         if let Some(unknown) = named.find(|name| !links.contains(*name)) {
-            let fault = EditsFault::UnknownLink(unknown.clone());
-            return Err((format!("/{EDITS}/{idx}"), fault));
+            let words = format!(
+                "this edit names the link `{unknown}`, but the robot of this URDD has no such link"
+            );
+            return Err((format!("/{EDITS}/{idx}"), words));
         }
     }
     Ok(())
@@ -123,29 +118,31 @@ fn parse(document: &Value) -> Result<Decisions, Fault> {
         // An early draft of the format had edits but no choice of reasons.
         None => SkippedReason::USUAL.to_vec(),
         Some(reasons) => Vec::deserialize(reasons).map_err(|error| {
-            let words = format!("{SKIPPED_REASONS}: {error}");
-            (format!("/{SKIPPED_REASONS}"), EditsFault::Edit(words))
+            unusable(format!("/{SKIPPED_REASONS}"), format!("{SKIPPED_REASONS}: {error}"))
         })?,
     };
     let Some(edits) = document.get(EDITS) else {
-        return Err((String::new(), EditsFault::NoEdits));
+        return Err((String::new(), format!("`{EDITS}` is missing")));
     };
     let Some(edits) = edits.as_array() else {
-        return Err((format!("/{EDITS}"), EditsFault::NotAList));
+        return Err((format!("/{EDITS}"), format!("`{EDITS}` must be a list")));
     };
     let edits = edits.iter().enumerate().map(|(idx, edit)| {
         let pointer = format!("/{EDITS}/{idx}");
         let is_null = |key: &str| edit.get(key).is_some_and(Value::is_null);
         let keys = ["link_a", "link_b", "skip", "reason"];
         if let Some(key) = keys.into_iter().find(|key| is_null(key)) {
-            let words = format!("`{key}` is null");
-            return Err((format!("{pointer}/{key}"), EditsFault::Edit(words)));
+            return Err(unusable(format!("{pointer}/{key}"), format!("`{key}` is null")));
         }
-        SkipEdit::deserialize(edit).map_err(|error| (pointer, EditsFault::Edit(error.to_string())))
+        SkipEdit::deserialize(edit).map_err(|error| unusable(pointer, error.to_string()))
     });
     Ok(Decisions {
         skipped_reasons,
         edits: edits.collect::<Result<_, _>>()?,
         configurations: Vec::new(),
     })
+}
+
+fn unusable(pointer: String, why: String) -> Fault {
+    (pointer, format!("this edit cannot be used: {why}"))
 }

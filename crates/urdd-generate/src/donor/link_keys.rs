@@ -66,6 +66,5 @@ fn look(material: Option<&Material>, robot: &UrdfModule) -> Value {
 }
 
 fn extension(path: &str) -> String {
-    let ending = path.rsplit_once('.').map(|(_, ending)| ending);
-    ending.unwrap_or_default().to_ascii_lowercase()
+    path.rsplit_once('.').map(|(_, ending)| ending).unwrap_or_default().to_ascii_lowercase()
 }

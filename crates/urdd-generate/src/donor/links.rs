@@ -48,7 +48,6 @@ impl LinkMesh {
     }
 }
 
-/// The bytes of the files of a mesh.
 pub(crate) struct DonorFiles {
     stl: Option<Arc<Vec<u8>>>,
     obj: Option<Arc<Vec<u8>>>,
@@ -66,7 +65,6 @@ impl DonorFiles {
     }
 }
 
-/// The files of a donor.
 struct Files {
     root: Root,
     digests: HashMap<String, root_metadata::Sha256>,
@@ -102,23 +100,19 @@ impl DonorLinks {
     fn add(&mut self, root: &Root, text: &dyn Fn(ModuleKind) -> Option<String>) -> Option<()> {
         use ModuleKind as Kind;
         let donor = Donor::open(root.clone())?;
-        let plain: PlainMeshesModule =
-            donor.same_document(Kind::PlainMeshes, &text(Kind::PlainMeshes)?)?;
+        let plain: PlainMeshesModule = donor.same_document(Kind::PlainMeshes, text)?;
         let robot: UrdfModule = donor.current_document(Kind::Urdf)?;
         let original: OriginalMeshesModule = donor.current_document(Kind::OriginalMeshes)?;
-        let kind = Kind::ConvexHullMeshes;
-        let hulls: Option<ConvexHullMeshesModule> = donor.same_document(kind, &text(kind)?);
-        let kind = Kind::ConvexDecompositionMeshes;
+        let hulls: Option<ConvexHullMeshesModule> =
+            donor.same_document(Kind::ConvexHullMeshes, text);
         let pieces: Option<ConvexDecompositionMeshesModule> =
-            donor.same_document(kind, &text(kind)?);
-        let kind = Kind::LinkShapesApproximations;
+            donor.same_document(Kind::ConvexDecompositionMeshes, text);
         let shapes: Option<LinkShapesApproximationsModule> =
-            donor.same_document(kind, &text(kind)?);
+            donor.same_document(Kind::LinkShapesApproximations, text);
         let hulls = hulls.map_or_else(Vec::new, |module| module.link_hulls);
         let pieces = pieces.map_or_else(Vec::new, |module| module.link_pieces);
 
-        let listed = donor.metadata.modules.into_iter();
-        let listed = listed.flat_map(|module| module.files);
+        let listed = donor.metadata.modules.into_iter().flat_map(|module| module.files);
         let digests: HashMap<_, _> = listed.map(|file| (file.path, file.sha256)).collect();
         let digest = |path: &str| Some(digests.get(path)?.as_str().to_owned());
         let number = self.donors.len();
@@ -127,17 +121,14 @@ impl DonorLinks {
             let Some(mesh) = mesh else { continue };
             if let Some(of) = digest(&mesh.files.glb) {
                 if let Some(Some(hull)) = hulls.get(link) {
-                    let entry = self.hulls.entry(of.clone());
-                    entry.or_insert((number, vec![hull.clone()]));
+                    self.hulls.entry(of.clone()).or_insert((number, vec![hull.clone()]));
                 }
                 if let Some(pieces) = pieces.get(link) {
-                    let entry = self.pieces.entry(of);
-                    entry.or_insert((number, pieces.clone()));
+                    self.pieces.entry(of).or_insert((number, pieces.clone()));
                 }
             }
             if let Some(key) = key {
-                let entry = self.plain.entry(key);
-                entry.or_insert((number, (mesh.geometry, mesh.files)));
+                self.plain.entry(key).or_insert((number, (mesh.geometry, mesh.files)));
             }
         }
         if let Some(found) = shapes {
@@ -154,8 +145,7 @@ impl DonorLinks {
                 }
             }
         }
-        let root = donor.root;
-        self.donors.push(Files { root, digests });
+        self.donors.push(Files { root: donor.root, digests });
         Some(())
     }
 

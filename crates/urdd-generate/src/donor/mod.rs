@@ -11,6 +11,10 @@
 //!
 //! Modules and meshes are taken over only from URDDs of this version of the program, and only if their bytes match
 //! `urdd.json`.
+//!
+//! One cache cannot serve for both. A module is kept whole, also where it is about pairs of links, which no link alone
+//! determines; a part's links are in another robot under other indices, so they are found by content. Equal meshes
+//! within a run (`distinct`) have no files yet by which to find them.
 
 pub(super) mod configurations;
 mod decided;
@@ -65,11 +69,14 @@ impl Donor {
         intact.then_some((self.root.folder()?, module.files.as_slice()))
     }
 
-    /// The document of a module that this program would build from the same inputs now. `text` is the module's input
+    /// The document of a module that this program would build from the same inputs now. `text` gives the module's input
     /// besides other modules.
-    fn same_document<T: DeserializeOwned>(&self, kind: ModuleKind, text: &str) -> Option<T> {
-        let inputs = metadata::inputs(kind, text, self.metadata.modules.iter());
-        self.same(kind, &inputs)?;
+    fn same_document<T: DeserializeOwned>(
+        &self,
+        kind: ModuleKind,
+        text: &dyn Fn(ModuleKind) -> Option<String>,
+    ) -> Option<T> {
+        self.same(kind, &metadata::inputs(kind, &text(kind)?, self.metadata.modules.iter()))?;
         self.current_document(kind)
     }
 
@@ -105,8 +112,7 @@ impl Donor {
 /// The document of a module of an intact URDD by this program, or the reason why it cannot be read.
 pub(super) fn document<T: DeserializeOwned>(root: &Root, kind: ModuleKind) -> Result<T, String> {
     let path = format!("{}/module.json", kind.folder());
-    let bytes = root.read(&path, MAX_DOCUMENT_BYTES);
-    let bytes = bytes.map_err(|error| error.to_string())?;
+    let bytes = root.read(&path, MAX_DOCUMENT_BYTES).map_err(|error| error.to_string())?;
     // From the text, without a tree of values: some documents grow with the square of the number of links.
     let text = std::str::from_utf8(&bytes).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())

@@ -29,8 +29,7 @@ pub(crate) fn carry_over(
     replaced: Option<&Donor>,
     root: &Path,
 ) -> Result<(), StagingError> {
-    let listed = replaced.map(listed).unwrap_or_default();
-    merge(folder, root, "", &listed)
+    merge(folder, root, "", &replaced.map(listed).unwrap_or_default())
 }
 
 /// The modules that were not made, but whose folders have files that were carried over.
@@ -44,10 +43,13 @@ fn listed(replaced: &Donor) -> BTreeSet<String> {
     let source = &replaced.value["source"];
     let sources = [&source["Urdf"]["path"], &source[FOUND_KEY]["path"]];
     let sources = sources.iter().filter_map(|path| path.as_str());
-    let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
     let modules = replaced.metadata.modules.iter();
-    let files = modules.filter(|module| known(&module.name)).flat_map(|module| &module.files);
+    let files = modules.filter(|module| is_known(&module.name)).flat_map(|module| &module.files);
     files.map(|file| file.path.clone()).chain(sources.map(str::to_owned)).collect()
+}
+
+fn is_known(module: &str) -> bool {
+    ModuleKind::ALL.iter().any(|kind| kind.name() == module)
 }
 
 /// Carries over the folder at `path`, relative to both roots. Folders of modules are merged entry by entry.
@@ -89,7 +91,6 @@ fn merge(
     Ok(())
 }
 
-/// Creates the parent folder of a path.
 fn make_above(path: &Path) -> Result<(), StagingError> {
     let Some(above) = path.parent() else {
         return Ok(());
@@ -127,10 +128,9 @@ pub(crate) fn extensions(replaced: Option<&Donor>, root: &Path) -> Vec<Value> {
     let Ok(root) = Root::open(root) else {
         return Vec::new();
     };
-    let known = |name: &str| ModuleKind::ALL.iter().any(|kind| kind.name() == name);
     let mut entries = Vec::new();
     for module in modules.into_iter().flatten() {
-        if module["name"].as_str().is_none_or(known) {
+        if module["name"].as_str().is_none_or(is_known) {
             continue;
         }
         let mut module = module.clone();

@@ -88,7 +88,7 @@ impl Layout {
 }
 
 /// The deepest folder that contains all of the files.
-fn common_folder(files: &[&Path]) -> PathBuf {
+pub(crate) fn common_folder(files: &[&Path]) -> PathBuf {
     let mut folders = files.iter().filter_map(|file| file.parent());
     let mut common = folders.next().map(Path::to_owned).unwrap_or_default();
     for folder in folders {

@@ -21,10 +21,7 @@ pub fn slug(link: &str) -> String {
         in_gap = !kept;
     }
     slug.truncate(LONGEST);
-    match slug.is_empty() {
-        true => "link".to_owned(),
-        false => slug,
-    }
+    if slug.is_empty() { "link".to_owned() } else { slug }
 }
 
 /// The files of a link's mesh, or of one of its pieces.

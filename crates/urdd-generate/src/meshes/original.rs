@@ -7,31 +7,27 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::layout::Layout;
+use crate::context::Context;
 use crate::error::{GenerateError, OutsideMesh};
-use crate::progress::Progress;
-use crate::settings::Settings;
+use crate::made::{Made, MadeFile, made_with};
 use urdd_format::index::{ElementIdx, LinkIdx};
 use urdd_format::original_meshes::{MeshReference, OriginalMesh, OriginalMeshesModule};
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::read::Scene;
-use urdd_source::Source;
 use urdd_source::inspect::{Inspected, inspect};
 use urdd_source::named;
 use urdd_source::note::{Note, NoteKind};
 use urdd_source::resolve::{FoundMesh, NotFound, resolve};
 use urdd_source::roots::{Place, Roots};
 
-/// The module and its files.
+/// The module, and what later stages use.
 #[derive(Debug)]
 pub(crate) struct OriginalMeshes {
     pub module: OriginalMeshesModule,
-    /// Each stored file, by its path in the URDD.
-    pub files: BTreeMap<String, Arc<Vec<u8>>>,
     /// The content of each usable mesh file, by its path in the URDD.
     pub scenes: BTreeMap<String, Arc<Scene>>,
     /// How the mesh references were resolved.
     pub count: MeshCount,
-    pub notes: Vec<Note>,
 }
 
 /// How many different mesh files a URDF references, and how many of them have no usable surface.
@@ -49,11 +45,8 @@ pub struct MeshCount {
 ///
 /// # Errors
 /// If the URDF references files that it must not make the user publish.
-pub(crate) fn original_meshes(
-    source: &Source,
-    settings: &Settings,
-    progress: &dyn Progress,
-) -> Result<OriginalMeshes, GenerateError> {
+pub(crate) fn original_meshes(context: &Context) -> Result<Made<OriginalMeshes>, GenerateError> {
+    let Context { source, settings, progress, .. } = *context;
     let named = named(&source.reading.robot);
     let packages = &settings.source.packages;
     let roots = Roots::new(&source.folder, &settings.source);
@@ -107,8 +100,8 @@ pub(crate) fn original_meshes(
         }
         notes.found(name, *place, found, inside);
         if inside.bytes.is_some() {
-            let side_files = inside.side_files.iter();
-            let side_files = side_files.map(|(path, side)| (path.as_path(), &side.place));
+            let side_files =
+                inside.side_files.iter().map(|(path, side)| (path.as_path(), &side.place));
             let mesh = found.file.as_path();
             let files = side_files.chain([(mesh, &found.place)]);
             carried.extend(files.map(|(file, place)| (file, place, mesh)));
@@ -148,13 +141,11 @@ pub(crate) fn original_meshes(
         filename: mesh.filename.to_owned(),
         path: found_files[mesh.filename].as_ref().ok().and_then(|found| path(&found.file)),
     });
-    Ok(OriginalMeshes {
-        module: OriginalMeshesModule { references: references.collect(), files: meshes },
-        files,
-        scenes,
-        count,
-        notes: notes.notes,
-    })
+    let module = OriginalMeshesModule { references: references.collect(), files: meshes };
+    let files = files.into_iter().map(|(path, bytes)| MadeFile { path, bytes }).collect();
+    let Made { document, files, .. } = made_with(&module, files, ())?;
+    let product = OriginalMeshes { module, scenes, count };
+    Ok(Made { document, files, notes: notes.notes, product })
 }
 
 /// Refuses a robot that references files outside the folders from which they may be read.
@@ -171,11 +162,9 @@ fn refuse_outside(
     if meshes.is_empty() {
         return Ok(());
     }
-    let file = file.to_owned();
-    Err(GenerateError::Outside { file, meshes })
+    Err(GenerateError::Outside { file: file.to_owned(), meshes })
 }
 
-/// Collects the notes about meshes.
 struct Notes<'a> {
     file: &'a str,
     roots: &'a Roots,

@@ -23,7 +23,6 @@ pub(crate) struct LinkGeometry {
     pub parts: Vec<Part>,
 }
 
-/// A visual or collision element.
 struct Element<'a> {
     origin: Option<&'a Origin>,
     geometry: Option<&'a Geometry>,
@@ -93,27 +92,21 @@ pub(crate) fn link_geometries(
 }
 
 fn elements(link: &Link, kind: GeometryKind) -> Vec<Element<'_>> {
+    fn element<'a>(
+        origin: &'a Option<Origin>,
+        geometry: &'a Option<Geometry>,
+        material: Option<&'a Material>,
+    ) -> Element<'a> {
+        let (origin, geometry) = (origin.as_ref(), geometry.as_ref());
+        Element { origin, geometry, material, scene: None }
+    }
     match kind {
-        GeometryKind::Visual => link
-            .visual
-            .iter()
-            .map(|visual| Element {
-                origin: visual.origin.as_ref(),
-                geometry: visual.geometry.as_ref(),
-                material: visual.material.as_ref(),
-                scene: None,
-            })
+        GeometryKind::Visual => (link.visual.iter())
+            .map(|of| element(&of.origin, &of.geometry, of.material.as_ref()))
             .collect(),
-        GeometryKind::Collision => link
-            .collision
-            .iter()
-            .map(|collision| Element {
-                origin: collision.origin.as_ref(),
-                geometry: collision.geometry.as_ref(),
-                material: None,
-                scene: None,
-            })
-            .collect(),
+        GeometryKind::Collision => {
+            link.collision.iter().map(|of| element(&of.origin, &of.geometry, None)).collect()
+        }
     }
 }
 
@@ -148,21 +141,19 @@ fn num_triangles(element: &Element) -> usize {
 
 /// The parts of an element in the link's frame, rounded to the precision of files.
 fn placed(element: &Element, materials: &[Material], quaternions: bool) -> Vec<Part> {
-    let (parts, scale) = match (element.geometry, element.scene) {
+    let mut scale = [1.0; 3];
+    let parts = match (element.geometry, element.scene) {
         (None, _) | (Some(Geometry::Mesh(_)), None) => return Vec::new(),
         (Some(Geometry::Mesh(mesh)), Some(scene)) => {
-            (scene.parts.clone(), mesh.scale.unwrap_or([1.0; 3]))
+            scale = mesh.scale.unwrap_or(scale);
+            scene.parts.clone()
         }
-        (Some(Geometry::Box(of)), _) => (vec![primitives::cuboid(of.size).into()], [1.0; 3]),
+        (Some(Geometry::Box(of)), _) => vec![primitives::cuboid(of.size).into()],
         (Some(Geometry::Cylinder(of)), _) => {
-            let mesh = primitives::cylinder(of.radius, of.length);
-            (vec![mesh.into()], [1.0; 3])
+            vec![primitives::cylinder(of.radius, of.length).into()]
         }
-        (Some(Geometry::Capsule(of)), _) => {
-            let mesh = primitives::capsule(of.radius, of.length);
-            (vec![mesh.into()], [1.0; 3])
-        }
-        (Some(Geometry::Sphere(of)), _) => (vec![primitives::sphere(of.radius).into()], [1.0; 3]),
+        (Some(Geometry::Capsule(of)), _) => vec![primitives::capsule(of.radius, of.length).into()],
+        (Some(Geometry::Sphere(of)), _) => vec![primitives::sphere(of.radius).into()],
     };
     let color = color(element.material, materials);
     let pose = origin::of(element.origin, quaternions);

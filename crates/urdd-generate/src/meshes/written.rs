@@ -42,7 +42,6 @@ impl WrittenMesh {
     }
 }
 
-/// Shading of a .glb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shading {
     /// Flat, for hulls and pieces.
@@ -85,8 +84,8 @@ pub(crate) fn read_mesh(root: &Root, files: &MeshFiles) -> Result<WrittenMesh, G
 /// Reads a mesh from the bytes of its .glb.
 pub(crate) fn read_glb(bytes: &[u8], path: &str) -> Result<WrittenMesh, GenerateError> {
     let options = Options { gltf_up: GltfUp::Keep, ..Options::default() };
-    let scene = read_with(bytes, path, &mut |_| None, &options);
-    let mut scene = scene.map_err(|error| GenerateError::internal(path, error))?;
+    let mut scene = read_with(bytes, path, &mut |_| None, &options)
+        .map_err(|error| GenerateError::internal(path, error))?;
     for part in &mut scene.parts {
         // Merge vertices that were split for their normals.
         part.mesh.weld();

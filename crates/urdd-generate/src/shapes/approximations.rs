@@ -1,47 +1,47 @@
 //! `link_shapes_approximations_module`: SPEC 8.2.
 
 use super::{ConvexMeshes, Shape};
+use crate::context::Context;
 use crate::distinct::for_each_content;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
+use crate::error::GenerateError;
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
 };
+use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 use urdd_geometry::bounding_sphere::BoundingSphere as Ball;
 use urdd_geometry::hull::{ConvexHull, HullError};
 use urdd_geometry::oriented_box::OrientedBox;
 
 /// Builds the module. `known` are the boxes and spheres that need not be computed: of the hulls, then of the pieces.
-/// `finished` is called with the link of each mesh that is done.
 ///
 /// # Errors
 /// If cancelled, or if a mesh has no hull, which is a bug in an earlier stage.
 pub(crate) fn approximations(
+    context: &Context,
     solids: &ConvexMeshes,
     known: Vec<Option<Shape>>,
-    cancellation: &Cancellation,
-    finished: &(dyn Fn(usize) + Sync),
-) -> Result<Result<LinkShapesApproximationsModule, HullError>, Cancelled> {
-    let hulls = solids.hulls.iter().enumerate();
-    let hulls = hulls.filter_map(|(link, hull)| Some((link, hull.as_ref()?)));
+) -> Result<LinkShapesApproximationsModule, GenerateError> {
+    let hulls =
+        solids.hulls.iter().enumerate().filter_map(|(link, hull)| Some((link, hull.as_ref()?)));
     let pieces = solids.pieces.iter().enumerate();
     let pieces = pieces.flat_map(|(link, pieces)| pieces.iter().map(move |piece| (link, piece)));
-    let to_do = hulls.chain(pieces).zip(&known);
-    let to_do = to_do.filter(|(_, known)| known.is_none());
+    let unknown = hulls.chain(pieces).zip(&known).filter(|(_, known)| known.is_none());
     let (links, meshes): (Vec<usize>, Vec<&Mesh>) =
-        to_do.map(|((link, of), _)| (link, &of.mesh)).unzip();
+        unknown.map(|((link, of), _)| (link, &of.mesh)).unzip();
     let shape = |at: usize, mesh: &Mesh| {
         let shape = of_mesh(mesh);
-        finished(links[at]);
+        context.finished(ModuleKind::LinkShapesApproximations, links[at]);
         shape
     };
-    let mut found = for_each_content(&meshes, cancellation, shape)?.into_iter();
+    let mut built = for_each_content(&meshes, &context.settings.cancellation, shape)?.into_iter();
     let found = known.into_iter().map(|known| match known {
         Some(known) => Ok(known),
-        None => found.next().unwrap_or(Err(HullError::Empty)),
+        None => built.next().unwrap_or(Err(HullError::Empty)),
     });
     let found: Result<Vec<Shape>, HullError> = found.collect();
-    Ok(found.map(|found| module(solids, &found)))
+    let found = found.map_err(|error| GenerateError::internal(&context.source.shown, error))?;
+    Ok(module(solids, &found))
 }
 
 /// Builds the module from the boxes and spheres of all hulls, then of all pieces.

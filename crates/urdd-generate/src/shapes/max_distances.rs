@@ -11,7 +11,6 @@ use urdd_geometry::farthest;
 use urdd_geometry::oriented_box::OrientedBox;
 use urdd_kinematics::rotation::from_rpy;
 
-/// Builds the module.
 pub(crate) fn max_distances(
     solids: &ConvexMeshes,
     of: &LinkShapesApproximationsModule,
@@ -30,13 +29,11 @@ pub(crate) fn max_distances(
 }
 
 fn maybe<T>(shapes: &[Option<T>], distance: fn(&T) -> f64) -> Vec<Option<f64>> {
-    let shapes = shapes.iter();
-    shapes.map(|shape| shape.as_ref().map(distance)).collect()
+    shapes.iter().map(|shape| shape.as_ref().map(distance)).collect()
 }
 
 fn each<T>(shapes: &[Vec<T>], distance: fn(&T) -> f64) -> Vec<Vec<f64>> {
-    let links = shapes.iter();
-    links.map(|pieces| pieces.iter().map(distance).collect()).collect()
+    shapes.iter().map(|pieces| pieces.iter().map(distance).collect()).collect()
 }
 
 fn of_mesh(mesh: &WrittenMesh) -> f64 {

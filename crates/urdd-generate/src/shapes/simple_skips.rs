@@ -3,7 +3,6 @@
 
 use std::collections::HashSet;
 
-use super::statistics::Kinds;
 use urdd_format::chain::ChainModule;
 use urdd_format::link_shapes_distance_statistics::{
     DistanceStatistics, LinkShapesDistanceStatisticsModule,
@@ -16,10 +15,10 @@ const CONTACT: f64 = 0.001;
 type Skips = Vec<Vec<bool>>;
 type Reasons = Vec<Vec<SkipReason>>;
 
-/// Builds the module. `default` contains the distances in the default configuration.
+/// Builds the module. `default` contains the distances in the default configuration, by kind of shape.
 pub(crate) fn simple_skips(
     statistics: &LinkShapesDistanceStatisticsModule,
-    default: &Kinds<Vec<Vec<f64>>>,
+    default: &[Vec<Vec<f64>>],
     chain: &ChainModule,
 ) -> LinkShapesSimpleSkipsModule {
     let joined: HashSet<[usize; 2]> = chain
@@ -28,21 +27,21 @@ pub(crate) fn simple_skips(
         .map(|joint| [joint.parent_link_idx.get(), joint.child_link_idx.get()])
         .collect();
     let full: Vec<usize> = statistics.full_shapes.iter().map(|l| l.get()).collect();
-    let pieces = statistics.decomposition_shapes.iter();
-    let pieces: Vec<usize> = pieces.map(|piece| piece.link_idx.get()).collect();
+    let pieces: Vec<usize> =
+        statistics.decomposition_shapes.iter().map(|piece| piece.link_idx.get()).collect();
     let of_full =
-        |kind: usize, of: &DistanceStatistics| classed(&full, of, &default.full[kind], &joined);
+        |kind: usize, of: &DistanceStatistics| classed(&full, of, &default[kind], &joined);
     let of_pieces = |kind: usize, of: &Option<DistanceStatistics>| {
-        let both = of.as_ref().zip(default.pieces.as_ref());
-        both.map(|(of, default)| classed(&pieces, of, &default[kind], &joined)).unzip()
+        let both = of.as_ref().zip(default.get(kind));
+        both.map(|(of, default)| classed(&pieces, of, default, &joined)).unzip()
     };
     let s = statistics;
     let (hulls, hull_reasons) = of_full(0, &s.full_convex_hulls);
     let (obbs, obb_reasons) = of_full(1, &s.full_obbs);
     let (spheres, sphere_reasons) = of_full(2, &s.full_bounding_spheres);
-    let (piece_hulls, piece_hull_reasons) = of_pieces(0, &s.decomposition_convex_hulls);
-    let (piece_obbs, piece_obb_reasons) = of_pieces(1, &s.decomposition_obbs);
-    let (piece_spheres, piece_sphere_reasons) = of_pieces(2, &s.decomposition_bounding_spheres);
+    let (piece_hulls, piece_hull_reasons) = of_pieces(3, &s.decomposition_convex_hulls);
+    let (piece_obbs, piece_obb_reasons) = of_pieces(4, &s.decomposition_obbs);
+    let (piece_spheres, piece_sphere_reasons) = of_pieces(5, &s.decomposition_bounding_spheres);
     LinkShapesSimpleSkipsModule {
         full_shapes: statistics.full_shapes.clone(),
         decomposition_shapes: statistics.decomposition_shapes.clone(),
@@ -90,7 +89,6 @@ fn classed(
     let reasons: Reasons =
         all.clone().map(|i| all.clone().map(|j| reason(i, j)).collect()).collect();
     let skipped = |reason: &SkipReason| matches!(reason, SkipReason::SameLink | SkipReason::Always);
-    let rows = reasons.iter();
-    let skips = rows.map(|row| row.iter().map(skipped).collect()).collect();
+    let skips = reasons.iter().map(|row| row.iter().map(skipped).collect()).collect();
     (skips, reasons)
 }

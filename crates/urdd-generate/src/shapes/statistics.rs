@@ -5,11 +5,12 @@ use rayon::prelude::*;
 
 use super::rounding::seven_digits;
 use super::{ConvexMeshes, MOST_PIECES_WITH_MATRICES};
+use crate::context::Context;
+use crate::error::GenerateError;
 use crate::meshes::written::WrittenMesh;
-use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_format::bounds::BoundsModule;
+use crate::settings::Settings;
+use urdd_directory::cancellation::Cancellation;
 use urdd_format::chain::ChainModule;
-use urdd_format::dof::DofModule;
 use urdd_format::index::Count;
 use urdd_format::link_shapes_approximations::{
     BoundingSphere, LinkShapesApproximationsModule, Obb,
@@ -23,64 +24,35 @@ use urdd_geometry::convex::{
     statistics_of_kinds,
 };
 use urdd_kinematics::rotation::from_rpy;
-use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
-/// One value per kind of shape, in the order of the documents: hulls, boxes and spheres of links, then those of pieces
-/// if the robot has matrices over pieces.
-pub(crate) struct Kinds<T> {
-    pub full: [T; 3],
-    pub pieces: Option<[T; 3]>,
-}
-
-/// Builds the module, or returns the reason why it cannot be built.
+/// Builds the module.
 ///
 /// # Errors
-/// If cancelled.
+/// If cancelled, or if distances cannot be computed.
 pub(crate) fn statistics(
+    context: &Context,
     solids: &ConvexMeshes,
     shapes: &Shapes,
-    (dof, chain, bounds): Kinematics,
-    num_samples: u32,
-    cancellation: &Cancellation,
-) -> Result<Result<LinkShapesDistanceStatisticsModule, String>, Cancelled> {
-    let found = sampled(shapes, (dof, chain, bounds), num_samples, cancellation);
-    cancellation.check()?;
-    Ok(found.map(|found| module(solids, num_samples, found)))
-}
-
-/// The statistics of all pairs; invalid after a cancellation.
-fn sampled(
-    shapes: &Shapes,
-    (dof, chain, bounds): Kinematics,
-    num_samples: u32,
-    cancellation: &Cancellation,
-) -> Result<Kinds<PairStatistics>, String> {
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+) -> Result<LinkShapesDistanceStatisticsModule, GenerateError> {
+    let Settings { num_samples, cancellation, .. } = context.settings;
     let configuration = |sample: u32| {
         let name = format!("sampled configuration {sample}");
-        (name, space.sampled(u64::from(sample)))
+        (name, context.space.sampled(u64::from(sample)))
     };
-    let configurations = (0..num_samples).into_par_iter().map(configuration);
-    let motion = motion(dof, chain, configurations)?;
-    Ok(over(&motion, shapes, cancellation))
-}
-
-fn module(
-    solids: &ConvexMeshes,
-    num_samples: u32,
-    found: Kinds<PairStatistics>,
-) -> LinkShapesDistanceStatisticsModule {
+    let configurations = (0..*num_samples).into_par_iter().map(configuration);
+    let mut found = over(&motion(context, configurations)?, shapes, cancellation).into_iter();
+    cancellation.check()?;
     let matrices = |pairs: PairStatistics| DistanceStatistics {
         mean_distances: to_seven_digits(pairs.mean),
         min_distances: to_seven_digits(pairs.min),
         max_distances: to_seven_digits(pairs.max),
     };
-    let [full_convex_hulls, full_obbs, full_bounding_spheres] = found.full.map(matrices);
-    let pieces = found.pieces.map(|pieces| pieces.map(|one| Some(matrices(one))));
+    let [full_convex_hulls, full_obbs, full_bounding_spheres] =
+        [(); 3].map(|()| matrices(found.next().unwrap_or_default()));
     let [decomposition_convex_hulls, decomposition_obbs, decomposition_bounding_spheres] =
-        pieces.unwrap_or_default();
-    LinkShapesDistanceStatisticsModule {
-        num_samples: Count(num_samples),
+        [(); 3].map(|()| found.next().map(matrices));
+    Ok(LinkShapesDistanceStatisticsModule {
+        num_samples: Count(*num_samples),
         full_shapes: solids.full_shapes(),
         decomposition_shapes: solids.decomposition_shapes(),
         full_convex_hulls,
@@ -89,38 +61,27 @@ fn module(
         decomposition_convex_hulls,
         decomposition_obbs,
         decomposition_bounding_spheres,
-    }
-}
-
-/// The distances in the default configuration (SPEC 9.4), metres.
-pub(crate) fn at_default_configuration(
-    shapes: &Shapes,
-    (dof, chain, bounds): Kinematics,
-) -> Result<Kinds<Vec<Vec<f64>>>, String> {
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
-    let name = "the default configuration".to_owned();
-    let configuration = [(name, space.default_configuration())];
-    let motion = motion(dof, chain, configuration.into_par_iter())?;
-    let never = Cancellation::default();
-    let found = over(&motion, shapes, &never);
-    // With one configuration, minimum, mean and maximum are all the distance.
-    let distances = |pairs: PairStatistics| pairs.min;
-    Ok(Kinds {
-        full: found.full.map(distances),
-        pieces: found.pieces.map(|pieces| pieces.map(distances)),
     })
 }
 
-/// The modules from which sampled configurations and link poses are computed.
-pub(crate) type Kinematics<'a> = (&'a DofModule, &'a ChainModule, &'a BoundsModule);
+/// The distances in the default configuration (SPEC 9.4), metres: a matrix per kind of shape, as from [`over`].
+pub(crate) fn at_default_configuration(
+    context: &Context,
+    shapes: &Shapes,
+) -> Result<Vec<Vec<Vec<f64>>>, GenerateError> {
+    let name = "the default configuration".to_owned();
+    let configuration = [(name, context.space.default_configuration())];
+    let motion = motion(context, configuration.into_par_iter())?;
+    let found = over(&motion, shapes, &Cancellation::default());
+    // With one configuration, minimum, mean and maximum are all the distance.
+    Ok(found.into_iter().map(|pairs| pairs.min).collect())
+}
 
-/// The shapes of one kind.
 type Placed<S> = Vec<PlacedShape<S>>;
 
 /// Hulls, boxes and spheres, of links or of pieces.
 type Three = (Placed<ConvexShape>, Placed<OrientedBox>, Placed<Sphere>);
 
-/// All shapes, prepared for distances.
 pub(crate) struct Shapes {
     full: Three,
     /// `None` if there are too many pieces.
@@ -128,61 +89,58 @@ pub(crate) struct Shapes {
 }
 
 impl Shapes {
-    /// Prepares the shapes, or returns the reason why one cannot be used.
+    /// Prepares the shapes.
+    ///
+    /// # Errors
+    /// If one cannot be used.
     pub fn new(
+        context: &Context,
         solids: &ConvexMeshes,
         of: &LinkShapesApproximationsModule,
-        chain: &ChainModule,
-    ) -> Result<Self, String> {
-        let with_pieces = solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES;
+    ) -> Result<Self, GenerateError> {
         let full = (
-            placed(solids.hulls, chain, of_mesh)?,
-            placed(&of.full_obbs, chain, of_box)?,
-            placed(&of.full_bounding_spheres, chain, of_sphere)?,
+            placed(context, solids.hulls, of_mesh)?,
+            placed(context, &of.full_obbs, of_box)?,
+            placed(context, &of.full_bounding_spheres, of_sphere)?,
         );
-        let pieces = with_pieces.then(|| {
-            let pieces = placed(solids.pieces, chain, of_mesh)?;
-            let boxes = placed(&of.decomposition_obbs, chain, of_box)?;
-            let spheres = placed(&of.decomposition_bounding_spheres, chain, of_sphere)?;
-            Ok::<_, String>((pieces, boxes, spheres))
-        });
-        let pieces = pieces.transpose()?;
+        let pieces = match solids.decomposition_shapes().len() <= MOST_PIECES_WITH_MATRICES {
+            true => Some((
+                placed(context, solids.pieces, of_mesh)?,
+                placed(context, &of.decomposition_obbs, of_box)?,
+                placed(context, &of.decomposition_bounding_spheres, of_sphere)?,
+            )),
+            false => None,
+        };
         Ok(Shapes { full, pieces })
     }
 }
 
-/// The distances of all shapes over a motion; invalid after a cancellation.
-fn over(motion: &Motion, shapes: &Shapes, cancellation: &Cancellation) -> Kinds<PairStatistics> {
+/// The distances of all shapes over a motion, by kind in the order of the documents: hulls, boxes and spheres of links,
+/// then those of pieces if the robot has matrices over pieces. Empty after a cancellation.
+fn over(motion: &Motion, shapes: &Shapes, cancellation: &Cancellation) -> Vec<PairStatistics> {
     let (hulls, boxes, spheres) = &shapes.full;
     let (hulls, boxes, spheres) = (&hulls[..], &boxes[..], &spheres[..]);
     let mut kinds: Vec<&dyn ShapeList> = vec![&hulls, &boxes, &spheres];
-    let of_pieces = shapes.pieces.as_ref();
-    let of_pieces = of_pieces.map(|(a, b, c)| (&a[..], &b[..], &c[..]));
+    let of_pieces = shapes.pieces.as_ref().map(|(a, b, c)| (&a[..], &b[..], &c[..]));
     if let Some((pieces, boxes, spheres)) = &of_pieces {
         kinds.extend::<[&dyn ShapeList; 3]>([pieces, boxes, spheres]);
     }
     // Every body is a link of the chain, and the motion has a pose for each.
-    let mut found = statistics_of_kinds(&kinds, motion, &|| cancellation.is_cancelled())
-        .unwrap_or_default()
-        .into_iter();
-    let mut three = || [(); 3].map(|()| found.next().unwrap_or_default());
-    Kinds { full: three(), pieces: of_pieces.map(|_| three()) }
+    statistics_of_kinds(&kinds, motion, &|| cancellation.is_cancelled()).unwrap_or_default()
 }
 
 /// The link poses in named configurations.
 fn motion(
-    dof: &DofModule,
-    chain: &ChainModule,
+    context: &Context,
     configurations: impl IndexedParallelIterator<Item = (String, Vec<f64>)>,
-) -> Result<Motion, String> {
-    let kinematics = ForwardKinematics::new(chain, dof).map_err(|error| error.to_string())?;
+) -> Result<Motion, GenerateError> {
     let poses: Vec<Vec<Isometry3<f64>>> = configurations
         .map(|(name, configuration)| {
-            let poses = kinematics.link_poses(&configuration);
-            poses.map_err(|error| format!("{name}: {error}"))
+            let poses = context.kinematics.link_poses(&configuration);
+            poses.map_err(|error| context.unmeasurable(format!("{name}: {error}")))
         })
-        .collect::<Result<_, String>>()?;
-    Motion::new(&poses, &rigid_groups(chain)).map_err(|error| error.to_string())
+        .collect::<Result<_, GenerateError>>()?;
+    Motion::new(&poses, &rigid_groups(&context.chain)).map_err(|error| context.unmeasurable(error))
 }
 
 /// The group number of each link: links connected by fixed joints only have the same one.
@@ -200,12 +158,12 @@ fn rigid_groups(chain: &ChainModule) -> Vec<usize> {
     groups
 }
 
-/// The shapes of each link with its index, or the reason why one cannot be used.
+/// The shapes of each link with its index.
 fn placed<L, T, S>(
+    context: &Context,
     links: &[L],
-    chain: &ChainModule,
     shape: fn(&T) -> Result<S, ShapeError>,
-) -> Result<Vec<PlacedShape<S>>, String>
+) -> Result<Vec<PlacedShape<S>>, GenerateError>
 where
     for<'a> &'a L: IntoIterator<Item = &'a T>,
 {
@@ -213,8 +171,10 @@ where
     for (body, of_link) in links.iter().enumerate() {
         for of in of_link {
             let shape = shape(of).map_err(|error| {
-                let name = &chain.links_in_chain[body].name;
-                format!("distances cannot be computed for the mesh of link `{name}`: {error}")
+                let name = &context.chain.links_in_chain[body].name;
+                context.unmeasurable(format!(
+                    "distances cannot be computed for the mesh of link `{name}`: {error}"
+                ))
             })?;
             shapes.push(PlacedShape { body, shape });
         }
@@ -223,8 +183,7 @@ where
 }
 
 fn to_seven_digits(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let elements = matrix.iter_mut().flatten();
-    elements.for_each(|element| *element = seven_digits(*element));
+    matrix.iter_mut().flatten().for_each(|element| *element = seven_digits(*element));
     matrix
 }
 

@@ -36,15 +36,15 @@ impl Work {
         &mut self,
         level: Level,
         network: &Network,
-        (told, labels): (&[f64], &Labels),
+        (inputs, labels): (&[f64], &Labels),
         configurations: &[u32],
         with_gradients: bool,
     ) {
         let width = self.values[0].len();
         for (lane, configuration) in configurations.iter().enumerate() {
-            let row = &told[*configuration as usize * width..][..width];
-            for (value, told) in self.values[0].iter_mut().zip(row) {
-                value[lane] = *told;
+            let row = &inputs[*configuration as usize * width..][..width];
+            for (value, input) in self.values[0].iter_mut().zip(row) {
+                value[lane] = *input;
             }
         }
         network.values(level, &mut self.values);

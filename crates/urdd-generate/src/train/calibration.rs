@@ -3,7 +3,6 @@
 use super::labels::Labels;
 use super::settings::{FIRST_MISSES, LEVELS, MISSES, TAIL};
 
-/// The state of one pair.
 struct Pair {
     /// The configurations in which the output is at most the first margin, by descending output.
     order: Vec<u32>,
@@ -99,8 +98,7 @@ pub fn margins(outputs: &[f64], labels: &Labels, clip: f64) -> Vec<f64> {
         left -= pair.levels[level].misses - pair.levels[pair.level].misses;
         pair.level = level;
         let margin = pair.levels[level].margin;
-        let passed = pair.order[pair.passed..].iter();
-        let passed = passed.take_while(|k| output(**k, at) > margin);
+        let passed = pair.order[pair.passed..].iter().take_while(|k| output(**k, at) > margin);
         let passed: Vec<u32> = passed.copied().collect();
         pair.passed += passed.len();
         for k in passed {
@@ -122,8 +120,7 @@ pub fn levels(contacts: &[f64], alone: f64, clip: f64) -> Vec<Level> {
     }
     let tail = (contacts.len() / 2).min(TAIL);
     let base = contacts[tail];
-    let excess = contacts[..tail].iter().map(|value| value - base);
-    let mean = excess.sum::<f64>() / tail as f64;
+    let mean = contacts[..tail].iter().map(|value| value - base).sum::<f64>() / tail as f64;
     let mut levels: Vec<Level> = Vec::new();
     let mut misses = FIRST_MISSES;
     for _ in 0..LEVELS {

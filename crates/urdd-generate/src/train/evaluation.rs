@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::subject::{NoModel, Subject, Useless};
+use super::subject::{NoModel, Subject};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::self_collision_model::{
     CONFIRMATION_SECOND, EVALUATION_FIRST, EVALUATION_MIN, ModelEvaluation, NEAR_CONTACT_STEP,
@@ -56,8 +56,7 @@ impl Counted {
                 if first != EVALUATION_FIRST {
                     return Ok(Truth::Colliding);
                 }
-                let next = subject.space.sampled(sample + 1);
-                Ok(match collides(&stepped(configuration, &next))? {
+                Ok(match collides(&stepped(configuration, &subject.space.sampled(sample + 1)))? {
                     true => Truth::Colliding,
                     false => Truth::NearContact,
                 })
@@ -70,20 +69,10 @@ impl Counted {
 
     /// Checks that there are enough collisions and free configurations to state rates.
     pub fn check(&self) -> Result<(), NoModel> {
-        let of = self.truths.len();
-        let free = self.truths.iter().filter(|truth| **truth == Truth::Free);
-        let free = free.count();
-        let (found, least) = (of - free, EVALUATION_MIN as usize);
-        if found < least {
-            return Err(NoModel::OfNoUse(Useless::FewCollisions { found, of }));
-        }
-        match free < least {
-            true => Err(NoModel::OfNoUse(Useless::FewFree { found: free, of })),
-            false => Ok(()),
-        }
+        let colliding = self.truths.iter().filter(|truth| **truth != Truth::Free).count();
+        NoModel::check_counts(colliding, self.truths.len(), EVALUATION_MIN as usize)
     }
 
-    /// Counts a model's results.
     pub fn count(&self, model: &CollisionModel) -> Result<ModelEvaluation, NoModel> {
         let may_collide = model.may_collide_batch(&self.configurations)?;
         let mut counts = ModelEvaluation::NOTHING;
@@ -110,21 +99,15 @@ impl Counted {
 
 /// A step towards another configuration; no DOF changes by more than [`NEAR_CONTACT_STEP`].
 fn stepped(from: &[f64], to: &[f64]) -> Vec<f64> {
-    let apart = from.iter().zip(to).map(|(a, b)| (b - a).abs());
-    let largest = apart.fold(0.0, f64::max);
-    let part = match largest > NEAR_CONTACT_STEP {
-        true => NEAR_CONTACT_STEP / largest,
-        false => 1.0,
-    };
-    let steps = from.iter().zip(to).map(|(a, b)| a + part * (b - a));
-    steps.collect()
+    let largest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
+    let part = if largest > NEAR_CONTACT_STEP { NEAR_CONTACT_STEP / largest } else { 1.0 };
+    from.iter().zip(to).map(|(a, b)| a + part * (b - a)).collect()
 }
 
 /// The first configuration of the second confirmation, from 29 bits of the SHA-256 of the network's weights, biases and
 /// margins.
 pub(super) fn second_confirmation(module: &SelfCollisionModelModule) -> u32 {
-    let layers = module.layers.iter();
-    let numbers = layers.flat_map(|of| of.weights.iter().flatten().chain(&of.biases));
+    let numbers = module.layers.iter().flat_map(|of| of.weights.iter().flatten().chain(&of.biases));
     let margins = module.pairs.iter().map(|pair| &pair.margin);
     let mut hash = Sha256::new();
     for number in numbers.chain(margins) {

@@ -4,7 +4,7 @@ use nalgebra::Isometry3;
 use rayon::prelude::*;
 
 use super::settings;
-use super::subject::{NoModel, Subject, Useless};
+use super::subject::{NoModel, Subject};
 use urdd_directory::cancellation::Cancellation;
 use urdd_kinematics::learn::inputs::{self, Input};
 
@@ -45,8 +45,7 @@ impl Labels {
                 }
                 let mut poses: Vec<Isometry3<f64>> = Vec::new();
                 let mut of_pairs = vec![0.0; num_pairs];
-                let rows = configurations.chunks_mut(num_dofs);
-                let rows = rows.zip(distances.chunks_mut(num_pairs));
+                let rows = configurations.chunks_mut(num_dofs).zip(distances.chunks_mut(num_pairs));
                 for (k, (configuration, distances)) in rows.enumerate() {
                     let sample = u64::from(first) + (block * BLOCK + k) as u64;
                     configuration.copy_from_slice(&subject.space.sampled(sample));
@@ -69,24 +68,14 @@ impl Labels {
         if let Some(fault) = faults.into_iter().next() {
             return Err(fault);
         }
-        let rows = distances.chunks(num_pairs);
-        let collides = rows.map(|row| row.contains(&0.0)).collect();
+        let collides = distances.chunks(num_pairs).map(|row| row.contains(&0.0)).collect();
         Ok(Self { configurations, num_dofs, distances, num_pairs, collides })
     }
 
     /// Checks that there are enough collisions and free configurations to learn from.
     pub fn check(&self) -> Result<(), NoModel> {
-        let of = self.collides.len();
         let colliding = self.collides.iter().filter(|collides| **collides).count();
-        let free = of - colliding;
-        let found = colliding;
-        if colliding < settings::LEAST {
-            return Err(NoModel::OfNoUse(Useless::FewCollisions { found, of }));
-        }
-        match free < settings::LEAST {
-            true => Err(NoModel::OfNoUse(Useless::FewFree { found: free, of })),
-            false => Ok(()),
-        }
+        NoModel::check_counts(colliding, self.collides.len(), settings::LEAST)
     }
 
     /// The pairs that come nearer than `limit`, a fraction of the clip distance.
@@ -104,29 +93,23 @@ impl Labels {
     /// Keeps the distances of these pairs only. `collides` still covers all pairs.
     pub fn keep(&mut self, pairs: &[usize]) {
         let rows = self.distances.chunks(self.num_pairs);
-        let kept = rows.flat_map(|row| pairs.iter().map(|pair| row[*pair]));
-        self.distances = kept.collect();
+        self.distances = rows.flat_map(|row| pairs.iter().map(|pair| row[*pair])).collect();
         self.num_pairs = pairs.len();
     }
 
     /// The network's inputs for each configuration, row by row.
-    pub fn told(&self, inputs: &[Input]) -> Vec<f64> {
-        rows(&self.configurations, self.num_dofs, inputs)
+    pub fn inputs(&self, inputs: &[Input]) -> Vec<f64> {
+        let width = inputs.iter().map(Input::width).sum::<usize>().max(1);
+        let num_dofs = self.num_dofs.max(1);
+        let mut rows = vec![0.0; self.configurations.len() / num_dofs * width];
+        let configurations = self.configurations.par_chunks_exact(num_dofs);
+        let each = rows.par_chunks_exact_mut(width).zip(configurations);
+        each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
+        rows
     }
 
     /// The distances in a configuration.
     pub fn row(&self, configuration: usize) -> &[f32] {
         &self.distances[configuration * self.num_pairs..][..self.num_pairs]
     }
-}
-
-/// The network's input values of all configurations, one row per configuration.
-fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
-    let width: usize = inputs.iter().map(Input::width).sum();
-    let mut rows = vec![0.0; configurations.len() / num_dofs.max(1) * width];
-    let each = rows
-        .par_chunks_exact_mut(width.max(1))
-        .zip(configurations.par_chunks_exact(num_dofs.max(1)));
-    each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
-    rows
 }

@@ -18,11 +18,13 @@ mod optimiser;
 mod settings;
 mod subject;
 
-pub use self::settings::{Effort, MOST_DOFS, MOST_PAIRS};
-pub use self::subject::{NoModel, Subject, Useless};
+pub use self::settings::Effort;
+pub(crate) use self::settings::MOST_PAIRS;
+pub(crate) use self::subject::{NoModel, Subject};
 
 use self::evaluation::Counted;
 use self::labels::Labels;
+use self::settings::MOST_DOFS;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::index::{Count, LinkIdx, SampleIdx};
 use urdd_format::self_collision_model::{
@@ -37,23 +39,26 @@ use urdd_kinematics::learn::network::{Layer, Network};
 ///
 /// # Errors
 /// If a model would be of no use, a configuration has no valid poses, or training is cancelled.
-pub fn train(
+pub(crate) fn train(
     subject: Subject,
     cancellation: &Cancellation,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SelfCollisionModelModule, NoModel> {
-    let num_pairs = subject.pairs.bodies().len();
+    let (num_pairs, num_dofs) = (subject.pairs.bodies().len(), subject.space.num_dofs());
+    let useless = |why: String| Err(NoModel::OfNoUse(why));
     if num_pairs > MOST_PAIRS {
-        return Err(NoModel::OfNoUse(Useless::ManyPairs { most: MOST_PAIRS }));
+        return useless(format!(
+            "more than {MOST_PAIRS} pairs of links are not skipped, and a model of so many is no faster than exact distances"
+        ));
     }
-    let (found, most) = (subject.space.num_dofs(), MOST_DOFS);
-    if found > most {
-        return Err(NoModel::OfNoUse(Useless::ManyDofs { found, most }));
+    if num_dofs > MOST_DOFS {
+        return useless(format!(
+            "the robot has {num_dofs} DOFs, but a model supports at most {MOST_DOFS}"
+        ));
     }
-    let inputs = inputs::read(&subject.inputs, found);
-    let inputs = inputs.unwrap_or_default();
+    let inputs = inputs::read(&subject.inputs, num_dofs).unwrap_or_default();
     if num_pairs == 0 || inputs.is_empty() {
-        return Err(NoModel::OfNoUse(Useless::NothingMoves));
+        return useless("no two links that are not skipped move relative to each other".to_owned());
     }
     // Computing the labels takes about as long as a few epochs.
     let total = subject.effort.epochs as usize + 3;
@@ -72,8 +77,7 @@ pub fn train(
     let evaluated = counted([EVALUATION_FIRST, EVALUATION_COUNT])?;
     evaluated.check()?;
     let confirming = counted([CONFIRMATION_FIRST, CONFIRMATION_COUNT])?;
-    let told = |labels: &Labels| labels.told(&inputs);
-    let examples = [told(&training), told(&calibration)];
+    let examples = [training.inputs(&inputs), calibration.inputs(&inputs)];
     for attempt in 0..settings::ATTEMPTS {
         let mut network = start(&inputs, near.len(), attempt);
         optimiser::train(
@@ -94,7 +98,7 @@ pub fn train(
         }
     }
     let attempts = settings::ATTEMPTS;
-    Err(NoModel::OfNoUse(Useless::NotConfirmed { attempts }))
+    useless(format!("the rates of {attempts} models were not confirmed on other configurations"))
 }
 
 /// Whether the rates found do not contradict the stated ones: SPEC 8.8.12.
@@ -156,8 +160,7 @@ fn module(
         .bodies()
         .map(|bodies| bodies.map(|link| LinkIdx(u32::try_from(link).unwrap_or(u32::MAX))))
         .collect();
-    let is_near = |pair: &usize| near.contains(pair);
-    let others = (0..links.len()).filter(|pair| !is_near(pair));
+    let others = (0..links.len()).filter(|pair| !near.contains(pair));
     let pairs = near.iter().map(|pair| ModelPair {
         link_a_idx: links[*pair][0],
         link_b_idx: links[*pair][1],

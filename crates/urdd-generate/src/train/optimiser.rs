@@ -25,7 +25,7 @@ pub(super) type Examples<'a> = (&'a [f64], &'a Labels);
 /// epochs.
 pub(super) fn train(
     network: &mut Network,
-    (told, labels): Examples,
+    (inputs, labels): Examples,
     validation: Examples,
     epochs: usize,
     cancellation: &Cancellation,
@@ -35,7 +35,8 @@ pub(super) fn train(
     let count = labels.collides.len();
     let mut order: Vec<u32> = (0..u32::try_from(count).unwrap_or(u32::MAX)).collect();
     let mut works: Vec<Work> = (0..BATCH / LANES).map(|_| Work::new(network)).collect();
-    let mut means = [flat(network), flat(network)].map(|all| vec![0.0; all.len()]);
+    let size = numbers(&network.layers).count();
+    let mut means = [vec![0.0; size], vec![0.0; size]];
     let steps = epochs * (count / BATCH);
     let mut step = 0;
     let (mut best, mut least, mut since) = (network.clone(), f64::INFINITY, 0);
@@ -43,9 +44,8 @@ pub(super) fn train(
         shuffle(&mut order, epoch);
         for batch in order.chunks_exact(BATCH) {
             cancellation.check()?;
-            let parts = works.par_iter_mut().zip(batch.par_chunks(LANES));
-            parts.for_each(|(work, configurations)| {
-                work.run(level, network, (told, labels), configurations, true);
+            works.par_iter_mut().zip(batch.par_chunks(LANES)).for_each(|(work, configurations)| {
+                work.run(level, network, (inputs, labels), configurations, true);
             });
             step += 1;
             let part = f64::from(step) / steps as f64;
@@ -76,10 +76,6 @@ fn shuffle(order: &mut [u32], epoch: usize) {
     }
 }
 
-fn flat(network: &Network) -> Vec<f64> {
-    numbers(&network.layers).copied().collect()
-}
-
 /// All weights and biases in a fixed order.
 fn numbers(layers: &[Layer]) -> impl Iterator<Item = &f64> {
     layers.iter().flat_map(|layer| layer.weights.iter().chain(&layer.biases))
@@ -93,8 +89,7 @@ fn advance(network: &mut Network, works: &[Work], means: &mut [Vec<f64>; 2], ste
     let layers = network.layers.iter_mut();
     let all = layers.flat_map(|layer| layer.weights.iter_mut().chain(&mut layer.biases));
     for ((number, first), second) in all.zip(first).zip(second) {
-        let parts = parts.iter_mut().filter_map(Iterator::next);
-        let gradient = parts.sum::<f64>() / BATCH as f64;
+        let gradient = parts.iter_mut().filter_map(Iterator::next).sum::<f64>() / BATCH as f64;
         *first = MEMORY[0] * *first + (1.0 - MEMORY[0]) * gradient;
         *second = MEMORY[1] * *second + (1.0 - MEMORY[1]) * gradient * gradient;
         let spread = (*second / corrections[1]).sqrt() + LEAST;
@@ -103,7 +98,7 @@ fn advance(network: &mut Network, works: &[Work], means: &mut [Vec<f64>; 2], ste
 }
 
 /// The loss over the first [`VALIDATION`] examples.
-fn loss(network: &Network, (told, labels): Examples, level: Level) -> f64 {
+fn loss(network: &Network, (inputs, labels): Examples, level: Level) -> f64 {
     let count = labels.collides.len().min(VALIDATION);
     let all: Vec<u32> = (0..u32::try_from(count).unwrap_or(u32::MAX)).collect();
     let parts: Vec<f64> = all
@@ -111,7 +106,7 @@ fn loss(network: &Network, (told, labels): Examples, level: Level) -> f64 {
         .map_init(
             || Work::new(network),
             |work, configurations| {
-                work.run(level, network, (told, labels), configurations, false);
+                work.run(level, network, (inputs, labels), configurations, false);
                 work.loss
             },
         )
