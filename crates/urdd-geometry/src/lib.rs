@@ -18,6 +18,7 @@ pub mod decompose;
 pub mod farthest;
 pub mod half_spaces;
 pub mod hull;
+mod lanes;
 #[cfg(test)]
 #[path = "tests/levels.rs"]
 mod levels;

@@ -17,7 +17,7 @@
 use nalgebra::Matrix3;
 
 use super::mesh::Mesh;
-use super::vector::{dot, norm};
+use super::vector::{cross, dot, norm};
 
 /// A shape of URDF, centred at the origin, its axis along z. Lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,7 +149,8 @@ pub fn sphere(radius: f64) -> Mesh {
         for b in a + 1..12 {
             for c in b + 1..12 {
                 if near(a, b) && near(b, c) && near(c, a) {
-                    let outward = determinant([a, b, c].map(|corner| mesh.vertices[corner])) > 0.0;
+                    let [p, q, r] = [a, b, c].map(|corner| mesh.vertices[corner]);
+                    let outward = dot(cross(p, q), r) > 0.0;
                     let (b, c) = if outward { (b, c) } else { (c, b) };
                     mesh.triangles.push([a, b, c].map(index));
                 }
@@ -228,10 +229,6 @@ const fn index(at: usize) -> u32 {
 fn unit(vector: [f64; 3]) -> [f64; 3] {
     let length = norm(vector);
     vector.map(|coordinate| coordinate / length)
-}
-
-fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    nalgebra::Matrix3::from_columns(&[a.into(), b.into(), c.into()]).determinant()
 }
 
 #[cfg(test)]

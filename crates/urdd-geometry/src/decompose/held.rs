@@ -3,9 +3,10 @@
 //! splinter of one triangle only, thinner than what binary32 holds: its piece would have no face with an area. It joins
 //! the piece beside it, or is widened where there is none.
 
-use super::vector::{cross, dot, norm, sub};
+use super::vector::{cross, dot, norm, normal, sub};
 use crate::Mesh;
 use crate::hull::ConvexHull;
+use crate::surface::{self, extent};
 
 /// A triangle is thin if its smallest height is at most this fraction of the piece's largest coordinate: 16 steps of
 /// binary32. Validators may take 8 steps as equal (SPEC 7.6).
@@ -40,12 +41,6 @@ pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -
     kept.map(|(piece, _)| piece.into_mesh()).collect()
 }
 
-/// The largest coordinate of a mesh, metres.
-fn extent(mesh: &Mesh) -> f64 {
-    let coordinates = mesh.vertices.iter().flatten();
-    coordinates.fold(0.0, |most: f64, x| most.max(x.abs()))
-}
-
 /// A flat triangle along a splinter, just wide enough to have an area in binary32.
 fn widened(splinter: ConvexHull) -> ConvexHull {
     let points = &splinter.mesh().vertices;
@@ -54,8 +49,7 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
     };
     let far = |from: [f64; 3]| {
         let length = |q: &&[f64; 3]| norm(sub(**q, from));
-        let longest = points.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
-        longest.map_or(from, |q| *q)
+        points.iter().max_by(|a, b| length(a).total_cmp(&length(b))).map_or(from, |q| *q)
     };
     let p = far(p);
     let q = far(p);
@@ -78,22 +72,15 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
 /// Whether each triangle of a mesh is thin.
 pub(super) fn is_thin(mesh: &Mesh) -> bool {
     let height = THIN * extent(mesh);
-    mesh.triangles.iter().all(|triangle| {
-        let [a, b, c] = triangle.map(|corner| mesh.vertices[corner as usize]);
-        let sides = [sub(b, a), sub(c, b), sub(a, c)];
-        let longest = sides.map(norm).into_iter().fold(0.0, f64::max);
-        // Twice the area is the longest side times the smallest height.
-        norm(cross(sides[0], sides[2])) <= height * longest
-    })
+    mesh.triangles.iter().all(|triangle| surface::is_thin(mesh.corners(*triangle), height))
 }
 
 fn lies_in(mesh: &Mesh, body: &Mesh, tolerance: f64) -> bool {
     body.triangles.iter().all(|triangle| {
-        let [a, b, c] = triangle.map(|corner| body.vertices[corner as usize]);
-        let normal = cross(sub(b, a), sub(c, a));
+        let corners = body.corners(*triangle);
+        let normal = normal(corners);
         let most = tolerance * norm(normal);
-        let mut points = mesh.vertices.iter();
-        points.all(|p| dot(normal, sub(*p, a)) <= most)
+        mesh.vertices.iter().all(|p| dot(normal, sub(*p, corners[0])) <= most)
     })
 }
 

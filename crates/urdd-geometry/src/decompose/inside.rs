@@ -13,11 +13,11 @@ use super::vector::{Bounds, norm, sub};
 const CELLS: f64 = 8000.0;
 
 /// Maximum number of cells along the largest extent, so that flat links do not get a huge grid.
-const MOST_ALONG: f64 = 64.0;
+const MAX_ALONG: f64 = 64.0;
 
 /// Maximum number of surface samples. Links need up to some 50 million (long thin triangles). A tangled mesh that needs
 /// more is treated as having no inside.
-const MOST_SAMPLES: usize = 100_000_000;
+const MAX_SAMPLES: usize = 100_000_000;
 
 /// Grid cells around the surface, and which of them are inside.
 pub(super) struct Flood {
@@ -50,27 +50,23 @@ impl Flood {
     pub fn new(part: &Part) -> Option<Flood> {
         let bounds = Bounds::of(part.points.iter().copied());
         let size = bounds.size();
-        let cell = (size.iter().product::<f64>() / CELLS).cbrt().max(bounds.extent() / MOST_ALONG);
+        let cell = (size.iter().product::<f64>() / CELLS).cbrt().max(bounds.extent() / MAX_ALONG);
         if cell <= 0.0 {
             return None;
         }
         let samples = part.triangles.iter().map(|t| {
-            let n = parts(t.map(|i| part.points[i as usize]), cell, 3.0);
+            let n = parts(part.corners(*t), cell, 3.0);
             (n + 1) * (n + 2) / 2
         });
-        if samples.sum::<usize>() > MOST_SAMPLES {
+        if samples.sum::<usize>() > MAX_SAMPLES {
             return None;
         }
         // Add a border of empty cells on all sides.
         let count = size.map(|s| (s / cell).ceil() as usize + 2);
-        let mut out = Flood {
-            low: bounds.min,
-            cell,
-            count,
-            state: vec![State::Inside; count.iter().product()],
-        };
+        let state = vec![State::Inside; count.iter().product()];
+        let mut out = Flood { low: bounds.min, cell, count, state };
         for t in &part.triangles {
-            let corners = t.map(|i| part.points[i as usize]);
+            let corners = part.corners(*t);
             let n = parts(corners, cell, 3.0);
             each_sample(corners, n, |p| {
                 let at = out.at(p);

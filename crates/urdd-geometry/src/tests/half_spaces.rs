@@ -17,7 +17,7 @@ fn each_instruction_set_finds_what_the_plain_loop_finds() {
                 }
             })
             .collect();
-        let all = HalfSpaces::new(&list).expect("one");
+        let mut all = HalfSpaces::new(&list).expect("one");
         assert_eq!(all.len(), count);
         for k in 0..300 {
             let x = f64::from(k);
@@ -30,13 +30,14 @@ fn each_instruction_set_finds_what_the_plain_loop_finds() {
             let depths = list.iter().map(|h| h.offset - along(h));
             let depth = depths.fold(f64::INFINITY, f64::min);
             for level in levels() {
-                assert_eq!(all.beyond_at(level, p), beyond, "{level:?} {count} {k}");
-                assert_eq!(all.depth_at(level, p), depth, "{level:?} {count} {k}");
+                all.level = level;
+                assert_eq!(all.beyond(p), beyond, "{level:?} {count} {k}");
+                assert_eq!(all.depth(p), depth, "{level:?} {count} {k}");
                 for (distance, resolution) in [(0.0, 0.1), (0.2, 0.1), (-depth, 0.0), (-depth, 1.0)]
                 {
                     let within =
                         |(height, slack): (f64, f64)| height <= distance.max(slack.min(resolution));
-                    let hold = all.hold_at(level, p, distance, resolution);
+                    let hold = all.hold(p, distance, resolution);
                     assert_eq!(hold, heights().all(within), "{level:?} {count} {k}");
                 }
             }

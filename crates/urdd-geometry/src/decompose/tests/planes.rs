@@ -41,10 +41,10 @@ fn each_instruction_set_sees_what_the_plain_loop_sees() {
             let first = heights.iter().position(|h| *h == most).unwrap_or(0);
             let seen: Vec<u32> = (0..slots as u32).filter(|i| heights[*i as usize] > 0.0).collect();
             for level in levels() {
-                assert_eq!(planes.highest_at(level, p), (first as u32, most), "{level:?} {slots}");
+                assert_eq!(planes.highest(level, p), (first as u32, most), "{level:?} {slots}");
                 let mut found = Above::default();
                 for limit in [1e-3, most, f64::MAX] {
-                    let above = planes.above_at(level, p, limit, &mut found);
+                    let above = planes.above(level, p, limit, &mut found);
                     assert_eq!(above, most > limit, "{level:?} {slots}");
                     if above {
                         assert_eq!(found.slots, seen, "{level:?} {slots}");

@@ -14,7 +14,7 @@ fn each_instruction_set_finds_what_the_plain_loop_finds() {
     for (count, num_axes) in [(1, 1), (2, 8), (7, 3), (8, 5), (9, 8), (100, 7)] {
         let (list, axes) = (vectors(count, 1.0), vectors(num_axes, 0.5));
         for level in levels() {
-            let [low, high] = reach_at(level, &list, &Axes::new(&axes));
+            let [low, high] = reach(level, &list, &Axes::new(&axes));
             for (a, axis) in axes.iter().enumerate() {
                 let dot = |v: &Vector3<f64>| axis.x * v.x + axis.y * v.y + axis.z * v.z;
                 let dots = || list.iter().map(dot);
@@ -25,7 +25,7 @@ fn each_instruction_set_finds_what_the_plain_loop_finds() {
                 assert_eq!([low[a], high[a]], plain, "{level:?} {count} {a}");
                 let mut found = Vec::new();
                 for limit in [0.0, 0.25, plain[1]] {
-                    beyond_at(level, &list, &Axes::new(&axes), limit, &mut found);
+                    beyond(level, &list, &Axes::new(&axes), limit, &mut found);
                     let found = found.iter().map(|bits| bits >> a & 1 == 1);
                     let plain = dots().map(|d| d > limit);
                     assert!(found.eq(plain), "{level:?} {count} {a} {limit}");
