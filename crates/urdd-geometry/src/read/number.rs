@@ -18,12 +18,8 @@ impl<'a> Words<'a> {
 
     /// Skips to the end of the line, unless the last word ended it.
     pub(super) fn skip_line(&mut self) {
-        let end = self
-            .rest
-            .iter()
-            .position(|byte| matches!(byte, b'\n' | b'\r'))
-            .unwrap_or(self.rest.len());
-        self.rest = &self.rest[end..];
+        let end = self.rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        self.rest = &self.rest[end.unwrap_or(self.rest.len())..];
     }
 
     /// The next index; `Some(None)` for a word that is not an index.
