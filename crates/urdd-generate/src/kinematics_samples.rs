@@ -35,7 +35,7 @@ pub(super) fn kinematics_samples_module(
     bounds: &BoundsModule,
 ) -> Result<KinematicsSamplesModule, SamplesError> {
     use ConfigurationKind::{Lower, Middle, Sampled, Upper, Zero};
-    let space = ConfigurationSpace::new(dof, chain, bounds)?;
+    let space = ConfigurationSpace::new(dof, chain, &bounds.bounds)?;
     let kinematics = ForwardKinematics::new(chain, dof)?;
     let named = [
         (Zero, None, space.zero()),

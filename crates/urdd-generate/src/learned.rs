@@ -40,7 +40,7 @@ pub(super) fn self_collision_model(
 ) -> Result<Made, GenerateError> {
     let unusable = |error: &dyn std::fmt::Display| context.unmeasurable(error.to_string());
     let (dof, chain, bounds) = context.kinematics();
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|e| unusable(&e))?;
+    let space = ConfigurationSpace::new(dof, chain, &bounds.bounds).map_err(|e| unusable(&e))?;
     let kinematics = ForwardKinematics::new(chain, dof).map_err(|e| unusable(&e))?;
     let pairs = pairs(pieces, skips).map_err(|e| unusable(&e))?;
     let trained_on = trained_on(context, skips, digests);

@@ -55,7 +55,8 @@ fn sampled(
     num_samples: u32,
     cancellation: &Cancellation,
 ) -> Result<Kinds<PairStatistics>, String> {
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let space =
+        ConfigurationSpace::new(dof, chain, &bounds.bounds).map_err(|error| error.to_string())?;
     let configuration = |sample: u32| {
         let name = format!("sampled configuration {sample}");
         (name, space.sampled(u64::from(sample)))
@@ -97,7 +98,8 @@ pub(crate) fn at_default_configuration(
     shapes: &Shapes,
     (dof, chain, bounds): Kinematics,
 ) -> Result<Kinds<Vec<Vec<f64>>>, String> {
-    let space = ConfigurationSpace::new(dof, chain, bounds).map_err(|error| error.to_string())?;
+    let space =
+        ConfigurationSpace::new(dof, chain, &bounds.bounds).map_err(|error| error.to_string())?;
     let name = "the default configuration".to_owned();
     let configuration = [(name, space.default_configuration())];
     let motion = motion(dof, chain, configuration.into_par_iter())?;

@@ -127,6 +127,6 @@ fn rows(configurations: &[f64], num_dofs: usize, inputs: &[Input]) -> Vec<f64> {
     let each = rows
         .par_chunks_exact_mut(width.max(1))
         .zip(configurations.par_chunks_exact(num_dofs.max(1)));
-    each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
+    each.for_each(|(row, configuration)| inputs::write(inputs, configuration, row));
     rows
 }
