@@ -73,7 +73,7 @@ impl<'a> Context<'a> {
         let chain = chain::chain_module(&reading.robot, &reading.tree);
         let bounds = bounds::bounds_module(&reading.robot, &dof);
         let overflow = |error: KinematicsError| refused(Fault::NoPoses(error.to_string()));
-        let space = ConfigurationSpace::new(&dof, &chain, &bounds).map_err(overflow)?;
+        let space = ConfigurationSpace::new(&dof, &chain, &bounds.bounds).map_err(overflow)?;
         let kinematics = ForwardKinematics::new(&chain, &dof).map_err(overflow)?;
         let samples = kinematics_samples_module(&space, &kinematics)
             .map_err(|(kind, error)| refused(no_poses(kind, &error, &chain)))?;

@@ -87,13 +87,10 @@ fn smallest(points: &[Vector3<f64>]) -> Vector3<f64> {
     let mut sphere = Carried { support: vec![*first], centre: *first, radius: 0.0 };
     loop {
         let away = |p: &Vector3<f64>| (p - sphere.centre).norm_squared();
-        let farthest = points
+        let (squared, farthest) = points
             .iter()
             .map(|p| (away(p), p))
-            .reduce(|best, other| if other.0 > best.0 { other } else { best });
-        let Some((squared, farthest)) = farthest else {
-            break;
-        };
+            .fold((0.0, first), |best, other| if other.0 > best.0 { other } else { best });
         if squared.sqrt() <= sphere.radius * (1.0 + ROUNDING) {
             break;
         }

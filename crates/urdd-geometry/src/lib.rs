@@ -18,7 +18,10 @@ pub mod decompose;
 pub mod farthest;
 pub mod half_spaces;
 pub mod hull;
-pub mod levels;
+mod lanes;
+#[cfg(test)]
+#[path = "tests/levels.rs"]
+mod levels;
 pub mod mesh;
 pub mod oriented_box;
 mod polygon;

@@ -1,18 +1,19 @@
-//! Triangulates polygons in space.
+//! Triangulates fans, strips, and polygons in space.
 
 use earcut::Earcut;
 use nalgebra::Vector3;
 
 /// Maximum number of corners for ear clipping. Its worst case is quadratic: 0.5 s for a tangled polygon of this size.
 /// Real faces have up to 40 corners.
-const MOST_CORNERS: usize = 10_000;
+const MAX_CORNERS: usize = 10_000;
 /// Budget of one splitter for ear clipping: the sum of squared corner counts of polygons with more than [`FEW_CORNERS`]
 /// corners. If all of them are tangled, this takes some seconds.
-const MOST_WORK: usize = 500_000_000;
+const MAX_WORK: usize = 500_000_000;
 /// Polygons with at most this many corners do not count against the budget.
 const FEW_CORNERS: usize = 100;
 
 /// Triangulates polygons; reuses its buffers.
+#[derive(Default)]
 pub(crate) struct Splitter {
     ears: Earcut<f64>,
     flat: Vec<[f64; 2]>,
@@ -24,7 +25,7 @@ pub(crate) struct Splitter {
 impl Splitter {
     /// `uncut` as in [`Options`](crate::read::Options).
     pub(crate) fn new(uncut: bool) -> Self {
-        Self { uncut, ears: Earcut::new(), flat: Vec::new(), found: Vec::new(), work: 0 }
+        Self { uncut, ..Self::default() }
     }
 
     /// Appends a triangle. Where faces stay uncut, three equal indices would mark one.
@@ -39,7 +40,7 @@ impl Splitter {
     ///
     /// A convex polygon becomes a fan around its first corner, as in every reader of quads. Other polygons are
     /// triangulated by ear clipping, projected along the largest component of their normal. Fewer than three corners
-    /// give no triangles. More than [`MOST_CORNERS`] corners always give a fan. Once [`MOST_WORK`] is spent, so do more
+    /// give no triangles. More than [`MAX_CORNERS`] corners always give a fan. Once [`MAX_WORK`] is spent, so do more
     /// than [`FEW_CORNERS`].
     pub(crate) fn split(
         &mut self,
@@ -60,9 +61,7 @@ impl Splitter {
         let uncut = self.uncut;
         let is_same = |[a, b, c]: &[u32; 3]| a == b && b == c;
         let fan = |out: &mut Vec<[u32; 3]>| {
-            let pairs = corners[1..].windows(2);
-            let triangles = pairs.map(|pair| [corners[0], pair[0], pair[1]]);
-            out.extend(triangles.filter(|triangle| !uncut || !is_same(triangle)))
+            out.extend(fan(corners).filter(|triangle| !uncut || !is_same(triangle)));
         };
         // An index out of range or a non-finite coordinate: the caller drops the affected triangles.
         let Some(places) =
@@ -72,7 +71,7 @@ impl Splitter {
             return;
         };
         let normal = area_normal(&places);
-        if corners.len() > MOST_CORNERS && !uncut || is_convex(&places, normal) {
+        if corners.len() > MAX_CORNERS && !uncut || is_convex(&places, normal) {
             fan(out);
             return;
         }
@@ -84,7 +83,7 @@ impl Splitter {
         }
         if corners.len() > FEW_CORNERS {
             self.work = self.work.saturating_add(corners.len() * corners.len());
-            if self.work > MOST_WORK {
+            if self.work > MAX_WORK {
                 fan(out);
                 return;
             }
@@ -120,6 +119,19 @@ impl Splitter {
             out.push(if turns_left == wanted { [a, b, c] } else { [a, c, b] });
         }
     }
+}
+
+/// The triangles of a fan around its first corner; none of fewer than three corners.
+pub(crate) fn fan<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> {
+    let pairs = corners.get(1..).unwrap_or_default().windows(2);
+    pairs.map(|pair| [corners[0], pair[0], pair[1]])
+}
+
+/// The triangles of a strip; every second one has its winding reversed.
+pub(crate) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
+    corners.windows(3).enumerate().map(|(at, three)| {
+        if at % 2 == 0 { [three[0], three[1], three[2]] } else { [three[0], three[2], three[1]] }
+    })
 }
 
 /// The polygon's normal (Newell's method); its length is twice the area.

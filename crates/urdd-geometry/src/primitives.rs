@@ -17,7 +17,7 @@
 use nalgebra::Matrix3;
 
 use super::mesh::Mesh;
-use super::vector::{dot, norm};
+use super::vector::{cross, dot, norm};
 
 /// A shape of URDF, centred at the origin, its axis along z. Lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,7 +149,8 @@ pub fn sphere(radius: f64) -> Mesh {
         for b in a + 1..12 {
             for c in b + 1..12 {
                 if near(a, b) && near(b, c) && near(c, a) {
-                    let outward = determinant([a, b, c].map(|corner| mesh.vertices[corner])) > 0.0;
+                    let [p, q, r] = [a, b, c].map(|corner| mesh.vertices[corner]);
+                    let outward = dot(cross(p, q), r) > 0.0;
                     let (b, c) = if outward { (b, c) } else { (c, b) };
                     mesh.triangles.push([a, b, c].map(index));
                 }
@@ -230,34 +231,6 @@ fn unit(vector: [f64; 3]) -> [f64; 3] {
     vector.map(|coordinate| coordinate / length)
 }
 
-fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
-    nalgebra::Matrix3::from_columns(&[a.into(), b.into(), c.into()]).determinant()
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::Rotation3;
-
-    /// The extents agree with those of tessellated shapes, up to the tessellation.
-    #[test]
-    fn extents_are_those_of_the_surfaces() {
-        let (radius, half) = (0.3, 0.25);
-        let turn = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
-        for (shape, mut mesh) in [
-            (Primitive::Box([0.1, 0.2, 0.3]), cuboid([0.2, 0.4, 0.6])),
-            (Primitive::Cylinder { radius, half }, cylinder(0.3, 0.5)),
-            (Primitive::Capsule { radius, half }, capsule(0.3, 0.5)),
-            (Primitive::Sphere { radius }, sphere(0.3)),
-        ] {
-            mesh.transform(&turn.to_homogeneous());
-            let (found, bounds) = (shape.half_extents(turn.matrix()), mesh.bounds().unwrap());
-            for (axis, reach) in found.into_iter().enumerate() {
-                for end in [-bounds.min[axis], bounds.max[axis]] {
-                    let beyond = reach - end;
-                    assert!((-1e-12..0.004).contains(&beyond), "{shape:?}: {found:?}");
-                }
-            }
-        }
-    }
-}
+#[path = "tests/primitives.rs"]
+mod tests;

@@ -30,13 +30,6 @@ pub struct Difference {
     pub distance: f64,
 }
 
-impl Difference {
-    /// Whether there is none.
-    fn is_none(&self) -> bool {
-        self.missing == 0 && self.extra.is_empty() && self.turned == 0
-    }
-}
-
 /// The largest absolute coordinate of a mesh's triangles, metres.
 pub fn extent(mesh: &Mesh) -> f64 {
     let corners = mesh.triangles.iter().flatten();
@@ -57,7 +50,7 @@ pub fn difference(
         return None;
     }
     let difference = Matching::new(expected, actual, tolerance).difference(likeness);
-    (!difference.is_none()).then_some(difference)
+    (difference != Difference::default()).then_some(difference)
 }
 
 /// Whether two meshes have the same triangles in the same order, apart from thin ones.
@@ -119,12 +112,7 @@ impl<'a> Matching<'a> {
             let scaled = point.map(|x| x / size);
             let cell = scaled.map(|x| x.floor() as i64);
             // A point within the tolerance, half a cell, is in this cell or in the next one on the near side.
-            let side: [i64; 3] =
-                std::array::from_fn(
-                    |i| {
-                        if scaled[i].fract().rem_euclid(1.0) < 0.5 { -1 } else { 1 }
-                    },
-                );
+            let side = scaled.map(|x| if x.fract().rem_euclid(1.0) < 0.5 { -1 } else { 1 });
             for corner in 0..8 {
                 let neighbour: [i64; 3] = std::array::from_fn(|i| match corner >> i & 1 {
                     0 => cell[i],
@@ -139,11 +127,9 @@ impl<'a> Matching<'a> {
             }
             cells.entry(cell).or_default().push(at as u32);
         }
-        let (first, all) = (expected.vertices.len(), points.len());
-        let mut of =
-            |range: std::ops::Range<usize>| range.map(|at| joined.first(at) as u32).collect();
-        let places = [of(0..first), of(first..all)];
-        Matching { meshes, tolerance, places }
+        let mut first: Vec<u32> = (0..points.len()).map(|at| joined.first(at) as u32).collect();
+        let second = first.split_off(expected.vertices.len());
+        Matching { meshes, tolerance, places: [first, second] }
     }
 
     /// The points of a triangle in ascending order, and its orientation; `None` if it is thin.
@@ -183,9 +169,14 @@ impl<'a> Matching<'a> {
                 };
                 let (here, there) = (count[which], count[1 - which]);
                 let (total_here, total_there) = (here[0] + here[1], there[0] + there[1]);
-                let differs = match likeness {
-                    Likeness::SameTriangles => total_here > total_there,
-                    Likeness::SameSurface => total_there == 0,
+                // Whether the other mesh lacks it, or has it with the other orientation.
+                let (differs, is_turned) = match likeness {
+                    Likeness::SameTriangles => {
+                        (total_here > total_there, here[facing] > there[facing])
+                    }
+                    Likeness::SameSurface => {
+                        (total_there == 0, there[facing] == 0 && here[1 - facing] == 0)
+                    }
                 };
                 if differs {
                     // Each excess one counts once.
@@ -198,7 +189,7 @@ impl<'a> Matching<'a> {
                         _ => difference.extra.push(at),
                     }
                     lost[which].push(*triangle);
-                } else if which == 1 && self.is_turned(likeness, here, there, facing) {
+                } else if which == 1 && is_turned {
                     difference.turned += 1;
                 } else {
                     continue;
@@ -215,24 +206,10 @@ impl<'a> Matching<'a> {
         difference
     }
 
-    /// Whether a triangle of both meshes has the other orientation in the second.
-    fn is_turned(
-        &self,
-        likeness: Likeness,
-        here: [u32; 2],
-        there: [u32; 2],
-        facing: usize,
-    ) -> bool {
-        match likeness {
-            Likeness::SameTriangles => here[facing] > there[facing],
-            Likeness::SameSurface => there[facing] == 0 && here[1 - facing] == 0,
-        }
-    }
-
     /// Of the corners of missing triangles that the other mesh does not have, the one farthest from all its corners.
     /// Only some are measured, so that the work is bounded.
     fn farthest(&self, lost: &[Vec<[u32; 3]>; 2]) -> Option<([f64; 3], f64)> {
-        const MOST_CORNERS: usize = 64;
+        const MAX_CORNERS: usize = 64;
         let mut farthest: Option<([f64; 3], f64)> = None;
         for (which, lost) in lost.iter().enumerate() {
             let other = self.meshes[1 - which];
@@ -241,8 +218,8 @@ impl<'a> Matching<'a> {
             let alone: Vec<u32> = corners
                 .filter(|vertex| !known.contains(&self.places[which][*vertex as usize]))
                 .collect();
-            let step = (alone.len() / MOST_CORNERS).max(1);
-            for vertex in alone.into_iter().step_by(step).take(MOST_CORNERS) {
+            let step = (alone.len() / MAX_CORNERS).max(1);
+            for vertex in alone.into_iter().step_by(step).take(MAX_CORNERS) {
                 let point = self.meshes[which].vertices[vertex as usize];
                 let nearest = nearest(other, point);
                 if farthest.is_none_or(|(_, most)| nearest > most) && nearest.is_finite() {
@@ -294,10 +271,7 @@ pub fn open_edge(mesh: &Mesh) -> Option<[f64; 3]> {
     let edges = |[a, b, c]: [usize; 3]| [[a, b], [b, c], [c, a]];
     let mut balance: HashMap<[usize; 2], i32> = HashMap::new();
     for [a, b] in triangles.iter().copied().flat_map(edges) {
-        match a < b {
-            true => *balance.entry([a, b]).or_default() += 1,
-            false => *balance.entry([b, a]).or_default() -= 1,
-        }
+        *balance.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
     }
     let open = |[a, b]: &[usize; 2]| balance.get(&[*a.min(b), *a.max(b)]) != Some(&0);
     let [a, b] = triangles.iter().copied().flat_map(edges).find(open)?;

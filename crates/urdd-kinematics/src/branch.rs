@@ -57,9 +57,8 @@ impl ForwardKinematics {
     pub fn dofs_between(&self, a: usize, b: usize) -> Vec<usize> {
         let [of_a, of_b] = [a, b].map(|link| self.path(link).collect::<Vec<_>>());
         let only = |own: &[&Step], other: &[&Step]| -> Vec<usize> {
-            let own = own.iter();
-            let own = own.filter(|step| !other.iter().any(|one| one.child == step.child));
-            own.flat_map(|step| step.motion.dofs()).collect()
+            let is_own = |step: &&&Step| !other.iter().any(|one| one.child == step.child);
+            own.iter().filter(is_own).flat_map(|step| step.motion.dofs()).copied().collect()
         };
         let mut dofs = only(&of_a, &of_b);
         dofs.extend(only(&of_b, &of_a));

@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::error::{Fault, KinematicsError};
+use super::error::KinematicsError;
 use super::joint::{check_lengths, joint_dofs};
 use super::rotation::{to_rotation_vector, uniform_rotation};
-use urdd_format::bounds::BoundsModule;
 use urdd_format::chain::ChainModule;
 use urdd_format::dof::DofModule;
 use urdd_format::urdf::JointType;
@@ -38,18 +37,9 @@ pub struct ConfigurationSpace {
 }
 
 impl ConfigurationSpace {
-    /// Builds the configuration space from the three modules.
-    pub fn new(
-        dof: &DofModule,
-        chain: &ChainModule,
-        bounds: &BoundsModule,
-    ) -> Result<Self, KinematicsError> {
-        Self::within(dof, chain, &bounds.bounds)
-    }
-
     /// Builds the configuration space from two modules and the `bounds` of a `bounds_module`. Each pair may be in
     /// either order; all bounds must be finite.
-    pub fn within(
+    pub fn new(
         dof: &DofModule,
         chain: &ChainModule,
         bounds: &[[f64; 2]],
@@ -57,13 +47,13 @@ impl ConfigurationSpace {
         check_lengths(chain, dof)?;
         let (expected, found) = (dof.num_dofs.get(), bounds.len());
         if found != expected {
-            let what = "DOF of dof_module";
-            let fault = Fault::Length { what, expected, found };
+            let fault =
+                format!("{found} entries, expected {expected}: one for each DOF of dof_module");
             return Err(KinematicsError::bounds("/bounds", fault));
         }
         for (i, pair) in bounds.iter().enumerate() {
             if let Some(end) = pair.iter().position(|bound| !bound.is_finite()) {
-                let fault = Fault::NotFinite(pair[end]);
+                let fault = format!("{} is not a finite number", pair[end]);
                 return Err(KinematicsError::bounds(format!("/bounds/{i}/{end}"), fault));
             }
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::error::{ConfigurationError, Fault, KinematicsError};
+use super::error::{ConfigurationError, KinematicsError};
 use super::joint::{Motion, check_lengths, motion};
 use super::pose::to_isometry;
 use urdd_format::chain::ChainModule;
@@ -81,7 +81,7 @@ impl ForwardKinematics {
             let joint = &chain.joints_in_chain[idx];
             let origin = to_isometry(&joint.origin).map_err(|error| {
                 let pointer = format!("/joints_in_chain/{idx}/origin");
-                KinematicsError::chain(pointer, error.into())
+                KinematicsError::chain(pointer, error.to_string())
             })?;
             steps.push(Step {
                 parent: joint.parent_link_idx.get(),
@@ -187,10 +187,10 @@ fn joints_from_root(chain: &ChainModule) -> Result<Vec<usize>, KinematicsError> 
         let child = link_at(place("child_link_idx"), joint.child_link_idx, num_links)?;
         let fail = |fault| Err(KinematicsError::chain(place("child_link_idx"), fault));
         if child == root {
-            return fail(Fault::RootMoved { link: child });
+            return fail(format!("this joint's child is the root link, {child}"));
         }
         if let Some(first) = moved_by[child].replace(idx) {
-            return fail(Fault::MovedTwice { link: child, first });
+            return fail(format!("link {child} is already the child of joint {first}"));
         }
         joints_on[parent].push(idx);
     }
@@ -199,24 +199,19 @@ fn joints_from_root(chain: &ChainModule) -> Result<Vec<usize>, KinematicsError> 
     // does not reach is disconnected or on a cycle.
     let mut order: Vec<usize> = Vec::with_capacity(chain.joints_in_chain.len());
     order.extend(&joints_on[root]);
+    let mut reached = vec![false; num_links];
+    reached[root] = true;
     let mut next = 0;
     while let Some(&joint) = order.get(next) {
         let child = chain.joints_in_chain[joint].child_link_idx.get();
+        reached[child] = true;
         order.extend(&joints_on[child]);
         next += 1;
     }
-
-    let mut reached = vec![false; num_links];
-    reached[root] = true;
-    for joint in &order {
-        reached[chain.joints_in_chain[*joint].child_link_idx.get()] = true;
-    }
-    match reached.iter().position(|reached| !reached) {
-        Some(link) => {
-            Err(KinematicsError::chain(format!("/links_in_chain/{link}"), Fault::Unreached))
-        }
-        None => Ok(order),
-    }
+    let unreached = reached.iter().position(|reached| !reached);
+    let fault = "no path leads from the root to this link";
+    let error = |link| KinematicsError::chain(format!("/links_in_chain/{link}"), fault);
+    unreached.map_or(Ok(order), |link| Err(error(link)))
 }
 
 fn link_at(
@@ -227,6 +222,6 @@ fn link_at(
     if link.get() < count {
         return Ok(link.get());
     }
-    let (what, index) = ("link", link.0);
-    Err(KinematicsError::chain(pointer, Fault::OutOfRange { what, index, count }))
+    let fault = format!("link {} is out of range: there are {count}", link.0);
+    Err(KinematicsError::chain(pointer, fault))
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::error::{Fault, KinematicsError};
+use super::error::KinematicsError;
 use super::pose::is_unit;
 use super::rotation::{from_rotation_vector, planar_basis};
 use urdd_format::chain::{ChainModule, JointInChain};
@@ -51,14 +51,14 @@ pub(super) enum Motion {
 
 impl Motion {
     /// The DOFs that move the joint.
-    pub fn dofs(&self) -> Vec<usize> {
+    pub fn dofs(&self) -> &[usize] {
         match self {
-            Motion::Fixed => Vec::new(),
+            Motion::Fixed => &[],
             Motion::Turn { position, .. } | Motion::Slide { position, .. } => {
-                position.dof.into_iter().collect()
+                position.dof.as_slice()
             }
-            Motion::Plane { dofs, .. } | Motion::Ball { dofs } => dofs.to_vec(),
-            Motion::Float { dofs } => dofs.to_vec(),
+            Motion::Plane { dofs, .. } | Motion::Ball { dofs } => dofs,
+            Motion::Float { dofs } => dofs,
         }
     }
 
@@ -136,8 +136,8 @@ pub(super) fn check_lengths(chain: &ChainModule, dof: &DofModule) -> Result<(), 
     let mimics = dof.joint_idx_to_mimic_mapping.len();
     for (list, found) in [(DOFS, dofs), (MIMICS, mimics)] {
         if found != expected {
-            let what = "joint of chain_module";
-            let fault = Fault::Length { what, expected, found };
+            let fault =
+                format!("{found} entries, expected {expected}: one for each joint of chain_module");
             return Err(KinematicsError::dof(format!("/{list}"), fault));
         }
     }
@@ -155,30 +155,30 @@ pub(super) fn joint_dofs(
     let listed = &dof.joint_idx_to_dof_idxs_mapping[idx];
     let found = listed.len();
     let fault = match &dof.joint_idx_to_mimic_mapping[idx] {
-        Some(_) if found > 0 => Some(Fault::MimicWithDofs { found }),
-        None if found != expected => Some(Fault::DofCount { joint_type, expected, found }),
+        Some(_) if found > 0 => Some(format!("{found} DOFs, expected 0 of a mimic joint")),
+        None if found != expected => {
+            Some(format!("{found} DOFs, expected {expected} of a {joint_type} joint"))
+        }
         _ => None,
     };
     if let Some(fault) = fault {
         return Err(KinematicsError::dof(format!("/{DOFS}/{idx}"), fault));
     }
-    listed
-        .iter()
-        .enumerate()
-        .map(|(place, dof_idx)| {
-            in_range(*dof_idx, dof)
-                .map_err(|fault| KinematicsError::dof(format!("/{DOFS}/{idx}/{place}"), fault))
-        })
-        .collect()
+    let places = listed.iter().enumerate();
+    places.map(|(k, of)| in_range(*of, dof, || format!("/{DOFS}/{idx}/{k}"))).collect()
 }
 
-fn in_range(dof_idx: DofIdx, dof: &DofModule) -> Result<usize, Fault> {
-    let (what, index, count) = ("DOF", dof_idx.0, dof.num_dofs.get());
+fn in_range(
+    dof_idx: DofIdx,
+    dof: &DofModule,
+    pointer: impl Fn() -> String,
+) -> Result<usize, KinematicsError> {
+    let count = dof.num_dofs.get();
     if dof_idx.get() < count {
-        Ok(dof_idx.get())
-    } else {
-        Err(Fault::OutOfRange { what, index, count })
+        return Ok(dof_idx.get());
     }
+    let fault = format!("DOF {} is out of range: there are {count}", dof_idx.0);
+    Err(KinematicsError::dof(pointer(), fault))
 }
 
 /// The motion of joint `idx`.
@@ -196,7 +196,8 @@ pub(super) fn motion(
     let position = position(idx, &dofs, dof)?;
     // The axis and the number of DOFs are right, so this is a mimic joint, which has no DOFs.
     Motion::of(joint_type, axis, position, &dofs).ok_or_else(|| {
-        let fault = Fault::MimicType(joint_type);
+        let fault =
+            format!("a {joint_type} joint cannot be a mimic joint: its position is not one number");
         KinematicsError::dof(format!("/{MIMICS}/{idx}"), fault)
     })
 }
@@ -215,29 +216,26 @@ fn position(idx: usize, dofs: &[usize], dof: &DofModule) -> Result<Position, Kin
     let Some(mimic) = &dof.joint_idx_to_mimic_mapping[idx] else {
         return Ok(Position::own(dofs));
     };
-    let fail = |key, fault| KinematicsError::dof(format!("/{MIMICS}/{idx}/{key}"), fault);
+    let pointer = |key: &str| format!("/{MIMICS}/{idx}/{key}");
     for (key, value) in [("multiplier", mimic.multiplier), ("offset", mimic.offset)] {
         if !value.is_finite() {
-            return Err(fail(key, Fault::NotFinite(value)));
+            let fault = format!("{value} is not a finite number");
+            return Err(KinematicsError::dof(pointer(key), fault));
         }
     }
-    let driver = mimic.dof_idx.map(|driver| in_range(driver, dof));
-    Ok(Position {
-        dof: driver.transpose().map_err(|fault| fail("dof_idx", fault))?,
-        multiplier: mimic.multiplier,
-        offset: mimic.offset,
-    })
+    let driver = mimic.dof_idx.map(|driver| in_range(driver, dof, || pointer("dof_idx")));
+    Ok(Position { dof: driver.transpose()?, multiplier: mimic.multiplier, offset: mimic.offset })
 }
 
 fn axis(joint: &JointInChain, idx: usize) -> Result<Axis, KinematicsError> {
     let fail = |fault| KinematicsError::chain(format!("/joints_in_chain/{idx}/axis"), fault);
     let Some(axis) = joint.axis else {
-        return Err(fail(Fault::NoAxis(joint.joint_type)));
+        return Err(fail(format!("a {} joint needs an axis", joint.joint_type)));
     };
     let vector = Vector3::from(axis);
     let norm = vector.norm();
     if !is_unit(norm) {
-        return Err(fail(Fault::AxisNotUnit { norm }));
+        return Err(fail(format!("not a unit vector: its length is {norm}")));
     }
     Ok(Unit::new_normalize(vector))
 }

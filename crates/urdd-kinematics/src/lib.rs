@@ -21,7 +21,7 @@ mod travel;
 
 pub use branch::{Branch, Place};
 pub use configurations::{ConfigurationSpace, unit};
-pub use error::{ConfigurationError, Fault, KinematicsError};
+pub use error::{ConfigurationError, KinematicsError};
 pub use forward::ForwardKinematics;
 pub use joint::{has_axis, joint_motion, num_dofs};
 pub use travel::Travel;

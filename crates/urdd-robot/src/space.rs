@@ -19,7 +19,7 @@ impl Configurations {
     pub(super) fn new(part: &Urdd) -> Result<Self, RobotError> {
         let modules = consumer::modules(part).ok_or(RobotError::MotionOpen)?;
         let bounds = part.bounds().ok_or(RobotError::Missing(ModuleKind::Bounds))?;
-        let space = ConfigurationSpace::within(&modules.dof, &modules.chain, bounds.bounds)?;
+        let space = ConfigurationSpace::new(&modules.dof, &modules.chain, bounds.bounds)?;
         let is_limited = match bounds.v1 {
             Some(v1) if v1.dof_limited.len() == bounds.bounds.len() => v1.dof_limited.clone(),
             // Of a legacy URDD, the joint's type says so.

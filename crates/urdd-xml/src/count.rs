@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::error::{XmlError, text_pos};
-use super::limits::{Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_PREFIXES};
+use super::limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_PREFIXES};
 use super::markup::{self, MarkupKind};
 
 /// Checks the limits tag by tag. Malformed XML is left to the parser.
@@ -15,8 +15,9 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
         let end = markup.end.unwrap_or(text.len());
         let inside = &text.as_bytes()[markup.start..end];
         at = end;
-        let too_many =
-            |what, limit| XmlError::TooMany { what, limit, pos: text_pos(text, markup.start) };
+        let too_many = |what, limit| {
+            XmlError::refused(text, markup.start, format!("there are more than {limit} {what}"))
+        };
         match markup.kind {
             MarkupKind::Text | MarkupKind::Instruction => continue,
             MarkupKind::Declaration if inside.starts_with(b"<!ENTITY") => {
@@ -24,11 +25,11 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
             }
             MarkupKind::Declaration | MarkupKind::Tag => {}
         }
-        if count_attributes(inside, &mut prefixes) > MOST_ATTRIBUTES {
-            return Err(too_many("attributes of one element", MOST_ATTRIBUTES));
+        if count_attributes(inside, &mut prefixes) > MAX_ATTRIBUTES {
+            return Err(too_many("attributes of one element", MAX_ATTRIBUTES));
         }
-        if prefixes.len() > MOST_PREFIXES {
-            return Err(too_many("prefixes of namespaces", MOST_PREFIXES));
+        if prefixes.len() > MAX_PREFIXES {
+            return Err(too_many("prefixes of namespaces", MAX_PREFIXES));
         }
         if markup.kind == MarkupKind::Declaration {
             continue;
@@ -41,15 +42,15 @@ pub(super) fn check(text: &str, kind: Kind) -> Result<(), XmlError> {
         if elements > kind.most_elements() {
             return Err(too_many("elements", kind.most_elements()));
         }
-        if levels >= MOST_LEVELS {
-            return Err(too_many("levels of nested elements", MOST_LEVELS));
+        if levels >= MAX_LEVELS {
+            return Err(too_many("levels of nested elements", MAX_LEVELS));
         }
         levels += usize::from(!inside.ends_with(b"/>"));
     }
     Ok(())
 }
 
-/// The number of `=` outside quotes in a tag, at most one more than [`MOST_ATTRIBUTES`]. Adds the names between `xmlns:`
+/// The number of `=` outside quotes in a tag, at most one more than [`MAX_ATTRIBUTES`]. Adds the names between `xmlns:`
 /// and such a `=` to `prefixes`.
 fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> usize {
     let mut count = 0;
@@ -74,7 +75,7 @@ fn count_attributes<'t>(tag: &'t [u8], prefixes: &mut HashSet<&'t [u8]>) -> usiz
             (None, _) if ended => (word, ended) = (at, false),
             (None, _) => {}
         }
-        if count > MOST_ATTRIBUTES {
+        if count > MAX_ATTRIBUTES {
             break;
         }
     }

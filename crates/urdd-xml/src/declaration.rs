@@ -2,25 +2,28 @@
 
 use std::ops::Range;
 
-use super::error::{XmlError, text_pos};
+use super::error::XmlError;
 
 /// Checks that the declaration, if present, names a version 1.x and no encoding other than UTF-8. The parser accepts
 /// any.
 pub(super) fn check(text: &str) -> Result<(), XmlError> {
+    let found = |range: &Range<usize>| -> String {
+        text[range.clone()].chars().take(20).flat_map(char::escape_debug).collect()
+    };
     if let Some(range) = wrong_version(text) {
-        return Err(XmlError::Version {
-            pos: text_pos(text, range.start),
-            found: text[range].chars().take(20).collect(),
-        });
+        let found = found(&range);
+        let what = format!("the XML declaration names version `{found}`; write `1.0`");
+        return Err(XmlError::refused(text, range.start, what));
     }
-    if let Some(range) = value(text, "encoding") {
-        let found = text[range.clone()].to_ascii_lowercase();
-        if !matches!(found.as_str(), "utf-8" | "utf8") {
-            return Err(XmlError::Encoding {
-                pos: text_pos(text, range.start),
-                found: text[range].chars().take(20).collect(),
-            });
-        }
+    let is_utf8 = |range: &Range<usize>| {
+        ["utf-8", "utf8"].iter().any(|name| text[range.clone()].eq_ignore_ascii_case(name))
+    };
+    if let Some(range) = value(text, "encoding").filter(|range| !is_utf8(range)) {
+        let found = found(&range);
+        let what = format!(
+            "the XML declaration names the encoding `{found}`; save the file as UTF-8 and declare that"
+        );
+        return Err(XmlError::refused(text, range.start, what));
     }
     Ok(())
 }

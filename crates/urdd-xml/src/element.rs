@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use roxmltree::{Attribute, Document, Node};
 
-use crate::MOST_PREFIXES;
+use crate::MAX_PREFIXES;
 
 /// The qualified name of an element, including its prefix: `xacro:link` is not `link`, whatever namespace `xacro` has.
 pub fn name<'a>(element: Node<'a, 'a>) -> &'a str {
@@ -72,7 +72,7 @@ pub fn wrapped(text: &str) -> String {
         if begins && is_name && !is_reserved && !prefixes.contains(&prefix) {
             prefixes.push(prefix);
         }
-        if prefixes.len() == MOST_PREFIXES - 1 {
+        if prefixes.len() == MAX_PREFIXES - 1 {
             break;
         }
     }

@@ -9,34 +9,12 @@ pub enum XmlError {
     Parser(roxmltree::Error),
     /// It declares entities, which can expand a small file exponentially.
     Entities(TextPos),
-    /// The version of the XML declaration is not 1.x.
-    Version {
-        /// The version.
-        found: String,
-        /// Its position.
-        pos: TextPos,
-    },
-    /// The XML declaration names an encoding other than UTF-8.
-    Encoding {
-        /// The encoding.
-        found: String,
-        /// Its position.
-        pos: TextPos,
-    },
-    /// Not well-formed in a way that the parser accepts.
-    NotWellFormed {
+    /// The parser would accept it: a wrong XML declaration, another fault that the parser does not see, or more items
+    /// than a limit.
+    Refused {
         /// What is wrong, and what to do.
-        what: &'static str,
+        what: String,
         /// Its position.
-        pos: TextPos,
-    },
-    /// A limit is exceeded.
-    TooMany {
-        /// The limited items.
-        what: &'static str,
-        /// The limit.
-        limit: usize,
-        /// The start of the element that exceeds the limit.
         pos: TextPos,
     },
 }
@@ -46,12 +24,12 @@ impl XmlError {
     pub fn pos(&self) -> TextPos {
         match self {
             XmlError::Parser(error) => error.pos(),
-            XmlError::Entities(pos)
-            | XmlError::Version { pos, .. }
-            | XmlError::Encoding { pos, .. }
-            | XmlError::NotWellFormed { pos, .. }
-            | XmlError::TooMany { pos, .. } => *pos,
+            XmlError::Entities(pos) | XmlError::Refused { pos, .. } => *pos,
         }
+    }
+
+    pub(super) fn refused(text: &str, offset: usize, what: impl Into<String>) -> Self {
+        XmlError::Refused { what: what.into(), pos: text_pos(text, offset) }
     }
 }
 

@@ -20,9 +20,7 @@ mod words;
 
 pub use declaration::wrong_version;
 pub use error::XmlError;
-pub use limits::{
-    Kind, MOST_ATTRIBUTES, MOST_LEVELS, MOST_NODES, MOST_PREFIXES, MOST_ROBOT_ELEMENTS,
-};
+pub use limits::{Kind, MAX_ATTRIBUTES, MAX_LEVELS, MAX_NODES, MAX_PREFIXES, MAX_ROBOT_ELEMENTS};
 use roxmltree::{Document, ParsingOptions};
 pub use strict::is_character;
 
@@ -40,7 +38,7 @@ pub fn parse(text: &str, kind: Kind) -> Result<Document<'_>, XmlError> {
     }
     let options = ParsingOptions {
         allow_dtd: kind == Kind::Robot,
-        nodes_limit: u32::try_from(MOST_NODES).unwrap_or(u32::MAX),
+        nodes_limit: u32::try_from(MAX_NODES).unwrap_or(u32::MAX),
         ..ParsingOptions::default()
     };
     Document::parse_with_options(text, options).map_err(XmlError::Parser)

@@ -42,17 +42,16 @@ pub fn other_parts(urdf: &str) -> OtherParts {
     // Depth is bounded by the parser; a stack keeps it off the call stack.
     let mut open = vec![(document.root_element(), Owner::Robot, String::new())];
     while let Some((element, owner, path)) = open.pop() {
+        let mut add = |name: &str, value: &str, is_attribute: bool| {
+            let (path, name, value) = (path.clone(), name.to_owned(), value.to_owned());
+            let part = OtherPart { path, name, value, is_attribute };
+            parts.entry(owner.clone()).or_default().push(part);
+        };
         let known = of(name(element)).map_or(&[][..], |known| known.attributes);
         for attribute in element.attributes() {
-            let range = attribute.range_qname();
-            let name = &document.input_text()[range];
+            let name = &document.input_text()[attribute.range_qname()];
             if !known.contains(&name) {
-                parts.entry(owner.clone()).or_default().push(OtherPart {
-                    path: path.clone(),
-                    name: name.to_owned(),
-                    value: attribute.value().to_owned(),
-                    is_attribute: true,
-                });
+                add(name, attribute.value(), true);
             }
         }
         let start = open.len();
@@ -62,12 +61,7 @@ pub fn other_parts(urdf: &str) -> OtherParts {
             let is_top = path.is_empty();
             if of(tag).is_none() {
                 if !is_top {
-                    parts.entry(owner.clone()).or_default().push(OtherPart {
-                        path: path.clone(),
-                        name: tag.to_owned(),
-                        value: document.input_text()[child.range()].to_owned(),
-                        is_attribute: false,
-                    });
+                    add(tag, &document.input_text()[child.range()], false);
                 }
                 continue;
             }

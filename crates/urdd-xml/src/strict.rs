@@ -1,7 +1,7 @@
 //! Faults that the parser does not see: reserved names, colons in names, prefixes without a namespace, references to
 //! characters that XML does not have.
 
-use super::error::{XmlError, text_pos};
+use super::error::XmlError;
 use super::markup::{self, MarkupKind};
 
 const COLON: &str =
@@ -16,7 +16,7 @@ const NO_CHARACTER: &str = "a reference `&#...;` names no character of XML; remo
 /// Checks what the parser accepts and XML 1.0 or its namespaces do not. What is broken otherwise is left to the parser.
 pub(super) fn check(text: &str) -> Result<(), XmlError> {
     match fault(text) {
-        Some((at, what)) => Err(XmlError::NotWellFormed { what, pos: text_pos(text, at) }),
+        Some((at, what)) => Err(XmlError::refused(text, at, what)),
         None => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use roxmltree::Error;
 
 use super::error::XmlError;
-use super::limits::MOST_NODES;
+use super::limits::MAX_NODES;
 
 /// The message for a parser error, without the position.
 fn of_parser(error: &Error, text: &str) -> String {
@@ -54,13 +54,12 @@ fn of_parser(error: &Error, text: &str) -> String {
             "a document type (`<!DOCTYPE`) is not supported here; remove it".to_owned()
         }
         Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
-            match text.trim().is_empty() {
-                true => "the file is empty".to_owned(),
-                false => "the file ends before its outermost element is closed; it may be cut off".to_owned(),
-            }
+            let is_empty = text.trim().is_empty();
+            let cut = "the file ends before its outermost element is closed; it may be cut off";
+            if is_empty { "the file is empty" } else { cut }.to_owned()
         }
         Error::NodesLimitReached => {
-            format!("the file has more than {MOST_NODES} elements, texts and comments")
+            format!("the file has more than {MAX_NODES} elements, texts and comments")
         }
         Error::AttributesLimitReached | Error::NamespacesLimitReached => {
             "the file has too many attributes or namespaces".to_owned()
@@ -126,15 +125,7 @@ impl XmlError {
             XmlError::Entities(_) => {
                 "it declares entities (`<!ENTITY`), which are not supported; `xmllint --noent FILE` writes the file without them".to_owned()
             }
-            XmlError::Version { found, .. } => {
-                format!("the XML declaration names version `{}`; write `1.0`", found.escape_debug())
-            }
-            XmlError::Encoding { found, .. } => format!(
-                "the XML declaration names the encoding `{}`; save the file as UTF-8 and declare that",
-                found.escape_debug()
-            ),
-            XmlError::NotWellFormed { what, .. } => (*what).to_owned(),
-            XmlError::TooMany { what, limit, .. } => format!("there are more than {limit} {what}"),
+            XmlError::Refused { what, .. } => what.clone(),
         }
     }
 }

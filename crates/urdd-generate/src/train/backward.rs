@@ -24,7 +24,7 @@ impl Work {
             biases: vec![0.0; layer.biases.len()],
         };
         Self {
-            values: network.room(),
+            values: network.buffers(),
             by_values: [Vec::new(), Vec::new()],
             gradients: network.layers.iter().map(zeros).collect(),
             loss: 0.0,

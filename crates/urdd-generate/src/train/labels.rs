@@ -104,7 +104,7 @@ impl Labels {
         let mut rows = vec![0.0; self.configurations.len() / num_dofs * width];
         let configurations = self.configurations.par_chunks_exact(num_dofs);
         let each = rows.par_chunks_exact_mut(width).zip(configurations);
-        each.for_each(|(row, configuration)| inputs::tell(inputs, configuration, row));
+        each.for_each(|(row, configuration)| inputs::write(inputs, configuration, row));
         rows
     }
 

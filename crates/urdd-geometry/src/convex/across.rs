@@ -6,12 +6,12 @@
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
-use super::gjk;
-pub use super::lanes::columns;
-use super::lanes::{LANES, Num, Pose, Vec3};
+use super::gjk::{self, Pair};
 use super::shape::ConvexShape;
 use super::support::{Support, cells, farthest};
-use super::witness::{self, Witness};
+use super::witness::Witness;
+pub use crate::lanes::columns;
+use crate::lanes::{LANES, Num, Pose, Vec3};
 
 /// Two convex shapes with their relative pose.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +30,7 @@ pub const AT_ONCE: usize = LANES;
 impl<'a> PlacedPair<'a> {
     /// The pose must be finite.
     pub fn new(a: &'a ConvexShape, b: &'a ConvexShape, b_in_a: &Isometry3<f64>) -> Self {
-        let b_in_a = columns(b_in_a);
-        Self { a, b, b_in_a }
+        Self { a, b, b_in_a: columns(b_in_a) }
     }
 }
 
@@ -45,16 +44,15 @@ pub fn distances(level: Level, pairs: &[PlacedPair], distances: &mut [f64]) {
 
 /// Whether any pair touches or overlaps, which is where [`distances`] gives 0.
 pub fn any_touches(level: Level, pairs: &[PlacedPair]) -> bool {
-    let mut eights = pairs.chunks(LANES);
-    eights.any(|pairs| touching(level, pairs) != 0)
+    pairs.chunks(LANES).any(|pairs| touching(level, pairs) != 0)
 }
 
 /// Like [`any_touches`], for the first [`AT_ONCE`] pairs at most: bit `k` is set if pair `k` touches or overlaps.
 pub fn touching(level: Level, pairs: &[PlacedPair]) -> u64 {
-    match pairs.is_empty() {
-        true => 0,
-        false => dispatch!(level, simd => eight_touch(simd, &pairs[..pairs.len().min(LANES)])),
+    if pairs.is_empty() {
+        return 0;
     }
+    dispatch!(level, simd => eight_touch(simd, &pairs[..pairs.len().min(LANES)]))
 }
 
 /// The distance and closest points of each pair, in the frame of the pair's first shape.
@@ -74,19 +72,19 @@ pub fn some_witnesses(level: Level, pairs: &[PlacedPair]) -> [Witness; AT_ONCE] 
 #[inline(always)]
 fn eight_distances<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [f64; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::distances(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()), gjk::EXACT)
+    Pair { simd, a: &a, b: &b, pose }.distances(gjk::first_lanes(pairs.len()), gjk::EXACT)
 }
 
 #[inline(always)]
 fn eight_touch<S: Simd>(simd: S, pairs: &[PlacedPair]) -> u64 {
     let (a, b, pose) = eight(simd, pairs);
-    gjk::touching(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()))
+    Pair { simd, a: &a, b: &b, pose }.touching(gjk::first_lanes(pairs.len()))
 }
 
 #[inline(always)]
 fn eight_witnesses<S: Simd>(simd: S, pairs: &[PlacedPair]) -> [Witness; LANES] {
     let (a, b, pose) = eight(simd, pairs);
-    let mut found = witness::witnesses(simd, &a, &b, &pose, gjk::first_lanes(pairs.len()));
+    let mut found = Pair { simd, a: &a, b: &b, pose }.witnesses(gjk::first_lanes(pairs.len()));
     for (found, pair) in found.iter_mut().zip(pairs) {
         found.points = found.points.map(|p| [0, 1, 2].map(|k| p[k] + pair.a.centre[k]));
     }

@@ -50,14 +50,9 @@ impl BodyPairs {
         }
         let sphere =
             |of: &Vec<usize>| about_spheres(of.iter().map(|number| &parts[*number].sphere));
-        Ok(Self {
-            spheres: of_body.iter().map(sphere).collect(),
-            of_body,
-            parts,
-            pairs: Vec::new(),
-            bodies: Vec::new(),
-            level: Level::new(),
-        })
+        let spheres = of_body.iter().map(sphere).collect();
+        let (pairs, bodies) = (Vec::new(), Vec::new());
+        Ok(Self { parts, of_body, pairs, bodies, spheres, level: Level::new() })
     }
 
     /// Adds a pair of bodies, with all pairs of their shapes for which `of_interest` returns true; it takes two shape

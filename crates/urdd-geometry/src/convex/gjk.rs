@@ -6,9 +6,9 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
 use super::simplex::{Nearest, segment, tetrahedron, triangle};
 use super::support::Support;
+use crate::lanes::{LANES, Mask, Num, Pose, Vec3, select, splat};
 
 /// Maximum error of distances, metres: the upper and lower bound differ by no more. For shapes or offsets beyond 10 km
 /// it is 1e-13 of that size.
@@ -73,197 +73,168 @@ impl<S: Simd> Record<S> for Alone {
     fn feature(&mut self, _: [Vec3<S>; 3], _: Mask<S>, _: Mask<S>) {}
 }
 
-/// Distances of `a` and `b` in the lanes of the bit set `lanes`. Both shapes are relative to their centres; `pose` is
-/// that of `b` in the frame of `a`. In place of a distance in the range `within`, the result may be any number in it.
-#[inline(always)]
-pub(crate) fn distances<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    lanes: u64,
-    within: [f64; 2],
-) -> [f64; LANES] {
-    let bounds =
-        descend::<S, T, Alone, false>(simd, a, b, pose, -pose.shift, lanes, &mut Alone(within));
-    sure(simd, a, b, pose, &bounds)
+/// Two shapes relative to their centres, and the poses of the second in the frames of the first.
+pub(crate) struct Pair<'a, S: Simd, T> {
+    pub simd: S,
+    pub a: &'a T,
+    pub b: &'a T,
+    pub pose: Pose<S>,
 }
 
-/// The distances that a descent found. Where rounding stopped it, from other sides.
-#[inline(always)]
-pub(crate) fn sure<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    bounds: &Bounds<S>,
-) -> [f64; LANES] {
-    let mut distances = bounds.upper.to_array();
-    let mut unsure = bounds.unsure.to_bitmask();
-    while unsure != 0 {
-        let lane = unsure.trailing_zeros() as usize & (LANES - 1);
-        unsure &= unsure - 1;
-        let (a, b) = (a.single(lane), b.single(lane));
-        distances[lane] = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
+impl<'a, S: Simd, T: Support> Pair<'a, S, T> {
+    /// The shapes and the pose of one lane, in all lanes.
+    #[inline(always)]
+    pub fn single(&self, lane: usize) -> Pair<'a, S, T::Single> {
+        let pose = Pose::same(self.simd, &self.pose.lane(lane));
+        Pair { simd: self.simd, a: self.a.single(lane), b: self.b.single(lane), pose }
     }
-    distances
-}
 
-/// The distance of two shapes in one pose, descending from all eight octants. Returns the first converged result,
-/// otherwise the least upper bound, including `upper`.
-#[inline(never)]
-fn from_other_sides<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &[[f64; 3]; 4],
-    upper: f64,
-) -> f64 {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let bounds = from_octants(simd, a, b, pose, &mut Alone(EXACT));
-            let unsure = bounds.unsure.to_bitmask() & ALL;
-            if unsure != ALL {
-                return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
+    /// Distances in the lanes of the bit set `lanes`. In place of a distance in the range `within`, the result may be any
+    /// number in it.
+    #[inline(always)]
+    pub fn distances(&self, lanes: u64, within: [f64; 2]) -> [f64; LANES] {
+        let bounds = self.descend::<_, false>(-self.pose.shift, lanes, &mut Alone(within));
+        self.sure(&bounds)
+    }
+
+    /// The distances that a descent found. Where rounding stopped it, from other sides.
+    #[inline(always)]
+    pub fn sure(&self, bounds: &Bounds<S>) -> [f64; LANES] {
+        let mut distances = bounds.upper.to_array();
+        let mut unsure = bounds.unsure.to_bitmask();
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize & (LANES - 1);
+            unsure &= unsure - 1;
+            distances[lane] = self.single(lane).from_other_sides(distances[lane]);
+        }
+        distances
+    }
+
+    /// The distance of two shapes in one pose, descending from all eight octants. Returns the first converged result,
+    /// otherwise the least upper bound, including `upper`.
+    #[inline(never)]
+    fn from_other_sides(&self, upper: f64) -> f64 {
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let bounds = self.from_octants(&mut Alone(EXACT));
+                let unsure = bounds.unsure.to_bitmask() & ALL;
+                if unsure != ALL {
+                    return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
+                }
+                let mut least = upper;
+                for lane in 0..LANES {
+                    least = least.min(bounds.upper[lane]);
+                }
+                least
+            },
+        )
+    }
+
+    /// Descends in one pose from a direction into each octant.
+    #[inline(always)]
+    pub fn from_octants(&self, record: &mut impl Record<S>) -> Bounds<S> {
+        let mut octants = [[0.0; LANES]; 3];
+        for lane in 0..LANES {
+            for (axis, octant) in octants.iter_mut().enumerate() {
+                octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
             }
-            let mut least = upper;
-            for lane in 0..LANES {
-                least = least.min(bounds.upper[lane]);
+        }
+        let octants = Vec3::load(self.simd, [&octants[0], &octants[1], &octants[2]]);
+        self.descend::<_, false>(octants, ALL, record)
+    }
+
+    /// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
+    /// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane, any other as soon as the
+    /// distance is known to be in the range of `record`.
+    #[inline(always)]
+    pub fn descend<R: Record<S>, const CONTACT_ALONE: bool>(
+        &self,
+        start: Vec3<S>,
+        lanes: u64,
+        record: &mut R,
+    ) -> Bounds<S> {
+        let simd = self.simd;
+        let [low, high] = record.within();
+        let low2 = splat(simd, low * low);
+        // No square is below a negative number.
+        let high2 = splat(simd, high.min(1e9) * high.abs().min(1e9));
+        let contact2 = splat(simd, CONTACT * CONTACT);
+        let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
+        let zero = splat(simd, 0.0);
+        let mut v = self.farthest(start, lanes, record);
+        let mut s = [v; 3];
+        let mut squared = v.dot(v);
+        let mut contact = squared.simd_le(contact2);
+        let mut done = contact | Mask::from_bitmask(simd, !lanes & ALL);
+        let mut unsure = Mask::splat(simd, false);
+        for round in 1..=MAX_ROUNDS {
+            if done.all_true() {
+                break;
             }
-            least
-        },
-    )
-}
-
-/// Descends in one pose from a direction into each octant.
-#[inline(always)]
-pub(crate) fn from_octants<S: Simd, T: Support, R: Record<S>>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &[[f64; 3]; 4],
-    record: &mut R,
-) -> Bounds<S> {
-    let mut octants = [[0.0; LANES]; 3];
-    for lane in 0..LANES {
-        for (axis, octant) in octants.iter_mut().enumerate() {
-            octant[lane] = if lane >> axis & 1 == 0 { 1.0 } else { -1.0 };
-        }
-    }
-    let octants = Vec3::load(simd, [&octants[0], &octants[1], &octants[2]]);
-    let pose = Pose::same(simd, pose);
-    descend::<S, T, R, false>(simd, a, b, &pose, octants, ALL, record)
-}
-
-/// Runs the descent. It starts from the point of the difference A - B that is farthest against `start`. A descent for
-/// contact alone (`CONTACT_ALONE`) stops in a lane as soon as it finds a separating plane, any other as soon as the
-/// distance is known to be in the range of `record`.
-#[inline(always)]
-pub(crate) fn descend<S: Simd, T: Support, R: Record<S>, const CONTACT_ALONE: bool>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    start: Vec3<S>,
-    lanes: u64,
-    record: &mut R,
-) -> Bounds<S> {
-    let [low, high] = record.within();
-    let low2 = splat(simd, low * low);
-    // No square is below a negative number.
-    let high2 = splat(simd, high.min(1e9) * high.abs().min(1e9));
-    let contact2 = splat(simd, CONTACT * CONTACT);
-    let tolerance2 = splat(simd, TOLERANCE * TOLERANCE);
-    let zero = splat(simd, 0.0);
-    let mut v = farthest(simd, a, b, pose, start, lanes, record);
-    let mut s = [v; 3];
-    let mut squared = v.dot(v);
-    let mut contact = squared.simd_le(contact2);
-    let mut done = contact | Mask::from_bitmask(simd, !lanes & ALL);
-    let mut unsure = Mask::splat(simd, false);
-    for round in 1..=MAX_ROUNDS {
-        if done.all_true() {
-            break;
-        }
-        let w = farthest(simd, a, b, pose, v, !done.to_bitmask() & ALL, record);
-        // The distance is between v . w / |v| and |v|.
-        let along = v.dot(w);
-        let gap = squared - along;
-        let decided = match CONTACT_ALONE {
-            true => along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared),
-            false => {
-                let below = squared.simd_le(high2);
-                let above = along.simd_ge(zero) & (along * along).simd_ge(low2 * squared);
-                let is_exact = (gap * gap).simd_le(squared * tolerance2);
-                is_exact | (below & (above | low2.simd_le(zero)))
+            let w = self.farthest(v, !done.to_bitmask() & ALL, record);
+            // The distance is between v . w / |v| and |v|.
+            let along = v.dot(w);
+            let gap = squared - along;
+            let decided = match CONTACT_ALONE {
+                true => along.simd_gt(zero) & (along * along).simd_gt(contact2 * squared),
+                false => {
+                    let below = squared.simd_le(high2);
+                    let above = along.simd_ge(zero) & (along * along).simd_ge(low2 * squared);
+                    let is_exact = (gap * gap).simd_le(squared * tolerance2);
+                    is_exact | (below & (above | low2.simd_le(zero)))
+                }
+            };
+            done |= decided | gap.simd_le(zero);
+            if done.all_true() {
+                break;
             }
-        };
-        done |= decided | gap.simd_le(zero);
-        if done.all_true() {
-            break;
+            let Nearest { point, vertices, inside } = match round {
+                1 => segment(simd, w, s[0]),
+                2 => triangle(simd, w, [s[0], s[1]]),
+                _ => tetrahedron(simd, w, s),
+            };
+            let least = point.dot(point);
+            let touching = (inside | least.simd_le(contact2)) & !done;
+            contact |= touching;
+            done |= touching;
+            let stuck = !least.simd_lt(squared) & !done;
+            unsure |= stuck;
+            done |= stuck;
+            record.feature(vertices, !done | (touching & !inside), touching & inside);
+            v = Vec3::select(done, v, point);
+            squared = select(done, squared, least);
+            s = vertices;
         }
-        let Nearest { point, vertices, inside } = match round {
-            1 => segment(simd, w, s[0]),
-            2 => triangle(simd, w, [s[0], s[1]]),
-            _ => tetrahedron(simd, w, s),
-        };
-        let least = point.dot(point);
-        let touching = (inside | least.simd_le(contact2)) & !done;
-        contact |= touching;
-        done |= touching;
-        let stuck = !least.simd_lt(squared) & !done;
-        unsure |= stuck;
-        done |= stuck;
-        record.feature(vertices, !done | (touching & !inside), touching & inside);
-        v = Vec3::select(done, v, point);
-        squared = select(done, squared, least);
-        s = vertices;
+        Bounds { upper: select(contact, zero, squared.sqrt()), contact, unsure: unsure | !done }
     }
-    Bounds { upper: select(contact, zero, squared.sqrt()), contact, unsure: unsure | !done }
-}
 
-/// The lanes of `lanes` in which `a` and `b` touch or overlap, which is where [`distances`] returns 0. Stops early when
-/// it finds a separating plane.
-#[inline(always)]
-pub(crate) fn touching<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    lanes: u64,
-) -> u64 {
-    let bounds =
-        descend::<S, T, Alone, true>(simd, a, b, pose, -pose.shift, lanes, &mut Alone(EXACT));
-    let mut found = bounds.contact.to_bitmask() & lanes;
-    let mut unsure = bounds.unsure.to_bitmask() & lanes;
-    while unsure != 0 {
-        let lane = unsure.trailing_zeros() as usize & (LANES - 1);
-        unsure &= unsure - 1;
-        let (a, b) = (a.single(lane), b.single(lane));
-        if from_other_sides(simd, a, b, &pose.lane(lane), f64::INFINITY) == 0.0 {
-            found |= 1 << lane;
+    /// The lanes of `lanes` in which the shapes touch or overlap, which is where [`Pair::distances`] returns 0. Stops early
+    /// when it finds a separating plane.
+    #[inline(always)]
+    pub fn touching(&self, lanes: u64) -> u64 {
+        let bounds = self.descend::<_, true>(-self.pose.shift, lanes, &mut Alone(EXACT));
+        let mut found = bounds.contact.to_bitmask() & lanes;
+        let mut unsure = bounds.unsure.to_bitmask() & lanes;
+        while unsure != 0 {
+            let lane = unsure.trailing_zeros() as usize & (LANES - 1);
+            unsure &= unsure - 1;
+            if self.single(lane).from_other_sides(f64::INFINITY) == 0.0 {
+                found |= 1 << lane;
+            }
         }
+        found
     }
-    found
-}
 
-/// The point of the difference A - B that is farthest against `v`.
-///
-/// This is a function because a closure may not be compiled for the instruction set of `simd`.
-#[inline(always)]
-fn farthest<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    v: Vec3<S>,
-    lanes: u64,
-    record: &mut impl Record<S>,
-) -> Vec3<S> {
-    let on_a = a.support(simd, -v, lanes);
-    let on_b = b.support(simd, pose.rotate_back(v), lanes);
-    let vertex = on_a - pose.rotate(on_b) - pose.shift;
-    record.vertex(vertex, on_a);
-    vertex
+    /// The point of the difference A - B that is farthest against `v`.
+    ///
+    /// This is a function because a closure may not be compiled for the instruction set of `simd`.
+    #[inline(always)]
+    fn farthest(&self, v: Vec3<S>, lanes: u64, record: &mut impl Record<S>) -> Vec3<S> {
+        let on_a = self.a.support(self.simd, -v, lanes);
+        let on_b = self.b.support(self.simd, self.pose.rotate_back(v), lanes);
+        let vertex = on_a - self.pose.rotate(on_b) - self.pose.shift;
+        record.vertex(vertex, on_a);
+        vertex
+    }
 }

@@ -3,17 +3,13 @@
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
-use super::gjk;
-use super::lanes::{LANES, Pose, Vec3, columns, select, splat};
+use super::gjk::{self, Pair};
 use super::motion::PoseLanes;
 use super::shape::{ConvexShape, OrientedBox, Sphere};
+use crate::lanes::{LANES, Pose, Vec3, columns, select, splat};
 
 /// A shape with distance queries: [`ConvexShape`], [`OrientedBox`] or [`Sphere`].
 pub trait Shape: sealed::Distances + Sync {}
-
-impl Shape for ConvexShape {}
-impl Shape for OrientedBox {}
-impl Shape for Sphere {}
 
 /// The distance of two shapes, metres; 0 if they touch or overlap. `b_in_a` is the pose of the frame of `b` in that of
 /// `a` and must be finite.
@@ -42,17 +38,25 @@ mod sealed {
     }
 }
 
-impl sealed::Distances for ConvexShape {
-    fn distances(
-        level: Level,
-        pair: [&Self; 2],
-        poses: &PoseLanes,
-        within: [f64; 2],
-        distances: &mut [f64],
-    ) {
-        dispatch!(level, simd => hulls(simd, pair, poses, within, distances));
-    }
+macro_rules! shapes {
+    ($($kernel:ident: $shape:ty),*) => {$(
+        impl Shape for $shape {}
+
+        impl sealed::Distances for $shape {
+            fn distances(
+                level: Level,
+                pair: [&Self; 2],
+                poses: &PoseLanes,
+                within: [f64; 2],
+                distances: &mut [f64],
+            ) {
+                dispatch!(level, simd => $kernel(simd, pair, poses, within, distances));
+            }
+        }
+    )*};
 }
+
+shapes! { hulls: ConvexShape, boxes: OrientedBox, spheres: Sphere }
 
 #[inline(always)]
 fn hulls<S: Simd>(
@@ -67,19 +71,7 @@ fn hulls<S: Simd>(
         let mut pose = poses.load(simd, at);
         pose.shift = pose.shift + pose.rotate(centre_b) - centre_a;
         let lanes = gjk::first_lanes(poses.num_samples() - at);
-        out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
-    }
-}
-
-impl sealed::Distances for OrientedBox {
-    fn distances(
-        level: Level,
-        pair: [&Self; 2],
-        poses: &PoseLanes,
-        within: [f64; 2],
-        distances: &mut [f64],
-    ) {
-        dispatch!(level, simd => boxes(simd, pair, poses, within, distances));
+        out.copy_from_slice(&Pair { simd, a, b, pose }.distances(lanes, within));
     }
 }
 
@@ -105,19 +97,7 @@ fn boxes<S: Simd>(
             shift: frame_a.rotate_back(shift),
         };
         let lanes = gjk::first_lanes(poses.num_samples() - at);
-        out.copy_from_slice(&gjk::distances(simd, a, b, &pose, lanes, within));
-    }
-}
-
-impl sealed::Distances for Sphere {
-    fn distances(
-        level: Level,
-        pair: [&Self; 2],
-        poses: &PoseLanes,
-        within: [f64; 2],
-        distances: &mut [f64],
-    ) {
-        dispatch!(level, simd => spheres(simd, pair, poses, within, distances));
+        out.copy_from_slice(&Pair { simd, a, b, pose }.distances(lanes, within));
     }
 }
 

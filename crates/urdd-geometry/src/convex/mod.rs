@@ -12,7 +12,6 @@ mod bodies;
 mod cells;
 mod gjk;
 mod kernel;
-mod lanes;
 mod motion;
 mod penetration;
 mod shape;

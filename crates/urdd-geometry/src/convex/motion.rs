@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Isometry3;
 
-use super::lanes::{LANES, Pose, Vec3};
+use crate::lanes::{LANES, Pose, Vec3};
 
 /// The poses of a robot's bodies in each sample.
 #[derive(Clone, Debug)]

@@ -129,8 +129,8 @@ impl Face {
     /// `None` for a triangle so thin that doubles do not tell its normal. Those beside it are as near.
     fn new(corners: [u32; 3], vertices: &[Vertex]) -> Option<Self> {
         let [a, b, c] = corners.map(|k| vertices[k as usize][0]);
-        let longest = [b - a, c - b, a - c].map(|of| of.norm_squared());
-        let longest = longest.into_iter().fold(0.0, f64::max);
+        let squares = [b - a, c - b, a - c].map(|of| of.norm_squared());
+        let longest = squares.into_iter().fold(0.0, f64::max);
         let area = (b - a).cross(&(c - a));
         let twice = area.norm();
         let normal = area / twice;

@@ -9,7 +9,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::{Mask, Num, Vec3, select, splat};
+use crate::lanes::{Mask, Num, Vec3, select, splat};
 
 /// The nearest point, the vertices of its feature (the first is w), and whether the origin is inside the simplex.
 pub(crate) struct Nearest<S: Simd> {

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::gjk::EXACT;
 use super::kernel::Shape;
-use super::lanes::LANES;
 use super::motion::{Motion, PoseLanes};
+use crate::lanes::LANES;
 
 /// A shape and the index of its body.
 #[derive(Clone, Debug)]
@@ -168,9 +168,8 @@ fn statistics_within(
             let poses = motion.relative(a, b);
             let of_b = &on_body[b];
             on_body[a].par_iter().map(move |&(kind, i)| {
-                let others = of_b.iter().copied();
-                let others = others.filter(|&(of, j)| of == kind && (a != b || j > i));
-                let others = others.map(|(_, j)| j).take_while(|_| goes_on());
+                let same_kind = of_b.iter().filter(|&&(of, j)| of == kind && (a != b || j > i));
+                let others = same_kind.map(|(_, j)| *j).take_while(|_| goes_on());
                 let pairs = row(level, kinds[kind], i, others, &poses, range);
                 Row { kind, i, pairs }
             })

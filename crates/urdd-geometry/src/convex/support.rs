@@ -3,9 +3,9 @@
 use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Vector3;
 
-use super::lanes::{LANES, Num, Vec3, select, splat};
 use super::support_table::SupportTable;
 use super::{ConvexShape, OrientedBox};
+use crate::lanes::{LANES, Num, Vec3, select, splat};
 
 /// A shape, relative to its centre, with a support function.
 pub(crate) trait Support: Sync {

@@ -6,9 +6,9 @@
 use arrayvec::ArrayVec;
 use fearless_simd::{Simd, prelude::*};
 
-use super::gjk::{self, MAX_ROUNDS, Record, TOLERANCE};
-use super::lanes::{LANES, Mask, Pose, Vec3};
+use super::gjk::{MAX_ROUNDS, Pair, Record, TOLERANCE};
 use super::support::Support;
+use crate::lanes::{LANES, Mask, Vec3};
 
 /// The distance of two shapes and their closest points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Witness {
 /// The way of a descent.
 struct Way<S: Simd> {
     /// Each vertex of the Minkowski difference so far, and its support point on the first shape.
-    vertices: ArrayVec<[Vec3<S>; 2], MOST>,
+    vertices: ArrayVec<[Vec3<S>; 2], MAX_VERTICES>,
     /// The vertices of the nearest feature.
     feature: [Vec3<S>; 3],
     /// The fourth vertex, in the lanes of `inside`.
@@ -31,21 +31,8 @@ struct Way<S: Simd> {
     inside: Mask<S>,
 }
 
-impl<S: Simd> Way<S> {
-    #[inline(always)]
-    fn new(simd: S) -> Self {
-        let none = Vec3::splat(simd, [0.0; 3]);
-        Self {
-            vertices: ArrayVec::new(),
-            feature: [none; 3],
-            last: none,
-            inside: Mask::from_bitmask(simd, 0),
-        }
-    }
-}
-
 /// The most vertices of a descent: the first, and one for each round.
-const MOST: usize = MAX_ROUNDS + 1;
+const MAX_VERTICES: usize = MAX_ROUNDS + 1;
 
 impl<S: Simd> Record<S> for Way<S> {
     #[inline(always)]
@@ -69,6 +56,13 @@ impl<S: Simd> Record<S> for Way<S> {
 }
 
 impl<S: Simd> Way<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        let none = Vec3::splat(simd, [0.0; 3]);
+        let inside = Mask::from_bitmask(simd, 0);
+        Self { vertices: ArrayVec::new(), feature: [none; 3], last: none, inside }
+    }
+
     /// The closest points in a lane, relative to the centre of the first shape, and the deviation of their distance from
     /// `distance`.
     #[inline(always)]
@@ -105,65 +99,50 @@ impl<S: Simd> Way<S> {
                 apart[k] += weight * vertex[k];
             }
         }
-        let on_b = match distance > 0.0 {
-            true => [0, 1, 2].map(|k| on_a[k] - apart[k]),
-            false => on_a,
-        };
+        let on_b = if distance > 0.0 { [0, 1, 2].map(|k| on_a[k] - apart[k]) } else { on_a };
         let found = Witness { distance, points: [on_a, on_b] };
         let length = apart.iter().map(|x| x * x).sum::<f64>().sqrt();
         (found, (length - distance).abs())
     }
 }
 
-/// The distances and closest points in the lanes of the bit set `lanes`, relative to the centre of `a`.
-#[inline(always)]
-pub(crate) fn witnesses<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &Pose<S>,
-    lanes: u64,
-) -> [Witness; LANES] {
-    let mut way = Way::new(simd);
-    let bounds =
-        gjk::descend::<S, T, Way<S>, false>(simd, a, b, pose, -pose.shift, lanes, &mut way);
-    let distances = gjk::sure(simd, a, b, pose, &bounds);
-    std::array::from_fn(|lane| {
-        let (found, off) = way.witness(lane, distances[lane]);
-        if off <= TOLERANCE || lanes >> lane & 1 == 0 {
-            return found;
-        }
-        let (a, b) = (a.single(lane), b.single(lane));
-        let again = from_other_sides(simd, a, b, &pose.lane(lane), distances[lane]);
-        if again.1 < off { again.0 } else { found }
-    })
-}
-
-/// The closest points of two shapes in one pose, and their error: the best of eight descents, one from each octant.
-/// Used when rounding stopped the first descent.
-#[inline(never)]
-fn from_other_sides<S: Simd, T: Support>(
-    simd: S,
-    a: &T,
-    b: &T,
-    pose: &[[f64; 3]; 4],
-    distance: f64,
-) -> (Witness, f64) {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let mut way = Way::new(simd);
-            gjk::from_octants(simd, a, b, pose, &mut way);
-            let mut best = way.witness(0, distance);
-            for lane in 1..LANES {
-                let other = way.witness(lane, distance);
-                if other.1 < best.1 {
-                    best = other;
-                }
+impl<S: Simd, T: Support> Pair<'_, S, T> {
+    /// The distances and closest points in the lanes of the bit set `lanes`, relative to the centre of `a`.
+    #[inline(always)]
+    pub fn witnesses(&self, lanes: u64) -> [Witness; LANES] {
+        let mut way = Way::new(self.simd);
+        let bounds = self.descend::<_, false>(-self.pose.shift, lanes, &mut way);
+        let distances = self.sure(&bounds);
+        std::array::from_fn(|lane| {
+            let (found, off) = way.witness(lane, distances[lane]);
+            if off <= TOLERANCE || lanes >> lane & 1 == 0 {
+                return found;
             }
-            best
-        },
-    )
+            let again = self.single(lane).witness_from_other_sides(distances[lane]);
+            if again.1 < off { again.0 } else { found }
+        })
+    }
+
+    /// The closest points of two shapes in one pose, and their error: the best of eight descents, one from each octant.
+    /// Used when rounding stopped the first descent.
+    #[inline(never)]
+    fn witness_from_other_sides(&self, distance: f64) -> (Witness, f64) {
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut way = Way::new(self.simd);
+                self.from_octants(&mut way);
+                let mut best = way.witness(0, distance);
+                for lane in 1..LANES {
+                    let other = way.witness(lane, distance);
+                    if other.1 < best.1 {
+                        best = other;
+                    }
+                }
+                best
+            },
+        )
+    }
 }
 
 /// The weights of the four vertices for the point of their hull nearest to the origin.

@@ -40,7 +40,7 @@ pub(super) fn assign(
 ) -> Vec<Hand> {
     let mut out = Hands {
         points: vec![Vec::new(); groups],
-        most: vec![MOST_POINTS; groups],
+        most: vec![MAX_POINTS; groups],
         last: vec![u32::MAX; surface.vertices.len()],
         nodes,
         group_of_leaf,
@@ -58,9 +58,8 @@ pub(super) fn assign(
     for &p in inside.points {
         out.drop_in(0, p, inside, surface);
     }
-    let hands = out.points.into_iter().zip(has_surface);
     let hand = |(points, has_surface)| Hand { points, has_surface };
-    hands.map(hand).collect()
+    out.points.into_iter().zip(has_surface).map(hand).collect()
 }
 
 /// Points inside the body, in unit coordinates.
@@ -75,14 +74,9 @@ pub(super) struct Inside<'a> {
 impl<'a> Inside<'a> {
     /// `body` are points of the surface whose hull is inside the body's hull or equal to it.
     pub fn new(points: &'a [[f64; 3]], reach: f64, body: &[[f64; 3]]) -> Inside<'a> {
-        let hull = match points {
-            [] => None,
-            _ => ConvexHull::new(body).ok(),
-        };
-        let planes = hull.map_or(Vec::new(), |hull| {
-            let triangles = hull.mesh().triangles.iter();
-            triangles.map(|t| Plane::of(hull.mesh().corners(*t))).collect()
-        });
+        let hull = if points.is_empty() { None } else { ConvexHull::new(body).ok() };
+        let mesh = hull.map(ConvexHull::into_mesh).unwrap_or_default();
+        let planes = mesh.triangles.iter().map(|t| Plane::of(mesh.corners(*t))).collect();
         Inside { points, reach, planes }
     }
 
@@ -92,7 +86,7 @@ impl<'a> Inside<'a> {
 }
 
 /// Number of points of a group at which they are first thinned out.
-const MOST_POINTS: usize = 1 << 21;
+const MAX_POINTS: usize = 1 << 21;
 
 struct Hands<'a> {
     points: Vec<Vec<[f64; 3]>>,
@@ -141,9 +135,8 @@ impl Hands<'_> {
         match self.nodes[node] {
             Node::Leaf(leaf) => {
                 if inside.hull_holds(p) {
-                    let at = [0, 1, 2]
-                        .map(|a| f64::from((p[a] * surface.scale + surface.centre[a]) as f32));
-                    self.points[self.group_of_leaf[leaf]].push(at);
+                    let at = [0, 1, 2].map(|a| p[a] * surface.scale + surface.centre[a]);
+                    self.points[self.group_of_leaf[leaf]].push(at.map(|x| f64::from(x as f32)));
                 }
             }
             Node::Cut(plane, sides) => {
@@ -180,7 +173,7 @@ impl Hands<'_> {
         if let Ok(hull) = ConvexHull::new(&self.points[group]) {
             self.points[group] = hull.into_mesh().vertices;
         }
-        self.most[group] = MOST_POINTS.max(2 * self.points[group].len());
+        self.most[group] = MAX_POINTS.max(2 * self.points[group].len());
     }
 }
 
@@ -213,37 +206,5 @@ fn clip(polygon: &[Corner], plane: &Plane, eps: f64) -> [Vec<Corner>; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::decompose::clean::Surface;
-    use crate::primitives::cuboid;
-
-    #[test]
-    fn a_point_that_two_cuts_move_out_of_the_body_is_dropped() {
-        let surface = Surface::new(&cuboid([2.0, 2.0, 2.0])).expect("a surface");
-        // Two planes through the edge x = y = 1.02, just outside; a point near it is projected into both.
-        let plane = |degrees: f64| {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            Plane { normal: [sin, -cos, 0.0], offset: 1.02 * (sin - cos) }
-        };
-        let nodes = [
-            Node::Cut(plane(44.0), [1, 2]),
-            Node::Cut(plane(134.0), [3, 4]),
-            Node::Cut(plane(134.0), [5, 6]),
-            Node::Leaf(0),
-            Node::Leaf(1),
-            Node::Leaf(2),
-            Node::Leaf(3),
-        ];
-        let point = [[0.95, 0.95, 0.0]];
-        let given = |reach: f64| {
-            let inside = Inside::new(&point, reach, &surface.unit);
-            let parts = assign(&surface, &inside, &nodes, &[0, 1, 2, 3], 4, 1e-9);
-            parts.into_iter().flat_map(|hand| hand.points).collect::<Vec<_>>()
-        };
-        let out = |p: &[f64; 3]| p.iter().any(|x| x.abs() > 1.0 + 1e-6);
-        assert!(!given(0.11).iter().any(out), "{:?}", given(0.11));
-        // Only the projection into the first plane remains.
-        assert!(given(0.11).len() > given(0.0).len());
-    }
-}
+#[path = "tests/assign.rs"]
+mod tests;

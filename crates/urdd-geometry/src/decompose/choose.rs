@@ -7,40 +7,40 @@
 
 use super::growing_hull::GrowingHull;
 use super::support::{Candidate, support};
-use super::vector::{cross, distance_to_triangle, dot, norm, sub};
+use super::vector::{cross, distance_to_triangle, dot, norm, normal, sub};
 
 /// Maximum number of point-face tests. Links need some tens of millions. If the tolerance requires many thousand faces
 /// for many points, the result is all points.
-const MOST_LOOKS: usize = 2_000_000_000;
+const MAX_TESTS: usize = 2_000_000_000;
 
 /// A subset of the points such that none is farther than `tolerance` from its hull. Returns all points if they are
 /// flat.
 pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
-    let Some((mut hull, mut taken, eps)) = start(points) else {
+    let Some((mut hull, mut corners, eps)) = start(points) else {
         return points.to_vec();
     };
-    let mut looks = points.len().saturating_mul(hull.slots());
-    if looks > MOST_LOOKS {
+    let mut tests = points.len().saturating_mul(hull.slots());
+    if tests > MAX_TESTS {
         return points.to_vec();
     }
     let mut outside: Vec<Outside> =
-        points.iter().filter_map(|&p| look(&hull, &taken, p, eps, tolerance)).collect();
+        points.iter().filter_map(|&p| measure(&hull, &corners, p, eps, tolerance)).collect();
     while let Some(k) = farthest(&outside) {
         let p = outside.swap_remove(k).point;
         if !hull.insert(p, eps) {
             // The hull is full, or rounding interferes: return all points.
             return points.to_vec();
         }
-        taken.push(p);
-        let mut gone = vec![false; hull.slots()];
-        hull.removed().iter().for_each(|&f| gone[f as usize] = true);
-        looks = looks.saturating_add(outside.len());
+        corners.push(p);
+        let mut removed = vec![false; hull.slots()];
+        hull.removed().iter().for_each(|&f| removed[f as usize] = true);
+        tests = tests.saturating_add(outside.len());
         outside.retain_mut(|o| {
-            if !gone[o.face as usize] {
+            if !removed[o.face as usize] {
                 return true;
             }
-            looks = looks.saturating_add(gone.len());
-            match look(&hull, &taken, o.point, eps, tolerance) {
+            tests = tests.saturating_add(removed.len());
+            match measure(&hull, &corners, o.point, eps, tolerance) {
                 Some(again) => {
                     *o = again;
                     true
@@ -48,11 +48,11 @@ pub(super) fn choose(points: &[[f64; 3]], tolerance: f64) -> Vec<[f64; 3]> {
                 None => false,
             }
         });
-        if looks > MOST_LOOKS {
+        if tests > MAX_TESTS {
             return points.to_vec();
         }
     }
-    hull.used().into_iter().map(|i| taken[i]).collect()
+    hull.used().into_iter().map(|i| corners[i]).collect()
 }
 
 struct Outside {
@@ -62,9 +62,9 @@ struct Outside {
 }
 
 /// Measures a point that is too far outside, at the face that it is farthest above; `None` otherwise.
-fn look(
+fn measure(
     hull: &GrowingHull,
-    taken: &[[f64; 3]],
+    corners: &[[f64; 3]],
     p: [f64; 3],
     eps: f64,
     tolerance: f64,
@@ -74,19 +74,15 @@ fn look(
         return None;
     }
     // An upper bound of the distance from the hull.
-    let distance = distance_to_triangle(p, hull.face(face).map(|i| taken[i as usize]));
+    let distance = distance_to_triangle(p, hull.face(face).map(|i| corners[i as usize]));
     (distance > tolerance).then_some(Outside { point: p, face, distance })
 }
 
 /// The index of the farthest point, the first of equals.
 fn farthest(outside: &[Outside]) -> Option<usize> {
-    let mut best: Option<usize> = None;
-    for (k, o) in outside.iter().enumerate() {
-        if best.is_none_or(|b| o.distance > outside[b].distance) {
-            best = Some(k);
-        }
-    }
-    best
+    let farther = |a: (usize, f64), b: (usize, f64)| if b.1 > a.1 { b } else { a };
+    let distances = outside.iter().map(|o| o.distance).enumerate();
+    Some(distances.reduce(farther)?.0)
 }
 
 /// The hull of the support points, the points that it took, and a length that is negligible at their size. `None` if
@@ -105,15 +101,15 @@ fn start(points: &[[f64; 3]]) -> Option<(GrowingHull, Vec<[f64; 3]>, f64)> {
     };
     let b = by(&|p| norm(sub(p, a)))?;
     let c = by(&|p| norm(cross(sub(b, a), sub(p, a))))?;
-    let n = cross(sub(b, a), sub(c, a));
-    let d = by(&|p| dot(n, sub(p, a)).abs())?;
+    let normal = normal([a, b, c]);
+    let d = by(&|p| dot(normal, sub(p, a)).abs())?;
     let (eps, jitter) = (1e-7 * size, 2e-8 * size);
     let mut hull = GrowingHull::tetrahedron([a, b, c, d], 1e-5 * size, jitter)?;
-    let mut taken = vec![a, b, c, d];
+    let mut corners = vec![a, b, c, d];
     for p in support {
         if hull.insert(p, eps) {
-            taken.push(p);
+            corners.push(p);
         }
     }
-    Some((hull, taken, eps))
+    Some((hull, corners, eps))
 }

@@ -1,6 +1,6 @@
 //! The surface as the decomposition uses it: valid triangles over welded vertices, in unit coordinates.
 
-use super::vector::{Bounds, cross, dot, sub};
+use super::vector::{Bounds, cross, dot, normal, sub};
 use crate::Mesh;
 use crate::clean::PlaceTable;
 use crate::mesh::from_lowest;
@@ -63,8 +63,7 @@ impl Surface {
 
     /// Twice the area vector of a triangle, in unit coordinates.
     pub fn normal(&self, t: [u32; 3]) -> [f64; 3] {
-        let [a, b, c] = t.map(|i| self.unit[i as usize]);
-        cross(sub(b, a), sub(c, a))
+        normal(t.map(|i| self.unit[i as usize]))
     }
 
     /// The sum of the triangles' areas, in unit coordinates.
@@ -90,41 +89,18 @@ fn each_once(triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
 fn weld(given: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<u32>) {
     let mut table = PlaceTable::for_count(given.len());
     let mut out: Vec<[f64; 3]> = Vec::with_capacity(given.len() / 2);
-    let index = given.iter().map(|p| {
+    let index_of = |p: &[f64; 3]| {
         // The range of the hull's exact arithmetic: no robot is that large.
         if !p.iter().all(|x| x.abs() < 1e60) {
             return u32::MAX;
         }
         // Values below that range become 0, and -0 becomes 0.
         table.index(p.map(|x| if x.abs() < 1e-59 { 0.0 } else { x }), &mut out)
-    });
-    let index = index.collect();
+    };
+    let index = given.iter().map(index_of).collect();
     (out, index)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equal_vertices_are_one_and_bad_triangles_go() {
-        let nan = f64::NAN;
-        let mesh = Mesh {
-            vertices: vec![
-                [0.0; 3],
-                [-0.0, 0.0, 0.0],
-                [1.0, 0.0, 0.0],
-                [0.0, 3.0, 0.0],
-                [nan, 0.0, 0.0],
-            ],
-            triangles: vec![[0, 2, 3], [1, 2, 3], [2, 3, 0], [0, 3, 2], [0, 2, 9], [0, 2, 4]],
-        };
-        let s = Surface::new(&mesh).unwrap();
-        assert_eq!(s.vertices.len(), 3);
-        // Three times the same triangle, and once flipped.
-        assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 1]]);
-        assert_eq!(s.ignored, 2);
-        assert_eq!(s.scale, 1.5);
-        assert!(Surface::new(&Mesh { triangles: vec![[0, 1, 9]], ..mesh }).is_none());
-    }
-}
+#[path = "tests/clean.rs"]
+mod tests;

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::grower::{Frame, Grower, Places, SEED};
 use super::part::{Part, Plane};
 use super::slices::Slices;
-use super::vector::{Bounds, dot};
+use super::vector::{Bounds, centroid, dot};
 
 /// Evenly spaced planes per axis; flat coordinates come on top.
 const EVEN: usize = 9;
@@ -42,28 +42,20 @@ pub(super) fn first_cuts(part: &Part, places: &Places) -> (Grower, Option<Vec<Cu
 
 /// The cuts of a part along all directions, best first. `first` are those along the first direction.
 pub(super) fn best_cuts(part: &Part, first: &[Cut], places: &Places) -> Vec<Cut> {
-    let others = places.frames.get(1..).unwrap_or_default().par_iter();
-    let others = others.filter_map(|along| Some(cuts_along(part, along, places)?.1));
-    let others: Vec<Vec<Cut>> = others.collect();
+    let frames = places.frames.get(1..).unwrap_or_default().par_iter();
+    let others: Vec<Vec<Cut>> =
+        frames.filter_map(|along| Some(cuts_along(part, along, places)?.1)).collect();
     let mut found = [first, &others.concat()].concat();
     // A stable sort keeps the first of equals first.
     found.sort_by(|a, b| b.score.total_cmp(&a.score));
     found
 }
 
-fn cuts_along(part: &Part, (frame, flats): &Frame, places: &Places) -> Option<(Grower, Vec<Cut>)> {
-    // Coordinates in the frame: the planes are perpendicular to their z.
-    let turned = part.points.iter().map(|&p| frame.map(|axis| dot(axis, p)));
-    let turned: Vec<[f64; 3]> = turned.collect();
-    cuts_across(part, &turned, frame, flats, places)
-}
-
 /// Whether no triangle of the surface is deeper in the hull than the search resolves.
 fn is_convex(part: &Part, whole: &Grower) -> bool {
     part.triangles.iter().all(|t| {
-        let [a, b, c] = t.map(|i| part.points[i as usize]);
-        let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
-        Part::is_loose(*t) || whole.hull.farthest_face(middle).1 > -1.2 * whole.step
+        let depth = || whole.hull.farthest_face(centroid(part.corners(*t))).1;
+        Part::is_loose(*t) || depth() > -1.2 * whole.step
     })
 }
 
@@ -95,7 +87,7 @@ fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64
     let mut out: Vec<f64> =
         flats.iter().copied().filter(|x| *x > low + near && *x < high - near).collect();
     out.dedup_by(|b, a| *b - *a < 2.0 * eps);
-    out.truncate(MOST_OFFSETS - EVEN);
+    out.truncate(MAX_OFFSETS - EVEN);
     let flat = out.len();
     for k in 1..=even {
         let x = low + step * k as f64;
@@ -108,29 +100,23 @@ fn offsets(low: f64, high: f64, flats: &[f64], eps: f64, even: usize) -> Vec<f64
 }
 
 /// The limit of a slice mask, which has one bit per slice.
-const MOST_OFFSETS: usize = 31;
+const MAX_OFFSETS: usize = 31;
 
-/// The part's hull (in the coordinates `turned`) and its cuts along the last axis of `frame`, which is their z: the
-/// cuts with a locally maximal score. `None` if the part is too thin to be sliced.
-fn cuts_across(
-    part: &Part,
-    turned: &[[f64; 3]],
-    frame: &[[f64; 3]; 3],
-    flats: &[f64],
-    places: &Places,
-) -> Option<(Grower, Vec<Cut>)> {
+/// The part's hull (in the coordinates of the frame) and its cuts along the frame's z: those with a locally maximal
+/// score. `None` if the part is too thin to be sliced.
+fn cuts_along(part: &Part, (frame, flats): &Frame, places: &Places) -> Option<(Grower, Vec<Cut>)> {
     let (eps, normal) = (places.eps, frame[2]);
+    // Coordinates in the frame: the planes are perpendicular to their z.
+    let turned: Vec<[f64; 3]> =
+        part.points.iter().map(|&p| frame.map(|axis| dot(axis, p))).collect();
     let bounds = Bounds::of(turned.iter().copied());
     let (low, high) = (bounds.min[2], bounds.max[2]);
     if high - low <= (8.0 * eps).max(10.0 * SEED) {
         return None;
     }
-    let even = match normal.contains(&1.0) {
-        true => EVEN,
-        false => EVEN_DIAGONAL,
-    };
+    let even = if normal.contains(&1.0) { EVEN } else { EVEN_DIAGONAL };
     let planes = offsets(low, high, flats, eps, even);
-    let slices = Slices::new(part, turned, frame, &planes, places);
+    let slices = Slices::new(part, &turned, frame, &planes, places);
     let cost = |hull: &mut Grower, k: usize| {
         let mut cuts = part.cuts.clone();
         cuts.push(Plane { normal, offset: planes[k] });

@@ -9,13 +9,13 @@ use rayon::prelude::*;
 use super::grower::{Grower, Places};
 use super::part::{Part, Plane};
 use super::tree::{Node, divide};
-use super::vector::{cross, dot, norm, sub};
+use super::vector::{centroid, dot, norm, normal};
 
 /// Depths below this many steps of the hull are within the hull's error.
 const LEAST: f64 = 1.2;
 
 /// Maximum number of planes considered in a part, in addition to the axis-aligned ones.
-const MOST_PLANES: usize = 16;
+const MAX_PLANES: usize = 16;
 
 /// Minimum share of a face in the integral over the whole surface for a cut.
 const WORTH: f64 = 0.01;
@@ -50,11 +50,10 @@ impl Deep {
             .iter()
             .filter(|t| !Part::is_loose(**t))
             .filter_map(|t| {
-                let [a, b, c] = t.map(|i| part.points[i as usize]);
-                let middle = [0, 1, 2].map(|k| (a[k] + b[k] + c[k]) / 3.0);
-                let depth = -hull.hull.farthest_face(middle).1;
-                let area = norm(cross(sub(b, a), sub(c, a))) / 2.0;
-                (depth > LEAST * hull.step).then_some((depth * area, [a, b, c]))
+                let corners = part.corners(*t);
+                let depth = -hull.hull.farthest_face(centroid(corners)).1;
+                let area = norm(normal(corners)) / 2.0;
+                (depth > LEAST * hull.step).then_some((depth * area, corners))
             })
             .collect();
         // A stable sort keeps the first of equals first.
@@ -64,7 +63,7 @@ impl Deep {
             flats.iter().map(move |&offset| Plane { normal, offset })
         });
         let mut faces: Vec<(Plane, f64)> = flats.map(|plane| (plane, 0.0)).collect();
-        let most = faces.len() + MOST_PLANES;
+        let most = faces.len() + MAX_PLANES;
         for (weight, corners) in &triangles {
             let lies = |plane: &Plane| corners.iter().all(|&p| plane.height(p).abs() <= places.eps);
             match faces.iter().position(|(plane, _)| lies(plane)) {
@@ -122,13 +121,8 @@ impl Tree {
     }
 }
 
-/// A tree of cuts.
-pub(super) struct Cuts {
-    /// The first is the root.
-    pub nodes: Vec<Node>,
-    /// The leaves, and their indices among the nodes.
-    pub parts: Vec<(Part, usize)>,
-}
+/// The nodes of a tree of cuts, and the parts at its leaves with their indices among the nodes.
+pub(super) type Cuts = (Vec<Node>, Vec<(Part, usize)>);
 
 /// Cuts along deep faces into at most `most` parts. `None` unless everything deep is flat.
 pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
@@ -158,5 +152,5 @@ pub(super) fn cut(part: Part, places: &Places, most: usize) -> Option<Cuts> {
     let rank = |tree: &Tree| tree.integral() + WORTH * all * tree.parts.len() as f64;
     let best = trees.into_iter().reduce(|a, b| if rank(&b) < rank(&a) { b } else { a })?;
     let parts = best.parts.into_iter().map(|deep| (deep.part, deep.node));
-    Some(Cuts { nodes: best.nodes, parts: parts.collect() })
+    Some((best.nodes, parts.collect()))
 }

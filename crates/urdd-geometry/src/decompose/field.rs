@@ -7,23 +7,23 @@
 use super::growing_hull::GrowingHull;
 use super::inside::{State, each_sample, flood, parts};
 use super::part::{Part, Plane};
-use super::vector::{Bounds, cross, dot, nearest_on_triangle, norm, sub};
+use super::vector::{Bounds, dot, nearest_on_triangle, norm, normal, sub};
 
 /// Nodes along the largest extent.
 const ALONG: f64 = 40.0;
 
 /// Maximum number of nodes.
-const MOST_NODES: f64 = 20_000.0;
+const MAX_NODES: f64 = 20_000.0;
 
 /// Approximate maximum number of surface samples; links need a tenth of it.
-const MOST_SAMPLES: usize = 500_000;
+const MAX_SAMPLES: usize = 500_000;
 
 /// Nodes nearer to the surface than this count as next to it, in cells.
 const NEXT_TO: f64 = 0.6;
 
 /// Cells between the samples of a face, and maximum samples along one side.
 const SPREAD: f64 = 4.0;
-const MOST_SIDE: usize = 3;
+const MAX_SIDE: usize = 3;
 
 /// Signed distances on a grid around the surface, in unit coordinates.
 pub(super) struct Field {
@@ -42,11 +42,11 @@ impl Field {
         let extent = bounds.extent();
         let thick = size.map(|s| s.max(extent / ALONG));
         let cell = (extent / ALONG)
-            .max((thick.iter().product::<f64>() / MOST_NODES).cbrt())
+            .max((thick.iter().product::<f64>() / MAX_NODES).cbrt())
             .max(f64::MIN_POSITIVE);
         let count = size.map(|s| (s / cell).ceil() as usize + 3);
-        let mut out =
-            Field { low: [0, 1, 2].map(|a| bounds.min[a] - cell), cell, count, value: Vec::new() };
+        let low = bounds.min.map(|x| x - cell);
+        let mut out = Field { low, cell, count, value: Vec::new() };
         let nearest = out.nearest(part);
         let away: Vec<([f64; 3], f64)> = (0..nearest.len())
             .map(|k| {
@@ -54,7 +54,7 @@ impl Field {
                     return ([0.0; 3], 0.0);
                 };
                 let p = out.node(k);
-                let away = sub(p, nearest_on_triangle(p, t.map(|i| part.points[i as usize])));
+                let away = sub(p, nearest_on_triangle(p, part.corners(*t)));
                 (away, norm(away))
             })
             .collect();
@@ -62,19 +62,13 @@ impl Field {
         let near = NEXT_TO * cell;
         let mut state: Vec<State> = away
             .iter()
-            .map(|(_, far)| match *far <= near {
-                true => State::Surface,
-                false => State::Inside,
-            })
+            .map(|(_, far)| if *far <= near { State::Surface } else { State::Inside })
             .collect();
         flood(&mut state, count);
         out.value = (0..nearest.len())
             .map(|k| {
                 let (away, far) = away[k];
-                let behind = |t: &[u32; 3]| {
-                    let [a, b, c] = t.map(|i| part.points[i as usize]);
-                    dot(cross(sub(b, a), sub(c, a)), away) < 0.0
-                };
+                let behind = |t: &[u32; 3]| dot(normal(part.corners(*t)), away) < 0.0;
                 let inside = match state[k] {
                     State::Inside => true,
                     State::Outside => false,
@@ -99,21 +93,19 @@ impl Field {
         let try_at = |best: &mut [(f64, u32)], k: usize, t: u32| {
             if best[k].1 != t {
                 let p = self.node(k);
-                let corners = part.triangles[t as usize].map(|i| part.points[i as usize]);
-                let e = sub(p, nearest_on_triangle(p, corners));
+                let e = sub(p, nearest_on_triangle(p, part.corners(part.triangles[t as usize])));
                 if dot(e, e) < best[k].0 {
                     best[k] = (dot(e, e), t);
                 }
             }
         };
-        let sides = |t: &[u32; 3]| parts(t.map(|i| part.points[i as usize]), self.cell, 1.0);
+        let sides = |t: &[u32; 3]| parts(part.corners(*t), self.cell, 1.0);
         let samples = part.triangles.iter().map(|t| sides(t) * sides(t));
-        let coarser = 1 + samples.sum::<usize>() / MOST_SAMPLES;
+        let coarser = 1 + samples.sum::<usize>() / MAX_SAMPLES;
         for (t, triangle) in part.triangles.iter().enumerate() {
-            let corners = triangle.map(|i| part.points[i as usize]);
             let n = (sides(triangle) / coarser).max(1);
             let mut last = usize::MAX;
-            each_sample(corners, n, |p| {
+            each_sample(part.corners(*triangle), n, |p| {
                 let at = self.place(p).map(|x| x as usize);
                 let k = (at[2] * ny + at[1]) * nx + at[0];
                 if k == last {
@@ -230,7 +222,7 @@ pub(super) struct Known {
     faces: Vec<([u16; 3], f64)>,
 }
 
-/// Passes evenly spread points of a triangle to `take`, at most [`MOST_SIDE`] along a side, and about `apart` from each
+/// Passes evenly spread points of a triangle to `take`, at most [`MAX_SIDE`] along a side, and about `apart` from each
 /// other. Returns their number.
 #[inline]
 fn spread([a, b, c]: [[f64; 3]; 3], apart: f64, mut take: impl FnMut([f64; 3])) -> usize {
@@ -238,7 +230,7 @@ fn spread([a, b, c]: [[f64; 3]; 3], apart: f64, mut take: impl FnMut([f64; 3])) 
     let bc = sub(c, b);
     let longest = dot(ab, ab).max(dot(ac, ac)).max(dot(bc, bc)).sqrt();
     // Rounds up without `ceil`, which would be a function call.
-    let n = ((longest / apart) as usize).saturating_add(1).min(MOST_SIDE);
+    let n = ((longest / apart) as usize).saturating_add(1).min(MAX_SIDE);
     // The centroids of the n^2 triangles between parallels to the sides.
     let side = 1.0 / (3 * n) as f64;
     for i in 0..n {

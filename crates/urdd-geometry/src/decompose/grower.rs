@@ -91,15 +91,17 @@ impl Grower {
     /// The hull of all points.
     pub fn of(points: &[[f64; 3]]) -> Self {
         let mut hull = Grower::new(Bounds::of(points.iter().copied()).extent());
-        points.iter().for_each(|&p| hull.add(p));
+        hull.add(points);
         hull
     }
 
-    pub fn add(&mut self, p: [f64; 3]) {
-        if self.hull.points.is_empty() {
-            self.hull = GrowingHull::seed(p, SEED);
-        } else {
-            self.hull.insert(p, self.step);
+    pub fn add(&mut self, points: &[[f64; 3]]) {
+        for &p in points {
+            if self.hull.points.is_empty() {
+                self.hull = GrowingHull::seed(p, SEED);
+            } else {
+                self.hull.insert(p, self.step);
+            }
         }
     }
 }

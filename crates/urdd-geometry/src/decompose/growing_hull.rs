@@ -6,8 +6,10 @@
 //! and Huhdanpaa, Qhull manual). CAD models are full of flat faces, which break a plain incremental hull. So this hull
 //! serves only the search and the choice of vertices; [`crate::hull`] makes the final pieces.
 
+use fearless_simd::Level;
+
 use super::planes::{Above, Planes};
-use super::vector::{cross, dot, sub};
+use super::vector::{dot, normal, sub};
 
 #[derive(Clone, Default)]
 pub(super) struct GrowingHull {
@@ -30,7 +32,7 @@ impl GrowingHull {
     /// A hull of four points; `None` if the last is at most `thinnest` from the plane of the others. `jitter` is the
     /// maximum displacement of points along each axis.
     pub fn tetrahedron(p: [[f64; 3]; 4], thinnest: f64, jitter: f64) -> Option<Self> {
-        let n = cross(sub(p[1], p[0]), sub(p[2], p[0]));
+        let n = normal([p[0], p[1], p[2]]);
         let side = dot(n, sub(p[3], p[0]));
         if side.abs() <= thinnest * dot(n, n).sqrt() {
             return None;
@@ -69,11 +71,11 @@ impl GrowingHull {
     }
 
     fn add_face(&mut self, f: [u16; 3]) {
-        let [a, b, c] = f.map(|i| self.points[i as usize]);
-        let n = cross(sub(b, a), sub(c, a));
+        let corners = f.map(|i| self.points[i as usize]);
+        let n = normal(corners);
         let length = dot(n, n).sqrt();
         let n = if length > 0.0 { n.map(|x| x / length) } else { [0.0; 3] };
-        let offset = if length > 0.0 { dot(n, a) } else { 0.0 };
+        let offset = if length > 0.0 { dot(n, corners[0]) } else { 0.0 };
         self.area_sum += length;
         if let Some(slot) = self.free.pop() {
             let i = slot as usize;
@@ -87,7 +89,6 @@ impl GrowingHull {
         }
     }
 
-    /// Volume.
     pub fn volume(&self) -> f64 {
         self.volume6 / 6.0
     }
@@ -97,7 +98,6 @@ impl GrowingHull {
         self.planes.slots()
     }
 
-    /// Surface area.
     pub fn area(&self) -> f64 {
         self.area_sum / 2.0
     }
@@ -122,7 +122,7 @@ impl GrowingHull {
 
     /// The face slot whose plane the point is farthest above, and its height, which is negative below all planes.
     pub fn farthest_face(&self, p: [f64; 3]) -> (u32, f64) {
-        self.planes.highest(p)
+        self.planes.highest(Level::new(), p)
     }
 
     /// Slots whose faces the last insertion removed.
@@ -157,7 +157,7 @@ impl GrowingHull {
     /// full.
     pub fn insert(&mut self, p: [f64; 3], eps: f64) -> bool {
         let p = self.moved(p);
-        if self.is_full() || !self.planes.above(p, eps, &mut self.seen) {
+        if self.is_full() || !self.planes.above(Level::new(), p, eps, &mut self.seen) {
             return false;
         }
         self.edges.clear();

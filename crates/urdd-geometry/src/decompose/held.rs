@@ -3,9 +3,10 @@
 //! splinter of one triangle only, thinner than what binary32 holds: its piece would have no face with an area. It joins
 //! the piece beside it, or is widened where there is none.
 
-use super::vector::{cross, dot, norm, sub};
+use super::vector::{cross, dot, norm, normal, sub};
 use crate::Mesh;
 use crate::hull::ConvexHull;
+use crate::surface::{self, extent};
 
 /// A triangle is thin if its smallest height is at most this fraction of the piece's largest coordinate: 16 steps of
 /// binary32. Validators may take 8 steps as equal (SPEC 7.6).
@@ -40,12 +41,6 @@ pub(super) fn without_held(pieces: Vec<ConvexHull>, contained: f64, near: f64) -
     kept.map(|(piece, _)| piece.into_mesh()).collect()
 }
 
-/// The largest coordinate of a mesh, metres.
-fn extent(mesh: &Mesh) -> f64 {
-    let coordinates = mesh.vertices.iter().flatten();
-    coordinates.fold(0.0, |most: f64, x| most.max(x.abs()))
-}
-
 /// A flat triangle along a splinter, just wide enough to have an area in binary32.
 fn widened(splinter: ConvexHull) -> ConvexHull {
     let points = &splinter.mesh().vertices;
@@ -54,8 +49,7 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
     };
     let far = |from: [f64; 3]| {
         let length = |q: &&[f64; 3]| norm(sub(**q, from));
-        let longest = points.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
-        longest.map_or(from, |q| *q)
+        points.iter().max_by(|a, b| length(a).total_cmp(&length(b))).map_or(from, |q| *q)
     };
     let p = far(p);
     let q = far(p);
@@ -78,83 +72,18 @@ fn widened(splinter: ConvexHull) -> ConvexHull {
 /// Whether each triangle of a mesh is thin.
 pub(super) fn is_thin(mesh: &Mesh) -> bool {
     let height = THIN * extent(mesh);
-    mesh.triangles.iter().all(|triangle| {
-        let [a, b, c] = triangle.map(|corner| mesh.vertices[corner as usize]);
-        let sides = [sub(b, a), sub(c, b), sub(a, c)];
-        let longest = sides.map(norm).into_iter().fold(0.0, f64::max);
-        // Twice the area is the longest side times the smallest height.
-        norm(cross(sides[0], sides[2])) <= height * longest
-    })
+    mesh.triangles.iter().all(|triangle| surface::is_thin(mesh.corners(*triangle), height))
 }
 
 fn lies_in(mesh: &Mesh, body: &Mesh, tolerance: f64) -> bool {
     body.triangles.iter().all(|triangle| {
-        let [a, b, c] = triangle.map(|corner| body.vertices[corner as usize]);
-        let normal = cross(sub(b, a), sub(c, a));
+        let corners = body.corners(*triangle);
+        let normal = normal(corners);
         let most = tolerance * norm(normal);
-        let mut points = mesh.vertices.iter();
-        points.all(|p| dot(normal, sub(*p, a)) <= most)
+        mesh.vertices.iter().all(|p| dot(normal, sub(*p, corners[0])) <= most)
     })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn hull(points: &[[f64; 3]]) -> ConvexHull {
-        ConvexHull::new(points).expect("a hull")
-    }
-
-    /// A cube from 0 to 10 cm, and a 2 cm square at the given height.
-    fn count(height: f64, left: f64) -> usize {
-        let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { 0.0 } else { 0.1 });
-        let cube: Vec<[f64; 3]> = (0..8).map(corner).collect();
-        let square = [(0.0, 0.0), (0.02, 0.0), (0.02, 0.02), (0.0, 0.02)];
-        let square = square.map(|(x, y)| [left + x, 0.04 + y, height]);
-        without_held(vec![hull(&square), hull(&cube)], 2e-6, 2e-4).len()
-    }
-
-    #[test]
-    fn a_square_in_a_face_goes() {
-        assert_eq!(count(0.1, 0.04), 1, "in the lid");
-        assert_eq!(count(0.1 + 1e-6, 0.04), 1, "over the lid, by rounding");
-        assert_eq!(count(0.05, 0.04), 1, "inside");
-    }
-
-    #[test]
-    fn what_no_other_piece_holds_stays() {
-        assert_eq!(count(0.1 + 1e-5, 0.04), 2, "over the lid");
-        assert_eq!(count(0.1, 0.09), 2, "beyond the edge");
-        let square = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let both = vec![hull(&square), hull(&square)];
-        assert_eq!(without_held(both, 2e-6, 2e-4).len(), 2, "flat bodies alone");
-    }
-
-    /// A cube from 0 to 10 cm, 5 m along x, and a splinter over its lid, some 1 mm long and 1e-7 m wide.
-    fn splintered(above: f64) -> Vec<Mesh> {
-        let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { 0.0 } else { 0.1 });
-        let moved = |[x, y, z]: [f64; 3]| [x + 5.0, y, z];
-        let cube: Vec<[f64; 3]> = (0..8).map(corner).map(moved).collect();
-        let splinter = [(0.04, 0.04), (0.041, 0.04), (0.0405, 0.04 + 1e-7)];
-        let splinter = splinter.map(|(x, y)| moved([x, y, 0.1 + above]));
-        without_held(vec![hull(&splinter), hull(&cube)], 2e-6, 2e-4)
-    }
-
-    #[test]
-    fn a_splinter_joins_the_piece_that_it_is_near() {
-        let [joined] = &splintered(1e-5)[..] else {
-            panic!("one piece");
-        };
-        let highest = joined.vertices.iter().map(|v| v[2]);
-        assert_eq!(highest.fold(0.0, f64::max), 0.1 + 1e-5);
-        let [_, widened] = &splintered(1e-3)[..] else {
-            panic!("too far away");
-        };
-        let rounded = widened.vertices.iter().map(|v| v.map(|x| f64::from(x as f32)));
-        let rounded = Mesh { vertices: rounded.collect(), triangles: widened.triangles.clone() };
-        assert!(!is_thin(&rounded), "{rounded:?}");
-        let x = rounded.vertices.iter().map(|v| v[0]);
-        assert!((x.clone().fold(f64::MAX, f64::min) - 5.04).abs() < 1e-4);
-        assert!((x.fold(f64::MIN, f64::max) - 5.041).abs() < 1e-4);
-    }
-}
+#[path = "tests/held.rs"]
+mod tests;

@@ -13,11 +13,11 @@ use super::vector::{Bounds, norm, sub};
 const CELLS: f64 = 8000.0;
 
 /// Maximum number of cells along the largest extent, so that flat links do not get a huge grid.
-const MOST_ALONG: f64 = 64.0;
+const MAX_ALONG: f64 = 64.0;
 
 /// Maximum number of surface samples. Links need up to some 50 million (long thin triangles). A tangled mesh that needs
 /// more is treated as having no inside.
-const MOST_SAMPLES: usize = 100_000_000;
+const MAX_SAMPLES: usize = 100_000_000;
 
 /// Grid cells around the surface, and which of them are inside.
 pub(super) struct Flood {
@@ -50,27 +50,23 @@ impl Flood {
     pub fn new(part: &Part) -> Option<Flood> {
         let bounds = Bounds::of(part.points.iter().copied());
         let size = bounds.size();
-        let cell = (size.iter().product::<f64>() / CELLS).cbrt().max(bounds.extent() / MOST_ALONG);
+        let cell = (size.iter().product::<f64>() / CELLS).cbrt().max(bounds.extent() / MAX_ALONG);
         if cell <= 0.0 {
             return None;
         }
         let samples = part.triangles.iter().map(|t| {
-            let n = parts(t.map(|i| part.points[i as usize]), cell, 3.0);
+            let n = parts(part.corners(*t), cell, 3.0);
             (n + 1) * (n + 2) / 2
         });
-        if samples.sum::<usize>() > MOST_SAMPLES {
+        if samples.sum::<usize>() > MAX_SAMPLES {
             return None;
         }
         // Add a border of empty cells on all sides.
         let count = size.map(|s| (s / cell).ceil() as usize + 2);
-        let mut out = Flood {
-            low: bounds.min,
-            cell,
-            count,
-            state: vec![State::Inside; count.iter().product()],
-        };
+        let state = vec![State::Inside; count.iter().product()];
+        let mut out = Flood { low: bounds.min, cell, count, state };
         for t in &part.triangles {
-            let corners = t.map(|i| part.points[i as usize]);
+            let corners = part.corners(*t);
             let n = parts(corners, cell, 3.0);
             each_sample(corners, n, |p| {
                 let at = out.at(p);
@@ -134,37 +130,5 @@ pub(super) fn flood(state: &mut [State], count: [usize; 3]) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The cube from -1 to 1, with or without its top.
-    fn cube(top: bool) -> Part {
-        let points = (0..8)
-            .map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(|b| 2.0 * f64::from(b) - 1.0))
-            .collect();
-        let mut triangles = vec![
-            [0, 2, 1],
-            [1, 2, 3],
-            [0, 1, 4],
-            [1, 5, 4],
-            [0, 4, 2],
-            [2, 4, 6],
-            [1, 3, 5],
-            [3, 7, 5],
-            [2, 6, 3],
-            [3, 6, 7],
-        ];
-        if top {
-            triangles.extend([[4, 5, 6], [5, 7, 6]]);
-        }
-        Part { points, triangles, ..Part::default() }
-    }
-
-    #[test]
-    fn a_closed_box_has_an_inside_and_an_open_one_none() {
-        // 20 cells along each side; the outer ones contain the surface.
-        let inside = |top| Flood::new(&cube(top)).map_or(0, |flood| flood.centres().len());
-        assert_eq!(inside(true), 18 * 18 * 18);
-        assert_eq!(inside(false), 0);
-    }
-}
+#[path = "tests/inside.rs"]
+mod tests;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::field::in_cut;
 use super::grower::{AXES, Places, bulk};
 use super::search::Block;
-use super::vector::{cross, norm, sub};
+use super::vector::{norm, normal};
 
 /// One block, or several merged ones.
 #[derive(Clone)]
@@ -33,8 +33,7 @@ impl Group {
             if in_cut(corners, &block.cuts) {
                 continue;
             }
-            let [a, b, c] = corners;
-            let normal = cross(sub(b, a), sub(c, a));
+            let normal = normal(corners);
             let lift = LIFT / norm(normal).max(f64::MIN_POSITIVE);
             let from = standing.len();
             let n = places.field.spread(corners, |p| {
@@ -61,10 +60,8 @@ impl Group {
     /// Joins two groups, and computes the standoff and cost beyond theirs.
     fn join(&self, other: &Group, places: &Places) -> Join {
         let volume = |g: &Group| g.block.hull.hull.volume();
-        let (large, small) = match volume(self) >= volume(other) {
-            true => (self, other),
-            false => (other, self),
-        };
+        let (large, small) =
+            if volume(self) >= volume(other) { (self, other) } else { (other, self) };
         let mut hull = large.block.hull.clone();
         for &p in &small.points {
             hull.hull.insert(p, small.block.hull.step);
@@ -74,8 +71,8 @@ impl Group {
         cuts.extend(more.filter(|c| !large.block.cuts.contains(c)));
         let standoff = places.standoff(&mut hull, &AXES, &cuts);
         let more = standoff - large.outside(small) - small.outside(large);
-        let [whole, parts] =
-            [bulk(&hull.hull), bulk(&large.block.hull.hull) + bulk(&small.block.hull.hull)];
+        let whole = bulk(&hull.hull);
+        let parts = bulk(&large.block.hull.hull) + bulk(&small.block.hull.hull);
         Join {
             standoff: more,
             price: more + whole - parts,
@@ -150,10 +147,7 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
     for (&(i, j), p) in pairs.iter().zip(first) {
         prices[i * n + j] = p;
     }
-    let mut total = match limits.enough > 0.0 {
-        true => standoff(&alive),
-        false => f64::INFINITY,
-    };
+    let mut total = if limits.enough > 0.0 { standoff(&alive) } else { f64::INFINITY };
     let mut left = n;
     while left > 1 {
         let mut best = (f64::INFINITY, 0, 0);
@@ -189,18 +183,8 @@ pub(super) fn merge(blocks: Vec<Block>, places: &Places, limits: &Limits) -> Gro
         alive[i] = joined;
         left -= 1;
     }
-    let mut names = vec![usize::MAX; n];
-    let mut next = 0;
-    let of = group
-        .iter()
-        .map(|&g| {
-            if names[g] == usize::MAX {
-                names[g] = next;
-                next += 1;
-            }
-            names[g]
-        })
-        .collect();
+    // So far a group has the number of its first block.
+    let of = group.iter().map(|g| (0..*g).filter(|k| group[*k] == *k).count()).collect();
     let standoff = standoff(&alive);
     let hulls = alive.iter().flatten().map(|g| bulk(&g.block.hull.hull));
     Groups { of, standoff, cost: standoff + hulls.sum::<f64>() }

@@ -108,7 +108,7 @@ pub struct Decomposition {
 }
 
 /// Maximum number of flat coordinates per axis.
-const MOST_FLATS: usize = 20;
+const MAX_FLATS: usize = 20;
 
 /// Points this near to a plane are in it, in unit coordinates. Flat faces of CAD models deviate by some f32 rounding
 /// errors.
@@ -141,7 +141,7 @@ pub fn decompose(mesh: &Mesh, settings: &Settings) -> Decomposition {
     let body = part.points.clone();
     part.inner = inner.clone();
     let places = grower::Places {
-        frames: cut::frames(proxy::flat_coordinates(&surface, MOST_FLATS)),
+        frames: cut::frames(proxy::flat_coordinates(&surface, MAX_FLATS)),
         reach,
         eps: (ON_PLANE_PROXY * cell).max(ON_PLANE),
         field: field::Field::new(&part),

@@ -1,6 +1,6 @@
 //! A part of the proxy surface, and its division by a plane.
 
-use super::vector::{cross, dot, lerp, norm, sub};
+use super::vector::{dot, lerp, norm, normal};
 
 /// A plane, in unit coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,11 +17,11 @@ impl Plane {
     }
 
     /// The plane of a triangle with an area.
-    pub fn of([a, b, c]: [[f64; 3]; 3]) -> Self {
-        let n = cross(sub(b, a), sub(c, a));
-        let length = norm(n);
-        let normal = n.map(|x| x / length);
-        Plane { normal, offset: dot(normal, a) }
+    pub fn of(corners: [[f64; 3]; 3]) -> Self {
+        let normal = normal(corners);
+        let length = norm(normal);
+        let normal = normal.map(|x| x / length);
+        Plane { normal, offset: dot(normal, corners[0]) }
     }
 
     /// The nearest point of the plane.
@@ -48,10 +48,14 @@ impl Part {
         t[0] == t[1] && t[1] == t[2]
     }
 
+    /// The positions of a triangle's corners.
+    pub fn corners(&self, t: [u32; 3]) -> [[f64; 3]; 3] {
+        t.map(|i| self.points[i as usize])
+    }
+
     /// Whether a triangle faces along `direction`. A triangle in a cut goes with the body behind it.
     pub fn faces(&self, t: [u32; 3], direction: [f64; 3]) -> bool {
-        let [a, b, c] = t.map(|i| self.points[i as usize]);
-        dot(cross(sub(b, a), sub(c, a)), direction) > 0.0
+        dot(normal(self.corners(t)), direction) > 0.0
     }
 
     /// The parts below and above the plane. Points within `eps` of it count as in it. Loose points and points inside
@@ -65,9 +69,8 @@ impl Part {
         let mut halves = [Half::new(self.points.len()), Half::new(self.points.len())];
         for &t in &self.triangles {
             if Part::is_loose(t) && height[t[0] as usize].abs() <= reach {
-                halves
-                    .iter_mut()
-                    .for_each(|h| h.add_loose(plane.project(self.points[t[0] as usize])));
+                let p = plane.project(self.points[t[0] as usize]);
+                halves.iter_mut().for_each(|h| h.add_loose(p));
             }
             let s = t.map(side);
             let (low, high) = (s[0].min(s[1]).min(s[2]), s[0].max(s[1]).max(s[2]));
@@ -91,12 +94,8 @@ impl Part {
                             // The same point from either end, so that neighbours stay connected.
                             let (i, j) = (i.min(j), i.max(j));
                             let (hi, hj) = (height[i as usize], height[j as usize]);
-                            let p = lerp(
-                                self.points[i as usize],
-                                self.points[j as usize],
-                                hi / (hi - hj),
-                            );
-                            rings[half][count[half]] = Corner::New(p);
+                            let [p, q] = [i, j].map(|i| self.points[i as usize]);
+                            rings[half][count[half]] = Corner::New(lerp(p, q, hi / (hi - hj)));
                             count[half] += 1;
                         }
                     }
@@ -113,12 +112,7 @@ impl Part {
             }
             halves[usize::from(height > 0.0)].part.inner.push(p);
         }
-        halves.map(|h| {
-            let mut part = h.part;
-            part.cuts.clone_from(&self.cuts);
-            part.cuts.push(*plane);
-            part
-        })
+        halves.map(|h| Part { cuts: [&self.cuts[..], &[*plane]].concat(), ..h.part })
     }
 }
 
@@ -178,39 +172,5 @@ impl Half {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cut_triangle_keeps_its_area() {
-        let part = Part {
-            points: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]],
-            triangles: vec![[0, 1, 2]],
-            ..Part::default()
-        };
-        let [low, high] = part.split(&Plane { normal: [1.0, 0.0, 0.0], offset: 1.0 }, 1e-9, 0.0);
-        let area = |p: &Part| -> f64 {
-            p.triangles
-                .iter()
-                .map(|t| {
-                    let [a, b, c] = t.map(|i| p.points[i as usize]);
-                    cross(sub(b, a), sub(c, a))[2] / 2.0
-                })
-                .sum()
-        };
-        assert_eq!((area(&low), area(&high)), (3.5, 4.5));
-    }
-
-    #[test]
-    fn a_triangle_in_the_plane_goes_with_the_body_behind_it() {
-        let part = Part {
-            points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            triangles: vec![[0, 1, 2]],
-            ..Part::default()
-        };
-        let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 0.0 };
-        assert_eq!(part.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()), [1, 0]);
-        let turned = Part { triangles: vec![[0, 2, 1]], ..part };
-        assert_eq!(turned.split(&plane, 1e-9, 0.0).map(|p| p.triangles.len()), [0, 1]);
-    }
-}
+#[path = "tests/part.rs"]
+mod tests;

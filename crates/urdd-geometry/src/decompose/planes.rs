@@ -1,12 +1,8 @@
-//! The planes of a hull's faces, in a SIMD layout.
-//!
-//! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, compare, select;
-//! never a fused multiply-add), so that a hull does not depend on the machine.
+//! The planes of a hull's faces, in a SIMD layout, so that a hull does not depend on the machine (`lanes`).
 
-use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 
-/// Slots per block.
-const WIDTH: usize = 8;
+use crate::lanes::{LANES as WIDTH, Mask, Num, Vec3, splat};
 
 /// The offset of an empty slot: every point is below it.
 const EMPTY: f64 = f64::INFINITY;
@@ -47,7 +43,6 @@ impl Planes {
         self.slots
     }
 
-    /// Appends a slot with a plane.
     pub fn push(&mut self, normal: [f64; 3], offset: f64) {
         if self.slots.is_multiple_of(WIDTH) {
             self.blocks.push(NOTHING);
@@ -56,65 +51,47 @@ impl Planes {
         self.set(self.slots - 1, normal, offset);
     }
 
-    /// Puts a plane into an existing slot.
     pub fn set(&mut self, slot: usize, normal: [f64; 3], offset: f64) {
         let (block, k) = (&mut self.blocks[slot / WIDTH], slot % WIDTH);
         (block.x[k], block.y[k], block.z[k]) = (normal[0], normal[1], normal[2]);
         block.offset[k] = offset;
     }
 
-    /// Empties a slot.
     pub fn clear(&mut self, slot: usize) {
         self.set(slot, [0.0; 3], EMPTY);
     }
 
-    /// Whether a slot is empty.
     pub fn is_empty(&self, slot: usize) -> bool {
         self.blocks[slot / WIDTH].offset[slot % WIDTH] == EMPTY
     }
 
     /// The slot whose plane the point is farthest above, the first of equals, and its height, which is negative below
     /// all planes.
-    pub fn highest(&self, p: [f64; 3]) -> (u32, f64) {
-        self.highest_at(Level::new(), p)
-    }
-
-    /// Whether the point is more than `limit` above some plane; if so, `found` gets the planes that it is above.
-    pub fn above(&self, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
-        self.above_at(Level::new(), p, limit, found)
-    }
-
-    fn highest_at(&self, level: Level, p: [f64; 3]) -> (u32, f64) {
+    pub fn highest(&self, level: Level, p: [f64; 3]) -> (u32, f64) {
         dispatch!(level, simd => highest(simd, &self.blocks, p))
     }
 
-    fn above_at(&self, level: Level, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
+    /// Whether the point is more than `limit` above some plane; if so, `found` gets the planes that it is above.
+    pub fn above(&self, level: Level, p: [f64; 3], limit: f64, found: &mut Above) -> bool {
         dispatch!(level, simd => above(simd, &self.blocks, p, limit, found))
     }
 }
 
 /// The heights of a point above the planes of a block.
 #[inline(always)]
-fn heights<S: Simd>(simd: S, block: &Block, [x, y, z]: [f64x8<S>; 3]) -> f64x8<S> {
-    f64x8::load_array_ref(simd, &block.x) * x
-        + f64x8::load_array_ref(simd, &block.y) * y
-        + f64x8::load_array_ref(simd, &block.z) * z
-        - f64x8::load_array_ref(simd, &block.offset)
-}
-
-#[inline(always)]
-fn splat<S: Simd>(simd: S, p: [f64; 3]) -> [f64x8<S>; 3] {
-    [f64x8::splat(simd, p[0]), f64x8::splat(simd, p[1]), f64x8::splat(simd, p[2])]
+fn heights<S: Simd>(simd: S, block: &Block, point: Vec3<S>) -> Num<S> {
+    Vec3::load(simd, [&block.x, &block.y, &block.z]).dot(point)
+        - Num::load_array_ref(simd, &block.offset)
 }
 
 #[inline(always)]
 fn above<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3], limit: f64, found: &mut Above) -> bool {
-    let p = splat(simd, p);
-    let limit = f64x8::splat(simd, limit);
+    let p = Vec3::splat(simd, p);
+    let limit = splat(simd, limit);
     if found.heights.len() < blocks.len() * WIDTH {
         found.heights.resize(blocks.len() * WIDTH, 0.0);
     }
-    let mut beyond = mask64x8::splat(simd, false);
+    let mut beyond = Mask::splat(simd, false);
     let (rooms, _) = found.heights.as_chunks_mut::<WIDTH>();
     for (block, room) in blocks.iter().zip(rooms) {
         let height = heights(simd, block, p);
@@ -124,11 +101,11 @@ fn above<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3], limit: f64, found: &mu
     if !beyond.any_true() {
         return false;
     }
-    let zero = f64x8::splat(simd, 0.0);
+    let zero = splat(simd, 0.0);
     found.slots.clear();
     let (rooms, _) = found.heights.as_chunks::<WIDTH>();
     for (first, room) in (0..).step_by(WIDTH).zip(&rooms[..blocks.len()]) {
-        let mut seen = f64x8::load_array_ref(simd, room).simd_gt(zero).to_bitmask();
+        let mut seen = Num::load_array_ref(simd, room).simd_gt(zero).to_bitmask();
         while seen != 0 {
             found.slots.push(first + seen.trailing_zeros());
             seen &= seen - 1;
@@ -139,11 +116,11 @@ fn above<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3], limit: f64, found: &mu
 
 #[inline(always)]
 fn highest<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3]) -> (u32, f64) {
-    let p = splat(simd, p);
-    let mut most = f64x8::splat(simd, f64::NEG_INFINITY);
+    let p = Vec3::splat(simd, p);
+    let mut most = splat(simd, f64::NEG_INFINITY);
     // Block numbers, which doubles represent exactly.
-    let mut of = f64x8::splat(simd, 0.0);
-    let (mut number, one) = (of, f64x8::splat(simd, 1.0));
+    let mut of = splat(simd, 0.0);
+    let (mut number, one) = (of, splat(simd, 1.0));
     for block in blocks {
         let height = heights(simd, block, p);
         let higher = height.simd_gt(most);
@@ -163,68 +140,5 @@ fn highest<S: Simd>(simd: S, blocks: &[Block], p: [f64; 3]) -> (u32, f64) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::levels::levels;
-
-    /// A normal and an offset.
-    type Plain = ([f64; 3], f64);
-
-    /// Planes around the origin at distances of about 1. Some repeat one or eight slots later, so that heights are
-    /// equal, and every fifth slot is empty.
-    fn planes(slots: usize) -> (Planes, Vec<Option<Plain>>) {
-        let mut plain: Vec<Option<Plain>> = Vec::new();
-        let mut planes = Planes::default();
-        for i in 0..slots {
-            let x = i.saturating_sub([0, 1, 8][i % 3]) as f64;
-            let (z, r) = ((1.9 * x).sin(), (1.9 * x).cos());
-            let plane =
-                ([r * (2.3 * x).cos(), r * (2.3 * x).sin(), z], 1.0 + 0.1 * (0.7 * x).sin());
-            planes.push(plane.0, plane.1);
-            plain.push(Some(plane));
-        }
-        for i in (0..slots).skip(4).step_by(5) {
-            planes.clear(i);
-            plain[i] = None;
-        }
-        (planes, plain)
-    }
-
-    #[test]
-    fn each_instruction_set_sees_what_the_plain_loop_sees() {
-        for slots in [1, 3, 7, 8, 9, 16, 23, 100] {
-            let (planes, plain) = planes(slots);
-            assert_eq!(planes.slots(), slots);
-            let height = |p: [f64; 3], i: usize| {
-                plain[i].map_or(f64::NEG_INFINITY, |(n, offset)| {
-                    n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - offset
-                })
-            };
-            for k in 0..200 {
-                let x = f64::from(k);
-                let p = [(1.1 * x).sin(), (0.7 * x).cos(), (0.3 * x).sin()].map(|c| 1.3 * c);
-                let heights: Vec<f64> = (0..slots).map(|i| height(p, i)).collect();
-                let most = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let first = heights.iter().position(|h| *h == most).unwrap_or(0);
-                let seen: Vec<u32> =
-                    (0..slots as u32).filter(|i| heights[*i as usize] > 0.0).collect();
-                for level in levels() {
-                    assert_eq!(
-                        planes.highest_at(level, p),
-                        (first as u32, most),
-                        "{level:?} {slots}"
-                    );
-                    let mut found = Above::default();
-                    for limit in [1e-3, most, f64::MAX] {
-                        let above = planes.above_at(level, p, limit, &mut found);
-                        assert_eq!(above, most > limit, "{level:?} {slots}");
-                        if above {
-                            assert_eq!(found.slots, seen, "{level:?} {slots}");
-                            assert_eq!(found.heights[..slots], heights, "{level:?} {slots}");
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
+#[path = "tests/planes.rs"]
+mod tests;

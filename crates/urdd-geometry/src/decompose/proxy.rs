@@ -14,10 +14,10 @@ const TARGET: f64 = 1500.0;
 
 /// Maximum number of triangles of the proxy. Surfaces with so few points have half as many. A tangled mesh with more is
 /// sampled evenly.
-const MOST_TRIANGLES: usize = 8000;
+const MAX_TRIANGLES: usize = 8000;
 
 /// Maximum number of cells along one axis, to bound the grid's memory.
-const MOST_CELLS: f64 = 96.0;
+const MAX_CELLS: f64 = 96.0;
 
 /// The proxy, and its cell size (0 if the surface is small enough to be used whole).
 pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
@@ -27,7 +27,7 @@ pub(super) fn proxy(surface: &Surface) -> (Part, f64) {
         return (stand_in(surface, points, &cluster, triangles), 0.0);
     }
     // A surface intersects about 1.5 cells per cell's area.
-    let cell = (1.5 * surface.area() / TARGET).sqrt().max(2.0 / MOST_CELLS);
+    let cell = (1.5 * surface.area() / TARGET).sqrt().max(2.0 / MAX_CELLS);
     let cells = (2.0 / cell).ceil() as usize + 1;
     let place = |p: [f64; 3]| {
         let i = p.map(|x| ((x + 1.0) / cell) as usize);
@@ -78,12 +78,10 @@ fn stand_in(
     surface: &Surface,
     points: Vec<[f64; 3]>,
     cluster: &[u32],
-    mut triangles: Vec<[u32; 3]>,
+    triangles: Vec<[u32; 3]>,
 ) -> Part {
-    let every = triangles.len().div_ceil(MOST_TRIANGLES).max(1);
-    if every > 1 {
-        triangles = triangles.into_iter().step_by(every).collect();
-    }
+    let every = triangles.len().div_ceil(MAX_TRIANGLES).max(1);
+    let mut triangles: Vec<[u32; 3]> = triangles.into_iter().step_by(every).collect();
     // Keep points that have lost all their triangles, as loose points.
     let mut used = vec![false; points.len()];
     triangles.as_flattened().iter().for_each(|&i| used[i as usize] = true);

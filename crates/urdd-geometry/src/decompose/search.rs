@@ -28,17 +28,12 @@ impl Block {
 struct Leaf {
     part: Part,
     block: Block,
-    cuts: Cuts,
+    /// The cuts along all directions, best first; those along the first direction alone, unless `has_all`.
+    cuts: Vec<Cut>,
+    /// Most of a search's time goes into the cuts of parts, and most parts are never cut further. So all cuts are found
+    /// when they are needed.
+    has_all: bool,
     node: usize,
-}
-
-/// Most of a search's time goes into the cuts of parts, and most parts are never cut further. So cuts are found when they
-/// are needed.
-enum Cuts {
-    /// Those along the first direction alone.
-    First(Vec<Cut>),
-    /// All, best first.
-    All(Vec<Cut>),
 }
 
 impl Leaf {
@@ -49,35 +44,32 @@ impl Leaf {
             hull,
             cuts: part.cuts.clone(),
         };
-        Leaf { part, block, cuts: cuts.map_or(Cuts::All(Vec::new()), Cuts::First), node: 0 }
+        let has_all = cuts.is_none();
+        Leaf { part, block, cuts: cuts.unwrap_or_default(), has_all, node: 0 }
     }
 
     /// Finds all cuts, best first.
-    fn cuts(&mut self, places: &Places) -> &mut Vec<Cut> {
-        if let Cuts::First(first) = &self.cuts {
-            self.cuts = Cuts::All(best_cuts(&self.part, first, places));
+    fn find_all(&mut self, places: &Places) {
+        if !self.has_all {
+            self.cuts = best_cuts(&self.part, &self.cuts, places);
+            self.has_all = true;
         }
-        let (Cuts::All(cuts) | Cuts::First(cuts)) = &mut self.cuts;
-        cuts
     }
 
     /// What its best cut promises to save; before the cuts are found, a number that is no less.
     fn worth(&self) -> f64 {
         let potential = POTENTIAL * self.block.cost();
-        match &self.cuts {
+        if !self.has_all {
             // No cut saves more than the whole cost.
-            Cuts::First(_) => self.block.cost() + potential,
-            Cuts::All(cuts) => {
-                cuts.first().map_or(f64::NEG_INFINITY, |cut| cut.gain.max(0.0) + potential)
-            }
+            return self.block.cost() + potential;
         }
+        self.cuts.first().map_or(f64::NEG_INFINITY, |cut| cut.gain.max(0.0) + potential)
     }
 
     /// The remaining cost after its best cut.
     fn promise(&mut self, places: &Places) -> f64 {
-        let cuts = self.cuts(places).iter();
-        let gain = cuts.map(|c| c.gain).fold(0.0, f64::max);
-        self.block.cost() - gain
+        self.find_all(places);
+        self.block.cost() - self.cuts.iter().map(|c| c.gain).fold(0.0, f64::max)
     }
 
     /// The two leaves of a cut; `None` if one of them has no surface.
@@ -118,7 +110,7 @@ pub(super) fn along_faces(
     places: &Places,
     limits: &Limits,
 ) -> Option<Search> {
-    let faces::Cuts { nodes, parts } = faces::cut(part, places, limits.most)?;
+    let (nodes, parts) = faces::cut(part, places, limits.most)?;
     let leaves = parts.into_par_iter().map(|(part, node)| Leaf { node, ..Leaf::new(part, places) });
     Some(grow(nodes, leaves.collect(), area, places, limits))
 }
@@ -138,11 +130,11 @@ fn grow(
         let Some((k, _)) = best.filter(|&(_, worth)| worth > limits.fat * area) else {
             break;
         };
-        if let Cuts::First(_) = leaves[k].cuts {
-            leaves[k].cuts(places);
+        if !leaves[k].has_all {
+            leaves[k].find_all(places);
             continue;
         }
-        let cuts = std::mem::take(leaves[k].cuts(places));
+        let cuts = std::mem::take(&mut leaves[k].cuts);
         let leaf = &leaves[k];
         let poor = cuts[0].gain < POOR * leaf.block.cost();
         let tried = if poor && leaves.len() <= EARLY { WIDE } else { 1 };

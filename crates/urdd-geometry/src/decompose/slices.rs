@@ -25,8 +25,7 @@ impl Slices {
         // Odd code 2k+1: inside slice k. Even code 2k: in plane k-1, between slices k-1 and k.
         let code: Vec<u8> = turned
             .iter()
-            .map(|p| {
-                let x = p[2];
+            .map(|[_, _, x]| {
                 let k = planes.partition_point(|&o| o < x - eps);
                 let on = k < planes.len() && planes[k] <= x + eps;
                 (2 * k + 1 + usize::from(on)) as u8
@@ -115,23 +114,21 @@ impl Slices {
     ) -> (Vec<f64>, Grower) {
         let planes = self.sections.len();
         let mut hull = Grower::new(extent);
-        let take = |points: &[[f64; 3]], hull: &mut Grower| {
-            points.iter().for_each(|&p| hull.add(p));
-        };
         let mut costs = Vec::with_capacity(planes);
         for n in 0..planes {
             let (slice, section) = if upwards { (n, n) } else { (planes - n, planes - 1 - n) };
-            take(&self.slices[slice], &mut hull);
+            hull.add(&self.slices[slice]);
             // A section counts only if the hull is not empty.
-            if !hull.hull.points.is_empty() {
-                take(&self.sections[section], &mut hull);
+            if hull.hull.points.is_empty() {
+                costs.push(0.0);
+            } else {
+                hull.add(&self.sections[section]);
+                costs.push(cost(&mut hull, section));
             }
-            let nothing = hull.hull.points.is_empty();
-            costs.push(if nothing { 0.0 } else { cost(&mut hull, section) });
         }
         // Downwards, nobody asks for the whole hull.
         if upwards {
-            take(&self.slices[planes], &mut hull);
+            hull.add(&self.slices[planes]);
         }
         (costs, hull)
     }
@@ -139,8 +136,7 @@ impl Slices {
 
 /// The support points of candidates, whose indices refer to `points`.
 fn farthest(candidates: &[Candidate], points: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let found = support(candidates).into_iter();
-    found.map(|i| points[i as usize]).collect()
+    support(candidates).into_iter().map(|i| points[i as usize]).collect()
 }
 
 /// Scaling of a slice to a cube.

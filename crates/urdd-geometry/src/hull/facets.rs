@@ -32,13 +32,10 @@ pub fn triangulate(points: &[Point], triangles: &[Triangle]) -> Vec<[u32; 3]> {
         let mut polygon = walk(edges);
         polygon.retain(|p| meetings[*p as usize] >= 3);
         // Start at the lexicographically first corner, so that the result does not depend on the triangle order.
-        let by_value = |(_, p): &(usize, &u32), (_, q): &(usize, &u32)| {
-            lexicographic(&points[**p as usize], &points[**q as usize])
-        };
-        if let Some((first, _)) = polygon.iter().enumerate().min_by(by_value) {
-            polygon.rotate_left(first);
-            cut(&polygon, &mut result);
-        }
+        let at = |k: usize| &points[polygon[k] as usize];
+        let first = (0..polygon.len()).min_by(|j, k| lexicographic(at(*j), at(*k)));
+        polygon.rotate_left(first.unwrap_or(0));
+        cut(&polygon, &mut result);
     }
     result
 }

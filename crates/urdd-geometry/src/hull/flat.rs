@@ -1,26 +1,21 @@
 //! Hulls of coplanar points: a two-sided polygon.
 
 use super::predicates::{Point, lexicographic, turn};
+use crate::polygon::fan;
 
 /// The polygon's triangles, front and back. `triangle` is three points that are not collinear.
 pub fn triangulate(points: &[Point], triangle: [u32; 3]) -> Vec<[u32; 3]> {
-    let corners = outline(points, triangle);
-    let (Some(&first), Some(&second)) = (corners.first(), corners.get(1)) else {
-        return Vec::new();
-    };
+    let mut corners = outline(points, triangle);
+    let mut triangles: Vec<[u32; 3]> = fan(&corners).collect();
     // The two fans start from different corners and share no diagonal, so no edge is in four triangles.
-    let fan = |tip: u32, rest: &[u32]| -> Vec<[u32; 3]> {
-        rest.windows(2).map(|pair| [tip, pair[0], pair[1]]).collect()
-    };
-    let mut triangles = fan(first, &corners[1..]);
-    let mut from_second = corners[2..].to_vec();
-    from_second.push(first);
-    triangles.extend(fan(second, &from_second).iter().map(|[a, b, c]| [*a, *c, *b]));
+    let step = corners.len().min(1);
+    corners.rotate_left(step);
+    triangles.extend(fan(&corners).map(|[a, b, c]| [a, c, b]));
     triangles
 }
 
-/// The polygon's corners in order: Andrew's monotone chain on the projection along the axis closest to the plane's
-/// normal. The projection preserves lines and betweenness.
+/// The polygon's corners in order: the monotone chain on the projection along the axis closest to the plane's normal.
+/// The projection preserves lines and betweenness.
 fn outline(points: &[Point], triangle: [u32; 3]) -> Vec<u32> {
     let [a, b, c] = triangle.map(|i| points[i as usize]);
     let shadows = [[1, 2], [2, 0], [0, 1]];
@@ -43,21 +38,24 @@ fn outline(points: &[Point], triangle: [u32; 3]) -> Vec<u32> {
             .then_with(|| lexicographic(&points[*p as usize], &points[*q as usize]))
     });
     order.dedup_by(|p, q| shadow(*p) == shadow(*q));
-    let half = |order: &mut dyn Iterator<Item = u32>| {
-        let mut chain: Vec<u32> = Vec::new();
-        for p in order {
-            while let [.., u, v] = chain[..] {
-                if turn(shadow(u), shadow(v), shadow(p)).is_gt() {
-                    break;
-                }
-                chain.pop();
+    monotone_chain(&order, |u, v, p| turn(shadow(u), shadow(v), shadow(p)).is_gt())
+}
+
+/// The corners of the convex hull of sorted points, counterclockwise: Andrew's monotone chain.
+pub fn monotone_chain<P: Copy>(sorted: &[P], turns_left: impl Fn(P, P, P) -> bool) -> Vec<P> {
+    let mut polygon = Vec::with_capacity(sorted.len() + 1);
+    for backwards in [false, true] {
+        let fixed = polygon.len();
+        for k in 0..sorted.len() {
+            let p = sorted[if backwards { sorted.len() - 1 - k } else { k }];
+            while let [.., u, v] = polygon[fixed..]
+                && !turns_left(u, v, p)
+            {
+                polygon.pop();
             }
-            chain.push(p);
+            polygon.push(p);
         }
-        chain.pop();
-        chain
-    };
-    let mut corners = half(&mut order.iter().copied());
-    corners.extend(half(&mut order.iter().rev().copied()));
-    corners
+        polygon.pop();
+    }
+    polygon
 }

@@ -50,26 +50,20 @@ pub fn start(points: &[Point]) -> Result<Start, HullError> {
         return Err(HullError::Point);
     }
     let vector = |i: u32| Vector3::from(at(i)) - Vector3::from(at(a));
-    let far = |measure: &dyn Fn(u32) -> f64| {
-        indices
-            .clone()
-            .map(|i| (measure(i), i))
-            .max_by(|(x, i), (y, j)| x.total_cmp(y).then_with(|| by_value(i, j)))
-    };
     // The farthest point as computed in doubles. If rounding hid it, any point that is exactly off the line or plane.
+    let far = |measure: &dyn Fn(u32) -> f64, is_off: &dyn Fn(&u32) -> bool| {
+        let farther =
+            |(x, i): &(f64, u32), (y, j): &(f64, u32)| x.total_cmp(y).then_with(|| by_value(i, j));
+        let (_, farthest) = indices.clone().map(|i| (measure(i), i)).max_by(farther)?;
+        let any = || indices.clone().filter(is_off).min_by(by_value);
+        Some(farthest).filter(is_off).or_else(any)
+    };
     let axis = vector(b);
     let off_line = |i: &u32| !collinear(at(a), at(b), at(*i));
-    let c = far(&|i| axis.cross(&vector(i)).norm_squared())
-        .map(|(_, i)| i)
-        .filter(off_line)
-        .or_else(|| indices.clone().filter(off_line).min_by(by_value))
-        .ok_or(HullError::Line)?;
+    let c = far(&|i| axis.cross(&vector(i)).norm_squared(), &off_line).ok_or(HullError::Line)?;
     let normal = axis.cross(&vector(c));
-    let off_plane = |i: &u32| side_of_plane(at(a), at(b), at(c), at(*i)) != Ordering::Equal;
-    let d = far(&|i| normal.dot(&vector(i)).abs())
-        .map(|(_, i)| i)
-        .filter(off_plane)
-        .or_else(|| indices.clone().filter(off_plane).min_by(by_value));
+    let off_plane = |i: &u32| side_of_plane(at(a), at(b), at(c), at(*i)).is_ne();
+    let d = far(&|i| normal.dot(&vector(i)).abs(), &off_plane);
     Ok(match d {
         None => Start::Plane([a, b, c]),
         // The fourth point must be below the first three.
@@ -240,9 +234,9 @@ impl Growing {
             self.faces[following as usize].triangle.neighbours[2] = face;
         }
         for k in 0..self.visible.len() {
-            let gone = &mut self.faces[self.visible[k] as usize];
-            gone.farthest = None;
-            let mut list = std::mem::take(&mut gone.outside);
+            let removed = &mut self.faces[self.visible[k] as usize];
+            removed.farthest = None;
+            let mut list = std::mem::take(&mut removed.outside);
             // Drop the apex and its duplicates at once: they are coplanar with all new faces.
             list.retain(|p| self.points[*p as usize] != self.points[apex as usize]);
             self.assign(&list, new);
@@ -314,21 +308,17 @@ impl Growing {
     }
 
     pub fn into_triangles(self) -> Vec<Triangle> {
-        let mut kept = 0;
-        let number: Vec<u32> = self
-            .faces
-            .iter()
-            .map(|face| {
-                let this = kept;
-                kept += u32::from(!face.removed);
-                this
-            })
-            .collect();
-        let alive = self.faces.into_iter().filter(|face| !face.removed);
-        alive
-            .map(|face| Triangle {
-                corners: face.triangle.corners,
-                neighbours: face.triangle.neighbours.map(|n| number[n as usize]),
+        // The number of remaining faces before each.
+        let counts = self.faces.iter().scan(0, |count, face| {
+            *count += u32::from(!face.removed);
+            Some(*count - u32::from(!face.removed))
+        });
+        let number: Vec<u32> = counts.collect();
+        let remaining = self.faces.into_iter().filter(|face| !face.removed);
+        remaining
+            .map(|Face { triangle: Triangle { corners, neighbours }, .. }| Triangle {
+                corners,
+                neighbours: neighbours.map(|n| number[n as usize]),
             })
             .collect()
     }

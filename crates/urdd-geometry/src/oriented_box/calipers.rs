@@ -4,7 +4,11 @@
 //! Encasing Rectangle for an Arbitrary Closed Curve, Communications of the ACM 18, 1975). Rotating calipers try all
 //! edges in one turn (G. Toussaint, Solving Geometric Problems with the Rotating Calipers, MELECON 1983).
 
+use std::cmp::Ordering;
+
 use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+
+use crate::hull::flat::monotone_chain;
 
 type Point2 = [f64; 2];
 
@@ -30,6 +34,10 @@ fn minus(u: Point2, v: Point2) -> Point2 {
     [u[0] - v[0], u[1] - v[1]]
 }
 
+fn by_value(p: &Point2, q: &Point2) -> Ordering {
+    p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
+}
+
 /// The minimum-area rectangle of a counterclockwise convex polygon. The polygon may deviate from convexity by rounding,
 /// and may repeat points. `None` if it has no area.
 pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
@@ -41,7 +49,7 @@ pub fn smallest_rectangle(polygon: &mut Vec<Point2>) -> Option<Rectangle> {
     // Close the polygon: append its first corner.
     polygon.push(polygon[0]);
     let Best { area, half_perimeter, along } =
-        if n <= MOST_AT_ONCE { at_once(Level::new(), polygon) } else { one_by_one(polygon) };
+        if n <= MAX_AT_ONCE { at_once(Level::new(), polygon) } else { one_by_one(polygon) };
     let length = dot(along, along).sqrt();
     (length > 0.0).then(|| Rectangle {
         area,
@@ -108,12 +116,12 @@ fn one_by_one(polygon: &[Point2]) -> Best {
 }
 
 /// Maximum number of edges for a bit set in one word.
-const MOST_AT_ONCE: usize = 64;
+const MAX_AT_ONCE: usize = 64;
 
 /// Edges per block.
 const WIDTH: usize = 8;
 
-/// The same as [`one_by_one`], bit for bit, for at most [`MOST_AT_ONCE`] edges. Tests all edges at once where a walk
+/// The same as [`one_by_one`], bit for bit, for at most [`MAX_AT_ONCE`] edges. Tests all edges at once where a walk
 /// ends, which avoids unpredictable branches.
 fn at_once(level: Level, polygon: &[Point2]) -> Best {
     dispatch!(level, simd => at_once_in(simd, polygon))
@@ -130,7 +138,7 @@ fn at_once_in<S: Simd>(simd: S, polygon: &[Point2]) -> Best {
         y[i / WIDTH][i % WIDTH] = along_y;
     }
     let zero = f64x8::splat(simd, 0.0);
-    let all = u64::MAX >> (MOST_AT_ONCE - n);
+    let all = u64::MAX >> (MAX_AT_ONCE - n);
     let (mut ahead, mut across, mut behind) = (0, 0, 0);
     let mut best = Best::NOTHING;
     for i in 0..n {
@@ -173,13 +181,11 @@ fn next_of(set: u64, from: usize) -> usize {
 
 /// Removes corners that do not turn left from a closed polygon that is nearly convex.
 fn straighten(polygon: &mut Vec<Point2>) {
-    let by_value = |p: &Point2, q: &Point2| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
-    let Some((first, _)) = polygon.iter().enumerate().min_by(|(_, p), (_, q)| by_value(p, q))
+    let Some((first, &start)) = polygon.iter().enumerate().min_by(|(_, p), (_, q)| by_value(p, q))
     else {
         return;
     };
     polygon.rotate_left(first);
-    let start = polygon[0];
     let mut kept = 1;
     for i in 1..=polygon.len() {
         // The lexicographically lowest corner stays, and closes the polygon.
@@ -199,59 +205,12 @@ fn straighten(polygon: &mut Vec<Point2>) {
     polygon.truncate(kept);
 }
 
-/// The convex hull of points in place, counterclockwise: Andrew's monotone chain in doubles. The error of its area is
-/// within rounding.
+/// The convex hull of points in place, counterclockwise, in doubles. The error of its area is within rounding.
 pub fn outline(points: &mut Vec<Point2>) {
-    points.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-    let mut polygon: Vec<Point2> = Vec::with_capacity(points.len() + 1);
-    for backwards in [false, true] {
-        let fixed = polygon.len();
-        for k in 0..points.len() {
-            let p = points[if backwards { points.len() - 1 - k } else { k }];
-            while polygon.len() >= fixed + 2 {
-                let (u, v) = (polygon[polygon.len() - 2], polygon[polygon.len() - 1]);
-                if cross(minus(v, u), minus(p, v)) > 0.0 {
-                    break;
-                }
-                polygon.pop();
-            }
-            polygon.push(p);
-        }
-        polygon.pop();
-    }
-    *points = polygon;
+    points.sort_unstable_by(by_value);
+    *points = monotone_chain(points, |u, v, p| cross(minus(v, u), minus(p, v)) > 0.0);
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::levels::levels;
-
-    #[test]
-    fn each_instruction_set_finds_what_walking_finds() {
-        for n in [3, 4, 6, 7, 8, 9, 12, 31, 40, 63, 64] {
-            for turn in 0..20 {
-                // On an ellipse, so that opposite edges of even polygons are parallel up to rounding, and unrotated
-                // rectangles and hexagons have edges at right angles. Every fourth polygon has a corner that turns
-                // right.
-                let turned = 0.3 * f64::from(turn / 2);
-                let mut polygon: Vec<Point2> = (0..n)
-                    .map(|k| (2.0 * f64::from(k) + 1.0) * std::f64::consts::PI / f64::from(n))
-                    .map(|angle| [2.0 * (angle + turned).cos(), (angle + turned).sin()])
-                    .collect();
-                if turn % 4 == 3 {
-                    polygon[1] = polygon[1].map(|x| 0.2 * x);
-                }
-                if turn % 2 == 1 {
-                    let on_grid = |x: f64| (16.0 * x).round() / 16.0;
-                    polygon = polygon.iter().map(|p| p.map(on_grid)).collect();
-                }
-                polygon.push(polygon[0]);
-                let plain = one_by_one(&polygon);
-                for level in levels() {
-                    assert_eq!(at_once(level, &polygon), plain, "{level:?} {n} {turn}");
-                }
-            }
-        }
-    }
-}
+#[path = "tests/calipers.rs"]
+mod tests;

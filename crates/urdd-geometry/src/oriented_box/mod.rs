@@ -44,7 +44,7 @@ impl OrientedBox {
             let normal = caster.largest_normal();
             caster.smallest_box(&normal).into_iter().collect()
         } else {
-            smallest_boxes(hull, f64::INFINITY)
+            smallest_boxes(hull)
         };
         let least = candidates.iter().map(|c| c.volume).fold(f64::INFINITY, f64::min);
         if !hull.is_flat() && aligned.volume() <= least * (1.0 + TIE) {
@@ -109,11 +109,8 @@ impl OrientedBox {
 
 /// The eight corners of a box in its own frame, metres.
 pub fn corners(half_extents: [f64; 3]) -> [[f64; 3]; 8] {
-    let coordinate = |corner: usize, axis: usize| match corner >> axis & 1 {
-        0 => -half_extents[axis],
-        _ => half_extents[axis],
-    };
-    std::array::from_fn(|corner| [0, 1, 2].map(|axis| coordinate(corner, axis)))
+    let sign = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 };
+    std::array::from_fn(|corner| [0, 1, 2].map(|axis| sign(corner, axis) * half_extents[axis]))
 }
 
 /// The rotation by the smallest angle among the 24 right-handed labellings of three axes. It has the largest trace.

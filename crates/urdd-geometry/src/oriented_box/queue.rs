@@ -11,7 +11,7 @@ use super::arc::Stretch;
 use super::shadow::Candidate;
 
 /// A stretch, and the boxes for the axis in its middle.
-pub struct Looked {
+pub struct Sketched {
     pub stretch: Stretch,
     pub axis: Vector3<f64>,
     /// The box of the coarse hull if there is one, otherwise of the hull.
@@ -23,7 +23,7 @@ pub struct Looked {
 pub struct Queue {
     waiting: BinaryHeap<Stretch>,
     /// Sorted; the most promising is last.
-    sketched: Vec<Looked>,
+    sketched: Vec<Sketched>,
 }
 
 impl Queue {
@@ -43,9 +43,9 @@ impl Queue {
         ahead: usize,
         axis: impl Fn(&Stretch) -> Vector3<f64>,
         sketches: impl FnOnce(&[Vector3<f64>]) -> Vec<Option<Candidate>>,
-    ) -> Option<Looked> {
+    ) -> Option<Sketched> {
         let promises = |stretch: &Stretch| stretch.promise < limit;
-        if self.waiting.peek() > self.sketched.last().map(|looked| &looked.stretch) {
+        if self.waiting.peek() > self.sketched.last().map(|item| &item.stretch) {
             let mut next = Vec::with_capacity(ahead);
             while next.len() < ahead && self.waiting.peek().is_some_and(promises) {
                 next.extend(self.waiting.pop());
@@ -54,8 +54,8 @@ impl Queue {
                 return None;
             }
             let axes: Vec<Vector3<f64>> = next.iter().map(axis).collect();
-            let looked = next.into_iter().zip(&axes).zip(sketches(&axes));
-            self.sketched.extend(looked.map(|((stretch, axis), sketch)| Looked {
+            let item = next.into_iter().zip(&axes).zip(sketches(&axes));
+            self.sketched.extend(item.map(|((stretch, axis), sketch)| Sketched {
                 stretch,
                 axis: *axis,
                 sketch,
@@ -63,18 +63,18 @@ impl Queue {
             }));
             self.sketched.sort_unstable_by(|a, b| a.stretch.cmp(&b.stretch));
         }
-        self.sketched.pop_if(|looked| promises(&looked.stretch))
+        self.sketched.pop_if(|item| promises(&item.stretch))
     }
 
     /// The sketched stretches, the most promising first.
-    pub fn sketched(&mut self) -> impl Iterator<Item = &mut Looked> {
+    pub fn sketched(&mut self) -> impl Iterator<Item = &mut Sketched> {
         self.sketched.iter_mut().rev()
     }
 
     /// The remaining stretches, in any order.
     pub fn into_rest(self) -> Vec<Stretch> {
         let mut rest = self.waiting.into_vec();
-        rest.extend(self.sketched.into_iter().map(|looked| looked.stretch));
+        rest.extend(self.sketched.into_iter().map(|item| item.stretch));
         rest
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::super::hull::ConvexHull;
 use super::arc::{Arc, Known, Stretch};
-use super::queue::{Looked, Queue};
+use super::queue::{Queue, Sketched};
 use super::shadow::{Candidate, Caster, Edge};
 use super::vectors::AXES;
 use crate::vector::{dot, spread};
@@ -50,14 +50,14 @@ const COARSE_DIRECTIONS: usize = 64;
 
 /// Maximum number of triangles projected for shadows of the hull itself. Hulls of robot links need some tens of
 /// millions. On a round hull with many thousand triangles, all candidates are equally promising and all would be tried.
-const MOST_CAST: usize = 500_000_000;
+const MAX_CAST: usize = 500_000_000;
 
 /// The number of batches of [`AXES`] stretches for which boxes of the coarse hull are computed at once.
 const AHEAD: usize = 4;
 
 struct Search {
     fine: Caster,
-    /// The remaining part of [`MOST_CAST`].
+    /// The remaining part of [`MAX_CAST`].
     left: usize,
     coarse: Option<Caster>,
     best: f64,
@@ -67,17 +67,16 @@ struct Search {
     found: Vec<Candidate>,
 }
 
-/// The boxes within [`TIE`] of the smallest one found that is at most `volume`, cubic metres. For an infinite `volume`
-/// the result is empty only if the hull has no area.
-pub fn smallest_boxes(hull: &ConvexHull, volume: f64) -> Vec<Candidate> {
-    let mut search = Search::new(hull, volume, false);
+/// The boxes within [`TIE`] of the smallest one found; none only if the hull has no area.
+pub fn smallest_boxes(hull: &ConvexHull) -> Vec<Candidate> {
+    let mut search = Search::new(hull, f64::INFINITY, false);
     search.run();
     let limit = search.best * (1.0 + TIE);
     search.found.retain(|candidate| candidate.volume <= limit);
     search.found
 }
 
-/// Whether that search finds a box. It ends with the first.
+/// Whether that search finds a box of at most `volume`, cubic metres. It ends with the first.
 pub fn finds_box(hull: &ConvexHull, volume: f64) -> bool {
     let mut search = Search::new(hull, volume, true);
     search.run();
@@ -103,7 +102,7 @@ impl Search {
     fn new(hull: &ConvexHull, volume: f64, any: bool) -> Self {
         Search {
             fine: Caster::new(hull),
-            left: MOST_CAST,
+            left: MAX_CAST,
             coarse: coarse(hull),
             best: volume,
             any,
@@ -163,26 +162,26 @@ impl Search {
     }
 
     /// Evaluates the middle of a stretch.
-    fn judge(&mut self, mut looked: Looked, queue: &mut Queue) -> Known {
+    fn judge(&mut self, mut item: Sketched, queue: &mut Queue) -> Known {
         if self.coarse.is_none() {
-            return self.take(looked.sketch);
+            return self.take(item.sketch);
         }
-        match (looked.sketch, looked.fine) {
+        match (item.sketch, item.fine) {
             (Some(coarse), _) if !self.is_open(Some(&coarse)) => return Known::of(&coarse),
             (_, None) => {
                 // Other stretches will need their boxes soon; a batch takes less work.
-                let open = |l: &&mut Looked| l.fine.is_none() && self.is_open(l.sketch.as_ref());
+                let open = |l: &&mut Sketched| l.fine.is_none() && self.is_open(l.sketch.as_ref());
                 let soon = queue.sketched().filter(open).take(AXES - 1);
-                let mut open: Vec<&mut Looked> = std::iter::once(&mut looked).chain(soon).collect();
+                let mut open: Vec<&mut Sketched> = std::iter::once(&mut item).chain(soon).collect();
                 let axes: Vec<Vector3<f64>> = open.iter().map(|l| l.axis).collect();
                 let found = self.fine.smallest_boxes(&axes);
-                for (looked, found) in open.iter_mut().zip(found) {
-                    looked.fine = Some(found);
+                for (item, found) in open.iter_mut().zip(found) {
+                    item.fine = Some(found);
                 }
             }
             _ => {}
         }
-        self.take(looked.fine.flatten())
+        self.take(item.fine.flatten())
     }
 
     /// Tries each triangle's normal.
@@ -244,12 +243,12 @@ impl Search {
                 let limit = self.best * (1.0 - GAIN);
                 let axis = |stretch: &Stretch| arcs[stretch.arc].at(stretch.middle());
                 let sketches = |axes: &[Vector3<f64>]| self.sketches(axes);
-                let Some(looked) = queue.pop(limit, ahead, axis, sketches) else {
+                let Some(item) = queue.pop(limit, ahead, axis, sketches) else {
                     break;
                 };
-                let Stretch { arc, parts: [low, high], ends: [from, to], .. } = looked.stretch;
-                let middle = looked.stretch.middle();
-                let there = self.judge(looked, &mut queue);
+                let Stretch { arc, parts: [low, high], ends: [from, to], .. } = item.stretch;
+                let middle = item.stretch.middle();
+                let there = self.judge(item, &mut queue);
                 let halves = [([low, middle], [from, there]), ([middle, high], [there, to])];
                 queue.extend(
                     halves.map(|(parts, ends)| judged(Stretch { promise: 0.0, arc, parts, ends })),

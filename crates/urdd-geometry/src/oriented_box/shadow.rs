@@ -1,6 +1,7 @@
 //! The smallest box with a given axis: the extent of the hull along the axis, times the minimum-area rectangle of its
 //! projection along the axis (its *shadow*).
 
+use fearless_simd::Level;
 use nalgebra::Vector3;
 
 use super::super::hull::ConvexHull;
@@ -68,13 +69,10 @@ impl Caster {
             }
         }
         halves.sort_unstable();
-        let edges: Vec<Edge> = halves
-            .chunks_exact(2)
-            .map(|pair| Edge {
-                vertices: [pair[0].0, pair[0].1],
-                left: pair[0].3,
-                right: pair[1].3,
-            })
+        let (pairs, _) = halves.as_chunks();
+        let edges: Vec<Edge> = pairs
+            .iter()
+            .map(|&[(from, to, _, left), (.., right)]| Edge { vertices: [from, to], left, right })
             .filter(|edge| normals[edge.left as usize] != normals[edge.right as usize])
             .collect();
         // Relative to a vertex, so that small shapes far from the origin keep their precision.
@@ -124,7 +122,7 @@ impl Caster {
     /// The same for 1 to [`AXES`] axes at once, with less work for each. The values after the last axis are `None`.
     pub fn smallest_boxes(&mut self, axes: &[Vector3<f64>]) -> [Option<Candidate>; AXES] {
         let lanes = Axes::new(axes);
-        let [low, high] = reach(&self.vertices, &lanes);
+        let [low, high] = reach(Level::new(), &self.vertices, &lanes);
         self.light(&lanes);
         std::array::from_fn(|a| {
             let axis = axes.get(a)?;
@@ -141,7 +139,7 @@ impl Caster {
 
     /// Finds the triangles that face along the axes, and the border edges between these and the others.
     fn light(&mut self, axes: &Axes) {
-        beyond(&self.normals, axes, GRAZING, &mut self.lit);
+        beyond(Level::new(), &self.normals, axes, GRAZING, &mut self.lit);
         let border = self.edges.chunks(8).map(|edges| {
             let mut word = [0; 8];
             for (byte, edge) in word.iter_mut().zip(edges) {

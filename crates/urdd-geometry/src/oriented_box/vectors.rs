@@ -1,13 +1,11 @@
-//! Dot products of a list of vectors with several axes at once; one lane is one axis.
-//!
-//! Uses only operations with the same result on every instruction set (IEEE add, multiply, compare, select; never a
-//! fused multiply-add), so that a box does not depend on the machine.
+//! Dot products of a list of vectors with several axes at once; one lane is one axis. A box does not depend on the
+//! machine (`lanes`).
 
-use fearless_simd::{Level, Simd, dispatch, f64x8, prelude::*};
+use fearless_simd::{Level, Simd, dispatch, prelude::*};
 use nalgebra::Vector3;
 
-/// Axes per batch.
-pub const AXES: usize = 8;
+pub(super) use crate::lanes::LANES as AXES;
+use crate::lanes::{Vec3, splat};
 
 /// The x, y and z coordinates of the axes.
 pub struct Axes([[f64; AXES]; 3]);
@@ -24,46 +22,29 @@ impl Axes {
 pub type Each = [f64; AXES];
 
 /// The minimum and maximum dot product of each axis with the vectors.
-pub fn reach(vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
-    reach_at(Level::new(), vectors, axes)
-}
-
-fn reach_at(level: Level, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
+pub fn reach(level: Level, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
     dispatch!(level, simd => reach_in(simd, vectors, axes))
 }
 
 /// For each vector, the set of axes with a dot product greater than `limit`.
-pub fn beyond(vectors: &[Vector3<f64>], axes: &Axes, limit: f64, found: &mut Vec<u8>) {
-    beyond_at(Level::new(), vectors, axes, limit, found);
-}
-
-fn beyond_at(level: Level, vectors: &[Vector3<f64>], axes: &Axes, limit: f64, found: &mut Vec<u8>) {
+pub fn beyond(
+    level: Level,
+    vectors: &[Vector3<f64>],
+    axes: &Axes,
+    limit: f64,
+    found: &mut Vec<u8>,
+) {
     found.resize(vectors.len(), 0);
     dispatch!(level, simd => beyond_in(simd, vectors, axes, limit, found));
 }
 
 #[inline(always)]
-fn load<S: Simd>(simd: S, axes: &Axes) -> [f64x8<S>; 3] {
-    [
-        f64x8::load_array_ref(simd, &axes.0[0]),
-        f64x8::load_array_ref(simd, &axes.0[1]),
-        f64x8::load_array_ref(simd, &axes.0[2]),
-    ]
-}
-
-/// The dot products of the axes with a vector.
-#[inline(always)]
-fn along<S: Simd>(simd: S, [x, y, z]: [f64x8<S>; 3], v: &Vector3<f64>) -> f64x8<S> {
-    x * f64x8::splat(simd, v.x) + y * f64x8::splat(simd, v.y) + z * f64x8::splat(simd, v.z)
-}
-
-#[inline(always)]
-fn reach_in<S: Simd>(simd: S, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2] {
-    let axes = load(simd, axes);
-    let mut low = f64x8::splat(simd, f64::INFINITY);
-    let mut high = f64x8::splat(simd, f64::NEG_INFINITY);
+fn reach_in<S: Simd>(simd: S, vectors: &[Vector3<f64>], Axes([x, y, z]): &Axes) -> [Each; 2] {
+    let axes = Vec3::load(simd, [x, y, z]);
+    let mut low = splat(simd, f64::INFINITY);
+    let mut high = splat(simd, f64::NEG_INFINITY);
     for v in vectors {
-        let along = along(simd, axes, v);
+        let along = axes.dot(Vec3::splat(simd, (*v).into()));
         low = along.simd_lt(low).select(along, low);
         high = along.simd_gt(high).select(along, high);
     }
@@ -74,53 +55,18 @@ fn reach_in<S: Simd>(simd: S, vectors: &[Vector3<f64>], axes: &Axes) -> [Each; 2
 fn beyond_in<S: Simd>(
     simd: S,
     vectors: &[Vector3<f64>],
-    axes: &Axes,
+    Axes([x, y, z]): &Axes,
     limit: f64,
     found: &mut [u8],
 ) {
-    let axes = load(simd, axes);
-    let limit = f64x8::splat(simd, limit);
+    let axes = Vec3::load(simd, [x, y, z]);
+    let limit = splat(simd, limit);
     for (v, found) in vectors.iter().zip(found) {
-        *found = along(simd, axes, v).simd_gt(limit).to_bitmask() as u8;
+        let along = axes.dot(Vec3::splat(simd, (*v).into()));
+        *found = along.simd_gt(limit).to_bitmask() as u8;
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::levels::levels;
-
-    #[test]
-    fn each_instruction_set_finds_what_the_plain_loop_finds() {
-        // On a coarse grid, so that many dot products equal each other or the limits.
-        let vectors = |count: u32, shift: f64| -> Vec<Vector3<f64>> {
-            (0..count)
-                .map(|i| f64::from(i) + shift)
-                .map(|x| Vector3::new((1.7 * x).sin(), (2.3 * x).cos(), (0.9 * x).sin()))
-                .map(|v| v.map(|x| (4.0 * x).round() / 4.0))
-                .collect()
-        };
-        for (count, num_axes) in [(1, 1), (2, 8), (7, 3), (8, 5), (9, 8), (100, 7)] {
-            let (list, axes) = (vectors(count, 1.0), vectors(num_axes, 0.5));
-            for level in levels() {
-                let [low, high] = reach_at(level, &list, &Axes::new(&axes));
-                for (a, axis) in axes.iter().enumerate() {
-                    let dot = |v: &Vector3<f64>| axis.x * v.x + axis.y * v.y + axis.z * v.z;
-                    let dots = || list.iter().map(dot);
-                    let plain = [
-                        dots().fold(f64::INFINITY, f64::min),
-                        dots().fold(f64::NEG_INFINITY, f64::max),
-                    ];
-                    assert_eq!([low[a], high[a]], plain, "{level:?} {count} {a}");
-                    let mut found = Vec::new();
-                    for limit in [0.0, 0.25, plain[1]] {
-                        beyond_at(level, &list, &Axes::new(&axes), limit, &mut found);
-                        let found = found.iter().map(|bits| bits >> a & 1 == 1);
-                        let plain = dots().map(|d| d > limit);
-                        assert!(found.eq(plain), "{level:?} {count} {a} {limit}");
-                    }
-                }
-            }
-        }
-    }
-}
+#[path = "tests/vectors.rs"]
+mod tests;

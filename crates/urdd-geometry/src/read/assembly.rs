@@ -23,7 +23,7 @@ pub(super) struct Assembly {
 
 /// Maximum number of parts. Further materials share the part without a material. Real files have up to some hundred
 /// materials. A part takes some hundred bytes of memory, for the ten bytes in the file that name it.
-pub(super) const MOST_PARTS: usize = 4096;
+pub(super) const MAX_PARTS: usize = 4096;
 
 /// Name, colour and texture of a material.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,11 +64,8 @@ impl Assembly {
             placed.transform(matrix);
         }
         let dropped = placed.drop_non_finite();
-        self.notes.add_many(
-            NoteCode::NotFinite,
-            "a triangle with a corner that is not finite was dropped",
-            dropped,
-        );
+        let text = "a triangle with a corner that is not finite was dropped";
+        self.notes.add_many(NoteCode::NotFinite, text, dropped);
         if placed.triangles.is_empty() {
             return Ok(());
         }
@@ -77,7 +74,7 @@ impl Assembly {
         let texture = material.texture.as_mut();
         let uv = texture.map(|texture| std::mem::take(&mut texture.uv)).unwrap_or_default();
         let mut look = look_of(&material);
-        if self.parts.len() >= MOST_PARTS && !self.part_of.contains_key(&look) {
+        if self.parts.len() >= MAX_PARTS && !self.part_of.contains_key(&look) {
             self.notes.add(NoteCode::Assumed, TOO_MANY_PARTS);
             material = Material::default();
             look = look_of(&material);
@@ -146,7 +143,11 @@ impl Assembly {
     }
 }
 
-/// Note for materials beyond [`MOST_PARTS`].
+/// Note for a file with scenes of which none is the default.
+pub(super) const FIRST_SCENE: &str =
+    "the file does not say which scene to show; the first one was used";
+
+/// Note for materials beyond [`MAX_PARTS`].
 pub(super) const TOO_MANY_PARTS: &str =
     "more than 4096 materials; faces with any other material are read without one";
 
@@ -158,10 +159,7 @@ fn look_of(material: &Material) -> Look {
 
 /// Checks a number of items against a limit.
 pub(super) fn within(what: &'static str, count: usize, limit: usize) -> Result<(), Failure> {
-    if count > limit {
-        return Err(Fault::TooLarge { what, limit }.into());
-    }
-    Ok(())
+    if count > limit { Err(Fault::TooLarge { what, limit }.into()) } else { Ok(()) }
 }
 
 /// The nodes from the root of a scene to the current one. Instances can multiply the nodes of a file.
@@ -175,7 +173,7 @@ impl<Id: PartialEq> Nesting<Id> {
     /// Maximum nesting depth of nodes.
     const DEEPEST: usize = 200;
     /// Maximum number of node visits.
-    const MOST_NODES: usize = 100_000;
+    const MAX_NODES: usize = 100_000;
 
     pub(super) fn new() -> Self {
         Self { path: Vec::new(), visited: 0 }
@@ -184,7 +182,7 @@ impl<Id: PartialEq> Nesting<Id> {
     /// Enters a node, unless it contains itself or a limit is exceeded.
     pub(super) fn enter(&mut self, node: Id, name: impl fmt::Display) -> Result<(), Failure> {
         self.visited += 1;
-        within("nodes", self.visited, Self::MOST_NODES)?;
+        within("nodes", self.visited, Self::MAX_NODES)?;
         if self.path.contains(&node) {
             return Err(Fault::malformed("the node contains itself").within("node", name));
         }

@@ -71,7 +71,11 @@ pub enum Fault {
 
 impl Fault {
     pub(super) fn malformed(what: impl Into<String>) -> Failure {
-        Failure { place: None, fault: Self::Malformed(what.into()) }
+        Self::Malformed(what.into()).into()
+    }
+
+    pub(super) fn not_supported(what: impl Into<String>) -> Failure {
+        Self::NotSupported(what.into()).into()
     }
 }
 
@@ -173,7 +177,7 @@ pub enum NoteCode {
 pub(super) struct Notes(pub(super) Vec<Note>);
 
 /// Maximum number of distinct notes per file. A file can reference a million missing things.
-const MOST_NOTES: usize = 50;
+const MAX_NOTES: usize = 50;
 
 impl Notes {
     pub(super) fn add(&mut self, code: NoteCode, text: impl Into<String>) {
@@ -187,7 +191,7 @@ impl Notes {
         let text = text.into();
         if let Some(note) = self.0.iter_mut().find(|note| note.code == code && note.text == text) {
             note.count += count;
-        } else if self.0.len() < MOST_NOTES {
+        } else if self.0.len() < MAX_NOTES {
             self.0.push(Note { code, text, count });
         }
     }

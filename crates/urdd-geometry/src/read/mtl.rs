@@ -46,12 +46,8 @@ pub(super) fn read(bytes: &[u8]) -> (Vec<Entry>, Vec<String>) {
                 || matches!(keyword.as_str(), "bump" | "disp" | "decal" | "norm" | "refl") =>
             {
                 // Options such as `-bm 0.2` precede the name, which is last.
-                let name = if rest.starts_with('-') {
-                    rest.rsplit(char::is_whitespace).next().unwrap_or(rest)
-                } else {
-                    rest
-                };
-                let name = name.replace('\\', "/");
+                let is_last = |c: char| rest.starts_with('-') && c.is_whitespace();
+                let name = rest.rsplit(is_last).next().unwrap_or(rest).replace('\\', "/");
                 if keyword == "map_kd" {
                     entry.texture = Some(name.clone());
                 }
@@ -78,7 +74,6 @@ fn color(text: &str) -> Option<[f64; 3]> {
 /// The first number of a `d` or `Tr` line; `-halo` may precede it.
 fn opacity(text: &str) -> Option<f64> {
     let word = text.split_ascii_whitespace().find(|word| *word != "-halo")?;
-    Some(float(word.as_bytes()))
-        .filter(|value| value.is_finite())
-        .map(|value| value.clamp(0.0, 1.0))
+    let value = float(word.as_bytes());
+    value.is_finite().then(|| value.clamp(0.0, 1.0))
 }

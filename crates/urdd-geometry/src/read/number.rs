@@ -18,12 +18,8 @@ impl<'a> Words<'a> {
 
     /// Skips to the end of the line, unless the last word ended it.
     pub(super) fn skip_line(&mut self) {
-        let end = self
-            .rest
-            .iter()
-            .position(|byte| matches!(byte, b'\n' | b'\r'))
-            .unwrap_or(self.rest.len());
-        self.rest = &self.rest[end..];
+        let end = self.rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        self.rest = &self.rest[end.unwrap_or(self.rest.len())..];
     }
 
     /// The next index; `Some(None)` for a word that is not an index.
@@ -55,23 +51,5 @@ pub(super) fn float(word: &[u8]) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_no_number_is_nan() {
-        for word in ["", ".", "-", "e5", "1e", "1.2.3", "1.#QNAN", "-nan(ind)", "1,5", "0x10"] {
-            assert!(float(word.as_bytes()).is_nan(), "{word}");
-        }
-    }
-
-    #[test]
-    fn indices() {
-        let mut words = Words::new(b"4294967295 4294967296 00000000000007 -1");
-        assert_eq!(words.index(), Some(Some(u32::MAX)));
-        assert_eq!(words.index(), Some(None));
-        assert_eq!(words.index(), Some(Some(7)));
-        assert_eq!(words.index(), Some(None));
-        assert_eq!(words.index(), None);
-    }
-}
+#[path = "tests/number.rs"]
+mod tests;

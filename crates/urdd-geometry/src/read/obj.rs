@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use nalgebra::Matrix4;
 
-use super::assembly::{Assembly, MOST_PARTS, Material, Picker, TOO_MANY_PARTS, mark, within};
+use super::assembly::{Assembly, MAX_PARTS, Material, Picker, TOO_MANY_PARTS, mark, within};
 use super::error::{Failure, NoteCode, Place};
 use super::mtl;
 use super::number::Words;
@@ -20,19 +20,10 @@ pub(super) fn read(
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
     let mut file = File {
-        libraries: Vec::new(),
-        vertices: Vec::new(),
-        uvs: Vec::new(),
         textures: assembly.options.textures,
         groups: vec![Group::default()],
-        current: 0,
-        wanted: None,
-        too_many: false,
-        group_of: HashMap::new(),
         splitter: Splitter::new(assembly.options.uncut),
-        corners: Vec::new(),
-        ahead: Vec::new(),
-        bad: 0,
+        ..File::default()
     };
     let mut joined: Vec<u8> = Vec::new();
     for (at, line) in bytes.split(|byte| *byte == b'\n').enumerate() {
@@ -72,11 +63,8 @@ pub(super) fn read(
         let color = entry.and_then(mtl::Entry::color);
         let texture = entry.and_then(|entry| entry.texture.clone());
         let (mut mesh, left_out) = picker.pick(&file.vertices, &group.triangles);
-        assembly.notes.add_many(
-            NoteCode::IndexOutOfRange,
-            "a triangle was dropped: a vertex index is out of range",
-            left_out,
-        );
+        let text = "a triangle was dropped: a vertex index is out of range";
+        assembly.notes.add_many(NoteCode::IndexOutOfRange, text, left_out);
         let mut uv = Vec::new();
         if !group.uvs.is_empty() {
             (mesh, uv) = group.uvs.mesh(&file.vertices, &group.triangles, &file.uvs);
@@ -96,6 +84,7 @@ struct Group {
     uvs: UvCorners,
 }
 
+#[derive(Default)]
 struct File {
     libraries: Vec<String>,
     vertices: Vec<[f64; 3]>,
@@ -106,7 +95,7 @@ struct File {
     current: usize,
     /// The material selected since the last face.
     wanted: Option<String>,
-    /// Whether there are more than [`MOST_PARTS`] materials.
+    /// Whether there are more than [`MAX_PARTS`] materials.
     too_many: bool,
     group_of: HashMap<String, usize>,
     splitter: Splitter,
@@ -140,7 +129,7 @@ impl File {
             Some(b"usemtl") => self.wanted = Some(rest_of(line, b"usemtl")),
             Some(b"mtllib") => {
                 let library = rest_of(line, b"mtllib");
-                if self.libraries.len() < MOST_LIBRARIES && !self.libraries.contains(&library) {
+                if self.libraries.len() < MAX_LIBRARIES && !self.libraries.contains(&library) {
                     self.libraries.push(library);
                 }
             }
@@ -157,7 +146,7 @@ impl File {
         let next = self.groups.len();
         self.current = match self.group_of.get(&name) {
             Some(known) => *known,
-            None if next >= MOST_PARTS => {
+            None if next >= MAX_PARTS => {
                 self.too_many = true;
                 0
             }
@@ -243,7 +232,7 @@ fn read_libraries(
             words.len() > 1 && words.iter().all(|word| word.to_ascii_lowercase().ends_with(".mtl"));
         let names = if whole.is_none() && is_list { words } else { vec![library.as_str()] };
         for name in names {
-            if seen.len() >= MOST_LIBRARIES || seen.contains(&name) {
+            if seen.len() >= MAX_LIBRARIES || seen.contains(&name) {
                 continue;
             }
             seen.push(name);
@@ -268,7 +257,7 @@ fn read_libraries(
 }
 
 /// Maximum number of material libraries per file; real files reference one.
-const MOST_LIBRARIES: usize = 1000;
+const MAX_LIBRARIES: usize = 1000;
 
 /// The name of a texture that `library` references, relative to the mesh.
 fn beside(library: &str, texture: &str) -> String {

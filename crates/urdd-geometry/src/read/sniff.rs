@@ -27,18 +27,16 @@ pub(super) fn format(bytes: &[u8], name: &str) -> Result<Format, Fault> {
     let text = skip_byte_order_mark(head).trim_ascii_start();
     let extension = extension_format(name);
     if is_utf16(bytes) || (is_text && text.starts_with(b"<")) {
-        let is_collada = is_utf16(bytes) || find(head, b"COLLADA");
-        return if is_collada {
-            Ok(Format::Collada)
-        } else {
-            Err(Fault::NotSupported("this is XML, but not COLLADA".to_owned()))
-        };
+        if is_utf16(bytes) || find(head, b"COLLADA") {
+            return Ok(Format::Collada);
+        }
+        return Err(Fault::NotSupported("this is XML, but not COLLADA".to_owned()));
     }
     if is_text && text.starts_with(b"{") {
         return Ok(Format::Gltf);
     }
     if starts_with_word(text, b"solid")
-        && (is_text || !is_stl_name(extension))
+        && (is_text || extension != Some(Format::StlBinary))
         && (find(head, b"facet") || find(head, b"endsolid"))
     {
         return Ok(Format::StlAscii);
@@ -72,12 +70,9 @@ pub(super) fn extension_format(name: &str) -> Option<Format> {
 
 /// Whether the size matches the triangle count in the header of a binary STL exactly.
 fn is_whole_binary_stl(bytes: &[u8]) -> bool {
-    let Some(count) =
-        bytes.get(80..STL_HEADER).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes)
-    else {
-        return false;
-    };
-    (bytes.len() as u64) == STL_HEADER as u64 + 50 * u64::from(count)
+    let count = bytes.get(80..STL_HEADER).and_then(|count| count.try_into().ok());
+    let length = |count| STL_HEADER as u64 + 50 * u64::from(u32::from_le_bytes(count));
+    count.is_some_and(|count| bytes.len() as u64 == length(count))
 }
 
 fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
@@ -93,10 +88,6 @@ fn known_but_unread(bytes: &[u8]) -> Option<&'static str> {
         (b"OFF\r", "OFF"),
     ];
     marks.iter().find(|(mark, _)| bytes.starts_with(mark)).map(|(_, name)| *name)
-}
-
-fn is_stl_name(extension: Option<Format>) -> bool {
-    extension == Some(Format::StlBinary)
 }
 
 /// Whether there are no control characters other than white space. None of the binary formats passes.

@@ -7,6 +7,7 @@ use super::error::{Failure, Fault, NoteCode, Place};
 use super::number::Words;
 use super::sniff::skip_byte_order_mark;
 use crate::mesh::Mesh;
+use crate::polygon::fan;
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -26,9 +27,8 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
     let count = count.iter().rev().fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
     let whole = data.len() / RECORD;
     let used = match usize::try_from(count) {
-        Ok(0) => whole,
+        Ok(0) | Err(_) => whole,
         Ok(count) => count.min(whole),
-        Err(_) => whole,
     };
     if used == 0 && count > 0 {
         let text = format!("the header states {count} triangles, but none is complete");
@@ -40,10 +40,8 @@ pub(super) fn read_binary(bytes: &[u8], assembly: &mut Assembly) -> Result<(), F
         );
         assembly.notes.add(NoteCode::CutOff, text);
     } else if used as u64 != count {
-        assembly.notes.add(
-            NoteCode::WrongCount,
-            format!("the header states 0 triangles, but the file contains {used}"),
-        );
+        let text = format!("the header states 0 triangles, but the file contains {used}");
+        assembly.notes.add(NoteCode::WrongCount, text);
     } else if data.len() != used * RECORD {
         let text =
             format!("{} bytes after the last triangle were ignored", data.len() - used * RECORD);
@@ -74,8 +72,8 @@ pub(super) fn read_ascii(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Fa
             }
             corners.push(coordinates.map(|coordinate| coordinate.unwrap_or(f64::NAN)));
         } else if word.eq_ignore_ascii_case(b"endloop") || word.eq_ignore_ascii_case(b"endfacet") {
-            for pair in corners.get(1..).unwrap_or_default().windows(2) {
-                push_triangle(&mut mesh, [corners[0], pair[0], pair[1]])?;
+            for triangle in fan(&corners) {
+                push_triangle(&mut mesh, triangle)?;
             }
             corners.clear();
         } else if word.eq_ignore_ascii_case(b"solid") {

@@ -1,6 +1,6 @@
 //! Binary glTF 2.0.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::super::mesh::Mesh;
 use super::super::read::Part;
@@ -40,19 +40,14 @@ fn write(parts: &[Part], smooth: bool) -> Result<Vec<u8>, WriteError> {
     let mut materials: Vec<Value> = Vec::new();
     let mut primitives = Vec::with_capacity(parts.len());
     for part in parts {
-        let mut primitive = Map::new();
-        let (attributes, indices) = if smooth {
-            let shaded = shaded(&part.mesh);
-            let position = data.push_positions(&shaded.mesh);
-            let normal = data.push_normals(&shaded.normals);
-            let attributes = json!({ "POSITION": position, "NORMAL": normal });
-            (attributes, data.push_indices(&shaded.mesh))
-        } else {
-            let attributes = json!({ "POSITION": data.push_positions(&part.mesh) });
-            (attributes, data.push_indices(&part.mesh))
-        };
-        primitive.insert("attributes".to_owned(), attributes);
-        primitive.insert("indices".to_owned(), json!(indices));
+        let shaded = smooth.then(|| shaded(&part.mesh));
+        let mesh = shaded.as_ref().map_or(&part.mesh, |shaded| &shaded.mesh);
+        let mut attributes = json!({ "POSITION": data.push_positions(mesh) });
+        if let Some(shaded) = &shaded {
+            attributes["NORMAL"] = json!(data.push_normals(&shaded.normals));
+        }
+        let indices = data.push_indices(mesh);
+        let mut primitive = json!({ "attributes": attributes, "indices": indices });
         if let Some(color) = part.color {
             let material = material(part.material.as_deref(), color);
             let index =
@@ -60,24 +55,24 @@ fn write(parts: &[Part], smooth: bool) -> Result<Vec<u8>, WriteError> {
             if index == materials.len() {
                 materials.push(material);
             }
-            primitive.insert("material".to_owned(), json!(index));
+            primitive["material"] = json!(index);
         }
-        primitives.push(Value::Object(primitive));
+        primitives.push(primitive);
     }
-    let mut root = Map::new();
-    let mut set = |key: &str, value: Value| root.insert(key.to_owned(), value);
-    set("asset", json!({ "version": "2.0", "generator": "urdd" }));
-    set("scene", json!(0));
-    set("scenes", json!([{ "nodes": [0] }]));
-    set("nodes", json!([{ "mesh": 0 }]));
-    set("meshes", json!([{ "primitives": primitives }]));
+    let mut root = json!({
+        "asset": { "version": "2.0", "generator": "urdd" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": primitives }],
+    });
     if !materials.is_empty() {
-        set("materials", json!(materials));
+        root["materials"] = json!(materials);
     }
-    set("accessors", json!(data.accessors));
-    set("bufferViews", json!(data.views));
-    set("buffers", json!([{ "byteLength": data.bytes.len() }]));
-    container(&Value::Object(root), &data.bytes)
+    root["accessors"] = json!(data.accessors);
+    root["bufferViews"] = json!(data.views);
+    root["buffers"] = json!([{ "byteLength": data.bytes.len() }]);
+    container(&root, &data.bytes)
 }
 
 /// The header and the two chunks. The JSON is padded to 4 bytes with spaces; the data already has a multiple of 4
@@ -102,18 +97,13 @@ fn container(root: &Value, data: &[u8]) -> Result<Vec<u8>, WriteError> {
 
 /// A matt material: glTF's default is bare metal, which is black in a viewer without an environment map.
 fn material(name: Option<&str>, color: [f64; 4]) -> Value {
-    let mut material = Map::new();
-    if let Some(name) = name {
-        material.insert("name".to_owned(), json!(name));
-    }
-    material.insert(
-        "pbrMetallicRoughness".to_owned(),
-        json!({ "baseColorFactor": color, "metallicFactor": 0, "roughnessFactor": 0.75 }),
-    );
+    let mut material = name.map_or(json!({}), |name| json!({ "name": name }));
+    material["pbrMetallicRoughness"] =
+        json!({ "baseColorFactor": color, "metallicFactor": 0, "roughnessFactor": 0.75 });
     if color[3] < 1.0 {
-        material.insert("alphaMode".to_owned(), json!("BLEND"));
+        material["alphaMode"] = json!("BLEND");
     }
-    Value::Object(material)
+    material
 }
 
 /// The binary chunk, its views and accessors. Each accessor has its own view, which starts at a multiple of 4.
@@ -137,23 +127,17 @@ impl Data {
                 self.bytes.extend(coordinate.to_le_bytes());
             }
         }
-        let view = self.push_view(start, ARRAY_BUFFER);
-        let (low, high) = (low.map(f64::from), high.map(f64::from));
-        self.accessors.push(json!({
-            "bufferView": view, "componentType": FLOAT, "count": mesh.vertices.len(), "type": "VEC3", "min": low, "max": high,
-        }));
-        self.accessors.len() - 1
+        let index = self.push(start, ARRAY_BUFFER, FLOAT, mesh.vertices.len(), "VEC3");
+        self.accessors[index]["min"] = json!(low.map(f64::from));
+        self.accessors[index]["max"] = json!(high.map(f64::from));
+        index
     }
 
     fn push_normals(&mut self, normals: &[[f32; 3]]) -> usize {
         let start = self.bytes.len();
         let numbers = normals.as_flattened().iter();
         self.bytes.extend(numbers.flat_map(|x| x.to_le_bytes()));
-        let view = self.push_view(start, ARRAY_BUFFER);
-        self.accessors.push(json!({
-            "bufferView": view, "componentType": FLOAT, "count": normals.len(), "type": "VEC3",
-        }));
-        self.accessors.len() - 1
+        self.push(start, ARRAY_BUFFER, FLOAT, normals.len(), "VEC3")
     }
 
     fn push_indices(&mut self, mesh: &Mesh) -> usize {
@@ -169,16 +153,26 @@ impl Data {
             self.bytes.extend(corners.flat_map(|corner| corner.to_le_bytes()));
             UNSIGNED_INT
         };
-        let view = self.push_view(start, ELEMENT_ARRAY_BUFFER);
+        let count = mesh.triangles.len() * 3;
+        let index = self.push(start, ELEMENT_ARRAY_BUFFER, component, count, "SCALAR");
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.accessors.push(json!({
-            "bufferView": view, "componentType": component, "count": mesh.triangles.len() * 3, "type": "SCALAR",
-        }));
-        self.accessors.len() - 1
+        index
     }
 
-    fn push_view(&mut self, start: usize, target: u32) -> usize {
-        self.views.push(json!({ "buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start, "target": target }));
-        self.views.len() - 1
+    /// Adds a view of the bytes from `start` on, and its accessor; returns the index of both.
+    fn push(
+        &mut self,
+        start: usize,
+        target: u32,
+        component: u32,
+        count: usize,
+        shape: &str,
+    ) -> usize {
+        let (view, length) = (self.views.len(), self.bytes.len() - start);
+        self.views.push(
+            json!({ "buffer": 0, "byteOffset": start, "byteLength": length, "target": target }),
+        );
+        self.accessors.push(json!({ "bufferView": view, "componentType": component, "count": count, "type": shape }));
+        view
     }
 }

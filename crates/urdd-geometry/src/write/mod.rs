@@ -59,12 +59,8 @@ fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>,
         return Err(WriteError::Empty);
     }
     for (index, part) in parts.iter().enumerate() {
-        if let Some(vertex) = part
-            .mesh
-            .vertices
-            .iter()
-            .position(|vertex| !single(*vertex).iter().all(|value| value.is_finite()))
-        {
+        let is_finite = |vertex: &[f64; 3]| single(*vertex).iter().all(|value| value.is_finite());
+        if let Some(vertex) = part.mesh.vertices.iter().position(|vertex| !is_finite(vertex)) {
             return Err(WriteError::NotFinite { part: index, vertex });
         }
         let count = part.mesh.vertices.len();
@@ -73,10 +69,9 @@ fn checked<'a>(parts: &'a [Part], format: &'static str) -> Result<Vec<&'a Part>,
             return Err(WriteError::IndexOutOfRange { part: index, triangle });
         }
     }
-    let (vertices, triangles) = used.iter().fold((0, 0), |(vertices, triangles), part| {
-        (vertices + part.mesh.vertices.len(), triangles + part.mesh.triangles.len())
-    });
-    if u32::try_from(vertices).is_err() || u32::try_from(triangles).is_err() {
+    let vertices: usize = used.iter().map(|part| part.mesh.vertices.len()).sum();
+    let triangles: usize = used.iter().map(|part| part.mesh.triangles.len()).sum();
+    if u32::try_from(vertices.max(triangles)).is_err() {
         return Err(WriteError::TooLarge(format));
     }
     Ok(used)

@@ -2,7 +2,8 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use urdd_geometry::convex::{ConvexShape, OrientedBox, PlacedShape, PoseLanes, ShapeList};
-use urdd_geometry::levels::levels;
+
+use crate::levels::levels;
 
 #[test]
 fn the_same_bits_on_each_instruction_set() {

@@ -13,6 +13,8 @@ mod dice;
 mod distance;
 mod hull;
 mod instruction_sets;
+#[path = "../../src/tests/levels.rs"]
+mod levels;
 mod mesh_operations;
 mod mesh_primitives;
 mod mesh_read_collada;

@@ -131,10 +131,7 @@ impl<'a> Descent<'a> {
     fn linearise(&mut self, q: &[f64]) {
         self.path.jacobian(q, &self.place, &mut self.jacobian);
         let linear = f64::from(u8::from(self.goal.position.is_some()));
-        let angular = match self.goal.rotation.is_some() {
-            true => self.length,
-            false => 0.0,
-        };
+        let angular = if self.goal.rotation.is_some() { self.length } else { 0.0 };
         for column in &mut self.jacobian {
             for row in 0..6 {
                 column[row] *= if row < 3 { linear } else { angular };
@@ -145,16 +142,10 @@ impl<'a> Descent<'a> {
 
     fn left(&mut self, q: &[f64]) -> Left {
         let point = self.path.place(q, &mut self.place);
-        let shift = match self.goal.position {
-            Some(position) => position - point,
-            None => Vector3::zeros(),
-        };
-        let turn = match &self.goal.rotation {
-            Some(rotation) => {
-                Vector3::from(to_rotation_vector(&(rotation * self.place.pose.rotation.inverse())))
-            }
-            None => Vector3::zeros(),
-        };
+        let shift = self.goal.position.map_or(Vector3::zeros(), |position| position - point);
+        let turn = self.goal.rotation.map_or(Vector3::zeros(), |rotation| {
+            to_rotation_vector(&(rotation * self.place.pose.rotation.inverse())).into()
+        });
         let scaled = turn * self.length;
         let vector = Vector6::new(shift.x, shift.y, shift.z, scaled.x, scaled.y, scaled.z);
         let vector = self.goal.weighted(&vector);

@@ -27,14 +27,8 @@ impl Goal {
         let axes = self.rotation.unwrap_or_else(UnitQuaternion::identity);
         let part =
             |first: usize| axes.inverse_transform_vector(&vector.fixed_rows::<3>(first).into());
-        let (linear, angular) = (part(0), part(3));
-        Vector6::from_fn(|row, _| {
-            weights[row]
-                * match row {
-                    0..3 => linear[row],
-                    _ => angular[row - 3],
-                }
-        })
+        let parts = [part(0), part(3)];
+        Vector6::from_fn(|row, _| weights[row] * parts[row / 3][row % 3])
     }
 }
 

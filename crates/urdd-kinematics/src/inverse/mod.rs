@@ -90,7 +90,7 @@ impl Inverse {
     }
 }
 
-/// What a search is told besides its settings.
+/// Conditions of a search, besides its settings.
 pub struct Conditions<'a> {
     /// Whether a configuration that reaches the goal counts as a solution, such as one without collision.
     pub accepts: &'a (dyn Fn(&[f64]) -> bool + 'a),
@@ -199,10 +199,7 @@ impl Search<'_> {
     /// The best configuration; the nearest one, if none reaches the goal and is accepted.
     fn best(&mut self, first: &[f64]) -> Found {
         let mut best = self.from(first.to_vec());
-        let most = match self.path.dofs.is_empty() {
-            true => 0,
-            false => self.settings.restarts,
-        };
+        let most = if self.path.dofs.is_empty() { 0 } else { self.settings.restarts };
         let posture = self.settings.posture.as_deref();
         if let Some(posture) = posture {
             let found = self.from(self.path.restarted(first, posture));

@@ -40,35 +40,30 @@ pub(super) enum Kind {
 
 impl<'a> Path<'a> {
     pub fn new(kinematics: &'a ForwardKinematics, goal: &Goal, bounds: &[[f64; 2]]) -> Self {
+        use Kind::{Bounded, Free, Turning};
         let branch = kinematics.branch(goal.link);
         let bounds: Vec<[f64; 2]> = bounds.iter().map(|[a, b]| [a.min(*b), a.max(*b)]).collect();
         let mut uses: Vec<Option<Kind>> = vec![None; kinematics.num_dofs()];
         let mut vectors = Vec::new();
         for step in &branch.steps {
-            match &step.motion {
-                Motion::Fixed => {}
-                Motion::Turn { position, .. } => {
-                    let whole = position.multiplier == 1.0;
-                    let kind = if whole { Kind::Turning } else { Kind::Bounded };
-                    uses_of(&mut uses, position.dof, kind);
+            let kinds: &[Kind] = match &step.motion {
+                Motion::Fixed => &[],
+                Motion::Turn { position, .. } if position.multiplier == 1.0 => &[Turning],
+                Motion::Turn { .. } | Motion::Slide { .. } => &[Bounded],
+                Motion::Plane { .. } => &[Bounded, Bounded, Turning],
+                Motion::Float { dofs: [_, _, _, vector @ ..] } => {
+                    vectors.push(*vector);
+                    &[Bounded, Bounded, Bounded, Free, Free, Free]
                 }
-                Motion::Slide { position, .. } => uses_of(&mut uses, position.dof, Kind::Bounded),
-                Motion::Plane { dofs: [x, y, angle], .. } => {
-                    uses_of(&mut uses, Some(*x), Kind::Bounded);
-                    uses_of(&mut uses, Some(*y), Kind::Bounded);
-                    uses_of(&mut uses, Some(*angle), Kind::Turning);
+                Motion::Ball { dofs } => {
+                    vectors.push(*dofs);
+                    &[Free; 3]
                 }
-                Motion::Float { dofs: [x, y, z, a, b, c] } => {
-                    for dof in [x, y, z] {
-                        uses_of(&mut uses, Some(*dof), Kind::Bounded);
-                    }
-                    vectors.push([*a, *b, *c]);
-                }
-                Motion::Ball { dofs } => vectors.push(*dofs),
+            };
+            for (dof, kind) in step.motion.dofs().iter().zip(kinds) {
+                // A DOF that drives several joints does not repeat with whole turns.
+                uses[*dof] = Some(uses[*dof].map_or(*kind, |_| Bounded));
             }
-        }
-        for dof in vectors.iter().flatten() {
-            uses_of(&mut uses, Some(*dof), Kind::Free);
         }
         let mut path = Self {
             branch,
@@ -206,13 +201,6 @@ impl<'a> Path<'a> {
 /// The nearest whole number of turns; 0 for a half turn either way.
 fn whole(turns: f64) -> f64 {
     if turns.abs() <= 0.5 { 0.0 } else { turns.round() }
-}
-
-fn uses_of(uses: &mut [Option<Kind>], dof: Option<usize>, kind: Kind) {
-    if let Some(dof) = dof {
-        // A DOF that drives several joints does not repeat with whole turns.
-        uses[dof] = Some(uses[dof].map_or(kind, |_| Kind::Bounded));
-    }
 }
 
 /// The value within bounds: shifted by whole turns if `turning` and possible, otherwise clamped to the nearest bound.

@@ -35,11 +35,8 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
         if dof.get() < num_dofs {
             return Ok(dof.get());
         }
-        Err(ModelError::Dof {
-            pointer: format!("/inputs/{place}/{key}"),
-            index: dof.get(),
-            count: num_dofs,
-        })
+        let fault = format!("DOF {} is out of range: the robot has {num_dofs} DOFs", dof.get());
+        Err(ModelError::new(format!("/inputs/{place}/{key}"), fault))
     };
     let read = |(place, input): (usize, &ModelInput)| {
         Ok(match input {
@@ -47,10 +44,8 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
             ModelInput::Length(of) => {
                 let dof = check(place, "Length/dof_idx", of.dof_idx)?;
                 let (middle, half_range) = (of.middle, of.half_range);
-                let fits = middle.is_finite() && half_range.is_finite() && half_range > 0.0;
-                if !fits {
-                    let pointer = format!("/inputs/{place}/Length");
-                    return Err(ModelError::Number { pointer });
+                if !(middle.is_finite() && half_range.is_finite() && half_range > 0.0) {
+                    return Err(ModelError::number(format!("/inputs/{place}/Length")));
                 }
                 Input::Length { dof, middle, half_range }
             }
@@ -67,7 +62,7 @@ pub fn read(inputs: &[ModelInput], num_dofs: usize) -> Result<Vec<Input>, ModelE
 }
 
 /// Writes the values of all inputs to `row`, in order.
-pub fn tell(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
+pub fn write(inputs: &[Input], configuration: &[f64], mut row: &mut [f64]) {
     for input in inputs {
         let (own, rest) = row.split_at_mut(input.width());
         input.put(configuration, own);
@@ -98,9 +93,7 @@ impl Input {
             }
             Input::RotationVector(dofs) => {
                 let rotation = rotation(dofs.map(|dof| configuration[dof]));
-                for (value, element) in values.iter_mut().zip(rotation.transpose().iter()) {
-                    *value = *element;
-                }
+                values.copy_from_slice(rotation.transpose().as_slice());
             }
         }
     }
@@ -139,12 +132,11 @@ fn rotation(v: [f64; 3]) -> Matrix3<f64> {
     let angle = v.norm();
     let cross = v.cross_matrix();
     // sin x / x and (1 - cos x) / x^2, replaced near 0 by their series.
-    let (a, b) = match angle < 1e-4 {
-        true => (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0),
-        false => {
-            let half = libm::sin(0.5 * angle) / (0.5 * angle);
-            (libm::sin(angle) / angle, 0.5 * half * half)
-        }
+    let (a, b) = if angle < 1e-4 {
+        (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0)
+    } else {
+        let half = libm::sin(0.5 * angle) / (0.5 * angle);
+        (libm::sin(angle) / angle, 0.5 * half * half)
     };
     Matrix3::identity() + cross * a + cross * cross * b
 }

@@ -181,9 +181,8 @@ impl CollisionModel {
     ) -> Result<Vec<f64>, ConfigurationError> {
         self.batch(configurations, |clearances, out| {
             // `f64::min` would ignore NaN, and an unknown clearance would count as clear.
-            let least = |least: f64, clearance: f64| match least < clearance || least.is_nan() {
-                true => least,
-                false => clearance,
+            let least = |least: f64, clearance: f64| {
+                if least < clearance || least.is_nan() { least } else { clearance }
             };
             out.push(clearances.fold(f64::INFINITY, least));
         })
@@ -198,35 +197,30 @@ impl CollisionModel {
         let blocks: Vec<Result<Vec<T>, ConfigurationError>> = configurations
             .par_chunks(LANES * self.num_dofs.max(1))
             .map_init(
-                || self.network.room(),
-                |room, block| {
-                    let mut told = vec![0.0; room[0].len()];
+                || self.network.buffers(),
+                |values, block| {
+                    let mut inputs = vec![0.0; values[0].len()];
                     let block = block.chunks_exact(self.num_dofs.max(1));
                     let count = block.len();
                     for (lane, configuration) in block.enumerate() {
                         self.check(configuration)?;
-                        inputs::tell(&self.inputs, configuration, &mut told);
-                        for (value, told) in room[0].iter_mut().zip(&told) {
-                            value[lane] = *told;
+                        inputs::write(&self.inputs, configuration, &mut inputs);
+                        for (lanes, input) in values[0].iter_mut().zip(&inputs) {
+                            lanes[lane] = *input;
                         }
                     }
-                    self.network.values(self.level, room);
-                    let mut taken = Vec::with_capacity(count);
+                    self.network.values(self.level, values);
+                    let mut results = Vec::with_capacity(count);
                     for lane in 0..count {
-                        let outputs = room.last().into_iter().flatten();
-                        let both = outputs.zip(&self.pairs);
-                        let mut clearances = both.map(|(value, pair)| value[lane] - pair.margin);
-                        take(&mut clearances, &mut taken);
+                        let outputs = values.last().into_iter().flatten().zip(&self.pairs);
+                        let mut clearances = outputs.map(|(value, pair)| value[lane] - pair.margin);
+                        take(&mut clearances, &mut results);
                     }
-                    Ok(taken)
+                    Ok(results)
                 },
             )
             .collect();
-        let mut all = Vec::new();
-        for block in blocks {
-            all.extend(block?);
-        }
-        Ok(all)
+        Ok(blocks.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 
     fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
@@ -236,9 +230,9 @@ impl CollisionModel {
     /// The network's inputs for a configuration, and the values after each layer.
     fn values(&self, configuration: &[f64]) -> Result<Vec<Vec<f64>>, ConfigurationError> {
         self.check(configuration)?;
-        let mut told = vec![0.0; self.inputs.iter().map(Input::width).sum()];
-        inputs::tell(&self.inputs, configuration, &mut told);
-        Ok(self.network.values_of_one(told))
+        let mut inputs = vec![0.0; self.inputs.iter().map(Input::width).sum()];
+        inputs::write(&self.inputs, configuration, &mut inputs);
+        Ok(self.network.values_of_one(inputs))
     }
 
     fn by_dofs(&self, configuration: &[f64], mut by_inputs: &[f64]) -> Vec<f64> {

@@ -37,43 +37,39 @@ impl Network {
         num_outputs: usize,
     ) -> Result<Self, ModelError> {
         if num_inputs == 0 {
-            return Err(ModelError::NoValues { pointer: "/inputs".to_owned() });
+            return Err(ModelError::empty("/inputs", "entry"));
         }
         let mut width = num_inputs;
         let mut read = Vec::with_capacity(layers.len());
         for (place, layer) in layers.iter().enumerate() {
-            let at = |rest: String| format!("/layers/{place}/{rest}");
-            let fits = |found: usize, expected: usize, pointer: String, what: &'static str| {
-                if found == expected {
-                    return Ok(());
-                }
-                Err(ModelError::Length { pointer, found, expected, what })
+            let fits = |found: usize, expected: usize, key: &str, what: &str| {
+                let fault = || format!("found {found} entries, but {what} requires {expected}");
+                let error = || ModelError::new(format!("/layers/{place}/{key}"), fault());
+                (found == expected).then_some(()).ok_or_else(error)
             };
             let rows = layer.weights.len();
             if rows == 0 {
-                let pointer = at("weights".to_owned());
-                return Err(ModelError::NoValues { pointer });
+                return Err(ModelError::empty(format!("/layers/{place}/weights"), "entry"));
             }
-            fits(layer.biases.len(), rows, at("biases".to_owned()), "weights")?;
+            fits(layer.biases.len(), rows, "biases", "weights")?;
             for (row, weights) in layer.weights.iter().enumerate() {
-                let pointer = at(format!("weights/{row}"));
-                fits(weights.len(), width, pointer, "the previous layer")?;
+                fits(weights.len(), width, &format!("weights/{row}"), "the previous layer")?;
             }
             let is_last = place + 1 == layers.len();
             if is_last {
-                fits(rows, num_outputs, at("weights".to_owned()), "pairs")?;
+                fits(rows, num_outputs, "weights", "pairs")?;
             }
             let numbers = layer.weights.iter().flatten().chain(&layer.biases);
             if !numbers.clone().all(|number| number.is_finite()) {
-                return Err(ModelError::Number { pointer: format!("/layers/{place}") });
+                return Err(ModelError::number(format!("/layers/{place}")));
             }
             read.push(Layer { weights: layer.weights.concat(), biases: layer.biases.clone() });
             width = rows;
         }
-        match read.is_empty() {
-            true => Err(ModelError::NoLayer),
-            false => Ok(Self { layers: read }),
+        if read.is_empty() {
+            return Err(ModelError::empty("/layers", "layer"));
         }
+        Ok(Self { layers: read })
     }
 
     /// Computes the values after each layer for several configurations. Layer k writes to index k + 1; index 0 contains
@@ -96,7 +92,7 @@ impl Network {
     }
 
     /// Buffers for [`Network::values`].
-    pub fn room(&self) -> Vec<Vec<Lanes>> {
+    pub fn buffers(&self) -> Vec<Vec<Lanes>> {
         let zeros = |count: usize| vec![[0.0; LANES]; count];
         let first = self.layers.first().map_or(0, Layer::num_inputs);
         let rest = self.layers.iter().map(|layer| zeros(layer.biases.len()));
@@ -129,20 +125,19 @@ impl Network {
         let mut by_values: Vec<f64> = Vec::new();
         for (place, layer) in self.layers.iter().enumerate().rev() {
             let rows = layer.weights.chunks_exact(layer.num_inputs().max(1));
-            by_values = match place == last {
-                true => rows.skip(output).take(1).flatten().copied().collect(),
-                false => {
-                    let outputs = values[place + 1].iter();
-                    let slopes = by_values.iter().zip(outputs).map(|(d, t)| d * (1.0 - t * t));
-                    let mut sums = vec![0.0; layer.num_inputs()];
-                    for (row, slope) in rows.zip(slopes) {
-                        for (sum, weight) in sums.iter_mut().zip(row) {
-                            *sum += weight * slope;
-                        }
-                    }
-                    sums
+            if place == last {
+                by_values = rows.skip(output).take(1).flatten().copied().collect();
+                continue;
+            }
+            let outputs = values[place + 1].iter();
+            let slopes = by_values.iter().zip(outputs).map(|(d, t)| d * (1.0 - t * t));
+            let mut sums = vec![0.0; layer.num_inputs()];
+            for (row, slope) in rows.zip(slopes) {
+                for (sum, weight) in sums.iter_mut().zip(row) {
+                    *sum += weight * slope;
                 }
-            };
+            }
+            by_values = sums;
         }
         by_values
     }

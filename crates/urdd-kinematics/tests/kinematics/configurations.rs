@@ -2,7 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use urdd_format::bounds::BoundsModule;
 use urdd_format::urdf::JointType::*;
 use urdd_kinematics::configurations::bits;
 use urdd_kinematics::rotation::from_rotation_vector;
@@ -12,22 +11,11 @@ use testkit::core_modules::{Joint, chain_of};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 
-pub fn bounds_module(bounds: &[[f64; 2]]) -> BoundsModule {
-    BoundsModule {
-        bounds: bounds.to_vec(),
-        dof_lower_bounds: bounds.iter().map(|pair| pair[0]).collect(),
-        dof_upper_bounds: bounds.iter().map(|pair| pair[1]).collect(),
-        dof_limited: vec![true; bounds.len()],
-        dof_velocity_limits: vec![None; bounds.len()],
-        dof_effort_limits: vec![None; bounds.len()],
-    }
-}
-
 /// Prismatic joints with these bounds.
 fn slides(bounds: &[[f64; 2]]) -> ConfigurationSpace {
     let joints: Vec<Joint> = (0..bounds.len()).map(|i| Joint::after(i, Prismatic, X)).collect();
     let (chain, dof) = chain_of(&joints);
-    ConfigurationSpace::new(&dof, &chain, &bounds_module(bounds)).unwrap()
+    ConfigurationSpace::new(&dof, &chain, bounds).unwrap()
 }
 
 /// A slide, a floating joint and a ball: DOF 0, DOFs 1 to 6, DOFs 7 to 9.
@@ -40,7 +28,7 @@ fn with_rotation_vectors() -> ConfigurationSpace {
     let (chain, dof) = chain_of(&joints);
     let mut bounds = vec![[-1.0, 3.0]; 4];
     bounds.extend([[-PI, PI]; 6]);
-    ConfigurationSpace::new(&dof, &chain, &bounds_module(&bounds)).unwrap()
+    ConfigurationSpace::new(&dof, &chain, &bounds).unwrap()
 }
 
 #[test]

@@ -6,7 +6,6 @@ use urdd_format::index::{Count, DofIdx, LinkIdx};
 use urdd_format::urdf::JointType::*;
 use urdd_kinematics::{ConfigurationSpace, ForwardKinematics};
 
-use crate::configurations::bounds_module;
 use testkit::core_modules::{Joint, chain_of};
 
 /// Four links in a row: revolute, planar, and a mimic joint.
@@ -163,7 +162,7 @@ fn a_hair_off_a_unit_vector_is_scaled_and_no_more() {
 fn bounds_that_make_no_configuration() {
     let (chain, mut dof) = robot();
     let error = |dof: &DofModule, bounds: &[[f64; 2]]| {
-        let space = ConfigurationSpace::new(dof, &chain, &bounds_module(bounds));
+        let space = ConfigurationSpace::new(dof, &chain, bounds);
         space.unwrap_err().to_string()
     };
     assert_eq!(

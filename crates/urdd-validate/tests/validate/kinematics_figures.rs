@@ -230,7 +230,7 @@ fn whole_configurations() {
         dof_effort_limits: vec![None; bounds.len()],
         bounds,
     };
-    let space = ConfigurationSpace::new(&dof, &chain, &bounds).unwrap();
+    let space = ConfigurationSpace::new(&dof, &chain, &bounds.bounds).unwrap();
     assert!(samples.configurations.len() > 6);
     for figure in &samples.configurations {
         let found = match (figure.name.as_str(), figure.sample_idx) {

@@ -16,7 +16,7 @@ fn result(text: &str) -> Result<(), String> {
 
 #[test]
 fn attributes_are_bounded() {
-    let most = attributes(MOST_ATTRIBUTES);
+    let most = attributes(MAX_ATTRIBUTES);
     assert_eq!(result(&format!("<r><a{most}/><b{most}/></r>")), Ok(()));
     let text = format!("<r>\n é<a b='>'{most}/></r>");
     let expected = "2:3: there are more than 256 attributes of one element";
@@ -30,15 +30,15 @@ fn prefixes_are_bounded() {
         (from..to).map(one).collect()
     };
     let ends = |count: usize| "</a>".repeat(count);
-    let most = declared(0, MOST_PREFIXES) + &ends(MOST_PREFIXES);
+    let most = declared(0, MAX_PREFIXES) + &ends(MAX_PREFIXES);
     assert_eq!(result(&format!("<r>{most}{most}</r>")), Ok(()));
-    let more = declared(0, MOST_PREFIXES + 1) + &ends(MOST_PREFIXES + 1);
+    let more = declared(0, MAX_PREFIXES + 1) + &ends(MAX_PREFIXES + 1);
     assert!(result(&more).unwrap_err().contains("more than 64 prefixes"));
 }
 
 #[test]
 fn quotes_elsewhere_hide_no_attributes() {
-    let many = format!("<a{}/>", attributes(MOST_ATTRIBUTES + 1));
+    let many = format!("<a{}/>", attributes(MAX_ATTRIBUTES + 1));
     let before = [
         "<r><!--> <b ' -->",
         "<r><?p <b '?>",
@@ -55,7 +55,7 @@ fn quotes_elsewhere_hide_no_attributes() {
 
 #[test]
 fn text_that_looks_like_attributes_is_not_counted() {
-    let signs = "=".repeat(2 * MOST_ATTRIBUTES);
+    let signs = "=".repeat(2 * MAX_ATTRIBUTES);
     let text = format!(
         "<?p <{signs}?><r><!-- <{signs}> --><![CDATA[<{signs}]]>{signs}<a b=\"{signs}\"/></r>"
     );
@@ -72,14 +72,14 @@ fn what_is_broken_is_left_to_the_parser() {
 #[test]
 fn levels_are_bounded() {
     let nested = |levels: usize| format!("{}{}", "<a b='>'>".repeat(levels), "</a>".repeat(levels));
-    assert_eq!(result(&nested(MOST_LEVELS)), Ok(()));
+    assert_eq!(result(&nested(MAX_LEVELS)), Ok(()));
     let expected = "there are more than 256 levels of nested elements";
-    let error = result(&nested(MOST_LEVELS + 1)).unwrap_err();
-    assert_eq!(error, format!("1:{}: {expected}", 9 * MOST_LEVELS + 1));
+    let error = result(&nested(MAX_LEVELS + 1)).unwrap_err();
+    assert_eq!(error, format!("1:{}: {expected}", 9 * MAX_LEVELS + 1));
     // Not nested: empty elements, closed elements, text, and declarations in a document type.
-    let flat = "<b/><c d='/>'></c><!-- <e> --><![CDATA[<f>]]><?g <h>?>".repeat(MOST_LEVELS + 1);
+    let flat = "<b/><c d='/>'></c><!-- <e> --><![CDATA[<f>]]><?g <h>?>".repeat(MAX_LEVELS + 1);
     assert_eq!(result(&format!("<r>{flat}</r>")), Ok(()));
-    let types = "<!ELEMENT r ANY>".repeat(MOST_LEVELS + 1);
+    let types = "<!ELEMENT r ANY>".repeat(MAX_LEVELS + 1);
     assert_eq!(result(&format!("<!DOCTYPE r [{types}]><r/>")), Ok(()));
     // Two million levels are rejected as fast.
     let start = std::time::Instant::now();
@@ -90,10 +90,10 @@ fn levels_are_bounded() {
 #[test]
 fn elements_of_a_robot_are_bounded() {
     let many = |count: usize| format!("<r>{}</r>", "<a/>".repeat(count - 1));
-    assert_eq!(result(&many(MOST_ROBOT_ELEMENTS)), Ok(()));
-    let error = result(&many(MOST_ROBOT_ELEMENTS + 1)).unwrap_err();
+    assert_eq!(result(&many(MAX_ROBOT_ELEMENTS)), Ok(()));
+    let error = result(&many(MAX_ROBOT_ELEMENTS + 1)).unwrap_err();
     assert!(error.ends_with("there are more than 500000 elements"), "{error}");
-    assert!(parse(&many(MOST_ROBOT_ELEMENTS + 1), Kind::Other).is_ok());
+    assert!(parse(&many(MAX_ROBOT_ELEMENTS + 1), Kind::Other).is_ok());
 }
 
 #[test]

@@ -6,23 +6,19 @@ use std::collections::HashMap;
 use percent_encoding::percent_decode_str;
 use roxmltree::Node;
 
-/// A document with its elements indexed by tag and id.
-pub(super) struct Document<'a> {
-    pub(super) root: Node<'a, 'a>,
-    by_id: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
-}
+/// Elements by tag and id. Of those with the same tag and id, the first counts. The tag is part of the key because real
+/// files reuse ids across tags.
+pub(super) struct Elements<'a>(HashMap<(&'a str, &'a str), Node<'a, 'a>>);
 
-impl<'a> Document<'a> {
-    /// Of elements with the same tag and id, the first counts. The tag is part of the key because real files reuse ids
-    /// across tags.
-    pub(super) fn new(root: Node<'a, 'a>) -> Self {
+impl<'a> Elements<'a> {
+    pub(super) fn new(nodes: impl Iterator<Item = Node<'a, 'a>>) -> Self {
         let mut by_id = HashMap::new();
-        for node in root.descendants().filter(Node::is_element) {
+        for node in nodes.filter(Node::is_element) {
             if let Some(id) = node.attribute("id") {
                 by_id.entry((node.tag_name().name(), id)).or_insert(node);
             }
         }
-        Self { root, by_id }
+        Self(by_id)
     }
 
     /// The element with this tag that a document-internal URL references.
@@ -30,7 +26,24 @@ impl<'a> Document<'a> {
         let url = url.trim();
         let id = url.strip_prefix('#').unwrap_or(url);
         // The keys have the document's lifetime; look up with a shorter one.
-        self.by_id.get(&(tag, id) as &(&str, &str)).copied()
+        self.0.get(&(tag, id) as &(&str, &str)).copied()
+    }
+}
+
+/// A document.
+pub(super) struct Document<'a> {
+    pub(super) root: Node<'a, 'a>,
+    elements: Elements<'a>,
+}
+
+impl<'a> Document<'a> {
+    pub(super) fn new(root: Node<'a, 'a>) -> Self {
+        Self { root, elements: Elements::new(root.descendants()) }
+    }
+
+    /// The element with this tag that a document-internal URL references.
+    pub(super) fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
+        self.elements.find(tag, url)
     }
 
     /// The names of all image files, relative to the document.

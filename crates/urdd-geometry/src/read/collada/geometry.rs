@@ -10,7 +10,7 @@ use super::super::uv::UvCorners;
 use super::document::{Document, child, children, text};
 use super::source::{Positions, Read};
 use crate::mesh::Mesh;
-use crate::polygon::Splitter;
+use crate::polygon::{Splitter, fan, strip};
 
 /// The triangles of one material symbol, in the axes and lengths of the document.
 pub(super) struct Primitive<'a> {
@@ -47,34 +47,25 @@ pub(super) fn read<'a>(
     notes: &mut Notes,
 ) -> Result<Vec<Primitive<'a>>, Failure> {
     let Some(mesh) = child(geometry, "mesh") else {
-        notes.add(
-            NoteCode::LeftOut,
-            format!(
-                "the geometry '{}' is not a mesh and was left out",
-                geometry.attribute("id").unwrap_or("")
-            ),
-        );
+        let id = geometry.attribute("id").unwrap_or("");
+        let text = format!("the geometry '{id}' is not a mesh and was left out");
+        notes.add(NoteCode::LeftOut, text);
         return Ok(Vec::new());
     };
     let Tools { picker, splitter, read, textures } = tools;
     let mut positions = Positions::new(document, mesh, read);
     let mut primitives = Vec::new();
     for element in mesh.children().filter(Node::is_element) {
-        let shape = match element.tag_name().name() {
-            "triangles" => Shape::Triangles,
-            "polylist" => Shape::PolyList,
-            "polygons" => Shape::Polygons,
-            "trifans" => Shape::Fans,
-            "tristrips" => Shape::Strips,
-            _ => continue,
-        };
+        let tag = element.tag_name().name();
+        if !["triangles", "polylist", "polygons", "trifans", "tristrips"].contains(&tag) {
+            continue;
+        }
         let Some(mut layout) = Layout::of(element)? else {
             continue;
         };
         layout.uv.take_if(|_| !*textures);
         let [vertices, uvs] = positions.of(layout.source, layout.uv.map(|(source, _)| source))?;
         let mut faces = Faces {
-            shape,
             layout,
             triangles: Vec::new(),
             corners: Vec::new(),
@@ -94,15 +85,6 @@ pub(super) fn read<'a>(
     Ok(primitives)
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Shape {
-    Triangles,
-    PolyList,
-    Polygons,
-    Fans,
-    Strips,
-}
-
 /// Index layout of a primitive: `stride` indices per corner, the vertex at `offset`.
 #[derive(Clone, Copy)]
 struct Layout<'a> {
@@ -114,7 +96,7 @@ struct Layout<'a> {
 }
 
 /// Maximum number of indices per corner; real files have up to 6.
-const MOST_INPUTS: usize = 1024;
+const MAX_INPUTS: usize = 1024;
 
 impl<'a> Layout<'a> {
     /// `None` for a primitive without faces, which needs no inputs.
@@ -122,12 +104,10 @@ impl<'a> Layout<'a> {
         let (mut vertex, mut uv) = (None, None);
         let mut stride = 0;
         for input in children(element, "input") {
-            let offset =
-                input.attribute("offset").or_else(|| input.attribute("idx")).unwrap_or("0");
-            let offset = offset.trim().parse::<usize>().ok().filter(|offset| *offset < MOST_INPUTS);
-            let offset = offset.ok_or_else(|| {
-                Fault::malformed("an `input` whose offset is not a small whole number")
-            })?;
+            let text = input.attribute("offset").or_else(|| input.attribute("idx")).unwrap_or("0");
+            let offset = text.trim().parse::<usize>().ok().filter(|offset| *offset < MAX_INPUTS);
+            let fault = "an `input` whose offset is not a small whole number";
+            let offset = offset.ok_or_else(|| Fault::malformed(fault))?;
             stride = stride.max(offset + 1);
             if matches!(input.attribute("semantic"), Some("VERTEX" | "POSITION"))
                 && vertex.is_none()
@@ -141,16 +121,15 @@ impl<'a> Layout<'a> {
         match vertex {
             Some((source, offset)) => Ok(Some(Self { source, offset, stride, uv })),
             None if child(element, "p").is_none() => Ok(None),
-            None => Err(Fault::malformed(format!(
-                "a `{}` without a VERTEX input",
-                element.tag_name().name()
-            ))),
+            None => {
+                let tag = element.tag_name().name();
+                Err(Fault::malformed(format!("a `{tag}` without a VERTEX input")))
+            }
         }
     }
 }
 
 struct Faces<'a> {
-    shape: Shape,
     layout: Layout<'a>,
     triangles: Vec<[u32; 3]>,
     corners: Vec<u32>,
@@ -185,9 +164,10 @@ impl Faces<'_> {
             };
             let text = text(list);
             let mut words = Words::new(text.as_bytes());
-            match (self.shape, counts.as_mut()) {
-                (Shape::Triangles, _) => self.read_triangles(&mut words, splitter),
-                (Shape::PolyList, Some(counts)) => {
+            match (element.tag_name().name(), counts.as_mut()) {
+                // In real files, a polylist without counts contains triangles.
+                ("triangles", _) | ("polylist", None) => self.read_triangles(&mut words, splitter),
+                ("polylist", Some(counts)) => {
                     while let Some(count) = counts.index() {
                         self.read_corners(&mut words, count.map_or(0, |count| count as usize));
                         if self.corners.is_empty() && words.clone().next().is_none() {
@@ -197,20 +177,17 @@ impl Faces<'_> {
                         self.uvs.follow(&self.triangles);
                     }
                 }
-                // In real files, a polylist without counts contains triangles.
-                (Shape::PolyList, None) => self.read_triangles(&mut words, splitter),
-                (Shape::Polygons, _) => {
+                ("polygons", _) => {
                     self.read_corners(&mut words, usize::MAX);
                     splitter.split(vertices, &self.corners, &mut self.triangles);
                 }
-                (Shape::Fans, _) => {
+                ("trifans", _) => {
                     self.read_corners(&mut words, usize::MAX);
-                    let corners = &self.corners;
-                    for pair in corners.get(1..).unwrap_or_default().windows(2) {
-                        splitter.push([corners[0], pair[0], pair[1]], &mut self.triangles);
+                    for triangle in fan(&self.corners) {
+                        splitter.push(triangle, &mut self.triangles);
                     }
                 }
-                (Shape::Strips, _) => {
+                _ => {
                     self.read_corners(&mut words, usize::MAX);
                     for triangle in strip(&self.corners) {
                         splitter.push(triangle, &mut self.triangles);
@@ -263,11 +240,4 @@ impl Faces<'_> {
         }
         Some(vertex)
     }
-}
-
-/// The triangles of a strip; every second one has its winding reversed.
-pub(crate) fn strip(corners: &[u32]) -> impl Iterator<Item = [u32; 3]> {
-    corners.windows(3).enumerate().map(|(at, three)| {
-        if at % 2 == 0 { [three[0], three[1], three[2]] } else { [three[0], three[2], three[1]] }
-    })
 }

@@ -11,8 +11,7 @@ use super::assembly::Assembly;
 use super::error::{Failure, Fault, NoteCode, Place};
 use super::sniff;
 pub(super) use document::path_of_url;
-use document::{Document, child, children};
-pub(super) use geometry::strip;
+use document::{Document, child};
 
 /// Reads a document: adds every geometry of its visual scene where the nodes place it.
 pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure> {
@@ -23,11 +22,9 @@ pub(super) fn read(bytes: &[u8], assembly: &mut Assembly) -> Result<(), Failure>
         Fault::malformed(format!("not well-formed XML: {words}")).at(|| Place::Line(line))
     })?;
     let root = xml.root_element();
-    if root.tag_name().name() != "COLLADA" {
-        return Err(Fault::malformed(format!(
-            "the outermost element is `{}`, not `COLLADA`",
-            root.tag_name().name()
-        )));
+    let tag = root.tag_name().name();
+    if tag != "COLLADA" {
+        return Err(Fault::malformed(format!("the outermost element is `{tag}`, not `COLLADA`")));
     }
     let document = Document::new(root);
     for image in document.images() {
@@ -45,17 +42,8 @@ fn decode<'a>(
     assembly: &mut Assembly,
 ) -> Result<std::borrow::Cow<'a, str>, Failure> {
     if sniff::is_utf16(bytes) {
-        let little = bytes[0] == 0xff;
-        let units: Vec<u16> = bytes[2..]
-            .chunks_exact(2)
-            .map(|pair| {
-                if little {
-                    u16::from_le_bytes([pair[0], pair[1]])
-                } else {
-                    u16::from_be_bytes([pair[0], pair[1]])
-                }
-            })
-            .collect();
+        let decode = if bytes[0] == 0xff { u16::from_le_bytes } else { u16::from_be_bytes };
+        let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|pair| decode(*pair)).collect();
         return String::from_utf16(&units)
             .map(Into::into)
             .map_err(|_| Fault::malformed("the text is not UTF-16"));
@@ -78,31 +66,24 @@ fn unit(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) -> f64 {
         Ok(unit) if unit.is_finite() && unit > 0.0 => {
             #[allow(clippy::float_cmp)]
             if unit != 1.0 {
-                assembly.notes.add(
-                    NoteCode::UnitApplied,
-                    format!("lengths were multiplied by the file's unit, {unit} m"),
-                );
+                let text = format!("lengths were multiplied by the file's unit, {unit} m");
+                assembly.notes.add(NoteCode::UnitApplied, text);
             }
             unit
         }
         _ => {
-            assembly.notes.add(
-                NoteCode::Assumed,
-                format!("the unit '{meter}' is not a positive number; metres were assumed"),
-            );
+            let text = format!("the unit '{meter}' is not a positive number; metres were assumed");
+            assembly.notes.add(NoteCode::Assumed, text);
             1.0
         }
     }
 }
 
 fn note_up_axis(root: roxmltree::Node<'_, '_>, assembly: &mut Assembly) {
-    let up = child(root, "asset")
-        .and_then(|asset| children(asset, "up_axis").next())
-        .and_then(|up| up.text());
+    let up =
+        child(root, "asset").and_then(|asset| child(asset, "up_axis")).and_then(|up| up.text());
     if let Some(up) = up.map(str::trim).filter(|up| *up != "Z_UP") {
-        assembly.notes.add(
-            NoteCode::UpAxisIgnored,
-            format!("`up_axis` {up} was not applied, as in RViz and Pinocchio"),
-        );
+        let text = format!("`up_axis` {up} was not applied, as in RViz and Pinocchio");
+        assembly.notes.add(NoteCode::UpAxisIgnored, text);
     }
 }

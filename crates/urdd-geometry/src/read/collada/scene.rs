@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use nalgebra::{Matrix4, Vector3};
 use roxmltree::Node;
 
-use super::super::assembly::{Assembly, Nesting, within};
+use super::super::assembly::{Assembly, FIRST_SCENE, Nesting, within};
 use super::super::error::{Failure, NoteCode};
 use super::document::{Document, child, children};
 use super::geometry::{self, Primitive, Tools};
@@ -13,7 +13,7 @@ use super::material::{self, Looks};
 use super::transform;
 
 /// Maximum number of node bytes processed, counted for each placement.
-const MOST_TEXT: usize = 1 << 28;
+const MAX_TEXT: usize = 1 << 28;
 
 /// Adds every geometry of the scene with its placement.
 ///
@@ -36,24 +36,16 @@ pub(super) fn walk(
     let named = child(document.root, "scene")
         .and_then(|scene| child(scene, "instance_visual_scene"))
         .and_then(|instance| document.find("visual_scene", instance.attribute("url")?));
-    let first = || {
-        children(document.root, "library_visual_scenes")
-            .find_map(|library| child(library, "visual_scene"))
-    };
     if let Some(scene) = named {
         return walker.nodes(scene, &root);
     }
-    if let Some(scene) = first() {
-        walker.assembly.notes.add(
-            NoteCode::Assumed,
-            "the file does not say which scene to show; the first one was used",
-        );
+    let mut libraries = children(document.root, "library_visual_scenes");
+    if let Some(scene) = libraries.find_map(|library| child(library, "visual_scene")) {
+        walker.assembly.notes.add(NoteCode::Assumed, FIRST_SCENE);
         return walker.nodes(scene, &root);
     }
-    walker.assembly.notes.add(
-        NoteCode::Assumed,
-        "the file has no scene; every geometry was read without a transform",
-    );
+    let text = "the file has no scene; every geometry was read without a transform";
+    walker.assembly.notes.add(NoteCode::Assumed, text);
     for library in children(document.root, "library_geometries") {
         for geometry in children(library, "geometry") {
             walker.geometry(geometry, None, &root)?;
@@ -90,7 +82,7 @@ impl<'a> Walker<'a, '_> {
             .filter(|part| part.tag_name().name() != "node")
             .map(|part| part.range().len())
             .sum::<usize>();
-        within("bytes of nodes, counted once per instance", self.text, MOST_TEXT)?;
+        within("bytes of nodes, counted once per instance", self.text, MAX_TEXT)?;
         let matrix =
             parent * transform::of_node(node).map_err(|failure| failure.within("node", name))?;
         for element in node.children().filter(Node::is_element) {
@@ -125,18 +117,15 @@ impl<'a> Walker<'a, '_> {
         // A skin may deform a morph, which deforms a geometry. Longer chains do not occur.
         for _ in 0..4 {
             if let Some(geometry) = self.document.find("geometry", url) {
-                self.assembly
-                    .notes
-                    .add(NoteCode::SkinAsShape, "a skinned mesh was read in its bind shape");
+                let text = "a skinned mesh was read in its bind shape";
+                self.assembly.notes.add(NoteCode::SkinAsShape, text);
                 return self.geometry(geometry, Some(instance), &matrix);
             }
             let Some(controller) = self.document.find("controller", url) else {
                 break;
             };
-            let Some(deformer) = controller
-                .children()
-                .find(|node| matches!(node.tag_name().name(), "skin" | "morph"))
-            else {
+            let is_deformer = |node: &Node| matches!(node.tag_name().name(), "skin" | "morph");
+            let Some(deformer) = controller.children().find(is_deformer) else {
                 break;
             };
             if let Some(shape) = child(deformer, "bind_shape_matrix") {
@@ -177,9 +166,7 @@ impl<'a> Walker<'a, '_> {
     }
 
     fn missing(&mut self, kind: &str, url: &str) {
-        self.assembly.notes.add(
-            NoteCode::LeftOut,
-            format!("the {kind} '{url}' is placed by a node, but does not exist"),
-        );
+        let text = format!("the {kind} '{url}' is placed by a node, but does not exist");
+        self.assembly.notes.add(NoteCode::LeftOut, text);
     }
 }

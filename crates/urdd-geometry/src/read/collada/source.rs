@@ -6,7 +6,7 @@ use roxmltree::{Node, NodeId};
 
 use super::super::error::{Failure, Fault};
 use super::super::number::{Words, float};
-use super::document::{Document, child, children, text};
+use super::document::{Document, Elements, child, children, text};
 
 /// The positions, or the texture coordinates (true), of each source that was read, shared between meshes.
 pub(super) type Read = HashMap<(NodeId, bool), Vec<[f64; 3]>>;
@@ -14,20 +14,14 @@ pub(super) type Read = HashMap<(NodeId, bool), Vec<[f64; 3]>>;
 /// Vertex positions of one mesh.
 pub(super) struct Positions<'a, 'd> {
     document: &'d Document<'a>,
-    own: HashMap<(&'a str, &'a str), Node<'a, 'a>>,
+    own: Elements<'a>,
     sources: HashMap<&'a str, NodeId>,
     read: &'d mut Read,
 }
 
 impl<'a, 'd> Positions<'a, 'd> {
     pub(super) fn new(document: &'d Document<'a>, mesh: Node<'a, 'a>, read: &'d mut Read) -> Self {
-        let mut own = HashMap::new();
-        for node in mesh.children().filter(Node::is_element) {
-            if let Some(id) = node.attribute("id") {
-                own.entry((node.tag_name().name(), id)).or_insert(node);
-            }
-        }
-        Self { document, own, sources: HashMap::new(), read }
+        Self { document, own: Elements::new(mesh.children()), sources: HashMap::new(), read }
     }
 
     /// The positions that an input references through a `vertices` element or a `source`, and the texture coordinates of
@@ -70,8 +64,7 @@ impl<'a, 'd> Positions<'a, 'd> {
 
     /// Searches this mesh first: some exporters reuse the same ids in each mesh.
     fn find(&self, tag: &str, url: &str) -> Option<Node<'a, 'a>> {
-        let id = url.trim().strip_prefix('#').unwrap_or(url.trim());
-        self.own.get(&(tag, id) as &(&str, &str)).copied().or_else(|| self.document.find(tag, url))
+        self.own.find(tag, url).or_else(|| self.document.find(tag, url))
     }
 
     fn read_source(
@@ -82,21 +75,17 @@ impl<'a, 'd> Positions<'a, 'd> {
         let name = source.attribute("id").unwrap_or("");
         let accessor =
             child(source, "technique_common").and_then(|technique| child(technique, "accessor"));
-        let array = accessor
-            .and_then(|accessor| accessor.attribute("source"))
-            .and_then(|url| {
-                children(source, "float_array")
-                    .find(|array| array.attribute("id") == url.trim().strip_prefix('#'))
-            })
+        let url = accessor.and_then(|accessor| accessor.attribute("source"));
+        let is_named = |array: &Node| {
+            url.is_some_and(|url| array.attribute("id") == url.trim().strip_prefix('#'))
+        };
+        let array = children(source, "float_array")
+            .find(is_named)
             .or_else(|| child(source, "float_array"))
-            .or_else(|| self.document.find("float_array", accessor?.attribute("source")?));
+            .or_else(|| self.document.find("float_array", url?));
         let array =
             array.ok_or_else(|| Fault::malformed("no float_array").within("source", name))?;
-        let number = |key: &str| {
-            accessor
-                .and_then(|accessor| accessor.attribute(key))
-                .and_then(|value| value.trim().parse::<usize>().ok())
-        };
+        let number = |key: &str| accessor?.attribute(key)?.trim().parse::<usize>().ok();
         let axes = axes(accessor, names);
         let stride = number("stride").unwrap_or(axes.map_or(3, |axes| axes[2] + 1)).max(1);
         let offset = number("offset").unwrap_or(0);
@@ -111,15 +100,9 @@ impl<'a, 'd> Positions<'a, 'd> {
             return Ok(Vec::new());
         }
         // The file's counts are only capacity hints: the end of the text ends the list.
-        let mut positions = Vec::with_capacity(
-            array
-                .attribute("count")
-                .and_then(|count| count.parse::<usize>().ok())
-                .unwrap_or(0)
-                .min(text.len() / 2)
-                / stride
-                + 1,
-        );
+        let count = array.attribute("count").and_then(|count| count.parse::<usize>().ok());
+        let most = text.len() / 2;
+        let mut positions = Vec::with_capacity(count.unwrap_or(0).min(most) / stride + 1);
         if stride == 3 && axes == [0, 1, 2] {
             while let (Some(x), Some(y), Some(z)) = (words.float(), words.float(), words.float()) {
                 positions.push([x, y, z]);

@@ -17,9 +17,10 @@ pub(super) fn of_node(node: Node<'_, '_>) -> Result<Matrix4<f64>, Failure> {
             "scale" => Matrix4::new_nonuniform_scaling(&Vector3::from(numbers::<3>(element)?)),
             "rotate" => rotation(numbers::<4>(element)?),
             "skew" => skew(numbers::<7>(element)?),
-            "lookat" => look_at(numbers::<9>(element)?).ok_or_else(|| {
-                Fault::malformed("a `lookat` whose eye, interest and up lie on one line")
-            })?,
+            "lookat" => {
+                let fault = "a `lookat` whose eye, interest and up lie on one line";
+                look_at(numbers::<9>(element)?).ok_or_else(|| Fault::malformed(fault))?
+            }
             _ => continue,
         };
         matrix *= step;

@@ -3,7 +3,7 @@
 use super::super::assembly::{Assembly, within};
 use super::super::error::{Failure, Fault, NoteCode};
 use super::buffer::Buffers;
-use super::json::{Accessor, Root};
+use super::json::{Accessor, Root, SparseArray};
 use crate::vector::norm;
 
 const BYTE: u32 = 5120;
@@ -14,26 +14,29 @@ const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
 /// Maximum number of elements of an accessor without a buffer view, as sparse accessors may have.
-const MOST_ZEROS: usize = 1 << 20;
+const MAX_ZEROS: usize = 1 << 20;
 
 /// The vertex positions of an accessor; or texture coordinates, with the second number twice.
 pub(super) fn positions(
-    root: &Root,
     index: usize,
     width: usize,
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<[f64; 3]>, Failure> {
-    let accessor = get(root, index)?;
+    let accessor = get(buffers.root, index)?;
     if accessor.shape != format!("VEC{width}") {
         let shape = &accessor.shape;
         return Err(Fault::malformed(format!("positions are {shape} instead of VEC{width}")));
     }
-    let read = reader(accessor.component_type, accessor.normalized).ok_or_else(|| {
+    let (read, largest) = reader(accessor.component_type).ok_or_else(|| {
         Fault::malformed(format!("positions of component type {}", accessor.component_type))
     })?;
     let size = size(accessor.component_type);
-    let element = |bytes: &[u8]| [0, 1, width - 1].map(|axis| read(&bytes[axis * size..]));
+    let number = |bytes: &[u8]| match largest.filter(|_| accessor.normalized) {
+        Some(largest) => (read(bytes) / largest).max(-1.0),
+        None => read(bytes),
+    };
+    let element = |bytes: &[u8]| [0, 1, width - 1].map(|axis| number(&bytes[axis * size..]));
     let mut positions = match accessor.buffer_view {
         Some(view) => {
             let view = buffers.view(view, assembly)?;
@@ -41,20 +44,12 @@ pub(super) fn positions(
             all.map(element).collect()
         }
         None => {
-            let what = "elements in an accessor without data";
-            within(what, accessor.count, MOST_ZEROS)?;
+            within("elements in an accessor without data", accessor.count, MAX_ZEROS)?;
             vec![[0.0; 3]; accessor.count]
         }
     };
     if let Some(sparse) = &accessor.sparse {
-        let places = indices_of(
-            sparse.indices.buffer_view,
-            sparse.indices.byte_offset,
-            sparse.indices.component_type,
-            sparse.count,
-            buffers,
-            assembly,
-        )?;
+        let places = indices_of(&sparse.indices, sparse.count, buffers, assembly)?;
         let view = buffers.view(sparse.values.buffer_view, assembly)?;
         let values = elements(view, sparse.values.byte_offset, size * width, sparse.count)?;
         for (place, value) in places.iter().zip(values) {
@@ -87,13 +82,12 @@ fn bounds_are(accessor: &Accessor, positions: &[[f64; 3]]) -> bool {
 
 /// Checks an accessor's normals: finite, of unit length, one per position.
 pub(super) fn check_normals(
-    root: &Root,
     index: usize,
     count: usize,
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<(), Failure> {
-    let accessor = get(root, index)?;
+    let accessor = get(buffers.root, index)?;
     let plain = accessor.component_type == FLOAT && accessor.shape == "VEC3";
     let (Some(view), true, None) = (accessor.buffer_view, plain, &accessor.sparse) else {
         // Quantized or sparse normals are not checked: meshes of robots do not have them.
@@ -118,46 +112,36 @@ const UNIT_NORMAL: f64 = 1e-3;
 
 /// The vertex indices of an accessor.
 pub(super) fn indices(
-    root: &Root,
     index: usize,
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<u32>, Failure> {
-    let accessor = get(root, index)?;
+    let accessor = get(buffers.root, index)?;
     if accessor.shape != "SCALAR" || accessor.sparse.is_some() {
         return Err(Fault::malformed("indices are not a plain list of numbers"));
     }
-    let Some(view) = accessor.buffer_view else {
+    let Some(buffer_view) = accessor.buffer_view else {
         return Err(Fault::malformed("indices without data"));
     };
-    indices_of(
-        view,
-        accessor.byte_offset,
-        accessor.component_type,
-        accessor.count,
-        buffers,
-        assembly,
-    )
+    let &Accessor { byte_offset, component_type, count, .. } = accessor;
+    let array = SparseArray { buffer_view, byte_offset, component_type };
+    indices_of(&array, count, buffers, assembly)
 }
 
 fn indices_of(
-    view: usize,
-    offset: usize,
-    kind: u32,
+    array: &SparseArray,
     count: usize,
     buffers: &mut Buffers<'_, '_>,
     assembly: &mut Assembly,
 ) -> Result<Vec<u32>, Failure> {
-    let read: fn(&[u8]) -> u32 = match kind {
+    let read: fn(&[u8]) -> u32 = match array.component_type {
         UNSIGNED_BYTE => |bytes| u32::from(bytes[0]),
         UNSIGNED_SHORT => |bytes| u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
         UNSIGNED_INT => |bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
-        other => {
-            return Err(Fault::malformed(format!("indices of component type {other}")));
-        }
+        other => return Err(Fault::malformed(format!("indices of component type {other}"))),
     };
-    let view = buffers.view(view, assembly)?;
-    Ok(elements(view, offset, size(kind), count)?.map(read).collect())
+    let view = buffers.view(array.buffer_view, assembly)?;
+    Ok(elements(view, array.byte_offset, size(array.component_type), count)?.map(read).collect())
 }
 
 fn get(root: &Root, index: usize) -> Result<&Accessor, Failure> {
@@ -173,9 +157,8 @@ fn elements(
 ) -> Result<impl Iterator<Item = &[u8]>, Failure> {
     let stride = stride.unwrap_or(size);
     if stride < size {
-        return Err(Fault::malformed(format!(
-            "elements of {size} bytes have a stride of {stride} bytes"
-        )));
+        let text = format!("elements of {size} bytes have a stride of {stride} bytes");
+        return Err(Fault::malformed(text));
     }
     let length = match count {
         0 => Some(0),
@@ -202,22 +185,18 @@ fn float(bytes: &[u8]) -> f64 {
     f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
 }
 
-/// The function that reads a component. `KHR_mesh_quantization` allows integer positions. Normalized integers are
-/// fractions of their maximum, as the glTF specification defines.
-fn reader(component: u32, normalized: bool) -> Option<fn(&[u8]) -> f64> {
-    Some(match (component, normalized) {
-        (FLOAT, _) => float,
-        (BYTE, false) => |bytes| f64::from(i8::from_le_bytes([bytes[0]])),
-        (BYTE, true) => |bytes| (f64::from(i8::from_le_bytes([bytes[0]])) / 127.0).max(-1.0),
-        (UNSIGNED_BYTE, false) => |bytes| f64::from(bytes[0]),
-        (UNSIGNED_BYTE, true) => |bytes| f64::from(bytes[0]) / 255.0,
-        (SHORT, false) => |bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])),
-        (SHORT, true) => {
-            |bytes| (f64::from(i16::from_le_bytes([bytes[0], bytes[1]])) / 32767.0).max(-1.0)
-        }
-        (UNSIGNED_SHORT, false) => |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])),
-        (UNSIGNED_SHORT, true) => {
-            |bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])) / 65535.0
+type Reader = (fn(&[u8]) -> f64, Option<f64>);
+
+/// The function that reads a component, and the largest integer. `KHR_mesh_quantization` allows integer positions.
+/// Normalized integers are fractions of the largest, as the glTF specification defines.
+fn reader(component: u32) -> Option<Reader> {
+    Some(match component {
+        FLOAT => (float, None),
+        BYTE => (|bytes| f64::from(i8::from_le_bytes([bytes[0]])), Some(127.0)),
+        UNSIGNED_BYTE => (|bytes| f64::from(bytes[0]), Some(255.0)),
+        SHORT => (|bytes| f64::from(i16::from_le_bytes([bytes[0], bytes[1]])), Some(32767.0)),
+        UNSIGNED_SHORT => {
+            (|bytes| f64::from(u16::from_le_bytes([bytes[0], bytes[1]])), Some(65535.0))
         }
         _ => return None,
     })

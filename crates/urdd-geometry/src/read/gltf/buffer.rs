@@ -14,7 +14,7 @@ pub(super) type Fetch<'f> = &'f mut dyn FnMut(&str) -> Option<Vec<u8>>;
 
 /// Buffers, loaded on first use.
 pub(super) struct Buffers<'r, 'f> {
-    root: &'r Root,
+    pub(super) root: &'r Root,
     data: Option<&'r [u8]>,
     fetch: Fetch<'f>,
     loaded: Vec<Option<Vec<u8>>>,
@@ -39,11 +39,8 @@ impl<'r, 'f> Buffers<'r, 'f> {
         view: usize,
         assembly: &mut Assembly,
     ) -> Result<(&[u8], Option<usize>), Failure> {
-        let found = self
-            .root
-            .buffer_views
-            .get(view)
-            .ok_or_else(|| Fault::malformed(format!("buffer view {view} does not exist")))?;
+        let missing = || Fault::malformed(format!("buffer view {view} does not exist"));
+        let found = self.root.buffer_views.get(view).ok_or_else(missing)?;
         let bytes = self.buffer(found.buffer, assembly)?;
         let end = found.byte_offset.checked_add(found.byte_length);
         let slice = end.and_then(|end| bytes.get(found.byte_offset..end));
@@ -54,11 +51,8 @@ impl<'r, 'f> Buffers<'r, 'f> {
     }
 
     fn buffer(&mut self, index: usize, assembly: &mut Assembly) -> Result<&[u8], Failure> {
-        let buffer = self
-            .root
-            .buffers
-            .get(index)
-            .ok_or_else(|| Fault::malformed(format!("buffer {index} does not exist")))?;
+        let missing = || Fault::malformed(format!("buffer {index} does not exist"));
+        let buffer = self.root.buffers.get(index).ok_or_else(missing)?;
         let Some(uri) = &buffer.uri else {
             // Only the first buffer may be the GLB chunk.
             let data = self.data.filter(|_| index == 0);
@@ -69,9 +63,8 @@ impl<'r, 'f> Buffers<'r, 'f> {
         let slot = &mut self.loaded[index];
         if slot.is_none() {
             let bytes = if is_data(uri) {
-                decode(uri).ok_or_else(|| {
-                    Fault::malformed(format!("buffer {index} is not valid base64"))
-                })?
+                let invalid = || Fault::malformed(format!("buffer {index} is not valid base64"));
+                decode(uri).ok_or_else(invalid)?
             } else {
                 let path = path_of_url(uri);
                 assembly.add_side_file(&path);

@@ -33,24 +33,17 @@ pub(super) fn read_binary(
     let word = |at: usize| {
         bytes.get(at..at + 4).and_then(|word| word.try_into().ok()).map(u32::from_le_bytes)
     };
-    let cut = || {
-        Failure::from(Fault::Truncated(
-            "a GLB has a header of 12 bytes and a chunk of JSON".to_owned(),
-        ))
-    };
+    let cut = || Fault::Truncated("a GLB has a header of 12 bytes and a chunk of JSON".to_owned());
     let version = word(4).ok_or_else(cut)?;
     if version != 2 {
-        return Err(Fault::NotSupported(format!(
-            "GLB version {version} is not supported, only version 2"
-        ))
-        .into());
+        let text = format!("GLB version {version} is not supported, only version 2");
+        return Err(Fault::not_supported(text));
     }
     let length = word(8).ok_or_else(cut)? as usize;
     if length != bytes.len() {
         let text = format!("the header states {length} bytes, but the file has {}", bytes.len());
-        assembly
-            .notes
-            .add(if length > bytes.len() { NoteCode::CutOff } else { NoteCode::WrongCount }, text);
+        let is_cut = length > bytes.len();
+        assembly.notes.add(if is_cut { NoteCode::CutOff } else { NoteCode::WrongCount }, text);
     }
     let mut chunks = Vec::new();
     let mut at = 12;
@@ -65,7 +58,7 @@ pub(super) fn read_binary(
     match chunks[..] {
         [(JSON, json), (BIN, data), ..] => read_document(json, Some(data), fetch, assembly),
         [(JSON, json), ..] => read_document(json, None, fetch, assembly),
-        [] => Err(cut()),
+        [] => Err(cut().into()),
         _ => Err(Fault::malformed("the first chunk is not JSON").at(|| Place::Byte(12))),
     }
 }
@@ -82,26 +75,22 @@ fn read_document(
     })?;
     if !root.asset.version.starts_with("2.") {
         let version = &root.asset.version;
-        return Err(Fault::NotSupported(format!(
-            "glTF version '{version}' is not supported, only 2.x"
-        ))
-        .into());
+        let text = format!("glTF version '{version}' is not supported, only 2.x");
+        return Err(Fault::not_supported(text));
     }
     for extension in &root.extensions_required {
         match extension.as_str() {
             "KHR_draco_mesh_compression"
             | "EXT_meshopt_compression"
             | "KHR_meshopt_compression" => {
-                return Err(
-                    Fault::NotSupported(format!("the mesh is compressed ({extension})")).into()
-                );
+                return Err(Fault::not_supported(format!("the mesh is compressed ({extension})")));
             }
             "KHR_mesh_quantization" => {}
             other if LOOKS.iter().any(|look| other.starts_with(look)) => {}
-            other => assembly.notes.add(
-                NoteCode::LeftOut,
-                format!("the extension {other} is required, but not supported"),
-            ),
+            other => {
+                let text = format!("the extension {other} is required, but not supported");
+                assembly.notes.add(NoteCode::LeftOut, text);
+            }
         }
     }
     if !root.animations.is_empty() {
@@ -113,5 +102,5 @@ fn read_document(
             assembly.add_side_file(&super::collada::path_of_url(uri));
         }
     }
-    scene::walk(&root, &mut buffer::Buffers::new(&root, data, fetch), assembly)
+    scene::walk(&mut buffer::Buffers::new(&root, data, fetch), assembly)
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3};
 use serde_json::Value;
 
-use super::super::assembly::{Assembly, Material, Nesting, Picker, mark};
-use super::super::collada::{path_of_url, strip};
+use super::super::assembly::{Assembly, FIRST_SCENE, Material, Nesting, Picker, mark};
+use super::super::collada::path_of_url;
 use super::super::error::{Failure, Fault, NoteCode};
 use super::super::options::GltfUp;
 use super::super::scene::Texture;
@@ -16,24 +16,20 @@ use super::accessor;
 use super::buffer::{Buffers, decode, is_data};
 use super::json::{self, Node, Primitive, Root};
 use crate::mesh::Mesh;
+use crate::polygon::{fan, strip};
 
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
 
 /// Adds every mesh of the default scene; without scenes, of all root nodes.
-pub(super) fn walk<'r>(
-    root: &'r Root,
-    buffers: &mut Buffers<'r, '_>,
-    assembly: &mut Assembly,
-) -> Result<(), Failure> {
+pub(super) fn walk(buffers: &mut Buffers<'_, '_>, assembly: &mut Assembly) -> Result<(), Failure> {
+    let root = buffers.root;
     let start = match assembly.options.gltf_up {
         GltfUp::Keep => Matrix4::identity(),
         GltfUp::Turn => {
-            assembly.notes.add(
-                NoteCode::TurnedToZUp,
-                "the y-up axes of glTF were converted to z-up, as in RViz 2",
-            );
+            let text = "the y-up axes of glTF were converted to z-up, as in RViz 2";
+            assembly.notes.add(NoteCode::TurnedToZUp, text);
             // This matrix is exact; a computed rotation by 90 degrees would have rounding errors.
             Matrix4::new(
                 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
@@ -51,17 +47,11 @@ pub(super) fn walk<'r>(
         (0..root.nodes.len()).filter(|node| !is_child[*node]).collect()
     } else {
         if root.scene.is_none() && root.scenes.len() > 1 {
-            assembly.notes.add(
-                NoteCode::Assumed,
-                "the file does not say which scene to show; the first one was used",
-            );
+            assembly.notes.add(NoteCode::Assumed, FIRST_SCENE);
         }
         let index = root.scene.unwrap_or(0);
-        let scene = root
-            .scenes
-            .get(index)
-            .ok_or_else(|| Fault::malformed(format!("scene {index} does not exist")))?;
-        scene.nodes.clone()
+        let missing = || Fault::malformed(format!("scene {index} does not exist"));
+        root.scenes.get(index).ok_or_else(missing)?.nodes.clone()
     };
     let mut walker = Walker {
         root,
@@ -111,11 +101,8 @@ struct Walker<'r, 'b, 'f, 'a> {
 
 impl Walker<'_, '_, '_, '_> {
     fn node(&mut self, index: usize, parent: &Matrix4<f64>) -> Result<(), Failure> {
-        let node = self
-            .root
-            .nodes
-            .get(index)
-            .ok_or_else(|| Fault::malformed(format!("node {index} does not exist")))?;
+        let missing = || Fault::malformed(format!("node {index} does not exist"));
+        let node = self.root.nodes.get(index).ok_or_else(missing)?;
         self.nesting.enter(index, index)?;
         let own = local(node).map_err(|failure| failure.within("node", index))?;
         if own != Matrix4::identity() {
@@ -128,9 +115,8 @@ impl Walker<'_, '_, '_, '_> {
         }
         let matrix = parent * own;
         if node.skin.is_some() {
-            self.assembly
-                .notes
-                .add(NoteCode::SkinAsShape, "a skinned mesh was read without its skin");
+            let text = "a skinned mesh was read without its skin";
+            self.assembly.notes.add(NoteCode::SkinAsShape, text);
         }
         if let Some(mesh) = node.mesh {
             self.mesh(mesh, &matrix).map_err(|failure| failure.within("mesh", mesh))?;
@@ -168,7 +154,7 @@ impl Walker<'_, '_, '_, '_> {
     /// Reads positions, or texture coordinates, unless they are there.
     fn read(&mut self, accessor: usize, width: usize) -> Result<(), Failure> {
         if !self.positions.contains_key(&(accessor, width)) {
-            let read = accessor::positions(self.root, accessor, width, self.buffers, self.assembly)
+            let read = accessor::positions(accessor, width, self.buffers, self.assembly)
                 .map_err(|failure| failure.within("accessor", accessor))?;
             self.num_positions += read.len();
             self.assembly.check_vertices(self.num_positions)?;
@@ -214,10 +200,8 @@ impl Walker<'_, '_, '_, '_> {
             return Ok(None);
         }
         if primitive.extensions.get("KHR_draco_mesh_compression").is_some() {
-            return Err(Fault::NotSupported(
-                "the mesh is compressed (KHR_draco_mesh_compression)".to_owned(),
-            )
-            .into());
+            let text = "the mesh is compressed (KHR_draco_mesh_compression)";
+            return Err(Fault::not_supported(text));
         }
         let Some(position) = primitive.attributes.position else {
             self.assembly.notes.add(NoteCode::LeftOut, "faces without positions were left out");
@@ -234,26 +218,19 @@ impl Walker<'_, '_, '_, '_> {
         if let Some(normal) = primitive.attributes.normal {
             let count = vertices.len();
             // The surface does not depend on the normals.
-            if accessor::check_normals(self.root, normal, count, self.buffers, self.assembly)
-                .is_err()
-            {
+            if accessor::check_normals(normal, count, self.buffers, self.assembly).is_err() {
                 let text = "its normals cannot be read";
                 self.assembly.notes.add(NoteCode::WrongNormals, text);
             }
         }
         let corners = match primitive.indices {
-            Some(indices) => accessor::indices(self.root, indices, self.buffers, self.assembly)
+            Some(indices) => accessor::indices(indices, self.buffers, self.assembly)
                 .map_err(|failure| failure.within("accessor", indices))?,
             None => (0..u32::try_from(vertices.len()).unwrap_or(u32::MAX)).collect(),
         };
         let triangles: Vec<[u32; 3]> = match mode {
             STRIP => strip(&corners).collect(),
-            FAN => corners
-                .get(1..)
-                .unwrap_or_default()
-                .windows(2)
-                .map(|pair| [corners[0], pair[0], pair[1]])
-                .collect(),
+            FAN => fan(&corners).collect(),
             _ => corners.chunks_exact(3).map(|three| [three[0], three[1], three[2]]).collect(),
         };
         self.num_triangles += triangles.len();
@@ -292,11 +269,8 @@ fn local(node: &Node) -> Result<Matrix4<f64>, Failure> {
             * rotation.to_homogeneous()
             * Matrix4::new_nonuniform_scaling(&scale)
     };
-    if matrix.iter().all(|value| value.is_finite()) {
-        Ok(matrix)
-    } else {
-        Err(Fault::malformed("its transform is not finite"))
-    }
+    let is_finite = matrix.iter().all(|value| value.is_finite());
+    is_finite.then_some(matrix).ok_or_else(|| Fault::malformed("its transform is not finite"))
 }
 
 /// Name and base colour; no colour with a texture.
@@ -318,10 +292,7 @@ fn base(material: &json::Material) -> (&Value, &'static str, &'static str) {
 /// Four numbers, clamped to 0 to 1; 1 for missing ones.
 fn rgba(factor: Option<&Value>) -> [f64; 4] {
     std::array::from_fn(|at| {
-        factor
-            .and_then(|factor| factor.get(at))
-            .and_then(Value::as_f64)
-            .unwrap_or(1.0)
-            .clamp(0.0, 1.0)
+        let value = factor.and_then(|factor| factor.get(at)?.as_f64());
+        value.unwrap_or(1.0).clamp(0.0, 1.0)
     })
 }

@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = document!(context, Chain)?;
     let dof = document!(context, Dof)?;
     let bounds = document!(context, Bounds)?;
-    let space = ConfigurationSpace::new(dof, chain, bounds);
+    let space = ConfigurationSpace::new(dof, chain, &bounds.bounds);
     let space = findings.or_skip(space.map_err(SkipReason::obstacle))?;
     for (place, sample) in samples.samples.iter().enumerate() {
         let expected = match (sample.kind, sample.sample_idx) {

@@ -1,4 +1,4 @@
-//! Vectors of several samples at once: one lane is one sample.
+//! Numbers and vectors of several samples at once: one lane is one sample, or a pair, an axis or a face.
 //!
 //! Uses only operations with the same result on every instruction set (IEEE add, subtract, multiply, divide, square
 //! root, compare, select; never a fused multiply-add), so that a result does not depend on the machine's SIMD level.
