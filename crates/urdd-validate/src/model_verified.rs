@@ -49,8 +49,5 @@ pub fn verify_model(path: &Path) -> ModelVerdict {
     let open = urdd.model_not_verified;
     let reasons = open.into_iter().flat_map(|open| open.reasons);
     let reasons: Vec<String> = reasons.chain(urdd.reason).collect();
-    match reasons.is_empty() {
-        true => ModelVerdict::Verified,
-        false => ModelVerdict::NotVerified(reasons),
-    }
+    if reasons.is_empty() { ModelVerdict::Verified } else { ModelVerdict::NotVerified(reasons) }
 }

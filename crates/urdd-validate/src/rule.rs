@@ -127,8 +127,6 @@ macro_rules! declare_rule {
                 #[allow(unused_imports)]
                 use $crate::rule::Need::*;
                 #[allow(unused_imports)]
-                use urdd_format::registry::ModuleKind as Kind;
-                #[allow(unused_imports)]
                 use urdd_findings::code::Code::*;
                 $crate::rule::Rule {
                     description: urdd_findings::description::Description {

@@ -30,10 +30,7 @@ const LEAST: u32 = 8;
 
 /// The allowed work.
 pub fn budget(deep: bool) -> u64 {
-    match deep {
-        true => DEEP,
-        false => DEFAULT,
-    }
+    if deep { DEEP } else { DEFAULT }
 }
 
 /// The number of configurations, out of `num_samples` and from the first on, for each kind. The kinds with the least

@@ -102,10 +102,7 @@ impl ShapeSet {
         let mut work = Work { once: 0, each: poses.num_links() as u64 * plan::POSE };
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[i + 1..] {
-                match poses.is_rigid(*a, *b) {
-                    true => work.once += one,
-                    false => work.each += one,
-                }
+                if poses.is_rigid(*a, *b) { work.once += one } else { work.each += one }
             }
         }
         work

@@ -2,7 +2,6 @@
 //! multiplied by nalgebra). Shares nothing with the modules or with `urdd_kinematics`, which it verifies. Nothing
 //! recurses, because a chain may be as long as the file.
 
-#[doc(hidden)]
 pub mod motion;
 
 use std::collections::HashMap;

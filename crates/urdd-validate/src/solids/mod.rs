@@ -3,9 +3,7 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
-#[doc(hidden)]
 pub mod apart;
-#[doc(hidden)]
 pub mod cut;
 pub mod dents;
 pub mod derived;

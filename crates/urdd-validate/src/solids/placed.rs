@@ -131,10 +131,7 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
         return told(&difference);
     }
     if expected.primitives.is_empty() {
-        return match difference.extra.is_empty() {
-            true => None,
-            false => told(&difference),
-        };
+        return if difference.extra.is_empty() { None } else { told(&difference) };
     }
     primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
 }
@@ -218,8 +215,5 @@ fn in_words(expected: &Expected) -> String {
         parts.push(format!("{} triangles of its meshes", expected.mesh.triangles.len()));
     }
     parts.extend(expected.primitives.iter().map(|one| format!("a {}", one.name())));
-    match parts.is_empty() {
-        true => "nothing".to_owned(),
-        false => parts.join(", "),
-    }
+    if parts.is_empty() { "nothing".to_owned() } else { parts.join(", ") }
 }

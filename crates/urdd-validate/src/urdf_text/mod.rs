@@ -7,7 +7,6 @@ pub mod compare;
 mod joint;
 mod legacy;
 mod link;
-#[doc(hidden)]
 pub mod numbers;
 mod problem;
 mod reader;

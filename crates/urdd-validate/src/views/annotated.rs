@@ -98,10 +98,7 @@ impl IndexOf {
 
 impl<'i> Keyword<'i> for IndexOf {
     fn validate(&self, instance: &'i Value) -> Result<(), ValidationError<'i>> {
-        match self.fits(instance) {
-            true => Ok(()),
-            false => Err(ValidationError::custom(self.fault())),
-        }
+        if self.fits(instance) { Ok(()) } else { Err(ValidationError::custom(self.fault())) }
     }
 
     fn is_valid(&self, instance: &'i Value) -> bool {

@@ -80,10 +80,7 @@ pub struct Violations {
 impl Violations {
     /// What a message adds where only the first was searched.
     pub fn more(&self) -> &'static str {
-        match self.is_first_only {
-            true => " (the document is large: there may be more)",
-            false => "",
-        }
+        if self.is_first_only { " (the document is large: there may be more)" } else { "" }
     }
 }
 

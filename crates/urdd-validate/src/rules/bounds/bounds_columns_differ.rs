@@ -15,7 +15,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
-    let module = context.module(ModuleKind::Bounds)?;
     for (column, (name, values)) in
         [("dof_lower_bounds", bounds.lower), ("dof_upper_bounds", bounds.upper)]
             .into_iter()
@@ -52,9 +51,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     format!("{right:?}, as `{other}` has it"),
                 ),
             };
-            finding_in(module, wrong, message)
-                .expected(expected)
-                .actual(format!("{written:?}"))
+            finding_in(Kind::Bounds, wrong, message)
+                .values(expected, format!("{written:?}"))
                 .tolerance(number_tolerance(right, written))
                 .off_by(right - written, "")
                 .report(findings);

@@ -15,12 +15,11 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = context.chain()?.v1?;
-    let module = context.module(ModuleKind::Chain)?;
     for (index, joint) in chain.joints_in_chain.iter().enumerate() {
         let quaternion = joint.origin.quaternion_wxyz;
         let at = |message: &str| {
             let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
-            finding_in(module, pointer, message).actual(format!("{quaternion:?}"))
+            finding_in(Kind::Chain, pointer, message).actual(format!("{quaternion:?}"))
         };
         let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
         if (norm - 1.0).abs() > UNIT_NORM {

@@ -1,11 +1,7 @@
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
-use urdd_directory::root::EntryKind;
-use urdd_document::paths;
 use urdd_findings::finding::{KEPT_PLACES, Place};
 use urdd_format::root_metadata::{FileEntry, Source};
 
@@ -80,8 +76,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             listed.file.path
         );
         Finding::at(ROOT_METADATA, pointer, message)
-            .expected(expected)
-            .actual(format!("{actual} ({})", listed.file.path))
+            .values(expected, format!("{actual} ({})", listed.file.path))
             .report(findings);
     }
     for (listed, size) in too_large {

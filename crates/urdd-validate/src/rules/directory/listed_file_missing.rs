@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::root::ReadError;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// A file that `urdd.json` lists is not there.
@@ -17,8 +15,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut look = |pointer: String, path: &str, message: &str| {
         if entries::look(context, path) == Err(ReadError::Missing) {
             Finding::at(ROOT_METADATA, pointer, message)
-                .expected("a file")
-                .actual(format!("nothing at {path}"))
+                .values("a file", format!("nothing at {path}"))
                 .report(findings);
         }
     };

@@ -1,7 +1,4 @@
-use std::collections::BTreeMap;
-
 use crate::rules::prelude::*;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// Two names in one folder differ only in letter case.
@@ -42,8 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "this name differs from that of {first} only in letter case, and many file systems treat the two as one: rename one"
             );
-            let finding = Finding::in_file(*second, message);
-            findings.report(finding.count(paths.len() - 1));
+            Finding::in_file(*second, message).count(paths.len() - 1).report(findings);
         }
     }
     Some(())

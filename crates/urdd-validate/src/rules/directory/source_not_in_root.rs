@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::path;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// The source URDF is in a folder below the root.

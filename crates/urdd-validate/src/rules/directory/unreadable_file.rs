@@ -1,11 +1,7 @@
-use std::collections::BTreeMap;
-
 use super::listed_files;
 use crate::rules::prelude::*;
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
-use urdd_directory::root::ReadError;
 use urdd_document::module::{JsonFile, Mirror, VersionFile};
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// A file that belongs to the URDD cannot be read.

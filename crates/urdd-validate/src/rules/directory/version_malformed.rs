@@ -1,10 +1,5 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
-use urdd_directory::root::ReadError;
-use urdd_document::module::VersionFile;
-use urdd_format::root_metadata::Version;
 
 declare_rule! {
     /// A `VERSION` file does not hold a version.

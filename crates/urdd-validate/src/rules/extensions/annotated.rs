@@ -6,7 +6,6 @@ use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
 use crate::views::annotated::Judged;
 use crate::views::counts::Counts;
-use crate::views::extension_schema;
 use serde_json::Value;
 use urdd_document::schema_check;
 

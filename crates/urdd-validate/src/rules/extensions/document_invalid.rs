@@ -1,6 +1,5 @@
 use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
-use crate::views::extension_schema;
 use urdd_document::schema_check;
 
 declare_rule! {

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::index::LinkIdx;
 use urdd_format::self_collision_model::ModelInput;
@@ -17,16 +16,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let robot = context.robot()?;
     let dofs = context.dofs()?;
     let num_dofs = dofs.num_dofs.get();
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
             let message = format!("there is no such {what}");
-            finding_in(module, pointer, message)
-                .expected(format!("below {count}"))
-                .actual(index)
+            finding_in(Kind::SelfCollisionModel, pointer, message)
+                .values(format!("below {count}"), index)
                 .report(findings);
         }
     };
@@ -67,14 +65,15 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         if let Some((place, expected)) = fault {
             let message = "this pair is out of order";
-            let finding = finding_in(module, format!("/{list}/{place}"), message);
+            let finding = finding_in(Kind::SelfCollisionModel, format!("/{list}/{place}"), message);
             findings.report(finding.expected(expected));
             return Some(());
         }
     }
     if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
         let message = "this pair is also in `pairs`";
-        let finding = finding_in(module, format!("/other_pairs/{place}"), message);
+        let finding =
+            finding_in(Kind::SelfCollisionModel, format!("/other_pairs/{place}"), message);
         findings.report(finding);
     }
     Some(())

@@ -1,6 +1,3 @@
-use std::collections::BTreeSet;
-
-use super::subject;
 use crate::learned::pairs;
 use crate::rules::prelude::*;
 
@@ -21,7 +18,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context.urdd())?.into_iter().collect();
     let outputs = model.pairs.iter();
     let outputs = outputs.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
@@ -39,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if !expected.contains(&pair) {
             fold.add(|| {
                 let message = format!("{} are skipped", named(pair));
-                finding_in(module, format!("/{list}/{place}"), message)
+                finding_in(Kind::SelfCollisionModel, format!("/{list}/{place}"), message)
             });
         }
     }
@@ -48,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for pair in expected.difference(&found) {
         fold.add(|| {
             let message = format!("{} are not skipped, and not among the pairs", named(*pair));
-            finding_in(module, "/pairs", message)
+            finding_in(Kind::SelfCollisionModel, "/pairs", message)
         });
     }
     Some(())

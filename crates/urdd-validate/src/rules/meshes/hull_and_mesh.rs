@@ -2,12 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
-use crate::views::judged::judged;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 
 /// What a finding says.
 pub struct Words {
@@ -25,8 +21,7 @@ pub fn report(
     off: impl Fn(&Mesh, &Mesh) -> Option<Farthest> + Sync,
     words: impl Fn(&str, &str, &str) -> Words,
 ) -> Option<()> {
-    let kind = ModuleKind::ConvexHullMeshes;
-    let module = context.module(kind)?;
+    let kind = Kind::ConvexHullMeshes;
     // Computed before the threads start, so that the computation itself can use all of them.
     context.misplaced();
     let solids = context.solids();
@@ -36,9 +31,9 @@ pub fn report(
     });
     let hulls: Vec<&Derived> = hulls.collect();
     let off_of = |link| {
-        let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+        let mesh = solids.sound(Kind::PlainMeshes, link, 0)?;
         let hull = solids.sound(kind, link, 0)?;
-        let contents = [kind, ModuleKind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
+        let contents = [kind, Kind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
         let key = (code, contents.into_iter().flatten().collect());
         context.memos().farthest.get(key, || off(hull, mesh))
     };
@@ -49,9 +44,8 @@ pub fn report(
         };
         let label = context.link_label(hull.link);
         let words = words(&label, &point(off.place), &metres(off.distance));
-        finding_in(module, hull.pointer(), words.message)
-            .expected(words.expected)
-            .actual(words.actual)
+        finding_in(Kind::ConvexHullMeshes, hull.pointer(), words.message)
+            .values(words.expected, words.actual)
             .tolerance(off.tolerance)
             .off_by(off.distance, "m")
             .part(Part::Hull(hull.link))

@@ -1,12 +1,7 @@
-use std::collections::HashSet;
-
 use super::farthest;
 use super::hull_and_mesh::{self, Words};
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::surface::{bits, distinct};
 

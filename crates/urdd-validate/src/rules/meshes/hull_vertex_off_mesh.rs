@@ -1,11 +1,6 @@
-use std::collections::HashSet;
-
 use super::farthest;
 use super::hull_and_mesh::{self, Words};
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::surface::{bits, distinct, extent, nearest};
 
 declare_rule! {

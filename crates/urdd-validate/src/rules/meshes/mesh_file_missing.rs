@@ -1,5 +1,3 @@
-use std::collections::BTreeMap;
-
 use super::MODULES;
 use crate::rules::directory::listed_files::listed_files;
 use crate::rules::prelude::*;
@@ -34,8 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 Err(Absence::Missing) => {
                     let message =
                         format!("`{path}` is missing: restore the file, or write the module again");
-                    let finding = finding_in(module, pointer, message);
-                    findings.report(finding.expected("a file").actual("none"));
+                    finding_in(module, pointer, message).values("a file", "none").report(findings);
                 }
                 // A missing sibling URDD is one mistake, however many paths lead there.
                 Err(Absence::NoSibling(name)) => {
@@ -49,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     for (name, (count, finding)) in gone {
         let expected = format!("a URDD in the folder `{name}` beside this one");
-        findings.report(finding.expected(expected).actual("none").count(count));
+        findings.report(finding.values(expected, "none").count(count));
     }
     Some(())
 }
@@ -57,7 +54,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 /// The files that a mesh module names: profile, path, pointer.
 fn named(
     context: &Context,
-    kind: ModuleKind,
+    kind: Kind,
     document: &ModuleDocument,
 ) -> Vec<(Profile, String, String)> {
     if let ModuleDocument::OriginalMeshes(module) = document {

@@ -19,7 +19,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::PlainMeshes)?;
     for (link, why) in context.unplaced() {
         findings.not_verified(Part::Plain(*link), *why);
     }
@@ -33,9 +32,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
-        finding_in(module, &wrong.pointer, message)
-            .expected(&wrong.expected)
-            .actual(&wrong.actual)
+        finding_in(Kind::PlainMeshes, &wrong.pointer, message)
+            .values(&wrong.expected, &wrong.actual)
             .tolerance(wrong.tolerance)
             .part(Part::Plain(wrong.link))
             .report(findings);

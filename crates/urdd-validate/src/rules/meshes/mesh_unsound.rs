@@ -25,8 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 if let Some(fault) = fault(file, meshes.profile) {
                     let message = format!("`{}`: {fault}", file.path);
                     finding_in(module, &file.pointer, message)
-                        .expected(expected(file.format))
-                        .actual(fault)
+                        .values(expected(file.format), fault)
                         .report(findings);
                 }
             }

@@ -10,7 +10,6 @@ mod hull_not_convex;
 mod hull_vertex_off_mesh;
 mod link_without_mesh;
 mod mesh_file_missing;
-#[doc(hidden)]
 pub mod mesh_file_name;
 mod mesh_file_shared;
 mod mesh_format_mismatch;
@@ -24,7 +23,6 @@ mod modules;
 mod original_misdescribed;
 mod outreach;
 mod piece_barely_leaves_hull;
-#[doc(hidden)]
 pub mod piece_count_mismatch;
 mod piece_leaves_hull;
 mod piece_not_convex;

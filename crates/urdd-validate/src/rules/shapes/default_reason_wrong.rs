@@ -1,4 +1,3 @@
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::sound_pairs;
@@ -29,8 +28,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesSimpleSkips;
-    let module = context.module(kind)?;
+    let kind = Kind::LinkShapesSimpleSkips;
     let six = reasons(context.document(kind)?)?;
     let shapes = context.shapes()?;
     let distances = findings.or_skip(context.distances())?;
@@ -64,8 +62,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} are {} apart in the default configuration, and {CONTACT} m or less is contact",
                         metres(distance)
                     );
-                    let finding = finding_in(module, pointer, message);
-                    finding.expected(expected).actual(reason).tolerance(tolerance)
+                    let finding = finding_in(Kind::LinkShapesSimpleSkips, pointer, message);
+                    finding.values(expected, reason).tolerance(tolerance)
                 });
             }
         }

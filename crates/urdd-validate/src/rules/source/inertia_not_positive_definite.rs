@@ -1,7 +1,6 @@
 use super::{links_of, moments};
 use crate::rules::prelude::*;
 use urdd_document::robot::Link;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// An inertia tensor is not positive definite.

@@ -29,10 +29,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             told = true;
             let pointer = format!("/links/{index}/inertial/mass");
-            Finding::at(&file, pointer, message)
-                .expected(expected)
-                .actual(found(link))
-                .report(findings);
+            Finding::at(&file, pointer, message).values(expected, found(link)).report(findings);
         }
         let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
             continue;
@@ -55,8 +52,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             );
             let pointer = format!("/links/{index}/inertial/mass");
             Finding::at(&file, pointer, message)
-                .expected("a positive mass")
-                .actual(found(link))
+                .values("a positive mass", found(link))
                 .report(findings);
         }
     }

@@ -17,8 +17,7 @@ pub(super) fn report<'a>(
         let message =
             format!("another {one} is already named `{name}`; give this one a name of its own");
         Finding::at(&file, pointer, message)
-            .expected(format!("a name that no other {one} has"))
-            .actual(format!("`{name}`"))
+            .values(format!("a name that no other {one} has"), format!("`{name}`"))
             .related(Finding::at(
                 &file,
                 format!("/{list}/{first}/name"),

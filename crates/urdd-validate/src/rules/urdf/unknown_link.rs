@@ -21,8 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/joints/{index}/{end}/link");
                 let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
                 Finding::at(&file, pointer, message)
-                    .expected("the name of a link")
-                    .actual(format!("`{link}`"))
+                    .values("the name of a link", format!("`{link}`"))
                     .report(findings);
             }
         }

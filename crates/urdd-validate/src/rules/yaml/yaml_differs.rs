@@ -1,6 +1,5 @@
 use crate::rules::prelude::*;
 use crate::views::text_faults::report_yaml_unless;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` does not say what `module.json` says.

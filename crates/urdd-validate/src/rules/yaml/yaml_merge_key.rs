@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_yaml;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` holds a merge key (`<<`).
