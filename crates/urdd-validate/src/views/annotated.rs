@@ -117,9 +117,8 @@ impl LengthOf {
     fn fits(&self, length: usize) -> bool {
         self.things.is_empty()
             || self.things.iter().any(|thing| match thing {
-                Thing::Piece => {
-                    (self.counts.pieces()).is_none_or(|pieces| pieces.numbers.contains(&length))
-                }
+                Thing::Piece => (self.counts.pieces.as_ref())
+                    .is_none_or(|pieces| pieces.numbers.contains(&length)),
                 thing => (self.counts.count(*thing)).is_none_or(|count| count == length),
             })
     }
@@ -137,7 +136,7 @@ impl LengthOf {
                 "`{LENGTH}` of schema.json asks for a list of {all}, and this has {length}"
             ));
         }
-        let pieces = self.counts.pieces().filter(|_| self.pieces_inside)?;
+        let pieces = self.counts.pieces.as_ref().filter(|_| self.pieces_inside)?;
         let lists = list.iter().map(Value::as_array).zip(&pieces.of_link).enumerate();
         let mut wrong = lists.filter_map(|(link, (inside, pieces))| {
             let length = inside?.len();

@@ -19,7 +19,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let model = document!(context, SelfCollisionModel)?;
-    let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context.urdd())?.into_iter().collect();
+    let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context)?.into_iter().collect();
     let outputs = model.pairs.iter();
     let outputs = outputs.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
     let others = model.other_pairs.iter();

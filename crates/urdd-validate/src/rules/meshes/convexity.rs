@@ -14,7 +14,7 @@ pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<
         let solid = mesh.sound()?;
         let key = context.solids().content(kind, mesh.link, mesh.piece)?;
         let compute = || Some((not_convex(solid)?, dents(solid)));
-        context.memos().convexity.get(key, compute)
+        context.memos.convexity.get(key, compute)
     };
     let meshes = context.solids().derived(kind);
     let faults: Vec<Option<(NotConvex, Option<Dents>)>> = meshes.par_iter().map(judge).collect();

@@ -23,7 +23,7 @@ pub fn report(
 ) -> Option<()> {
     let kind = Kind::ConvexHullMeshes;
     // Computed before the threads start, so that the computation itself can use all of them.
-    context.misplaced();
+    context.placed();
     let solids = context.solids();
     let hulls = solids.derived(kind).iter().filter(|hull| {
         let by = [Part::Plain(hull.link)];
@@ -35,7 +35,7 @@ pub fn report(
         let hull = solids.sound(kind, link, 0)?;
         let contents = [kind, Kind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
         let key = (code, contents.into_iter().flatten().collect());
-        context.memos().farthest.get(key, || off(hull, mesh))
+        context.memos.farthest.get(key, || off(hull, mesh))
     };
     let off: Vec<Option<Farthest>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
     for (hull, off) in hulls.iter().zip(off) {

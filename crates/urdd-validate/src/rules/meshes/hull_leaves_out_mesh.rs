@@ -15,8 +15,7 @@ declare_rule! {
     /// Compute the hull of the link's plain mesh again.
     MSH018 "hull-leaves-out-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        CONVEX_HULL,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NoneFailed(&[MSH003, MSH007]), CONVEX_HULL,
     ],
 }
 

@@ -13,8 +13,7 @@ declare_rule! {
     /// Compute the hull from the vertices of the plain mesh as its files have them.
     MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        HULL_ABOUT_MESH,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NoneFailed(&[MSH003, MSH007]), HULL_ABOUT_MESH,
     ],
 }
 

@@ -19,10 +19,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    for (link, why) in context.unplaced() {
+    for (link, why) in &context.placed().unknown {
         findings.not_verified(Part::Plain(*link), *why);
     }
-    for wrong in context.misplaced() {
+    for wrong in &context.placed().wrong {
         let label = context.link_label(wrong.link);
         let owner = placed::owner(context, context.solids(), wrong.link);
         let hint = owner.map_or_else(String::new, |owner| {

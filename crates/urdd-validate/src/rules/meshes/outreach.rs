@@ -100,7 +100,7 @@ fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<F
         solids.content(kind, link, piece.piece)?,
     ];
     let key = (Code::MSH021, contents.to_vec());
-    context.memos().farthest.get(key, || {
+    context.memos.farthest.get(key, || {
         let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh));
         let polytope = polytope.as_ref()?;
         let vertices = distinct(piece.sound()?);

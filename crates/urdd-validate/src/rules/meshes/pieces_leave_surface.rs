@@ -30,7 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         _ => None,
     };
     // Computed before the threads start, so that the computation itself can use all of them.
-    context.misplaced();
+    context.placed();
     let pieces_of = |link: usize| -> Vec<Part> {
         let pieces = 0..meshes.count(link);
         pieces.map(|piece| Part::Piece { link, piece }).collect()
@@ -51,7 +51,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let pieces = (0..meshes.count(*link)).map(|piece| solids.content(kind, *link, piece));
             let contents = std::iter::once(solids.content(Kind::PlainMeshes, *link, 0));
             let contents: Option<Vec<usize>> = contents.chain(pieces).collect();
-            context.memos().farthest.get((Code::MSH022, contents?), compute)
+            context.memos.farthest.get((Code::MSH022, contents?), compute)
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {

@@ -19,7 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let six = context.statistics()?;
     let shapes = context.shapes()?;
     let distances = findings.or_skip(context.distances())?;
-    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
         // SHP024 judges what was recomputed completely.
         let (Some(one), Some(found)) = (one, found.as_ref().filter(|found| !found.complete)) else {
             continue;

@@ -30,7 +30,7 @@ pub fn report(
                 Volume::Sphere { radius, .. } => [0.0, 0.0, 0.0, radius],
             };
             let key = (content, size.map(f64::to_bits));
-            let found = context.memos().ratios.get(key, || ratio(&enclosure));
+            let found = context.memos.ratios.get(key, || ratio(&enclosure));
             let ratio = found.filter(|ratio| *ratio > most)?;
             Some((enclosure, ratio))
         })

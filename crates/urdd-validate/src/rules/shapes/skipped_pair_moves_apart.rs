@@ -64,8 +64,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let motion = findings.or_skip(poses.motion(0..n))?;
     let known = context.distances().ok();
     let known = |kind: ShapeKind| {
-        let of = known?.kinds().iter().flatten();
-        of.map(|of| of.shapes()).find(|set| set.kind() == kind)
+        let mut known = known?.kinds.iter().flatten().map(|of| &of.shapes);
+        known.find(|set| set.kind == kind)
     };
     for (kind, pairs) in skipped {
         if pairs.is_empty() {

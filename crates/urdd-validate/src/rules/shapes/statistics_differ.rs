@@ -22,7 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let groups = context.rigid_groups()?;
     let distances = findings.or_skip(context.distances())?;
     let mut left = Vec::new();
-    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
         let (Some(one), Some(found)) = (one, found) else {
             continue;
         };
