@@ -16,8 +16,12 @@ use urdd_document::robot;
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::{RobotFrom, Urdd};
+use urdd_findings::check::Check;
+use urdd_findings::examined::{Examined, blank};
 use urdd_findings::skip::SkipReason;
+use urdd_format::index::Count;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::report::{self as format, Kind, Size};
 use urdd_format::root_metadata::ConformanceClass;
 
 /// A loaded URDD, with data that the validator computes once for all rules. A rule's needs guarantee which of it is
@@ -155,6 +159,29 @@ impl Context {
     /// The distance statistics of the six kinds of shape.
     pub fn statistics(&self) -> Option<[Option<Statistics<'_>>; 6]> {
         shape_matrices::statistics(self.document(ModuleKind::LinkShapesDistanceStatistics)?)
+    }
+
+    /// What a report says of it, with its checks. `name` is its name in the report.
+    pub(super) fn examined(&self, kind: Kind, name: &str, checks: Vec<Check>) -> Examined {
+        let robot = self.robot();
+        let metadata = self.metadata().map(|metadata| &metadata.robot_name);
+        let modules = self.modules().map(|module| format::Module {
+            name: module.name().to_owned(),
+            path: module.folder.clone(),
+            version: module.version.clone(),
+            profile: module.spec.map(|spec| spec.profile.as_str().to_owned()),
+        });
+        let report = format::Urdd {
+            name: robot.map(|robot| &robot.name).or(metadata).cloned(),
+            size: Size {
+                links: robot.map(|robot| Count::saturating(robot.links.len())),
+                joints: robot.map(|robot| Count::saturating(robot.joints.len())),
+                dofs: self.dofs().map(|dofs| dofs.num_dofs),
+            },
+            modules: modules.collect(),
+            ..blank(kind, name)
+        };
+        Examined { report, checks }
     }
 
     /// Those of the modules whose documents are usable.

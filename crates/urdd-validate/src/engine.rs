@@ -21,7 +21,6 @@ pub(super) struct Ran {
     pub faulted: Faulted,
 }
 
-/// Outcomes by code.
 pub(super) type Outcomes = HashMap<Code, Ran>;
 
 /// Runs rules for one description of the robot. `outcomes` has the outcomes of rules that ran before; those of these

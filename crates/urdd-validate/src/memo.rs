@@ -50,7 +50,6 @@ type Concavity = (NotConvex, Option<Dents>);
 pub struct Memos {
     /// For a rule and the meshes that it compares: the place farthest off.
     pub farthest: Memo<(Code, Vec<usize>), Option<Farthest>>,
-    /// Why a mesh is not convex.
     pub convexity: Memo<usize, Option<Concavity>>,
     /// The size of a box or sphere over that of the smallest one around a mesh. The numbers are those of its size.
     pub ratios: Memo<(usize, [u64; 4]), Option<f64>>,

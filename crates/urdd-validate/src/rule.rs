@@ -36,7 +36,6 @@ pub enum Need {
     NoneFailed(&'static [Code]),
     /// As [`Need::NotFailed`], in a URDD of version 1 only: in legacy URDDs the other rule often reports a convention.
     NotFailedInV1(Code),
-    /// All of these.
     All(&'static [Need]),
     /// Each part passed these rules. Parts that failed one are left out ([`Findings::judges`]). A fault that does not
     /// belong to single parts skips the whole rule.
@@ -68,9 +67,7 @@ impl Need {
 
 /// A rule: one kind of fault in a URDD.
 pub struct Rule {
-    /// What it says of itself.
     pub description: Description,
-    /// What it needs.
     pub needs: &'static [Need],
     /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
     /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.

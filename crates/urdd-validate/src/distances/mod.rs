@@ -22,19 +22,16 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
 
-/// The distances of all kinds of shapes.
 pub struct Distances {
     /// In the order of [`ShapeKind::ALL`]; `None` for a kind without statistics.
     pub kinds: [Option<KindDistances>; 6],
     /// Link poses in the first configurations.
     first: Motion,
-    /// Link poses in the default configuration.
     default: Motion,
 }
 
 /// The distances of one kind of shapes.
 pub struct KindDistances {
-    /// The shapes.
     pub shapes: ShapeSet,
     /// Whether these are all configurations of the statistics.
     pub complete: bool,

@@ -21,7 +21,6 @@ pub struct OtherReasons<'a> {
 }
 
 impl<'a> OtherReasons<'a> {
-    /// The reasons for shapes of one kind.
     pub fn new(
         context: &Context,
         document: &ModuleDocument,

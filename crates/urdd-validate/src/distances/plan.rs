@@ -28,7 +28,6 @@ const DEEP: u64 = 2_000_000_000_000;
 /// Configurations are processed eight at a time; fewer take just as long.
 const LEAST: u32 = 8;
 
-/// The allowed work.
 pub fn budget(deep: bool) -> u64 {
     if deep { DEEP } else { DEFAULT }
 }

@@ -48,7 +48,6 @@ impl Poses {
         Ok(Poses { space, kinematics, groups: groups.of_link.clone() })
     }
 
-    /// Number of links.
     pub fn num_links(&self) -> usize {
         self.groups.len()
     }

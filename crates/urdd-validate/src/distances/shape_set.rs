@@ -19,7 +19,6 @@ use urdd_kinematics::rotation::from_rpy;
 
 /// The existing, sound shapes of a kind.
 pub struct ShapeSet {
-    /// The kind.
     pub kind: ShapeKind,
     /// Index in the list of each shape.
     places: Vec<Option<usize>>,
@@ -102,7 +101,6 @@ impl ShapeSet {
         work
     }
 
-    /// The statistics of all pairs.
     pub fn statistics(&self, motion: &Motion) -> PairStatistics {
         // Every shape is on a link, and the motion contains all links.
         of_list!(&self.list, list => pair_statistics(list, motion)).unwrap_or_default()

@@ -104,12 +104,10 @@ impl Reference {
         Ok(Reference { links: robot.links.len(), joints, order, dofs })
     }
 
-    /// Number of links.
     pub fn num_links(&self) -> usize {
         self.links
     }
 
-    /// Number of DOFs.
     pub fn num_dofs(&self) -> usize {
         self.dofs
     }

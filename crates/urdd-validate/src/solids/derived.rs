@@ -20,7 +20,6 @@ use urdd_geometry::surface::{self, Difference, Likeness};
 /// A mesh of a link, or one of its pieces.
 #[derive(Debug)]
 pub struct Derived {
-    /// The link.
     pub link: usize,
     /// Its index among the pieces; 0 in modules with one mesh per link.
     pub piece: usize,
@@ -73,7 +72,6 @@ impl Derived {
     }
 }
 
-/// A file of a mesh.
 #[derive(Debug)]
 pub struct DerivedFile {
     /// Its path, as written.

@@ -85,7 +85,6 @@ impl Expected {
     }
 }
 
-/// The path of the mesh that an element names.
 fn carried(
     urdd: &Urdd,
     named: &Link,

@@ -7,7 +7,6 @@ use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_format::registry::Profile;
 use urdd_geometry::read::{GltfUp, MeshError, NoteCode, Options, Scene, read_with};
 
-/// A fault of a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MeshFault {
     /// It cannot be opened, which other rules report.

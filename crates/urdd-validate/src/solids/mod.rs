@@ -29,7 +29,6 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 
-/// The contents of a URDD's mesh files.
 #[derive(Debug, Default)]
 pub struct Solids {
     derived: HashMap<ModuleKind, Vec<Derived>>,

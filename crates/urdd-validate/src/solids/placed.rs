@@ -24,15 +24,11 @@ use urdd_geometry::surface::{self, Difference, Likeness};
 /// A link with a wrong mesh.
 #[derive(Debug)]
 pub struct Misplaced {
-    /// The link.
     pub link: usize,
     /// JSON Pointer of its mesh.
     pub pointer: String,
-    /// What is wrong with the mesh.
     pub what: String,
-    /// What is expected.
     pub expected: String,
-    /// What is there.
     pub actual: String,
     /// Maximum distance of corners, m.
     pub tolerance: f64,
@@ -41,7 +37,6 @@ pub struct Misplaced {
 /// The result for the meshes of all links, in link order.
 #[derive(Debug, Default)]
 pub struct Placed {
-    /// The links with wrong meshes.
     pub wrong: Vec<Misplaced>,
     /// The links that could not be judged: files differ or are broken, or a source is missing.
     pub unknown: Vec<(usize, Why)>,

@@ -151,7 +151,6 @@ impl Comparison {
     }
 }
 
-/// Describes how two lists of names differ.
 fn how_names_differ(wanted: &[String], there: &[String]) -> String {
     let only_in = |a: &[String], b: &[String]| {
         let b: std::collections::HashSet<&String> = b.iter().collect();

@@ -10,7 +10,6 @@ use urdd_format::urdf as v1;
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 
-/// Reads the robot of a document.
 pub(super) fn read(document: &Document<'_>) -> Reading {
     let mut reader = Reader::default();
     reader.robot(document.root_element());
@@ -79,7 +78,6 @@ impl Reader {
         pointer
     }
 
-    /// An attribute as text.
     pub(super) fn text(
         &mut self,
         element: Element<'_>,
@@ -91,7 +89,6 @@ impl Reader {
         Some(found.value().to_owned())
     }
 
-    /// A required attribute as text.
     pub(super) fn needed_text(
         &mut self,
         element: Element<'_>,

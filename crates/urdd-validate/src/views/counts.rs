@@ -40,7 +40,6 @@ impl Pieces {
 }
 
 impl Counts {
-    /// Those of a URDD.
     pub fn of(context: &Context) -> Counts {
         let robot = context.robot();
         let most = |counts: &mut dyn Iterator<Item = usize>| counts.max().unwrap_or(0);

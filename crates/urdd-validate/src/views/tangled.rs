@@ -13,7 +13,6 @@ pub struct Tangled {
 }
 
 impl Tangled {
-    /// Examines a square matrix.
     pub fn new(elements: Elements<'_>) -> Tangled {
         let rows = elements.rows();
         let mut asymmetric = vec![false; rows];

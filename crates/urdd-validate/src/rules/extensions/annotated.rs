@@ -28,8 +28,7 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
                 Value::Array(list) => format!("{} elements", list.len()),
                 value => schema_check::excerpt(value),
             });
-            let message = format!("{message}{more}");
-            let mut finding = finding_in(module, pointer, message);
+            let mut finding = finding_in(module, pointer, format!("{message}{more}"));
             finding.place.actual = actual;
             findings.report(finding);
         }

@@ -5,21 +5,14 @@ use rayon::prelude::*;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 
-/// What a finding says.
-pub struct Words {
-    pub message: String,
-    pub expected: &'static str,
-    pub actual: String,
-}
-
 /// Reports for a rule every hull for which `off`, given the hull and the plain mesh, finds a vertex. `words` describes it, given
-/// the link, the place and the distance.
+/// the link, the place and the distance: message, expected, actual.
 pub fn report(
     context: &Context,
     findings: &mut Findings,
     code: Code,
     off: impl Fn(&Mesh, &Mesh) -> Option<Farthest> + Sync,
-    words: impl Fn(&str, &str, &str) -> Words,
+    words: impl Fn(&str, &str, &str) -> (String, &'static str, String),
 ) -> Option<()> {
     let kind = Kind::ConvexHullMeshes;
     // Computed before the threads start, so that the computation itself can use all of them.
@@ -43,9 +36,9 @@ pub fn report(
             continue;
         };
         let label = context.link_label(hull.link);
-        let words = words(&label, &point(off.place), &metres(off.distance));
-        finding_in(Kind::ConvexHullMeshes, hull.pointer(), words.message)
-            .values(words.expected, words.actual)
+        let (message, expected, actual) = words(&label, &point(off.place), &metres(off.distance));
+        finding_in(kind, hull.pointer(), message)
+            .values(expected, actual)
             .tolerance(off.tolerance)
             .off_by(off.distance, "m")
             .part(Part::Hull(hull.link))

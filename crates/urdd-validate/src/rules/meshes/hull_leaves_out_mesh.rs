@@ -1,5 +1,5 @@
 use super::farthest;
-use super::hull_and_mesh::{self, Words};
+use super::hull_and_mesh;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use urdd_geometry::hull::ConvexHull;
@@ -25,12 +25,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         findings,
         Code::MSH018,
         farthest_outside,
-        |label, place, distance| Words {
-            message: format!(
-                "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
-            ),
-            expected: "every vertex of the plain mesh inside",
-            actual: format!("{distance} outside"),
+        |label, place, distance| {
+            (
+                format!(
+                    "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
+                ),
+                "every vertex of the plain mesh inside",
+                format!("{distance} outside"),
+            )
         },
     )
 }

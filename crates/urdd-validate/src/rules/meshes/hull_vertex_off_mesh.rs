@@ -1,5 +1,5 @@
 use super::farthest;
-use super::hull_and_mesh::{self, Words};
+use super::hull_and_mesh;
 use crate::rules::prelude::*;
 use urdd_geometry::surface::{bits, distinct, extent, nearest};
 
@@ -26,12 +26,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         findings,
         Code::MSH019,
         farthest_off,
-        |label, place, distance| Words {
-            message: format!(
-                "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
-            ),
-            expected: "vertices of the plain mesh only",
-            actual: format!("a vertex {distance} off"),
+        |label, place, distance| {
+            (
+                format!(
+                    "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
+                ),
+                "vertices of the plain mesh only",
+                format!("a vertex {distance} off"),
+            )
         },
     )
 }

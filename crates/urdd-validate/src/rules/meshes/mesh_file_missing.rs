@@ -22,12 +22,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let listed = context.metadata().map(listed_files).unwrap_or_default();
     let mut files = MeshFiles::new(context);
     let mut gone: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
-    for (kind, module, document) in context.documents(MODULES) {
-        for (profile, path, pointer) in named(context, kind, document) {
-            if profile == Profile::V1 && listed.contains(path.as_str()) {
+    for module in MODULES.iter().filter_map(|kind| context.module(*kind)) {
+        for named in paths::of_module(module) {
+            let (path, pointer) = (named.path, named.pointer.clone());
+            let profile = if named.from_parent() { Profile::Legacy } else { Profile::V1 };
+            if named.is_reference || (profile == Profile::V1 && listed.contains(path)) {
                 continue;
             }
-            match files.find(profile, &path) {
+            match files.find(profile, path) {
                 Ok(()) | Err(Absence::Other(_)) => {}
                 Err(Absence::Missing) => {
                     let message =
@@ -51,34 +53,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     Some(())
 }
 
-/// The files that a mesh module names: profile, path, pointer.
-fn named(
-    context: &Context,
-    kind: Kind,
-    document: &ModuleDocument,
-) -> Vec<(Profile, String, String)> {
-    if let ModuleDocument::OriginalMeshes(module) = document {
-        let mut named = Vec::new();
-        for (index, mesh) in module.files.iter().enumerate() {
-            let at = format!("/files/{index}");
-            named.push((Profile::V1, mesh.path.clone(), format!("{at}/path")));
-            for (side, path) in mesh.side_files.iter().enumerate() {
-                named.push((Profile::V1, path.clone(), format!("{at}/side_files/{side}")));
-            }
-        }
-        return named;
-    }
-    let Some(meshes) = context.meshes(kind) else {
-        return Vec::new();
-    };
-    let paths = meshes.paths();
-    paths.map(|(_, mesh)| (meshes.profile, mesh.path.to_owned(), mesh.pointer.clone())).collect()
-}
-
 fn no_sibling(context: &Context, name: &str) -> String {
     let own = context.root().folder_name();
-    let within = context.listing().has_folder("mesh_modules");
-    let renamed = if within {
+    let renamed = if context.listing().has_folder("mesh_modules") {
         format!("; or, if this URDD's folder `{own}` was `{name}` before, rename it back")
     } else {
         String::new()

@@ -70,7 +70,6 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
     Some(())
 }
 
-/// The hull of a link.
 struct Hull<'a> {
     mesh: &'a Mesh,
     diagonal: f64,
