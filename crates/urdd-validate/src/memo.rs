@@ -21,8 +21,7 @@ impl<K: Eq + Hash, V: Copy> Memo<K, V> {
     /// The result of a key, computed if it is not known.
     pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = known().get(&key).copied();
-        found.unwrap_or_else(|| {
+        known().get(&key).copied().unwrap_or_else(|| {
             let value = compute();
             known().insert(key, value);
             value
@@ -39,6 +38,19 @@ pub struct Farthest {
     pub distance: f64,
     /// The distance up to which it is not reported, m.
     pub tolerance: f64,
+}
+
+impl Farthest {
+    /// The first of the farthest of some places, given with their distances.
+    pub fn of(places: impl Iterator<Item = ([f64; 3], f64)>, tolerance: f64) -> Option<Farthest> {
+        let (place, distance) = places.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        Some(Farthest { place, distance, tolerance })
+    }
+
+    /// Whether it is reported.
+    pub fn is_off(&self) -> bool {
+        self.distance > self.tolerance
+    }
 }
 
 /// Why a mesh is not convex, and its dents, where they were measured.

@@ -68,8 +68,7 @@ impl Reference {
         let links = names(&mut robot.links.iter().map(|link| link.name.as_str()));
         let drivers = names(&mut robot.joints.iter().map(|joint| joint.name.as_str()));
         let link = |name: &str| {
-            let found = links.get(name).copied();
-            found.ok_or_else(|| format!("no link is called {name}"))
+            links.get(name).copied().ok_or_else(|| format!("no link is called {name}"))
         };
         let quaternions = has_quaternions(robot.version.as_deref());
         let mut dofs = 0;

@@ -31,7 +31,8 @@ pub(super) use urdd_findings::part::{Part, Why};
 pub(super) use urdd_findings::skip::SkipReason;
 pub(super) use urdd_format::readable::{metres, number};
 pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind as Kind, Profile};
-pub(super) use urdd_format::root_metadata::{Source, Version};
+use urdd_format::root_metadata::Source;
+pub(super) use urdd_format::root_metadata::{FileEntry, Version};
 pub(super) use urdd_format::shape_kind::ShapeKind;
 pub(super) use urdd_format::urdf::JointType;
 pub(super) use urdd_geometry::Mesh;
@@ -52,6 +53,12 @@ pub(super) use document;
 /// The modules that `urdd.json` lists.
 pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
     context.metadata().map(|_| entries::all(context))
+}
+
+/// The source URDF that `urdd.json` names.
+pub(super) fn source(context: &Context) -> Option<&FileEntry> {
+    let Source::Urdf(file) = context.metadata()?.source.as_ref()?;
+    Some(file)
 }
 
 /// Whether the module's version is from before the specification.

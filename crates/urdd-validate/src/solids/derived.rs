@@ -9,8 +9,7 @@ use super::glb_chunks;
 use super::stl_records;
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::Meshes;
-use urdd_document::meshes::{Format, MeshPath};
+use urdd_document::meshes::{Format, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
 use urdd_geometry::Mesh;
@@ -46,10 +45,7 @@ impl Derived {
         let files = self.files.iter().zip(paths).map(|(file, path)| DerivedFile {
             path: path.path.to_owned(),
             pointer: path.pointer.clone(),
-            format: file.format,
-            content: file.content,
-            fault: None,
-            not_glb: file.not_glb,
+            ..file.clone()
         });
         Derived {
             link,
@@ -72,7 +68,7 @@ impl Derived {
     }
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct DerivedFile {
     /// Its path, as written.
     pub path: String,

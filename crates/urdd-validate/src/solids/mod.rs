@@ -73,11 +73,11 @@ impl Solids {
             })
             .collect();
         let mut first: HashMap<u64, (usize, &Mesh)> = HashMap::new();
-        let numbered = all.into_iter().zip(hashes).enumerate();
-        let numbered = numbered.map(|(at, ((place, mesh), hash))| {
-            let (content, other) = *first.entry(hash).or_insert((at, mesh));
-            (place, if mesh == other { content } else { at })
-        });
+        let numbered =
+            all.into_iter().zip(hashes).enumerate().map(|(at, ((place, mesh), hash))| {
+                let (content, other) = *first.entry(hash).or_insert((at, mesh));
+                (place, if mesh == other { content } else { at })
+            });
         numbered.collect()
     }
 

@@ -19,7 +19,7 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{self, Difference, Likeness};
+use urdd_geometry::surface::{self, Likeness};
 
 /// A link with a wrong mesh.
 #[derive(Debug)]
@@ -121,12 +121,12 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
-    let told = |found: &Difference| Some((difference::in_words(found), tolerance));
+    let fault = || Some((difference::in_words(&difference), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
-        return told(&difference);
+        return fault();
     }
     if expected.primitives.is_empty() {
-        return if difference.extra.is_empty() { None } else { told(&difference) };
+        return if difference.extra.is_empty() { None } else { fault() };
     }
     primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
 }
@@ -189,8 +189,7 @@ fn primitives(
 /// Describes a triangle that is on no primitive.
 fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) -> String {
     let nearest = |p: [f64; 3]| {
-        let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
-        distances.fold(f64::INFINITY, f64::min)
+        expected.primitives.iter().map(|one| one.distance(p).abs()).fold(f64::INFINITY, f64::min)
     };
     let worst = corners.into_iter().fold((middle, nearest(middle)), |worst, corner| {
         let distance = nearest(corner);

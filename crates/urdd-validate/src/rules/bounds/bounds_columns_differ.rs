@@ -72,19 +72,12 @@ fn decided(context: &Context, dof: usize, end: usize) -> Option<(f64, String)> {
     }
     let joint = context.robot()?.joints.get(joint)?;
     let side = ["lower", "upper"][end];
-    Some(match joint.position_limits() {
-        Some((lower, upper)) => {
-            let bound = [lower, upper][end];
-            let why = format!("the {side} limit of joint `{}` is {bound:?}", joint.name);
-            (bound, why)
-        }
+    let (bounds, what, without) = match joint.position_limits() {
+        Some((lower, upper)) => ([lower, upper], "limit", ""),
         None => {
-            let bound = bounds_without_limits(joint.joint_type, place)?[end];
-            let why = format!(
-                "the {side} bound of joint `{}`, which has no limits, is {bound:?}",
-                joint.name
-            );
-            (bound, why)
+            (bounds_without_limits(joint.joint_type, place)?, "bound", ", which has no limits,")
         }
-    })
+    };
+    let (bound, name) = (bounds[end], &joint.name);
+    Some((bound, format!("the {side} {what} of joint `{name}`{without} is {bound:?}")))
 }

@@ -19,8 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = context.chain()?;
     let (right, written) = (robot.joints.len(), chain.joints.len());
     if right != written {
-        let message = "one entry per joint of urdf_module is needed";
-        finding_in(Kind::Chain, "/joints_in_chain", message)
+        finding_in(Kind::Chain, "/joints_in_chain", "one entry per joint of urdf_module is needed")
             .counts(right, written, "joints")
             .report(findings);
         return Some(());

@@ -17,17 +17,15 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = context.chain()?;
     let (right, written) = (robot.links.len(), chain.links.len());
     if right != written {
-        let message = "one entry per link of urdf_module is needed";
-        finding_in(Kind::Chain, "/links_in_chain", message)
+        finding_in(Kind::Chain, "/links_in_chain", "one entry per link of urdf_module is needed")
             .counts(right, written, "links")
             .report(findings);
         return Some(());
     }
     for (index, (link, right)) in chain.links.iter().zip(&robot.links).enumerate() {
         if link.name != right.name {
-            let pointer = format!("/links_in_chain/{index}/name");
             let message = format!("this is not the name of link {index} of urdf_module");
-            finding_in(Kind::Chain, pointer, message)
+            finding_in(Kind::Chain, format!("/links_in_chain/{index}/name"), message)
                 .literals(&right.name, &link.name)
                 .report(findings);
         }

@@ -19,9 +19,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         if joint.joint_type != right.joint_type {
             let name = &right.name;
-            let pointer = format!("/joints_in_chain/{index}/joint_type");
             let message = format!("joint {index} ({name:?}) is of another type in urdf_module");
-            finding_in(Kind::Chain, pointer, message)
+            finding_in(Kind::Chain, format!("/joints_in_chain/{index}/joint_type"), message)
                 .values(right.joint_type, joint.joint_type)
                 .report(findings);
         }

@@ -46,6 +46,5 @@ fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> b
 
 /// Whether the first non-zero number is negative.
 pub fn is_negative(quaternion: &[f64]) -> bool {
-    let mut numbers = quaternion.iter();
-    numbers.find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
+    quaternion.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
 }

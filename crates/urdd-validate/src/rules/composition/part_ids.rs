@@ -22,8 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             () if is_taken => "another part has this id",
             () => continue,
         };
-        let pointer = format!("/parts/{place}/id");
-        finding_in(Kind::Composition, pointer, message)
+        finding_in(Kind::Composition, format!("/parts/{place}/id"), message)
             .actual(format!("`{}`", part.id))
             .report(findings);
     }

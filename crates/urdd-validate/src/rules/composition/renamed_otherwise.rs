@@ -26,9 +26,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (key, idx, own, name) in links.chain(joints) {
             let renamed = format!("{}{own}", part.prefix);
             if renamed != *name {
-                let pointer = format!("/parts/{place}/{key}/{idx}/name");
                 let message = "prefix and name are not the name in this robot";
-                finding_in(Kind::Composition, pointer, message)
+                finding_in(Kind::Composition, format!("/parts/{place}/{key}/{idx}/name"), message)
                     .values(format!("`{name}`"), format!("`{renamed}`"))
                     .report(findings);
             }

@@ -54,10 +54,8 @@ fn unlisted(context: &Context, entry: &Entry<'_>) -> Vec<String> {
     let files = entry.entry.files.iter();
     let listed: HashSet<&str> = files.map(|file| file.path.as_str()).collect();
     let schema = is_extension(&module.folder).then_some("schema.json");
-    let own = MODULE_FILES.into_iter().chain(schema);
-    let own = own.map(|name| module.file(name));
-    let named = paths::of_module(module).into_iter();
-    let named = named.filter_map(|path| match path.place(context) {
+    let own = MODULE_FILES.into_iter().chain(schema).map(|name| module.file(name));
+    let named = paths::of_module(module).into_iter().filter_map(|path| match path.place(context) {
         Place::Here(path) if entry.holds(path) => Some(path.to_owned()),
         _ => None,
     });

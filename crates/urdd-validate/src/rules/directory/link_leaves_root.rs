@@ -20,8 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     });
     let module_folders = Kind::ALL.iter().map(|kind| kind.folder());
     let named: HashSet<&str> = here.chain(module_folders).flat_map(with_parents).collect();
-    let modules = context.modules();
-    let modules: HashSet<&str> = modules.map(|module| module.folder.as_str()).collect();
+    let modules: HashSet<&str> = context.modules().map(|module| module.folder.as_str()).collect();
     for entry in &context.listing().entries {
         let path = entry.path.as_str();
         // Other files in the root do not belong to the URDD.

@@ -19,7 +19,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 .report(findings);
         }
     };
-    if let Some(Source::Urdf(file)) = &context.metadata()?.source {
+    if let Some(file) = source(context) {
         let message = "the source URDF is missing: put it into the root folder";
         look("/source/Urdf/path".to_owned(), &file.path, message);
     }

@@ -13,10 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let source = match context.metadata().and_then(|m| m.source.as_ref()) {
-        Some(Source::Urdf(file)) => Some(file.path.as_str()),
-        _ => None,
-    };
+    let source = source(context).map(|file| file.path.as_str());
     // Other files in the root do not belong to the URDD.
     let is_of_urdd = |path: &str| {
         let folders = entries::known_modules(context).map(|module| module.folder.as_str());

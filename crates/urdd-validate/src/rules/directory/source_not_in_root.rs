@@ -13,7 +13,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // DIR015 reports an invalid path.
-    if let Some(Source::Urdf(file)) = &context.metadata()?.source
+    if let Some(file) = source(context)
         && path::check(&file.path).is_ok()
         && file.path.contains('/')
     {

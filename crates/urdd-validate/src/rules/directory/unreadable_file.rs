@@ -36,12 +36,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             _ => {}
         }
     }
-    let metadata = context.metadata();
-    let source = metadata.and_then(|metadata| match &metadata.source {
-        Some(Source::Urdf(file)) => Some(file.path.as_str()),
-        _ => None,
-    });
-    let listed = metadata.map(listed_files).into_iter().flatten();
+    let source = source(context).map(|file| file.path.as_str());
+    let listed = context.metadata().map(listed_files).into_iter().flatten();
     for listed in listed.chain(source) {
         let opened = entries::look(context, listed).and_then(|_| context.root().open_file(listed));
         match opened {

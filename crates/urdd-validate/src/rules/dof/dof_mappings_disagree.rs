@@ -18,8 +18,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?;
     let joint_of_dof: Vec<usize> = dofs.joint_of_dof.iter().map(|joint| joint.get()).collect();
-    let lists = dofs.dofs_of_joint.iter();
-    let dofs_of_joint = lists.map(|list| list.iter().map(|dof| dof.get()));
+    let dofs_of_joint = dofs.dofs_of_joint.iter().map(|list| list.iter().map(|dof| dof.get()));
     if are_inverse(&joint_of_dof, dofs_of_joint.clone()) {
         return Some(());
     }

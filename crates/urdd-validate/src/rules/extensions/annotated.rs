@@ -14,13 +14,13 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
     let mut counts = None;
     let mentions = move |schema: &Value| extension_schema::mentions(schema, judged.keyword());
     for (module, schema, document) in described(context, mentions) {
-        let others = extension_schema::violations(&schema, document, 1);
+        let others = extension_schema::violations(&schema, document, None, 1);
         if !others.found.is_empty() {
             continue;
         }
         let counts = counts.get_or_insert_with(|| Arc::new(Counts::of(context)));
-        let violations =
-            extension_schema::annotation_violations(&schema, document, judged, counts, MAX_PLACES);
+        let asserted = Some((judged, &*counts));
+        let violations = extension_schema::violations(&schema, document, asserted, MAX_PLACES);
         let more = violations.more();
         for (pointer, message) in violations.found {
             let actual = document.pointer(&pointer).map(|value| match value {

@@ -20,10 +20,8 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let model = document!(context, SelfCollisionModel)?;
     let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context)?.into_iter().collect();
-    let outputs = model.pairs.iter();
-    let outputs = outputs.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
-    let others = model.other_pairs.iter();
-    let others = others.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
+    let outputs = model.pairs.iter().map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
+    let others = model.other_pairs.iter().map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
     let found: BTreeSet<[usize; 2]> = outputs.clone().chain(others.clone()).collect();
     let named = |[a, b]: [usize; 2]| {
         let (a, b) = (context.link_label(a), context.link_label(b));

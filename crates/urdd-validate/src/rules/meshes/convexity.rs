@@ -28,8 +28,7 @@ pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<
         };
         let extent = mesh.mesh.as_ref().map_or(0.0, extent);
         let resolution = mesh_resolution(extent);
-        let depth = dents.map(|dents| dents.depth);
-        let depth = depth.filter(|depth| *depth > resolution);
+        let depth = dents.map(|dents| dents.depth).filter(|depth| *depth > resolution);
         let what = match fault {
             NotConvex::Nothing => "it has no face with an area".to_owned(),
             NotConvex::Open(at) => {

@@ -1,4 +1,3 @@
-use super::farthest;
 use super::hull_and_mesh;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
@@ -49,7 +48,6 @@ fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     corners.retain(|corner| !known.contains(&bits(*corner)));
     let every = step(corners.len(), polytope.num_faces());
     let corners = corners.into_iter().step_by(every);
-    let (place, distance) = farthest(corners.map(|corner| (corner, polytope.outside(corner))))?;
-    let tolerance = polytope.resolution;
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    let outside = corners.map(|corner| (corner, polytope.outside(corner)));
+    Farthest::of(outside, polytope.resolution).filter(Farthest::is_off)
 }

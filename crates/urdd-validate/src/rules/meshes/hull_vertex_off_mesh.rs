@@ -1,4 +1,3 @@
-use super::farthest;
 use super::hull_and_mesh;
 use crate::rules::prelude::*;
 use urdd_geometry::surface::{bits, distinct, extent, nearest};
@@ -42,9 +41,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 fn farthest_off(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let known: HashSet<[u64; 3]> = mesh.vertices.iter().copied().map(bits).collect();
     let vertices = distinct(hull).into_iter();
-    let unknown = vertices.filter(|vertex| !known.contains(&bits(*vertex)));
-    let unknown = unknown.take(MAX_SEARCHED);
-    let (place, distance) = farthest(unknown.map(|vertex| (vertex, nearest(mesh, vertex))))?;
-    let tolerance = mesh_resolution(extent(mesh));
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    let unknown = vertices.filter(|vertex| !known.contains(&bits(*vertex))).take(MAX_SEARCHED);
+    let off = unknown.map(|vertex| (vertex, nearest(mesh, vertex)));
+    Farthest::of(off, mesh_resolution(extent(mesh))).filter(Farthest::is_off)
 }

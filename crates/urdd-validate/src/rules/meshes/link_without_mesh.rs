@@ -52,8 +52,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 
 /// The shapes of a link's elements, as `visual Box`.
 fn shapes(element: &str, elements: &[Element]) -> Vec<String> {
-    let geometries = elements.iter().filter_map(|e| e.geometry.as_ref());
-    let named = geometries.map(|geometry| {
+    let named = elements.iter().filter_map(|e| e.geometry.as_ref()).map(|geometry| {
         let shape = match geometry {
             Geometry::Mesh(_) => "Mesh",
             Geometry::Box(_) => "Box",

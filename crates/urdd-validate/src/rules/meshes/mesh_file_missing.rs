@@ -21,7 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // DIR011 reports a file that is listed and missing.
     let listed = context.metadata().map(listed_files).unwrap_or_default();
     let mut files = MeshFiles::new(context);
-    let mut gone: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
+    let mut no_siblings: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
     for module in MODULES.iter().filter_map(|kind| context.module(*kind)) {
         for named in paths::of_module(module) {
             let (path, pointer) = (named.path, named.pointer.clone());
@@ -38,7 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 }
                 // A missing sibling URDD is one mistake, however many paths lead there.
                 Err(Absence::NoSibling(name)) => {
-                    let entry = gone.entry(name).or_insert_with_key(|name| {
+                    let entry = no_siblings.entry(name).or_insert_with_key(|name| {
                         (0, finding_in(module, pointer, no_sibling(context, name)))
                     });
                     entry.0 += 1;
@@ -46,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
         }
     }
-    for (name, (count, finding)) in gone {
+    for (name, (count, finding)) in no_siblings {
         let expected = format!("a URDD in the folder `{name}` beside this one");
         findings.report(finding.values(expected, "none").count(count));
     }

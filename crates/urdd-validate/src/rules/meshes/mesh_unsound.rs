@@ -23,8 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for mesh in context.solids().derived(kind) {
             for file in &mesh.files {
                 if let Some(fault) = fault(file, meshes.profile) {
-                    let message = format!("`{}`: {fault}", file.path);
-                    finding_in(module, &file.pointer, message)
+                    finding_in(module, &file.pointer, format!("`{}`: {fault}", file.path))
                         .values(expected(file.format), fault)
                         .report(findings);
                 }

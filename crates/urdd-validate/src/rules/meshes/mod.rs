@@ -2,7 +2,6 @@
 
 mod carried_files_mismatch;
 mod convexity;
-mod farthest;
 mod glb_not_binary;
 mod hull_and_mesh;
 mod hull_leaves_out_mesh;
@@ -30,7 +29,6 @@ mod pieces_leave_surface;
 mod wrong_geometry_used;
 
 use crate::rule::rules;
-use farthest::farthest;
 use modules::MODULES;
 
 rules! {

@@ -5,7 +5,6 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, step};
@@ -100,13 +99,11 @@ fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<F
     ];
     let key = (Code::MSH021, contents.to_vec());
     context.memos.farthest.get(key, || {
-        let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh));
-        let polytope = polytope.as_ref()?;
+        let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh)).as_ref()?;
         let vertices = distinct(piece.sound()?);
         let every = step(vertices.len(), polytope.num_faces());
         let vertices = vertices.into_iter().step_by(every);
         let outside = vertices.map(|vertex| (vertex, polytope.outside(vertex)));
-        let (place, distance) = farthest(outside)?;
-        Some(Farthest { place, distance, tolerance: polytope.resolution })
+        Farthest::of(outside, polytope.resolution)
     })
 }

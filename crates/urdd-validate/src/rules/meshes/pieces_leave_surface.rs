@@ -1,7 +1,6 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
 use urdd_geometry::surface::extent;
@@ -92,11 +91,11 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
     let points = mesh.vertices.len() + mesh.triangles.len();
     let points = points_of(mesh).step_by(step(points, faces));
     let bare = points.filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)));
-    let (place, distance) = farthest(bare.map(|point| {
+    let off = bare.map(|point| {
         let outside = pieces.iter().map(|piece| piece.outside(point));
         (point, outside.fold(f64::INFINITY, f64::min))
-    }))?;
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    });
+    Farthest::of(off, tolerance).filter(Farthest::is_off)
 }
 
 /// Points of a surface: corners and centroids of triangles.

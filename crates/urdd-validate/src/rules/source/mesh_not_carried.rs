@@ -23,8 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if reference.path.is_some() {
             continue;
         }
-        let link = robot.links.get(reference.link_idx.get());
-        let link = link.map_or("", |link| &link.name);
+        let link = robot.links.get(reference.link_idx.get()).map_or("", |link| &link.name);
         let filename = excerpt(&reference.filename.as_str().into());
         let message = format!("a mesh of link `{link}` was not found and is not carried");
         finding_in(Kind::OriginalMeshes, format!("/references/{index}/path"), message)

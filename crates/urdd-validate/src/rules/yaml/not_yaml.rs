@@ -21,5 +21,5 @@ const KINDS: &[TextFaultKind] = &[
 ];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, KINDS, findings)
+    report_yaml(context, KINDS, &[], findings)
 }

@@ -14,5 +14,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlAmbiguousScalar], findings)
+    report_yaml(context, &[TextFaultKind::YamlAmbiguousScalar], &[], findings)
 }

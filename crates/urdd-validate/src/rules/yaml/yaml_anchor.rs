@@ -13,5 +13,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlAnchorOrAlias], findings)
+    report_yaml(context, &[TextFaultKind::YamlAnchorOrAlias], &[], findings)
 }

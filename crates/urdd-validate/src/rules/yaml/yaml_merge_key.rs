@@ -11,5 +11,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlMergeKey], findings)
+    report_yaml(context, &[TextFaultKind::YamlMergeKey], &[], findings)
 }

@@ -12,5 +12,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlTag], findings)
+    report_yaml(context, &[TextFaultKind::YamlTag], &[], findings)
 }
