@@ -117,7 +117,7 @@ AFTER = [
     expression("after", "MSH", "a file may be listed twice", RULES + "meshes/carried_files_mismatch.rs",
                "before >= after", "before > after"),
     expression("after", "MSH", "vertices of hulls to ten times the resolution", RULES + "meshes/hull_vertex_off_mesh.rs",
-               "distance > tolerance", "distance > 10.0 * tolerance"),
+               "mesh_resolution(extent(mesh))", "10.0 * mesh_resolution(extent(mesh))"),
     expression("after", "MSH", "every second point of the surface is compared", RULES + "meshes/pieces_leave_surface.rs",
                "step(points, faces)", "2"),
     expression("after", "SHP", "a radius of 0 is fine", RULES + "shapes/impossible_shape_size.rs",

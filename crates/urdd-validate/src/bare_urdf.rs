@@ -19,11 +19,10 @@ use urdd_document::module::{JsonFile, MetadataFile};
 use urdd_document::urdd::Urdd;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
-use urdd_findings::examined::{Examined, blank};
+use urdd_findings::examined::Examined;
 use urdd_findings::skip::SkipReason;
-use urdd_format::index::Count;
 use urdd_format::registry::Profile;
-use urdd_format::report::{self as format, Kind, Size};
+use urdd_format::report::Kind;
 
 /// Whether a path is a file with the extension of a URDF.
 pub fn is_urdf(path: &Path) -> bool {
@@ -34,11 +33,8 @@ pub fn is_urdf(path: &Path) -> bool {
 /// The URDF at a path: its folder, and its file name.
 pub(super) fn found(path: &Path) -> Found {
     // The target of a symbolic link can be in another folder.
-    let target = match path.is_symlink() {
-        true => path.canonicalize().unwrap_or_default(),
-        false => path.to_owned(),
-    };
-    let path = &target;
+    let target = path.is_symlink().then(|| path.canonicalize().unwrap_or_default());
+    let path = target.as_deref().unwrap_or(path);
     let name = path.file_name().unwrap_or_default();
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -74,17 +70,7 @@ fn judged(urdf: Urdd, name: &str, rules: &[&'static Rule]) -> Examined {
         say_that_it_is_unreadable(&mut checks);
     }
     checks.sort_by_key(|check| check.rule.code);
-    let robot = judged.robot();
-    let report = format::Urdd {
-        name: robot.map(|robot| robot.name.clone()),
-        size: Size {
-            links: robot.map(|robot| Count::saturating(robot.links.len())),
-            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
-            dofs: None,
-        },
-        ..blank(Kind::Urdf, name)
-    };
-    Examined { report, checks }
+    judged.examined(Kind::Urdf, name, checks)
 }
 
 /// Where URD011 found a fault, there is no robot for that reason, not because a module is not here.
@@ -101,17 +87,10 @@ fn say_that_it_is_unreadable(checks: &mut [Check]) {
     }
 }
 
-/// Whether a rule needs only the source.
 fn is_for_urdf(rule: &Rule) -> bool {
+    use Need::{AnyModule, Legacy, Module, ModuleV1, RootMetadata};
     let module = |need: &Need| {
-        matches!(
-            need,
-            Need::Module(_)
-                | Need::ModuleV1(_)
-                | Need::AnyModule(_)
-                | Need::RootMetadata
-                | Need::Legacy
-        )
+        matches!(need, Module(_) | ModuleV1(_) | AnyModule(_) | RootMetadata | Legacy)
     };
     match Judges::of(rule) {
         Judges::Robot | Judges::Source => true,

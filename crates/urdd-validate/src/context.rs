@@ -7,7 +7,7 @@ use super::distances::Distances;
 use super::learned::counts::Judge;
 use super::memo::Memos;
 use super::solids::Solids;
-use super::solids::placed::{self, Misplaced, Placed};
+use super::solids::placed::{self, Placed};
 use super::urdf_text;
 use urdd_directory::cancellation::Cancellation;
 use urdd_document::meshes::Meshes;
@@ -16,9 +16,12 @@ use urdd_document::robot;
 use urdd_document::shape_matrices::{self, Statistics};
 use urdd_document::shapes::Shapes;
 use urdd_document::urdd::{RobotFrom, Urdd};
-use urdd_findings::part::Why;
+use urdd_findings::check::Check;
+use urdd_findings::examined::{Examined, blank};
 use urdd_findings::skip::SkipReason;
+use urdd_format::index::Count;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
+use urdd_format::report::{self as format, Kind, Size};
 use urdd_format::root_metadata::ConformanceClass;
 
 /// A loaded URDD, with data that the validator computes once for all rules. A rule's needs guarantee which of it is
@@ -30,10 +33,12 @@ pub struct Context {
     urdd: Urdd,
     class: Option<ConformanceClass>,
     deep: bool,
-    cancellation: Cancellation,
+    /// Once cancelled, no further rule starts.
+    pub(super) cancellation: Cancellation,
     urdf_text: Arc<OnceLock<Option<urdf_text::Reading>>>,
     solids: Arc<OnceLock<Solids>>,
-    memos: Arc<Memos>,
+    /// Results that follow from files alone, and so are the same by both descriptions of the robot.
+    pub memos: Arc<Memos>,
     distances: OnceLock<Result<Distances, SkipReason>>,
     placed: OnceLock<Placed>,
     model_judge: OnceLock<Result<Judge, SkipReason>>,
@@ -92,16 +97,6 @@ impl Context {
         self
     }
 
-    /// Whether validation was cancelled.
-    pub fn is_cancelled(&self) -> bool {
-        self.cancellation.is_cancelled()
-    }
-
-    /// The loaded URDD.
-    pub fn urdd(&self) -> &Urdd {
-        &self.urdd
-    }
-
     /// Whether the robot is that of the carried URDF.
     pub fn is_by_urdf(&self) -> bool {
         self.urdd.robot_from() == RobotFrom::CarriedUrdf
@@ -122,19 +117,13 @@ impl Context {
         self.solids.get_or_init(|| Solids::read(&self.urdd))
     }
 
-    /// Results that follow from files alone, and so are the same by both descriptions of the robot.
-    pub fn memos(&self) -> &Memos {
-        &self.memos
-    }
-
     /// The distances between shapes, recomputed on first use.
     ///
     /// # Errors
     /// Why they cannot be computed.
     pub fn distances(&self) -> Result<&Distances, SkipReason> {
         let make = || Distances::new(&self.urdd, self.solids(), self.deep);
-        let distances = self.distances.get_or_init(make);
-        distances.as_ref().map_err(Clone::clone)
+        self.distances.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
     /// Compares the self-collision model with exact geometry; prepared on first use. For rules that need LRN003 passed.
@@ -149,27 +138,17 @@ impl Context {
             }
             _ => Err(SkipReason::absent(kind)),
         };
-        let judge = self.model_judge.get_or_init(make);
-        judge.as_ref().map_err(Clone::clone)
+        self.model_judge.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
-    /// The links whose plain mesh differs from the robot's geometry.
-    pub fn misplaced(&self) -> &[Misplaced] {
-        &self.placed().wrong
-    }
-
-    /// The links whose plain mesh could not be compared with the robot's geometry, with the reason.
-    pub fn unplaced(&self) -> &[(usize, Why)] {
-        &self.placed().unknown
-    }
-
-    fn placed(&self) -> &Placed {
+    /// The plain meshes compared with the robot's geometry.
+    pub fn placed(&self) -> &Placed {
         self.placed.get_or_init(|| placed::all(&self.urdd, self.solids()))
     }
 
     /// Whether a link's plain mesh differs from the robot's geometry, so that nothing is compared with it.
     pub fn is_misplaced(&self, link: usize) -> bool {
-        self.misplaced().iter().any(|wrong| wrong.link == link)
+        self.placed().wrong.iter().any(|wrong| wrong.link == link)
     }
 
     /// The meaning of shape indices, from the hulls and the convex pieces.
@@ -180,6 +159,29 @@ impl Context {
     /// The distance statistics of the six kinds of shape.
     pub fn statistics(&self) -> Option<[Option<Statistics<'_>>; 6]> {
         shape_matrices::statistics(self.document(ModuleKind::LinkShapesDistanceStatistics)?)
+    }
+
+    /// What a report says of it, with its checks. `name` is its name in the report.
+    pub(super) fn examined(&self, kind: Kind, name: &str, checks: Vec<Check>) -> Examined {
+        let robot = self.robot();
+        let metadata = self.metadata().map(|metadata| &metadata.robot_name);
+        let modules = self.modules().map(|module| format::Module {
+            name: module.name().to_owned(),
+            path: module.folder.clone(),
+            version: module.version.clone(),
+            profile: module.spec.map(|spec| spec.profile.as_str().to_owned()),
+        });
+        let report = format::Urdd {
+            name: robot.map(|robot| &robot.name).or(metadata).cloned(),
+            size: Size {
+                links: robot.map(|robot| Count::saturating(robot.links.len())),
+                joints: robot.map(|robot| Count::saturating(robot.joints.len())),
+                dofs: self.dofs().map(|dofs| dofs.num_dofs),
+            },
+            modules: modules.collect(),
+            ..blank(kind, name)
+        };
+        Examined { report, checks }
     }
 
     /// Those of the modules whose documents are usable.

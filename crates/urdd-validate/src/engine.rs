@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::context::Context;
 use super::locate::locate;
-use super::rule::{Need, Parts, Rule};
+use super::rule::{Need, Rule};
 use super::skip;
 use urdd_findings::check::{Check, Outcome};
 use urdd_findings::code::Code;
@@ -21,7 +21,6 @@ pub(super) struct Ran {
     pub faulted: Faulted,
 }
 
-/// Outcomes by code.
 pub(super) type Outcomes = HashMap<Code, Ran>;
 
 /// Runs rules for one description of the robot. `outcomes` has the outcomes of rules that ran before; those of these
@@ -41,7 +40,7 @@ pub(super) fn run_all(
         let mut later = Vec::new();
         for rule in waiting {
             // The caller checks as well, and discards partial results.
-            if context.is_cancelled() {
+            if context.cancellation.is_cancelled() {
                 return checks;
             }
             let is_open = |code: &Code| !outcomes.contains_key(code) && codes.contains(code);
@@ -67,14 +66,11 @@ pub(super) fn run_all(
 }
 
 fn run_rule(context: &Context, rule: &'static Rule, outcomes: &Outcomes) -> Check {
-    let unmet = rule.needs.iter().find_map(|need| unmet(context, *need, outcomes));
-    if let Some(reason) = unmet {
+    if let Some(reason) = unmet(context, Need::All(rule.needs), outcomes) {
         return Check::skipped(&rule.description, reason);
     }
     let mut unsound = HashMap::new();
-    for need in rule.needs {
-        unsound_parts(context, *need, outcomes, &mut unsound);
-    }
+    unsound_parts(context, Need::All(rule.needs), outcomes, &mut unsound);
     judge(context, rule, Findings::default().within(Scope::without(unsound)))
 }
 
@@ -91,8 +87,9 @@ fn unsound_parts(
                 unsound_parts(context, *need, outcomes, unsound);
             }
         }
-        Need::Each(parts) if applies(context, parts) => {
-            for code in parts.codes {
+        Need::EachInV1(_) if context.profile() != Profile::V1 => {}
+        Need::Each(codes) | Need::EachInV1(codes) => {
+            for code in codes {
                 let faulted = outcomes.get(code).map(|ran| ran.faulted.parts());
                 for part in faulted.into_iter().flatten() {
                     unsound.entry(*part).or_insert(*code);
@@ -103,10 +100,6 @@ fn unsound_parts(
     }
 }
 
-fn applies(context: &Context, parts: Parts) -> bool {
-    !parts.in_version_1_only || context.profile() == Profile::V1
-}
-
 /// Runs a rule's check with these findings.
 pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) -> Check {
     judge_into(context, rule, &mut { findings })
@@ -114,8 +107,8 @@ pub(super) fn judge(context: &Context, rule: &'static Rule, findings: Findings) 
 
 /// The same, but leaves `findings` to the caller, without the findings that are returned.
 pub(super) fn judge_into(context: &Context, rule: &'static Rule, findings: &mut Findings) -> Check {
-    let mut check =
-        Check::caught(&rule.description, findings, |findings| (rule.check)(context, findings));
+    let judge = |findings: &mut Findings| (rule.check)(context, findings);
+    let mut check = Check::caught(&rule.description, findings, judge);
     locate(context, &mut check.findings);
     check
 }
@@ -148,12 +141,14 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             context.urdf().err().map(|why| SkipReason::LeftOut(why.to_string().into()))
         }
         Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
-        Need::Each(parts) if !applies(context, parts) => None,
-        Need::Each(parts) => {
-            let mut codes = parts.codes.iter();
-            codes.find_map(|code| obstacle(outcomes, *code, Faulted::elsewhere))
+        Need::NotFailedInV1(_) | Need::NoPartInV1(..) | Need::EachInV1(_)
+            if context.profile() != Profile::V1 =>
+        {
+            None
         }
-        Need::NotFailedInV1(_) | Need::NoPartInV1(..) if context.profile() != Profile::V1 => None,
+        Need::Each(codes) | Need::EachInV1(codes) => {
+            codes.iter().find_map(|code| obstacle(outcomes, *code, Faulted::elsewhere))
+        }
         Need::NoPartInV1(code, kind) => obstacle(outcomes, code, |faulted| faulted.any(kind)),
         Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
             Some(Outcome::Passed) => None,
@@ -163,6 +158,9 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             None => Some(SkipReason::DidNotRun(code)),
         },
         Need::NotFailed(code) | Need::NotFailedInV1(code) => obstacle(outcomes, code, |_| true),
+        Need::NoneFailed(codes) => {
+            codes.iter().find_map(|code| obstacle(outcomes, *code, |_| true))
+        }
         Need::Version1 => (context.profile() != Profile::V1).then_some(skip::NOT_VERSION_1),
         Need::Legacy => (context.profile() != Profile::Legacy).then_some(skip::NOT_LEGACY),
     }

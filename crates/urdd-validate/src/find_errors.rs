@@ -32,9 +32,9 @@ pub fn find_errors(path: &Path, cancellation: &Cancellation) -> Result<Vec<Strin
         }
     }
     let codes = codes.into_iter().filter_map(|(code, count)| Some((code?, count)));
-    let told = codes.map(|(code, count)| match count {
+    let texts = codes.map(|(code, count)| match count {
         1 => format!("{code} (1 finding)"),
         _ => format!("{code} ({count} findings)"),
     });
-    Ok(told.collect())
+    Ok(texts.collect())
 }

@@ -74,9 +74,8 @@ use urdd_directory::source::Source;
 use urdd_document::load::Loaded;
 use urdd_document::urdd::Urdd;
 use urdd_findings::bound;
-use urdd_findings::examined::{Examined, blank};
-use urdd_format::index::Count;
-use urdd_format::report::{self as format, Kind, Module, Size};
+use urdd_findings::examined::Examined;
+use urdd_format::report::Kind;
 
 /// Why a run has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -109,12 +108,11 @@ pub fn validate_with<P: AsRef<Path>>(
 ) -> Result<Run, ValidateError> {
     let mut found = Vec::new();
     for path in paths {
-        match bare_urdf::is_urdf(path.as_ref()) {
-            true => found.push((Kind::Urdf, bare_urdf::found(path.as_ref()))),
-            false => {
-                let below = discover(path.as_ref())?;
-                found.extend(below.into_iter().map(|found| (Kind::Urdd, found)));
-            }
+        let path = path.as_ref();
+        if bare_urdf::is_urdf(path) {
+            found.push((Kind::Urdf, bare_urdf::found(path)));
+        } else {
+            found.extend(discover(path)?.into_iter().map(|found| (Kind::Urdd, found)));
         }
     }
     let all = found.len();
@@ -184,27 +182,5 @@ fn run_of(
 pub fn examine(urdd: Urdd, name: &str, settings: &Settings, rules: &[&'static Rule]) -> Examined {
     let context =
         Context::new(urdd, settings.class).deep(settings.deep).until(&settings.cancellation);
-    let checks = two_robots::run(&context, rules);
-    let modules = context.modules().map(|module| Module {
-        name: module.name().to_owned(),
-        path: module.folder.clone(),
-        version: module.version.clone(),
-        profile: module.spec.map(|spec| spec.profile.as_str().to_owned()),
-    });
-    let robot = context.robot();
-    let metadata = context.metadata();
-    let report = format::Urdd {
-        name: robot
-            .map(|robot| &robot.name)
-            .or(metadata.map(|metadata| &metadata.robot_name))
-            .cloned(),
-        size: Size {
-            links: robot.map(|robot| Count::saturating(robot.links.len())),
-            joints: robot.map(|robot| Count::saturating(robot.joints.len())),
-            dofs: context.dofs().map(|dofs| dofs.num_dofs),
-        },
-        modules: modules.collect(),
-        ..blank(Kind::Urdd, name)
-    };
-    Examined { report, checks }
+    context.examined(Kind::Urdd, name, two_robots::run(&context, rules))
 }

@@ -21,8 +21,7 @@ impl<K: Eq + Hash, V: Copy> Memo<K, V> {
     /// The result of a key, computed if it is not known.
     pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = known().get(&key).copied();
-        found.unwrap_or_else(|| {
+        known().get(&key).copied().unwrap_or_else(|| {
             let value = compute();
             known().insert(key, value);
             value
@@ -41,6 +40,19 @@ pub struct Farthest {
     pub tolerance: f64,
 }
 
+impl Farthest {
+    /// The first of the farthest of some places, given with their distances.
+    pub fn of(places: impl Iterator<Item = ([f64; 3], f64)>, tolerance: f64) -> Option<Farthest> {
+        let (place, distance) = places.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        Some(Farthest { place, distance, tolerance })
+    }
+
+    /// Whether it is reported.
+    pub fn is_off(&self) -> bool {
+        self.distance > self.tolerance
+    }
+}
+
 /// Why a mesh is not convex, and its dents, where they were measured.
 type Concavity = (NotConvex, Option<Dents>);
 
@@ -50,7 +62,6 @@ type Concavity = (NotConvex, Option<Dents>);
 pub struct Memos {
     /// For a rule and the meshes that it compares: the place farthest off.
     pub farthest: Memo<(Code, Vec<usize>), Option<Farthest>>,
-    /// Why a mesh is not convex.
     pub convexity: Memo<usize, Option<Concavity>>,
     /// The size of a box or sphere over that of the smallest one around a mesh. The numbers are those of its size.
     pub ratios: Memo<(usize, [u64; 4]), Option<f64>>,

@@ -39,18 +39,13 @@ pub fn verify_model(path: &Path) -> ModelVerdict {
     let Some(urdd) = urdd else {
         return ModelVerdict::NotVerified(Vec::new());
     };
-    let failed = urdd.checks.iter();
-    let failed = failed.filter(|check| check.status == Status::Failed);
-    let failed = failed.map(|check| check.code.clone());
-    let refuted: Vec<String> = failed.filter(|code| code.starts_with("LRN")).collect();
+    let failed = urdd.checks.iter().filter(|check| check.status == Status::Failed);
+    let refuted: Vec<String> =
+        failed.map(|check| check.code.clone()).filter(|code| code.starts_with("LRN")).collect();
     if !refuted.is_empty() {
         return ModelVerdict::Refuted(refuted);
     }
-    let open = urdd.model_not_verified;
-    let reasons = open.into_iter().flat_map(|open| open.reasons);
-    let reasons: Vec<String> = reasons.chain(urdd.reason).collect();
-    match reasons.is_empty() {
-        true => ModelVerdict::Verified,
-        false => ModelVerdict::NotVerified(reasons),
-    }
+    let open = urdd.model_not_verified.into_iter().flat_map(|open| open.reasons);
+    let reasons: Vec<String> = open.chain(urdd.reason).collect();
+    if reasons.is_empty() { ModelVerdict::Verified } else { ModelVerdict::NotVerified(reasons) }
 }

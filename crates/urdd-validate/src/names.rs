@@ -8,14 +8,12 @@ use urdd_format::shape_kind::ShapeKind;
 /// Maximum length of a name in messages, characters.
 const LONGEST: usize = 60;
 
-/// The names of a robot.
 pub(super) struct Names<'a> {
     context: &'a Context,
     shapes: Option<Shapes>,
 }
 
 impl<'a> Names<'a> {
-    /// The names of the robot that is judged.
     pub(super) fn new(context: &'a Context) -> Self {
         let shapes = context.shapes();
         Names { context, shapes }

@@ -32,13 +32,16 @@ pub enum Need {
     Passed(Code),
     /// The other rule found nothing, or did not apply.
     NotFailed(Code),
-    /// The same, in a URDD of version 1 only: in legacy URDDs the other rule often reports a convention.
+    /// None of the other rules found anything.
+    NoneFailed(&'static [Code]),
+    /// As [`Need::NotFailed`], in a URDD of version 1 only: in legacy URDDs the other rule often reports a convention.
     NotFailedInV1(Code),
-    /// All of these.
     All(&'static [Need]),
     /// Each part passed these rules. Parts that failed one are left out ([`Findings::judges`]). A fault that does not
     /// belong to single parts skips the whole rule.
-    Each(Parts),
+    Each(&'static [Code]),
+    /// The same, in a URDD of version 1 only: in legacy URDDs, these rules often report a convention.
+    EachInV1(&'static [Code]),
     /// In a URDD of version 1: the other rule found no fault in parts of this kind.
     NoPartInV1(Code, PartKind),
     /// The URDD is of version 1.
@@ -55,27 +58,16 @@ impl Need {
             | Need::NotFailed(code)
             | Need::NotFailedInV1(code)
             | Need::NoPartInV1(code, _) => vec![*code],
-            Need::Each(parts) => parts.codes.to_vec(),
+            Need::NoneFailed(codes) | Need::Each(codes) | Need::EachInV1(codes) => codes.to_vec(),
             Need::All(needs) => needs.iter().flat_map(Need::codes).collect(),
             _ => Vec::new(),
         }
     }
 }
 
-/// Rules that find unsound parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Parts {
-    /// The rules.
-    pub codes: &'static [Code],
-    /// Whether this applies to URDDs of version 1 only: in legacy URDDs, these rules often report a convention.
-    pub in_version_1_only: bool,
-}
-
 /// A rule: one kind of fault in a URDD.
 pub struct Rule {
-    /// What it says of itself.
     pub description: Description,
-    /// What it needs.
     pub needs: &'static [Need],
     /// Reports what it finds. `None`: the check stopped early, either for a reason given to [`Findings::skip`] or,
     /// without one, because it takes something that its needs do not guarantee. The second is a fault of the rule.
@@ -126,8 +118,6 @@ macro_rules! declare_rule {
                 use $crate::needs::*;
                 #[allow(unused_imports)]
                 use $crate::rule::Need::*;
-                #[allow(unused_imports)]
-                use urdd_format::registry::ModuleKind as Kind;
                 #[allow(unused_imports)]
                 use urdd_findings::code::Code::*;
                 $crate::rule::Rule {

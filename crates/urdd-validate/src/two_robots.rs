@@ -66,8 +66,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
         return run_all(context, rules.to_vec(), &mut outcomes);
     };
     let of = |kind: Judges| rules.iter().copied().filter(move |rule| Judges::of(rule) == kind);
-    let once = of(Judges::AsItStands).chain(of(Judges::Robot)).chain(of(Judges::Derived));
-    let once = once.collect();
+    let once = of(Judges::AsItStands).chain(of(Judges::Robot)).chain(of(Judges::Derived)).collect();
     let mut checks = run_all(context, once, &mut outcomes);
     let differs = difference(&outcomes);
 
@@ -96,7 +95,7 @@ fn run_by_both(context: &Context, rules: &[&'static Rule]) -> Vec<Check> {
                 put_together(rule, check, second, [context, &by_urdf]);
             }
         }
-        tell_why_skipped(&mut checks, differs);
+        update_reasons(&mut checks, differs);
     }
     checks.extend(again.into_values());
     checks
@@ -111,7 +110,7 @@ fn difference(outcomes: &Outcomes) -> Option<Code> {
 
 /// Combines the check by `urdf_module` with the check by the URDF.
 fn put_together(rule: &'static Rule, check: &mut Check, second: Check, contexts: [&Context; 2]) {
-    let both = match (&check.outcome, &second.outcome) {
+    *check = match (&check.outcome, &second.outcome) {
         (Outcome::Crashed(_), _) | (_, Outcome::Skipped(_)) => return,
         (Outcome::Skipped(_), _) | (_, Outcome::Crashed(_)) => second,
         (Outcome::Failed, Outcome::Failed) => at_fault_by_both(rule, [&*check, &second], contexts),
@@ -119,7 +118,6 @@ fn put_together(rule: &'static Rule, check: &mut Check, second: Check, contexts:
             Check::new(check.rule, Outcome::Passed, Vec::new())
         }
     };
-    *check = both;
 }
 
 /// The findings of a rule at the places where it failed both times. Runs it once more, because only the first of many
@@ -136,7 +134,7 @@ fn at_fault_by_both(
 }
 
 /// Replaces the reason of rules that were skipped because of a rule that no longer has findings: the two robots differ.
-fn tell_why_skipped(checks: &mut [Check], differs: Code) {
+fn update_reasons(checks: &mut [Check], differs: Code) {
     let settled: HashSet<Code> = checks
         .iter()
         .filter(|check| check.outcome == Outcome::Passed)

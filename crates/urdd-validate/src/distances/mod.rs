@@ -22,19 +22,17 @@ use urdd_format::registry::ModuleKind;
 use urdd_format::shape_kind::ShapeKind;
 use urdd_geometry::convex::{Motion, PairStatistics};
 
-/// The distances of all kinds of shapes.
 pub struct Distances {
     /// In the order of [`ShapeKind::ALL`]; `None` for a kind without statistics.
-    kinds: [Option<KindDistances>; 6],
+    pub kinds: [Option<KindDistances>; 6],
     /// Link poses in the first configurations.
     first: Motion,
-    /// Link poses in the default configuration.
     default: Motion,
 }
 
 /// The distances of one kind of shapes.
 pub struct KindDistances {
-    shapes: ShapeSet,
+    pub shapes: ShapeSet,
     /// Whether these are all configurations of the statistics.
     pub complete: bool,
     /// Where not complete, exact only outside the stated ranges, and without means.
@@ -63,22 +61,19 @@ impl Distances {
             .document(ModuleKind::LinkShapesDistanceStatistics)
             .and_then(statistics)
             .ok_or(skip::STATISTICS_UNUSABLE)?;
-        let num_samples = recorded.iter().flatten().find_map(|one| one.num_samples);
-        let num_samples = num_samples.ok_or(skip::SAMPLES_UNKNOWN)?;
+        let mut stated = recorded.iter().flatten();
+        let num_samples = stated.find_map(|one| one.num_samples).ok_or(skip::SAMPLES_UNKNOWN)?;
         if num_samples == 0 {
             return Err(skip::NO_SAMPLES);
         }
         let poses = Poses::new(urdd)?;
         let shapes = Shapes::new(urdd).ok_or(skip::NO_SHAPES)?;
-        let mut sets: Vec<Option<ShapeSet>> = Vec::with_capacity(ShapeKind::ALL.len());
-        for (kind, recorded) in ShapeKind::ALL.into_iter().zip(&recorded) {
-            let set = recorded.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true));
-            sets.push(set);
-        }
+        let sets: Vec<Option<ShapeSet>> = (ShapeKind::ALL.into_iter().zip(&recorded))
+            .map(|(kind, one)| one.map(|_| ShapeSet::new(urdd, solids, &shapes, kind, true)))
+            .collect();
         let work: Vec<Option<Work>> =
             sets.iter().map(|set| set.as_ref().map(|set| set.work(&poses))).collect();
-        let budget = plan::budget(deep);
-        let configurations = plan::configurations(&work, num_samples, budget);
+        let configurations = plan::configurations(&work, num_samples, plan::budget(deep));
 
         let default = poses.default_motion()?;
         let first = poses.motion(0..num_samples.min(plan::AT_ONCE))?;
@@ -89,18 +84,12 @@ impl Distances {
                 continue;
             };
             let complete = n == num_samples;
-            let found = over(&poses, &first, n, |motion| match complete {
-                true => shapes.statistics(motion),
-                false => shapes.ranges(motion, stated),
+            let found = over(&poses, &first, n, |motion| {
+                if complete { shapes.statistics(motion) } else { shapes.ranges(motion, stated) }
             })?;
             *kind = Some(KindDistances { shapes, complete, found });
         }
         Ok(Distances { kinds, first, default })
-    }
-
-    /// The kinds in the order of [`ShapeKind::ALL`]; `None` for one without statistics.
-    pub fn kinds(&self) -> &[Option<KindDistances>; 6] {
-        &self.kinds
     }
 
     /// The distances of all pairs in the default configuration, by the indices of [`ShapeSet::place`].
@@ -115,18 +104,12 @@ impl Distances {
         (i, j): (usize, usize),
         outside: impl Fn(f64) -> bool,
     ) -> Option<(usize, f64)> {
-        let each = kind.shapes.pair(i, j, &self.first)?;
-        let mut each = each.into_iter().enumerate();
-        each.find(|(_, distance)| outside(*distance))
+        let each = kind.shapes.pair(i, j, &self.first)?.into_iter();
+        each.enumerate().find(|(_, distance)| outside(*distance))
     }
 }
 
 impl KindDistances {
-    /// The shapes.
-    pub fn shapes(&self) -> &ShapeSet {
-        &self.shapes
-    }
-
     /// The distances of a pair; `None` if one of the two shapes is unsound, which other rules report.
     pub fn pair(&self, i: usize, j: usize) -> Option<Found> {
         let (i, j) = (self.shapes.place(i)?, self.shapes.place(j)?);

@@ -21,7 +21,6 @@ pub struct OtherReasons<'a> {
 }
 
 impl<'a> OtherReasons<'a> {
-    /// The reasons for shapes of one kind.
     pub fn new(
         context: &Context,
         document: &ModuleDocument,
@@ -38,8 +37,7 @@ impl<'a> OtherReasons<'a> {
             let (a, b) = (joint.parent_link_idx.get(), joint.child_link_idx.get());
             (a.min(b), a.max(b))
         });
-        let default = skipped(SkippedReason::Default);
-        let motion = poses.default_motion().ok().filter(|_| default);
+        let motion = poses.default_motion().ok().filter(|_| skipped(SkippedReason::Default));
         OtherReasons {
             set,
             adjacent: adjacent.collect(),
@@ -49,7 +47,7 @@ impl<'a> OtherReasons<'a> {
 
     /// Whether a pair may be skipped for one of these reasons.
     pub fn may_skip(&self, shapes: &Shapes, (i, j): (usize, usize)) -> bool {
-        let kind = self.set.kind();
+        let kind = self.set.kind;
         let links = shapes.link(kind, i).zip(shapes.link(kind, j));
         let adjacent = links.is_some_and(|(a, b)| self.adjacent.contains(&(a.min(b), a.max(b))));
         let places = self.set.place(i).zip(self.set.place(j));

@@ -28,22 +28,16 @@ const DEEP: u64 = 2_000_000_000_000;
 /// Configurations are processed eight at a time; fewer take just as long.
 const LEAST: u32 = 8;
 
-/// The allowed work.
 pub fn budget(deep: bool) -> u64 {
-    match deep {
-        true => DEEP,
-        false => DEFAULT,
-    }
+    if deep { DEEP } else { DEFAULT }
 }
 
 /// The number of configurations, out of `num_samples` and from the first on, for each kind. The kinds with the least
 /// work are computed completely as long as the budget lasts. The rest of it goes to equal numbers of configurations of
 /// the others, at least eight of each.
 pub fn configurations(kinds: &[Option<Work>], num_samples: u32, budget: u64) -> Vec<u32> {
-    let in_full = |work: &Work| {
-        let moving = work.each.saturating_mul(u64::from(num_samples));
-        moving.saturating_add(work.once)
-    };
+    let in_full =
+        |work: &Work| work.each.saturating_mul(u64::from(num_samples)).saturating_add(work.once);
     let mut order: Vec<(u64, usize)> = kinds
         .iter()
         .enumerate()
@@ -69,8 +63,7 @@ pub fn configurations(kinds: &[Option<Work>], num_samples: u32, budget: u64) -> 
     }
     let each = others.each.max(1).saturating_mul(u64::from(LEAST));
     let eights = left.saturating_sub(others.once) / each;
-    let some = u32::try_from(eights).unwrap_or(u32::MAX).max(1);
-    let some = some.saturating_mul(LEAST).min(AT_ONCE);
+    let some = u32::try_from(eights).unwrap_or(u32::MAX).max(1).saturating_mul(LEAST).min(AT_ONCE);
     for n in &mut planned {
         if *n != num_samples {
             *n = some.min(num_samples) * u32::from(*n > 0);

@@ -48,7 +48,6 @@ impl Poses {
         Ok(Poses { space, kinematics, groups: groups.of_link.clone() })
     }
 
-    /// Number of links.
     pub fn num_links(&self) -> usize {
         self.groups.len()
     }
@@ -63,9 +62,9 @@ impl Poses {
     /// # Errors
     /// If numbers exceed 64 bits.
     pub fn default_motion(&self) -> Result<Motion, SkipReason> {
-        let configuration = self.space.default_configuration();
-        let poses = self.kinematics.link_poses(&configuration);
-        let poses = poses
+        let poses = self
+            .kinematics
+            .link_poses(&self.space.default_configuration())
             .map_err(|error| SkipReason::obstacle(format!("default configuration: {error}")))?;
         Motion::new(&[poses], &self.groups).map_err(SkipReason::obstacle)
     }
@@ -76,10 +75,8 @@ impl Poses {
     /// If numbers exceed 64 bits.
     pub fn sampled(&self, sample: u32) -> Result<(Vec<f64>, Vec<Isometry3<f64>>), SkipReason> {
         let configuration = self.space.sampled(u64::from(sample));
-        let poses = self.kinematics.link_poses(&configuration);
-        let poses = poses.map_err(|error| {
-            SkipReason::obstacle(format!("sampled configuration {sample}: {error}"))
-        })?;
+        let why = |error| SkipReason::obstacle(format!("sampled configuration {sample}: {error}"));
+        let poses = self.kinematics.link_poses(&configuration).map_err(why)?;
         Ok((configuration, poses))
     }
 
@@ -88,8 +85,7 @@ impl Poses {
     /// # Errors
     /// If numbers exceed 64 bits.
     pub fn of(&self, configuration: &[f64]) -> Result<Vec<Isometry3<f64>>, SkipReason> {
-        let poses = self.kinematics.link_poses(configuration);
-        poses.map_err(SkipReason::obstacle)
+        self.kinematics.link_poses(configuration).map_err(SkipReason::obstacle)
     }
 
     /// The poses in a range of sampled configurations.

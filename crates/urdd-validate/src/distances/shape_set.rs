@@ -19,7 +19,7 @@ use urdd_kinematics::rotation::from_rpy;
 
 /// The existing, sound shapes of a kind.
 pub struct ShapeSet {
-    kind: ShapeKind,
+    pub kind: ShapeKind,
     /// Index in the list of each shape.
     places: Vec<Option<usize>>,
     list: List,
@@ -60,29 +60,22 @@ impl ShapeSet {
             let sound = mesh.is_none_or(|mesh| Fit::new(volume, mesh).is_tight(mesh));
             sound.then_some(*volume)
         };
-        let (places, list) = match kind {
+        let mut places = Vec::new();
+        let list = match kind {
             ShapeKind::Hulls | ShapeKind::Pieces => {
                 let hull = |link, piece| ConvexShape::new(mesh(link, piece)?).ok();
-                let (places, list) = placed(shapes, kind, hull);
-                (places, List::Hulls(list))
+                List::Hulls(placed(shapes, kind, hull, &mut places))
             }
             ShapeKind::Spheres | ShapeKind::PieceSpheres => {
                 let sphere = |link, piece| sphere(volume(link, piece)?);
-                let (places, list) = placed(shapes, kind, sphere);
-                (places, List::Spheres(list))
+                List::Spheres(placed(shapes, kind, sphere, &mut places))
             }
             ShapeKind::Boxes | ShapeKind::PieceBoxes => {
                 let cuboid = |link, piece| cuboid(volume(link, piece)?);
-                let (places, list) = placed(shapes, kind, cuboid);
-                (places, List::Boxes(list))
+                List::Boxes(placed(shapes, kind, cuboid, &mut places))
             }
         };
         ShapeSet { kind, places, list }
-    }
-
-    /// The kind.
-    pub fn kind(&self) -> ShapeKind {
-        self.kind
     }
 
     /// Index of a shape in the matrices of [`ShapeSet::statistics`].
@@ -102,16 +95,12 @@ impl ShapeSet {
         let mut work = Work { once: 0, each: poses.num_links() as u64 * plan::POSE };
         for (i, a) in bodies.iter().enumerate() {
             for b in &bodies[i + 1..] {
-                match poses.is_rigid(*a, *b) {
-                    true => work.once += one,
-                    false => work.each += one,
-                }
+                if poses.is_rigid(*a, *b) { work.once += one } else { work.each += one }
             }
         }
         work
     }
 
-    /// The statistics of all pairs.
     pub fn statistics(&self, motion: &Motion) -> PairStatistics {
         // Every shape is on a link, and the motion contains all links.
         of_list!(&self.list, list => pair_statistics(list, motion)).unwrap_or_default()
@@ -141,20 +130,21 @@ pub(super) fn volumes(urdd: &Urdd, kind: ShapeKind) -> Option<ShapeList<Volume>>
     lists.into_iter().find(|list| list.kind == kind)
 }
 
-/// The shapes of a kind that can be made of link and piece, and the index among them of each shape.
+/// The shapes of a kind that can be made of link and piece. `places` gets the index among them of each shape.
 fn placed<T>(
     shapes: &Shapes,
     kind: ShapeKind,
     make: impl Fn(usize, usize) -> Option<T>,
-) -> (Vec<Option<usize>>, Vec<PlacedShape<T>>) {
+    places: &mut Vec<Option<usize>>,
+) -> Vec<PlacedShape<T>> {
     let mut list = Vec::new();
-    let places = (0..shapes.count(kind)).map(|shape| {
+    places.extend((0..shapes.count(kind)).map(|shape| {
         let (body, piece) = shapes.place(kind, shape)?;
         let shape = make(body, piece)?;
         list.push(PlacedShape { body, shape });
         Some(list.len() - 1)
-    });
-    (places.collect(), list)
+    }));
+    list
 }
 
 fn sphere(volume: Volume) -> Option<Sphere> {

@@ -22,13 +22,10 @@ impl Tolerances {
         let volumes = volumes(urdd, kind);
         let of_shape = |shape: usize| -> Option<f64> {
             let (link, piece) = shapes.place(kind, shape)?;
-            match kind.is_convex_mesh() {
-                true => {
-                    let mesh = solids.sound(kind.meshes(), link, piece)?;
-                    Some(farthest::of_mesh(mesh))
-                }
-                false => Some(volumes.as_ref()?.links.get(link)?.get(piece)?.reach()),
-            }
+            Some(match kind.is_convex_mesh() {
+                true => farthest::of_mesh(solids.sound(kind.meshes(), link, piece)?),
+                false => volumes.as_ref()?.links.get(link)?.get(piece)?.reach(),
+            })
         };
         let robot = urdd.robot().zip(urdd.tree());
         Tolerances {

@@ -51,8 +51,7 @@ impl Judge {
         let poses = Poses::new(urdd)?;
         let pieces = pairs::pieces(urdd, solids)?;
         let numbers: usize = model.layers.iter().map(|of| of.biases.len()).sum();
-        let weights = model.layers.iter().flat_map(|of| &of.weights);
-        let weights: usize = weights.map(Vec::len).sum();
+        let weights: usize = model.layers.iter().flat_map(|of| &of.weights).map(Vec::len).sum();
         let work = 50 * poses.num_links() + 4 * pieces.num_shape_pairs() + 20 * numbers + weights;
         Ok(Self {
             network: Network::new(model),

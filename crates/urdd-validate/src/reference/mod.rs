@@ -2,7 +2,6 @@
 //! multiplied by nalgebra). Shares nothing with the modules or with `urdd_kinematics`, which it verifies. Nothing
 //! recurses, because a chain may be as long as the file.
 
-#[doc(hidden)]
 pub mod motion;
 
 use std::collections::HashMap;
@@ -69,8 +68,7 @@ impl Reference {
         let links = names(&mut robot.links.iter().map(|link| link.name.as_str()));
         let drivers = names(&mut robot.joints.iter().map(|joint| joint.name.as_str()));
         let link = |name: &str| {
-            let found = links.get(name).copied();
-            found.ok_or_else(|| format!("no link is called {name}"))
+            links.get(name).copied().ok_or_else(|| format!("no link is called {name}"))
         };
         let quaternions = has_quaternions(robot.version.as_deref());
         let mut dofs = 0;
@@ -105,12 +103,10 @@ impl Reference {
         Ok(Reference { links: robot.links.len(), joints, order, dofs })
     }
 
-    /// Number of links.
     pub fn num_links(&self) -> usize {
         self.links
     }
 
-    /// Number of DOFs.
     pub fn num_dofs(&self) -> usize {
         self.dofs
     }

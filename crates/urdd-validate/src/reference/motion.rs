@@ -21,10 +21,7 @@ pub fn motion(kind: JointType, axis: [f64; 3], q: &[f64; 6]) -> Isometry3<f64> {
     let axis = Vector3::from(axis);
     // Divided first, so that squares of huge numbers do not overflow.
     let largest = axis.amax();
-    let unit = match largest > 0.0 {
-        true => (axis / largest).normalize(),
-        false => Vector3::x(),
-    };
+    let unit = if largest > 0.0 { (axis / largest).normalize() } else { Vector3::x() };
     let turn = |v: Vector3<f64>| UnitQuaternion::from_scaled_axis(v);
     let (shift, rotation) = match kind {
         JointType::Fixed => (Vector3::zeros(), UnitQuaternion::identity()),

@@ -1,28 +1,48 @@
 //! Names that rules use.
 
+pub(super) use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
 pub(super) use crate::context::Context;
-pub(super) use crate::finding::finding_in;
+pub(super) use crate::distances::tolerances::Tolerances;
+pub(super) use crate::finding::{Compared, finding_in};
+pub(super) use crate::memo::Farthest;
 pub(super) use crate::rule::declare_rule;
+pub(super) use crate::skip;
 pub(super) use crate::tolerance::*;
+pub(super) use crate::views::extension_schema;
+pub(super) use crate::views::judged::judged;
 pub(super) use crate::views::list_lengths::wrong_lengths;
+pub(super) use crate::views::shape_pair::{Pair, Pairs};
+pub(super) use crate::views::tangled::pairs;
+pub(super) use crate::views::text_faults::{report_json, report_yaml};
 pub(super) use urdd_directory::discover::ROOT_METADATA;
+pub(super) use urdd_directory::path;
+pub(super) use urdd_directory::root::{EntryKind, ReadError};
+pub(super) use urdd_directory::text_fault::TextFaultKind;
 pub(super) use urdd_document::entries::{self, Entry};
 pub(super) use urdd_document::meshes::DERIVED;
-pub(super) use urdd_document::module::Module;
+pub(super) use urdd_document::module::{Module, VersionFile};
+pub(super) use urdd_document::paths;
+pub(super) use urdd_document::robot::Robot;
+pub(super) use urdd_findings::code::Code;
 pub(super) use urdd_findings::finding::{Finding, Findings, point};
 pub(super) use urdd_findings::fold::Fold;
 pub(super) use urdd_findings::part::{Part, Why};
 pub(super) use urdd_findings::skip::SkipReason;
 pub(super) use urdd_format::readable::{metres, number};
-pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
+pub(super) use urdd_format::registry::{ModuleDocument, ModuleKind as Kind, Profile};
+use urdd_format::root_metadata::Source;
+pub(super) use urdd_format::root_metadata::{FileEntry, Version};
 pub(super) use urdd_format::shape_kind::ShapeKind;
+pub(super) use urdd_format::urdf::JointType;
+pub(super) use urdd_geometry::Mesh;
 
 /// The document of a module, if it is of version 1: `document!(context, PlainMeshes)`. [`Need::ModuleV1`] guarantees it.
 ///
 /// [`Need::ModuleV1`]: crate::rule::Need::ModuleV1
 macro_rules! document {
     ($context:expr, $kind:ident) => {
-        match $context.document(ModuleKind::$kind) {
+        match $context.document(Kind::$kind) {
             Some(ModuleDocument::$kind(document)) => Some(&**document),
             _ => None,
         }
@@ -33,6 +53,12 @@ pub(super) use document;
 /// The modules that `urdd.json` lists.
 pub(super) fn listed_modules(context: &Context) -> Option<Vec<Entry<'_>>> {
     context.metadata().map(|_| entries::all(context))
+}
+
+/// The source URDF that `urdd.json` names.
+pub(super) fn source(context: &Context) -> Option<&FileEntry> {
+    let Source::Urdf(file) = context.metadata()?.source.as_ref()?;
+    Some(file)
 }
 
 /// Whether the module's version is from before the specification.

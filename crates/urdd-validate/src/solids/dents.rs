@@ -12,7 +12,6 @@ use urdd_geometry::surface::distinct;
 pub struct Dents {
     /// Number of faces towards the middle of the vertices.
     pub inward: usize,
-    /// Number of faces.
     pub faces: usize,
     /// Largest depth of the surface inside the hull of its vertices, m.
     pub depth: f64,

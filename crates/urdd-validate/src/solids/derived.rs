@@ -9,8 +9,7 @@ use super::glb_chunks;
 use super::stl_records;
 use crate::tolerance::mesh_resolution;
 use urdd_document::mesh_files::MeshFiles;
-use urdd_document::meshes::Meshes;
-use urdd_document::meshes::{Format, MeshPath};
+use urdd_document::meshes::{Format, MeshPath, Meshes};
 use urdd_document::urdd::Urdd;
 use urdd_format::registry::{ModuleKind, Profile};
 use urdd_geometry::Mesh;
@@ -20,7 +19,6 @@ use urdd_geometry::surface::{self, Difference, Likeness};
 /// A mesh of a link, or one of its pieces.
 #[derive(Debug)]
 pub struct Derived {
-    /// The link.
     pub link: usize,
     /// Its index among the pieces; 0 in modules with one mesh per link.
     pub piece: usize,
@@ -47,10 +45,7 @@ impl Derived {
         let files = self.files.iter().zip(paths).map(|(file, path)| DerivedFile {
             path: path.path.to_owned(),
             pointer: path.pointer.clone(),
-            format: file.format,
-            content: file.content,
-            fault: None,
-            not_glb: file.not_glb,
+            ..file.clone()
         });
         Derived {
             link,
@@ -73,8 +68,7 @@ impl Derived {
     }
 }
 
-/// A file of a mesh.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct DerivedFile {
     /// Its path, as written.
     pub path: String,

@@ -1,30 +1,23 @@
 //! The difference of two meshes in words.
 
+use urdd_findings::finding::point;
+use urdd_format::readable::metres;
 use urdd_geometry::surface::Difference;
 
-/// The difference in words.
 pub fn in_words(difference: &Difference) -> String {
-    let mut parts = Vec::new();
-    let count = |n: usize, what: &str| match n {
-        1 => format!("1 triangle {what}"),
-        n => format!("{n} triangles {what}"),
-    };
-    if difference.missing > 0 {
-        parts.push(count(difference.missing, "missing"));
-    }
-    if !difference.extra.is_empty() {
-        parts.push(count(difference.extra.len(), "too many"));
-    }
-    if difference.turned > 0 {
-        parts.push(count(difference.turned, "turned round"));
-    }
-    let mut text = parts.join(", ");
+    let counts = [
+        (difference.missing, "missing"),
+        (difference.extra.len(), "too many"),
+        (difference.turned, "turned round"),
+    ];
+    let parts = counts.into_iter().filter_map(|(count, what)| match count {
+        0 => None,
+        1 => Some(format!("1 triangle {what}")),
+        _ => Some(format!("{count} triangles {what}")),
+    });
+    let mut text = parts.collect::<Vec<_>>().join(", ");
     if difference.distance > 0.0 {
-        text.push_str(&format!(
-            ", corners {} apart",
-            urdd_format::readable::metres(difference.distance)
-        ));
+        text += &format!(", corners {} apart", metres(difference.distance));
     }
-    text.push_str(&format!(", first at {}", urdd_findings::finding::point(difference.place)));
-    text
+    text + &format!(", first at {}", point(difference.place))
 }

@@ -43,16 +43,12 @@ pub fn of_link(
             continue;
         };
         let rotation = element.origin.rotation();
-        match Primitive::new(geometry, rotation, element.origin.xyz) {
-            Some(primitive) => {
-                expected.extent = expected.extent.max(primitive.extent());
-                expected.primitives.push(primitive);
-            }
-            None => {
-                let path = carried(urdd, named, link, kind, at)?;
-                let mesh = original(&path)?;
-                expected.add(mesh, element, geometry);
-            }
+        if let Some(primitive) = Primitive::new(geometry, rotation, element.origin.xyz) {
+            expected.extent = expected.extent.max(primitive.extent());
+            expected.primitives.push(primitive);
+        } else {
+            let mesh = original(&carried(urdd, named, link, kind, at)?)?;
+            expected.add(mesh, element, geometry);
         }
     }
     Some(expected)
@@ -65,7 +61,7 @@ impl Expected {
     }
 
     /// Adds a mesh, placed.
-    fn add(&mut self, mesh: Mesh, element: &Element, geometry: &Geometry) {
+    fn add(&mut self, mut mesh: Mesh, element: &Element, geometry: &Geometry) {
         let scale = match geometry {
             Geometry::Mesh(mesh) => mesh.scale.unwrap_or([1.0; 3]),
             _ => [1.0; 3],
@@ -73,19 +69,17 @@ impl Expected {
         let rotation = element.origin.rotation();
         let rows = [0, 1, 2].map(|row| [0, 1, 2].map(|column| rotation[(row, column)]));
         let own = extent(&mesh);
-        let mut placed = mesh;
-        placed.transform(&placement(scale, rows, element.origin.xyz));
+        mesh.transform(&placement(scale, rows, element.origin.xyz));
         let largest = scale.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         self.extent = self
             .extent
             .max(own * largest)
             .max(Vector3::from(element.origin.xyz).amax())
-            .max(extent(&placed));
-        self.mesh.append(&placed);
+            .max(extent(&mesh));
+        self.mesh.append(&mesh);
     }
 }
 
-/// The path of the mesh that an element names.
 fn carried(
     urdd: &Urdd,
     named: &Link,

@@ -7,7 +7,6 @@ use urdd_document::mesh_files::{Absence, MeshFiles};
 use urdd_format::registry::Profile;
 use urdd_geometry::read::{GltfUp, MeshError, NoteCode, Options, Scene, read_with};
 
-/// A fault of a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MeshFault {
     /// It cannot be opened, which other rules report.
@@ -29,10 +28,10 @@ pub fn bytes(files: &mut MeshFiles, profile: Profile, path: &str) -> Result<Vec<
     }
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     // A file that grows while it is read is cut at its original size.
-    match file.take(MAX_DOCUMENT_BYTES).read_to_end(&mut bytes) {
-        Ok(_) => Ok(bytes),
-        Err(error) => Err(MeshFault::Broken(format!("it cannot be read: {error}"))),
-    }
+    file.take(MAX_DOCUMENT_BYTES)
+        .read_to_end(&mut bytes)
+        .map_err(|error| MeshFault::Broken(format!("it cannot be read: {error}")))?;
+    Ok(bytes)
 }
 
 /// The content of a derived mesh file, in link axes, and why it is unsound, if the reader had to repair it.
@@ -49,12 +48,9 @@ pub fn derived(
     let scene = read_with(bytes, path, &mut |_| None, &options)
         .map_err(|error| MeshFault::Broken(without_name(&error)))?;
     let named = scene.side_files.first().filter(|_| profile == Profile::V1);
-    let fault = match named {
-        Some(name) => Some(format!("it names another file, `{name}`")),
-        None => {
-            scene.notes.iter().find(|note| is_fault(note.code, profile)).map(ToString::to_string)
-        }
-    };
+    let fault = named.map(|name| format!("it names another file, `{name}`")).or_else(|| {
+        scene.notes.iter().find(|note| is_fault(note.code, profile)).map(ToString::to_string)
+    });
     Ok((scene, fault))
 }
 

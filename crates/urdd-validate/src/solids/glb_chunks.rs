@@ -33,23 +33,16 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 fn header_fault(header: &[u8], size: u64) -> Option<String> {
-    if header.starts_with(b"{") {
-        return Some("it is glTF as JSON (a .gltf file)".to_owned());
-    }
-    if header.starts_with(b"version http") {
-        return Some("it is a Git LFS pointer; fetch the file itself".to_owned());
-    }
-    if !header.starts_with(b"glTF") {
-        return Some("it does not begin with `glTF`".to_owned());
-    }
-    match (word(header, 4), word(header, 8)) {
-        (Some(2), Some(length)) if u64::from(length) == size => None,
-        (Some(2), Some(length)) => {
-            Some(format!("its header says {length} bytes, and it has {size}"))
-        }
-        (Some(version), Some(_)) => Some(format!("it is of glTF version {version}")),
-        _ => Some(format!("it has only {} bytes", header.len())),
-    }
+    let begins = |text: &[u8]| header.starts_with(text);
+    Some(match (word(header, 4), word(header, 8)) {
+        _ if begins(b"{") => "it is glTF as JSON (a .gltf file)".to_owned(),
+        _ if begins(b"version http") => "it is a Git LFS pointer; fetch the file itself".to_owned(),
+        _ if !begins(b"glTF") => "it does not begin with `glTF`".to_owned(),
+        (Some(2), Some(length)) if u64::from(length) == size => return None,
+        (Some(2), Some(length)) => format!("its header says {length} bytes, and it has {size}"),
+        (Some(version), Some(_)) => format!("it is of glTF version {version}"),
+        _ => format!("it has only {} bytes", header.len()),
+    })
 }
 
 /// The fault of the chunks, which follow the header up to the file's end.

@@ -3,9 +3,7 @@
 //!
 //! The three files of a mesh are compared while they are read, and one of them is kept.
 
-#[doc(hidden)]
 pub mod apart;
-#[doc(hidden)]
 pub mod cut;
 pub mod dents;
 pub mod derived;
@@ -31,7 +29,6 @@ use urdd_document::urdd::Urdd;
 use urdd_format::registry::ModuleKind;
 use urdd_geometry::Mesh;
 
-/// The contents of a URDD's mesh files.
 #[derive(Debug, Default)]
 pub struct Solids {
     derived: HashMap<ModuleKind, Vec<Derived>>,
@@ -76,11 +73,11 @@ impl Solids {
             })
             .collect();
         let mut first: HashMap<u64, (usize, &Mesh)> = HashMap::new();
-        let numbered = all.into_iter().zip(hashes).enumerate();
-        let numbered = numbered.map(|(at, ((place, mesh), hash))| {
-            let (content, other) = *first.entry(hash).or_insert((at, mesh));
-            (place, if mesh == other { content } else { at })
-        });
+        let numbered =
+            all.into_iter().zip(hashes).enumerate().map(|(at, ((place, mesh), hash))| {
+                let (content, other) = *first.entry(hash).or_insert((at, mesh));
+                (place, if mesh == other { content } else { at })
+            });
         numbered.collect()
     }
 

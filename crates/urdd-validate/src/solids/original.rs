@@ -39,8 +39,7 @@ pub fn uncut(urdd: &Urdd, path: &str) -> Option<Mesh> {
     let bytes = file::bytes(&mut MeshFiles::new(urdd), profile, path).ok()?;
     let options = Options { uncut: true, ..Options::default() };
     let scene = read_with(&bytes, path, &mut |_| None, &options).ok()?;
-    let has_faces = matches!(scene.format, Format::Obj | Format::Collada);
-    has_faces.then(|| scene.merged())
+    matches!(scene.format, Format::Obj | Format::Collada).then(|| scene.merged())
 }
 
 fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {
@@ -58,15 +57,15 @@ fn paths(urdd: &Urdd) -> (Profile, BTreeSet<&str>) {
 }
 
 fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
-    let unreadable = |fault| Original { mesh: Err(fault), side_files: None };
-    let bytes = match file::bytes(files, profile, path) {
-        Ok(bytes) => bytes,
-        Err(fault) => return unreadable(fault),
+    let mut scene = || {
+        let bytes = file::bytes(files, profile, path)?;
+        let mut fetch = |side: &str| file::bytes(files, profile, &beside(path, side)?).ok();
+        read(&bytes, path, &mut fetch)
+            .map_err(|error| MeshFault::Broken(file::without_name(&error)))
     };
-    let mut fetch = |side: &str| file::bytes(files, profile, &beside(path, side)?).ok();
-    let scene = match read(&bytes, path, &mut fetch) {
+    let scene = match scene() {
         Ok(scene) => scene,
-        Err(error) => return unreadable(MeshFault::Broken(file::without_name(&error))),
+        Err(fault) => return Original { mesh: Err(fault), side_files: None },
     };
     let named: BTreeSet<String> = scene
         .side_files
@@ -75,14 +74,9 @@ fn read_one(files: &mut MeshFiles, profile: Profile, path: &str) -> Original {
         .filter(|side| side != path && files.find(profile, side).is_ok())
         .collect();
     let mesh = scene.merged();
+    let nothing = || MeshFault::Broken("it holds no triangle with an area".to_owned());
     Original {
-        mesh: match mesh.area() > 0.0 {
-            true => Ok(mesh),
-            false => {
-                let why = "it holds no triangle with an area".to_owned();
-                Err(MeshFault::Broken(why))
-            }
-        },
+        mesh: if mesh.area() > 0.0 { Ok(mesh) } else { Err(nothing()) },
         side_files: Some(named.into_iter().collect()),
     }
 }

@@ -19,20 +19,16 @@ use urdd_format::meshes::GeometryKind;
 use urdd_format::readable::metres;
 use urdd_format::registry::{ModuleDocument, ModuleKind};
 use urdd_geometry::Mesh;
-use urdd_geometry::surface::{self, Difference, Likeness};
+use urdd_geometry::surface::{self, Likeness};
 
 /// A link with a wrong mesh.
 #[derive(Debug)]
 pub struct Misplaced {
-    /// The link.
     pub link: usize,
     /// JSON Pointer of its mesh.
     pub pointer: String,
-    /// What is wrong with the mesh.
     pub what: String,
-    /// What is expected.
     pub expected: String,
-    /// What is there.
     pub actual: String,
     /// Maximum distance of corners, m.
     pub tolerance: f64,
@@ -41,7 +37,6 @@ pub struct Misplaced {
 /// The result for the meshes of all links, in link order.
 #[derive(Debug, Default)]
 pub struct Placed {
-    /// The links with wrong meshes.
     pub wrong: Vec<Misplaced>,
     /// The links that could not be judged: files differ or are broken, or a source is missing.
     pub unknown: Vec<(usize, Why)>,
@@ -126,15 +121,12 @@ pub fn fault(expected: &Expected, found: &Mesh) -> Option<(String, f64)> {
     let tolerance = tolerance(expected, found);
     let difference = surface::difference(&expected.mesh, found, tolerance, Likeness::SameSurface)
         .unwrap_or_default();
-    let told = |found: &Difference| Some((difference::in_words(found), tolerance));
+    let fault = || Some((difference::in_words(&difference), tolerance));
     if difference.missing > 0 || difference.turned > 0 {
-        return told(&difference);
+        return fault();
     }
     if expected.primitives.is_empty() {
-        return match difference.extra.is_empty() {
-            true => None,
-            false => told(&difference),
-        };
+        return if difference.extra.is_empty() { None } else { fault() };
     }
     primitives(expected, found, &difference.extra, tolerance).map(|what| (what, tolerance))
 }
@@ -197,8 +189,7 @@ fn primitives(
 /// Describes a triangle that is on no primitive.
 fn off_surface(expected: &Expected, corners: [[f64; 3]; 3], middle: [f64; 3]) -> String {
     let nearest = |p: [f64; 3]| {
-        let distances = expected.primitives.iter().map(|one| one.distance(p).abs());
-        distances.fold(f64::INFINITY, f64::min)
+        expected.primitives.iter().map(|one| one.distance(p).abs()).fold(f64::INFINITY, f64::min)
     };
     let worst = corners.into_iter().fold((middle, nearest(middle)), |worst, corner| {
         let distance = nearest(corner);
@@ -218,8 +209,5 @@ fn in_words(expected: &Expected) -> String {
         parts.push(format!("{} triangles of its meshes", expected.mesh.triangles.len()));
     }
     parts.extend(expected.primitives.iter().map(|one| format!("a {}", one.name())));
-    match parts.is_empty() {
-        true => "nothing".to_owned(),
-        false => parts.join(", "),
-    }
+    if parts.is_empty() { "nothing".to_owned() } else { parts.join(", ") }
 }

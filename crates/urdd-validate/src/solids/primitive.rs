@@ -116,7 +116,6 @@ impl Primitive {
         self.position.norm() + size
     }
 
-    /// Its name.
     pub fn name(&self) -> &'static str {
         match self.shape {
             Shape::Box(_) => "box",

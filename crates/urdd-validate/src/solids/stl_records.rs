@@ -11,8 +11,7 @@ pub const RECORD: usize = 50;
 /// The fault of the normals or the unused bytes of a binary STL, for its first faulty triangle. The corners are assumed
 /// sound.
 pub fn fault(stl: &[u8]) -> Option<String> {
-    let records = stl.get(HEADER..)?.chunks_exact(RECORD);
-    records.enumerate().find_map(|(at, record)| {
+    stl.get(HEADER..)?.chunks_exact(RECORD).enumerate().find_map(|(at, record)| {
         let mut numbers = [0.0; 12];
         for (number, bytes) in numbers.iter_mut().zip(record.as_chunks().0) {
             *number = f64::from(f32::from_le_bytes(*bytes));
@@ -21,8 +20,7 @@ pub fn fault(stl: &[u8]) -> Option<String> {
             return None;
         };
         let (normal, corners) = (Vector3::from(normal), [a, b, c]);
-        let sizes = numbers[3..].iter().map(|x| x.abs());
-        let extent = sizes.fold(0.0, f64::max);
+        let extent = numbers[3..].iter().map(|x| x.abs()).fold(0.0, f64::max);
         if record[48..] != [0, 0] {
             return Some(format!(
                 "triangle {at} has {:?} in the two unused bytes; write zeros",

@@ -47,23 +47,28 @@ struct Comparison {
     found: Vec<Difference>,
 }
 
-impl Comparison {
-    fn report(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
-        self.found.push(Difference {
+impl Difference {
+    fn new(pointer: &str, source: &str, expected: &Value, actual: &Value) -> Self {
+        Difference {
             pointer: pointer.to_owned(),
             source: source.to_owned(),
             expected: expected.clone(),
             actual: actual.clone(),
             tolerance: None,
             list: None,
-        });
+        }
     }
 
-    fn list(&mut self, pointer: &str, source: &str, expected: Value, actual: Value, how: String) {
-        self.report(pointer, source, &expected, &actual);
-        if let Some(last) = self.found.last_mut() {
-            last.list = Some(how);
-        }
+    /// Two lists of these lengths.
+    fn of_lists(pointer: &str, source: &str, lengths: [usize; 2], how: String) -> Self {
+        let [expected, actual] = lengths.map(Value::from);
+        Difference { list: Some(how), ..Difference::new(pointer, source, &expected, &actual) }
+    }
+}
+
+impl Comparison {
+    fn report(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
+        self.found.push(Difference::new(pointer, source, expected, actual));
     }
 
     fn value(&mut self, pointer: &str, source: &str, expected: &Value, actual: &Value) {
@@ -83,8 +88,8 @@ impl Comparison {
             (Value::Array(wanted), Value::Array(there)) => {
                 if wanted.len() != there.len() {
                     let how = format!("{} there, {} here", wanted.len(), there.len());
-                    let (wanted, there) = (wanted.len().into(), there.len().into());
-                    self.list(pointer, source, wanted, there, how);
+                    let lengths = [wanted.len(), there.len()];
+                    self.found.push(Difference::of_lists(pointer, source, lengths, how));
                     return;
                 }
                 for (index, (expected, actual)) in wanted.iter().zip(there).enumerate() {
@@ -98,10 +103,10 @@ impl Comparison {
                     return;
                 };
                 if !numbers_agree(a, b) {
-                    self.report(pointer, source, expected, actual);
-                    if let Some(last) = self.found.last_mut() {
-                        last.tolerance = Some(number_tolerance(a, b));
-                    }
+                    self.found.push(Difference {
+                        tolerance: Some(number_tolerance(a, b)),
+                        ..Difference::new(pointer, source, expected, actual)
+                    });
                 }
             }
             (Value::String(wanted), Value::String(there)) => {
@@ -122,28 +127,17 @@ impl Comparison {
         };
         let wanted: Vec<String> = expected.iter().map(name).collect();
         let there: Vec<String> = actual.iter().map(name).collect();
-        let others: Vec<usize> = wanted
-            .iter()
-            .zip(&there)
-            .enumerate()
-            .filter(|(_, (wanted, there))| wanted != there)
-            .map(|(index, _)| index)
-            .collect();
+        let others = wanted.iter().zip(&there).filter(|(wanted, there)| wanted != there).count();
         // An element with another name is compared too: the name is a difference.
-        if wanted.len() == there.len() && others.len() <= 1 {
+        if wanted.len() == there.len() && others <= 1 {
             for (index, (expected, actual)) in expected.iter().zip(actual).enumerate() {
                 let pointer = format!("{list}/{index}");
                 self.value(&pointer, &pointer, expected, actual);
             }
             return;
         }
-        self.list(
-            list,
-            list,
-            wanted.len().into(),
-            there.len().into(),
-            how_names_differ(&wanted, &there),
-        );
+        let how = how_names_differ(&wanted, &there);
+        self.found.push(Difference::of_lists(list, list, [wanted.len(), there.len()], how));
         let mut place: HashMap<&str, usize> = HashMap::new();
         for (index, name) in there.iter().enumerate() {
             place.entry(name).or_insert(index);
@@ -157,7 +151,6 @@ impl Comparison {
     }
 }
 
-/// Describes how two lists of names differ.
 fn how_names_differ(wanted: &[String], there: &[String]) -> String {
     let only_in = |a: &[String], b: &[String]| {
         let b: std::collections::HashSet<&String> = b.iter().collect();

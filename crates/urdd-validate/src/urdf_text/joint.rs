@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::problem::Fault;
-use super::reader::{Element, Reader};
+use super::reader::{Element, Reader, numbers};
 use super::xml;
 use urdd_format::urdf as v1;
 
@@ -24,58 +24,45 @@ impl Reader {
         let origin = self.origin(joint, at);
         let parent = self.joint_link(joint, "parent", at);
         let child = self.joint_link(joint, "child", at);
-        let axis = self
-            .only(joint, "axis", at)
-            .map(|(axis, at)| v1::Axis { xyz: self.vector(axis, "xyz", &at) });
-        let limit = self.only(joint, "limit", at).map(|(limit, at)| v1::Limit {
-            lower: self.number(limit, "lower", &at),
-            upper: self.number(limit, "upper", &at),
-            effort: self.number(limit, "effort", &at),
-            velocity: self.number(limit, "velocity", &at),
-            acceleration: self.number(limit, "acceleration", &at),
-            deceleration: self.number(limit, "deceleration", &at),
-            jerk: self.number(limit, "jerk", &at),
-        });
-        let dynamics = self.only(joint, "dynamics", at).map(|(dynamics, at)| v1::Dynamics {
-            damping: self.number(dynamics, "damping", &at),
-            friction: self.number(dynamics, "friction", &at),
-        });
-        let mimic = self.only(joint, "mimic", at).and_then(|(mimic, at)| self.mimic(mimic, &at));
-        let safety_controller =
-            self.only(joint, "safety_controller", at).map(|(soft, at)| v1::SafetyController {
-                soft_lower_limit: self.number(soft, "soft_lower_limit", &at),
-                soft_upper_limit: self.number(soft, "soft_upper_limit", &at),
-                k_position: self.number(soft, "k_position", &at),
-                k_velocity: self.number(soft, "k_velocity", &at),
-            });
-        let calibration =
-            self.only(joint, "calibration", at).map(|(calibration, at)| v1::Calibration {
-                rising: self.number(calibration, "rising", &at),
-                falling: self.number(calibration, "falling", &at),
-            });
-        let unknown_elements = self.unknown(joint, JOINT_ELEMENTS, at);
+        // The rest is read first: all its faults are reported, also those of a joint without a name.
         Some(v1::Joint {
+            origin,
+            axis: self
+                .only(joint, "axis", at)
+                .map(|(axis, at)| v1::Axis { xyz: self.vector(axis, "xyz", &at) }),
+            limit: self.only(joint, "limit", at).map(|limit| {
+                numbers!(
+                    self,
+                    limit,
+                    Limit { lower, upper, effort, velocity, acceleration, deceleration, jerk }
+                )
+            }),
+            dynamics: self
+                .only(joint, "dynamics", at)
+                .map(|dynamics| numbers!(self, dynamics, Dynamics { damping, friction })),
+            mimic: self.only(joint, "mimic", at).and_then(|(mimic, at)| self.mimic(mimic, &at)),
+            safety_controller: self.only(joint, "safety_controller", at).map(|soft| {
+                numbers!(
+                    self,
+                    soft,
+                    SafetyController { soft_lower_limit, soft_upper_limit, k_position, k_velocity }
+                )
+            }),
+            calibration: self
+                .only(joint, "calibration", at)
+                .map(|calibration| numbers!(self, calibration, Calibration { rising, falling })),
+            unknown_elements: self.unknown(joint, JOINT_ELEMENTS, at),
             name: name?,
             joint_type: joint_type?,
-            origin,
             parent: parent?,
             child: child?,
-            axis,
-            limit,
-            dynamics,
-            mimic,
-            safety_controller,
-            calibration,
-            unknown_elements,
         })
     }
 
     fn joint_type(&mut self, joint: Element<'_>, at: &str) -> Option<v1::JointType> {
         let word = self.needed_text(joint, "type", at)?;
-        let found = v1::JointType::ALL
-            .iter()
-            .copied()
-            .find(|kind| kind.as_str().to_ascii_lowercase() == word);
+        let mut types = v1::JointType::ALL.iter().copied();
+        let found = types.find(|kind| kind.as_str().to_ascii_lowercase() == word);
         let attribute = xml::attribute(joint, "type")?.range().start;
         self.place(&format!("{at}/joint_type"), attribute);
         if found.is_none() {
@@ -90,21 +77,13 @@ impl Reader {
         name: &'static str,
         at: &str,
     ) -> Option<v1::LinkName> {
-        match self.only(joint, name, at) {
-            Some((element, at)) => {
-                let link = self.needed_text(element, "link", &at)?;
-                Some(v1::LinkName { link })
-            }
-            None => {
-                let fault = Fault::MissingElement { element: name, parent: "joint" };
-                self.problem(
-                    joint.range().start,
-                    fault,
-                    xml::attribute(joint, "name").map(|name| name.value()),
-                );
-                None
-            }
-        }
+        let Some((element, at)) = self.only(joint, name, at) else {
+            let fault = Fault::MissingElement { element: name, parent: "joint" };
+            let joint_name = xml::attribute(joint, "name").map(|name| name.value());
+            self.problem(joint.range().start, fault, joint_name);
+            return None;
+        };
+        Some(v1::LinkName { link: self.needed_text(element, "link", &at)? })
     }
 
     fn mimic(&mut self, mimic: Element<'_>, at: &str) -> Option<v1::Mimic> {

@@ -1,7 +1,6 @@
 //! Links, their geometry and materials.
 
-use super::problem::Repeated;
-use super::reader::{Element, Reader};
+use super::reader::{Element, Reader, numbers};
 use super::xml;
 use urdd_format::urdf as v1;
 
@@ -16,11 +15,9 @@ impl Reader {
         let mut visual = Vec::new();
         let mut collision = Vec::new();
         for element in xml::elements(link) {
-            let offset = element.range().start;
             match xml::name(element) {
                 "visual" => {
-                    let at = format!("{at}/visual/{}", visual.len());
-                    self.place(&at, offset);
+                    let at = self.next_of(&format!("{at}/visual"), visual.len(), element);
                     visual.push(v1::Visual {
                         name: self.text(element, "name", &at),
                         origin: self.origin(element, &at),
@@ -31,8 +28,7 @@ impl Reader {
                     });
                 }
                 "collision" => {
-                    let at = format!("{at}/collision/{}", collision.len());
-                    self.place(&at, offset);
+                    let at = self.next_of(&format!("{at}/collision"), collision.len(), element);
                     collision.push(v1::Collision {
                         name: self.text(element, "name", &at),
                         origin: self.origin(element, &at),
@@ -53,30 +49,15 @@ impl Reader {
             .only(inertial, "mass", at)
             .and_then(|(mass, at)| self.number(mass, "value", &at))
             .map(|value| v1::Mass { value });
-        let inertia = self.only(inertial, "inertia", at).map(|(inertia, at)| v1::Inertia {
-            ixx: self.number(inertia, "ixx", &at),
-            ixy: self.number(inertia, "ixy", &at),
-            ixz: self.number(inertia, "ixz", &at),
-            iyy: self.number(inertia, "iyy", &at),
-            iyz: self.number(inertia, "iyz", &at),
-            izz: self.number(inertia, "izz", &at),
-        });
+        let inertia = self
+            .only(inertial, "inertia", at)
+            .map(|inertia| numbers!(self, inertia, Inertia { ixx, ixy, ixz, iyy, iyz, izz }));
         v1::Inertial { origin, mass, inertia }
     }
 
     fn geometry(&mut self, parent: Element<'_>, at: &str) -> Option<v1::Geometry> {
         let (geometry, at) = self.only(parent, "geometry", at)?;
-        let mut shapes =
-            xml::elements(geometry).filter(|child| SHAPES.contains(&xml::name(*child)));
-        let shape = shapes.next()?;
-        for again in shapes {
-            self.reading.repeated.push(Repeated {
-                range: again.range(),
-                first: shape.range().start,
-                element: xml::name(again).to_owned(),
-                parent: "geometry".to_owned(),
-            });
-        }
+        let shape = self.first(geometry, SHAPES)?;
         match xml::name(shape) {
             "mesh" => {
                 let at = format!("{at}/Mesh");

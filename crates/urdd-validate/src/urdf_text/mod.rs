@@ -7,7 +7,6 @@ pub mod compare;
 mod joint;
 mod legacy;
 mod link;
-#[doc(hidden)]
 pub mod numbers;
 mod problem;
 mod reader;
@@ -18,7 +17,6 @@ pub use legacy::as_legacy;
 pub use problem::{Fault, Problem, Repeated};
 pub use reading::Reading;
 
-/// Reads a URDF.
 pub fn read(text: &str) -> Reading {
     match urdd_xml::parse(text, urdd_xml::Kind::Robot) {
         Ok(document) => reader::read(&document),

@@ -12,7 +12,6 @@ use urdd_xml::XmlError;
 pub struct Problem {
     /// Byte offset in the text.
     pub offset: usize,
-    /// The fault.
     pub fault: Fault,
     /// The text at the place.
     pub actual: Option<String>,
@@ -32,16 +31,10 @@ pub enum Fault {
     NotRobot,
     /// A required attribute is missing.
     #[error("`<{element}>` does not have the attribute `{attribute}`; add it")]
-    MissingAttribute {
-        /// The element.
-        element: String,
-        /// The attribute.
-        attribute: &'static str,
-    },
+    MissingAttribute { element: String, attribute: &'static str },
     /// A required element is missing.
     #[error("`<{parent}>` does not have a `<{element}>`; add it")]
     MissingElement {
-        /// The missing element.
         element: &'static str,
         /// The element that should contain it.
         parent: &'static str,
@@ -52,21 +45,14 @@ pub enum Fault {
         numbers_wanted(*.count)
     )]
     NotNumbers {
-        /// The element.
         element: String,
-        /// The attribute.
         attribute: &'static str,
         /// The required number of numbers.
         count: usize,
     },
     /// A size that is not finite.
     #[error("`{attribute}` of `<{element}>` is not finite; write a number of at most 1.7e308")]
-    NotFinite {
-        /// The element.
-        element: String,
-        /// The attribute.
-        attribute: &'static str,
-    },
+    NotFinite { element: String, attribute: &'static str },
     /// A rotation given in two ways.
     #[error("`<origin>` has both `rpy` and `quat_xyzw`; keep one of them")]
     TwoRotations,
@@ -93,7 +79,6 @@ pub struct Repeated {
     pub range: Range<usize>,
     /// Byte offset of the first one.
     pub first: usize,
-    /// Its name.
     pub element: String,
     /// The element that contains it.
     pub parent: String,

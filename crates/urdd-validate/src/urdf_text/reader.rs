@@ -2,7 +2,6 @@
 
 use roxmltree::{Document, Node};
 
-use super::numbers;
 use super::problem::{Fault, Problem, Repeated};
 use super::reading::Reading;
 use super::xml;
@@ -11,16 +10,22 @@ use urdd_format::urdf as v1;
 
 pub(super) type Element<'a> = Node<'a, 'a>;
 
-/// Reads the robot of a document.
 pub(super) fn read(document: &Document<'_>) -> Reading {
     let mut reader = Reader::default();
-    // The document borrows its text: a single lifetime for both keeps the code below readable.
-    let robot = document.root_element();
-    reader.robot(robot);
+    reader.robot(document.root_element());
     let mut reading = reader.reading;
     reading.problems.sort_by_key(|problem| problem.offset);
     reading
 }
+
+/// The data of an element whose attributes are numbers, each with its attribute's name.
+macro_rules! numbers {
+    ($reader:expr, $found:expr, $data:ident { $($number:ident),+ }) => {{
+        let (element, at) = $found;
+        v1::$data { $($number: $reader.number(element, stringify!($number), &at)),+ }
+    }};
+}
+pub(super) use numbers;
 
 #[derive(Default)]
 pub(super) struct Reader {
@@ -45,22 +50,34 @@ impl Reader {
         name: &'static str,
         at: &str,
     ) -> Option<(Element<'a>, String)> {
-        let mut found = xml::elements(parent).filter(|child| xml::name(*child) == name);
-        let first = found.next()?;
-        for again in found {
-            self.reading.repeated.push(Repeated {
-                range: again.range(),
-                first: first.range().start,
-                element: name.to_owned(),
-                parent: xml::name(parent).to_owned(),
-            });
-        }
+        let first = self.first(parent, &[name])?;
         let pointer = format!("{at}/{name}");
         self.place(&pointer, first.range().start);
         Some((first, pointer))
     }
 
-    /// An attribute as text.
+    /// The first element with one of the names; further ones are ignored and recorded.
+    pub(super) fn first<'a>(&mut self, parent: Element<'a>, names: &[&str]) -> Option<Element<'a>> {
+        let mut found = xml::elements(parent).filter(|child| names.contains(&xml::name(*child)));
+        let first = found.next()?;
+        for again in found {
+            self.reading.repeated.push(Repeated {
+                range: again.range(),
+                first: first.range().start,
+                element: xml::name(again).to_owned(),
+                parent: xml::name(parent).to_owned(),
+            });
+        }
+        Some(first)
+    }
+
+    /// The pointer of the next element of a list, which is recorded.
+    pub(super) fn next_of(&mut self, list: &str, index: usize, element: Element<'_>) -> String {
+        let pointer = format!("{list}/{index}");
+        self.place(&pointer, element.range().start);
+        pointer
+    }
+
     pub(super) fn text(
         &mut self,
         element: Element<'_>,
@@ -72,7 +89,6 @@ impl Reader {
         Some(found.value().to_owned())
     }
 
-    /// A required attribute as text.
     pub(super) fn needed_text(
         &mut self,
         element: Element<'_>,
@@ -96,17 +112,17 @@ impl Reader {
         at: &str,
     ) -> Option<[f64; N]> {
         let text = self.text(element, attribute, at)?;
-        match numbers::read(&text) {
+        match super::numbers::read(&text) {
             Some(vector) => vector.iter().all(|x| x.is_finite()).then_some(vector),
             None => {
                 let offset = xml::attribute(element, attribute)
                     .map_or(element.range().start, |found| found.range().start);
-                let fault = Fault::NotNumbers {
-                    element: xml::name(element).to_owned(),
-                    attribute,
-                    count: N,
-                };
-                self.problem(offset, fault, Some(&text));
+                let element = xml::name(element).to_owned();
+                self.problem(
+                    offset,
+                    Fault::NotNumbers { element, attribute, count: N },
+                    Some(&text),
+                );
                 None
             }
         }
@@ -132,34 +148,30 @@ impl Reader {
         let vector = self.vector(element, attribute, at);
         if vector.is_none() && self.reading.problems.len() == problems {
             let text = xml::attribute(element, attribute).map(|found| found.value());
-            let element_name = xml::name(element).to_owned();
+            let (start, element) = (element.range().start, xml::name(element).to_owned());
             let fault = match text {
-                Some(_) => Fault::NotFinite { element: element_name, attribute },
-                None => Fault::MissingAttribute { element: element_name, attribute },
+                Some(_) => Fault::NotFinite { element, attribute },
+                None => Fault::MissingAttribute { element, attribute },
             };
-            self.problem(element.range().start, fault, text);
+            self.problem(start, fault, text);
         }
         vector
     }
 
     pub(super) fn unknown(&mut self, parent: Element<'_>, known: &[&str], at: &str) -> Vec<String> {
         let unknown = xml::elements(parent).filter(|child| !known.contains(&xml::name(*child)));
-        let mut kept = Vec::new();
-        for (index, element) in unknown.enumerate() {
-            self.place(&format!("{at}/unknown_elements/{index}"), element.range().start);
-            kept.push(xml::verbatim(element));
-        }
-        kept
+        let keep = |(index, element)| {
+            self.next_of(&format!("{at}/unknown_elements"), index, element);
+            xml::verbatim(element)
+        };
+        unknown.enumerate().map(keep).collect()
     }
 
     pub(super) fn robot(&mut self, robot: Element<'_>) {
         self.place("", robot.range().start);
         if xml::name(robot) != "robot" {
-            self.problem(
-                robot.range().start,
-                Fault::NotRobot,
-                Some(&format!("<{}>", xml::name(robot))),
-            );
+            let found = format!("<{}>", xml::name(robot));
+            self.problem(robot.range().start, Fault::NotRobot, Some(&found));
             return;
         }
         let mut module = v1::UrdfModule {
@@ -172,25 +184,18 @@ impl Reader {
         };
         self.quaternions = has_quaternions(module.version.as_deref());
         for element in xml::elements(robot) {
-            let offset = element.range().start;
             match xml::name(element) {
                 "link" => {
-                    let at = format!("/links/{}", module.links.len());
-                    self.place(&at, offset);
-                    let link = self.link(element, &at);
-                    module.links.extend(link);
+                    let at = self.next_of("/links", module.links.len(), element);
+                    module.links.extend(self.link(element, &at));
                 }
                 "joint" => {
-                    let at = format!("/joints/{}", module.joints.len());
-                    self.place(&at, offset);
-                    let joint = self.joint(element, &at);
-                    module.joints.extend(joint);
+                    let at = self.next_of("/joints", module.joints.len(), element);
+                    module.joints.extend(self.joint(element, &at));
                 }
                 "material" => {
-                    let at = format!("/materials/{}", module.materials.len());
-                    self.place(&at, offset);
-                    let material = self.material(element, &at);
-                    module.materials.push(material);
+                    let at = self.next_of("/materials", module.materials.len(), element);
+                    module.materials.push(self.material(element, &at));
                 }
                 _ => {}
             }

@@ -20,8 +20,7 @@ pub(super) fn elements<'a>(parent: Node<'a, 'a>) -> impl Iterator<Item = Node<'a
 
 /// The range of an element in the file.
 pub(super) fn verbatim(element: Node<'_, '_>) -> String {
-    let text = element.document().input_text();
-    text.get(element.range()).unwrap_or_default().to_owned()
+    element.document().input_text().get(element.range()).unwrap_or_default().to_owned()
 }
 
 /// An attribute by its name without a prefix. (`roxmltree` ignores prefixes.)

@@ -16,7 +16,8 @@ pub struct Counts {
     visuals: Option<usize>,
     /// The largest number of collision elements of a link.
     collisions: Option<usize>,
-    pieces: Option<Pieces>,
+    /// The convex pieces, if the URDD has them.
+    pub pieces: Option<Pieces>,
     full_shapes: Option<usize>,
     parts: Option<usize>,
     pairs: Option<usize>,
@@ -39,7 +40,6 @@ impl Pieces {
 }
 
 impl Counts {
-    /// Those of a URDD.
     pub fn of(context: &Context) -> Counts {
         let robot = context.robot();
         let most = |counts: &mut dyn Iterator<Item = usize>| counts.max().unwrap_or(0);
@@ -93,10 +93,5 @@ impl Counts {
             Thing::Pair => self.pairs,
             Thing::Piece | Thing::Visual | Thing::Collision | Thing::Sample | Thing::Other => None,
         }
-    }
-
-    /// The convex pieces, if the URDD has them.
-    pub fn pieces(&self) -> Option<&Pieces> {
-        self.pieces.as_ref()
     }
 }

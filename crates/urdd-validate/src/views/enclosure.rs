@@ -14,21 +14,16 @@ use urdd_geometry::{Mesh, farthest};
 /// A box or sphere with the hull or piece that it bounds.
 #[derive(Debug, Clone)]
 pub struct Enclosure<'a> {
-    /// The kind of shape.
     pub kind: ShapeKind,
     /// JSON Pointer in the document.
     pub pointer: String,
-    /// The link.
     pub link: usize,
     /// The piece; 0 for a hull.
     pub piece: usize,
-    /// The box or sphere.
     pub volume: Volume,
-    /// The hull or piece.
     pub mesh: &'a Mesh,
     /// Maximum distance of vertices outside, and of sides off the mesh, m.
     pub tolerance: f64,
-    /// How it fits the mesh.
     pub fit: Fit,
 }
 
@@ -44,14 +39,12 @@ pub struct Fit {
 /// A part of the surface of a box or sphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The surface of a sphere.
     Round,
     /// The side of a box at the lower (false) or upper end of one of its own axes.
     Of(usize, bool),
 }
 
 impl Fit {
-    /// Computes it from every vertex.
     pub fn new(volume: &Volume, mesh: &Mesh) -> Fit {
         match *volume {
             Volume::Sphere { radius, offset } => {
@@ -102,7 +95,6 @@ fn most(numbers: impl Iterator<Item = f64>) -> (usize, f64) {
 }
 
 impl Enclosure<'_> {
-    /// Whether every vertex is inside.
     pub fn holds(&self) -> bool {
         self.fit.outside.1 <= self.tolerance
     }

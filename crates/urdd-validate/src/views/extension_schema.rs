@@ -37,8 +37,7 @@ const STACK_BYTES: usize = 256 << 20;
 /// In words, why it is not JSON that can be read.
 pub fn read(urdd: &Urdd, module: &Module) -> Result<Value, String> {
     let file = module.file("schema.json");
-    let bytes = urdd.root().read(&file, MAX_SCHEMA_BYTES);
-    let bytes = bytes.map_err(|error| match error {
+    let bytes = urdd.root().read(&file, MAX_SCHEMA_BYTES).map_err(|error| match error {
         ReadError::Missing => {
             "the extension has no schema.json: put its JSON Schema there".to_owned()
         }
@@ -80,34 +79,18 @@ pub struct Violations {
 impl Violations {
     /// What a message adds where only the first was searched.
     pub fn more(&self) -> &'static str {
-        match self.is_first_only {
-            true => " (the document is large: there may be more)",
-            false => "",
-        }
+        if self.is_first_only { " (the document is large: there may be more)" } else { "" }
     }
 }
 
 /// The violations by a document of a schema without [`faults`]: at most `limit` places. In a large document, only the
 /// first is searched.
-pub fn violations(schema: &Value, document: &Value, limit: usize) -> Violations {
-    violations_with(None, schema, document, limit)
-}
-
-/// The same with an annotation that counts as an assertion. Without the annotation, the document has no violations.
-pub fn annotation_violations(
+///
+/// `asserted`: an annotation that counts as an assertion. Without it, the document has no violations.
+pub fn violations(
     schema: &Value,
     document: &Value,
-    judged: Judged,
-    counts: &Arc<Counts>,
-    limit: usize,
-) -> Violations {
-    violations_with(Some((judged, counts)), schema, document, limit)
-}
-
-fn violations_with(
     asserted: Option<(Judged, &Arc<Counts>)>,
-    schema: &Value,
-    document: &Value,
     limit: usize,
 ) -> Violations {
     let judged = asserted.map(|(judged, _)| judged);

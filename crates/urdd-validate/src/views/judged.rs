@@ -45,7 +45,6 @@ pub fn enclosures<'a>(context: &'a Context, findings: &mut Findings) -> Vec<Encl
 pub struct JudgedShapes(Vec<bool>);
 
 impl JudgedShapes {
-    /// Decides it for every shape of a kind.
     pub fn new(
         context: &Context,
         findings: &mut Findings,

@@ -5,11 +5,9 @@ use serde_json::Value;
 use super::schema_work::schemas_in;
 use urdd_format::annotations;
 
-/// A fault of a schema.
 pub struct SchemaFault {
     /// JSON Pointer into the schema.
     pub pointer: String,
-    /// The fault.
     pub message: String,
 }
 

@@ -28,7 +28,6 @@ pub struct Pairs<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// For these statistics.
     pub fn new(statistics: &Statistics<'a>) -> Self {
         let three = [statistics.mean, statistics.min, statistics.max];
         Pairs {

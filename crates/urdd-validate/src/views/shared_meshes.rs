@@ -10,7 +10,6 @@ use urdd_format::registry::{ModuleDocument, ModuleKind, Profile};
 
 /// A file that two entries of a mesh module name.
 pub struct SharedMesh {
-    /// The module.
     pub kind: ModuleKind,
     /// The link of the first entry, and its pointer.
     pub first: (usize, String),

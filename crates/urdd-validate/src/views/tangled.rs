@@ -13,7 +13,6 @@ pub struct Tangled {
 }
 
 impl Tangled {
-    /// Examines a square matrix.
     pub fn new(elements: Elements<'_>) -> Tangled {
         let rows = elements.rows();
         let mut asymmetric = vec![false; rows];
@@ -56,8 +55,7 @@ pub fn symmetric_at(elements: Elements<'_>, i: usize, j: usize) -> bool {
         Elements::Skips(rows) => agree(rows, i, j, |a, b| a == b),
         Elements::Reasons(rows) => agree(rows, i, j, |a, b| a == b),
         Elements::Models(rows) => agree(rows, i, j, |a, b| {
-            let mut pairs = a.iter().flatten().zip(b.iter().flatten());
-            pairs.all(|(a, b)| numbers_agree(*a, *b))
+            a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| numbers_agree(*a, *b))
         }),
     }
 }

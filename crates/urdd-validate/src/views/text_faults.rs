@@ -1,6 +1,6 @@
 //! Faults in the text of documents, recorded when the documents were read.
 
-use super::super::context::Context;
+use crate::context::Context;
 use urdd_directory::discover::ROOT_METADATA;
 use urdd_directory::text_fault::{TextFault, TextFaultKind, TextFaults};
 use urdd_document::entries;
@@ -26,17 +26,8 @@ pub fn report_json(
     Some(())
 }
 
-/// Like [`report_json`], for every `module.yaml`.
+/// Like [`report_json`], for every `module.yaml` without a fault of the kinds in `unless`.
 pub fn report_yaml(
-    context: &Context,
-    kinds: &[TextFaultKind],
-    findings: &mut Findings,
-) -> Option<()> {
-    report_yaml_unless(context, kinds, &[], findings)
-}
-
-/// Like [`report_yaml`], except for files that have a fault of one of the other kinds.
-pub fn report_yaml_unless(
     context: &Context,
     kinds: &[TextFaultKind],
     unless: &[TextFaultKind],

@@ -72,15 +72,15 @@ fn large_documents_are_checked() {
     let schema = json!({"items": {"type": "array", "items": {"type": "number"}}});
     let mut document = json!(vec![vec![0.5; 100]; 3000]);
     assert_eq!(message(&schema, &document), None);
-    assert!(violations(&schema, &document, 10).found.is_empty());
+    assert!(violations(&schema, &document, None, 10).found.is_empty());
     document[7][8] = json!("x");
-    let broken = violations(&schema, &document, 10);
+    let broken = violations(&schema, &document, None, 10);
     assert_eq!(broken.found[0].0, "/7/8");
     assert!(broken.is_first_only);
     // Of a million violations, one is kept; of a few, all.
     let all = json!({"items": {"type": "string"}});
-    assert_eq!(violations(&all, &json!(vec![1; 1_000_000]), 10).found.len(), 1);
-    let few = violations(&all, &json!([1, 2, "a"]), 10);
+    assert_eq!(violations(&all, &json!(vec![1; 1_000_000]), None, 10).found.len(), 1);
+    let few = violations(&all, &json!([1, 2, "a"]), None, 10);
     assert_eq!((few.found.len(), few.is_first_only), (2, false));
 }
 
@@ -90,7 +90,7 @@ fn patterns_are_matched_in_linear_time() {
     let hostile = json!("a".repeat(100_000) + "!");
     let start = std::time::Instant::now();
     assert_eq!(message(&nested, &hostile), None);
-    assert_eq!(violations(&nested, &hostile, 10).found.len(), 1);
+    assert_eq!(violations(&nested, &hostile, None, 10).found.len(), 1);
     assert!(start.elapsed().as_secs() < 2);
     for pattern in ["^(?=a)(a+)+$", "(?!a)b", "(?<=a)b", "(a)\\1"] {
         for schema in [

@@ -15,7 +15,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dofs = context.dofs()?.num_dofs;
     let bounds = context.bounds()?;
-    let module = context.module(ModuleKind::Bounds)?;
     let mut lists = vec![
         ("bounds", bounds.bounds.len()),
         ("dof_lower_bounds", bounds.lower.len()),
@@ -34,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         false => format!("one entry per DOF is needed: {}", wrong.in_words),
         true => {
             // Configurations are sampled within the bounds.
-            let statistics = context.module(ModuleKind::LinkShapesDistanceStatistics);
+            let statistics = context.module(Kind::LinkShapesDistanceStatistics);
             let also = statistics.map_or("", |_| {
                 ", and the distance statistics, which are sampled within these bounds, with what is derived from them"
             });
@@ -43,9 +42,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             )
         }
     };
-    finding_in(module, wrong.pointer, message)
-        .expected(format!("{dofs} entries (num_dofs of dof_module)"))
-        .actual(format!("{length} entries"))
+    finding_in(Kind::Bounds, wrong.pointer, message)
+        .values(format!("{dofs} entries (num_dofs of dof_module)"), format!("{length} entries"))
         .report(findings);
     Some(())
 }

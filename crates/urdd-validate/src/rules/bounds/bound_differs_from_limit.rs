@@ -16,7 +16,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
-    let module = context.module(ModuleKind::Bounds)?;
     for limited in limited_dofs(context)? {
         let (dof, [lower, upper]) = (limited.dof, limited.limits);
         for (end, key) in ["lower", "upper"].into_iter().enumerate() {
@@ -28,7 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !agree && columns_agree(bounds, dof, end) {
                 let name = &limited.joint.name;
                 let message = format!("DOF {dof}: this is not the {key} limit of joint {name:?}");
-                finding_in(module, format!("/bounds/{dof}/{end}"), message)
+                finding_in(Kind::Bounds, format!("/bounds/{dof}/{end}"), message)
                     .numbers(limit, bound, number_tolerance(limit, bound))
                     .report(findings);
             }

@@ -15,7 +15,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?;
-    let module = context.module(ModuleKind::Bounds)?;
     for (column, (name, values)) in
         [("dof_lower_bounds", bounds.lower), ("dof_upper_bounds", bounds.upper)]
             .into_iter()
@@ -52,9 +51,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     format!("{right:?}, as `{other}` has it"),
                 ),
             };
-            finding_in(module, wrong, message)
-                .expected(expected)
-                .actual(format!("{written:?}"))
+            finding_in(Kind::Bounds, wrong, message)
+                .values(expected, format!("{written:?}"))
                 .tolerance(number_tolerance(right, written))
                 .off_by(right - written, "")
                 .report(findings);
@@ -74,19 +72,12 @@ fn decided(context: &Context, dof: usize, end: usize) -> Option<(f64, String)> {
     }
     let joint = context.robot()?.joints.get(joint)?;
     let side = ["lower", "upper"][end];
-    Some(match joint.position_limits() {
-        Some((lower, upper)) => {
-            let bound = [lower, upper][end];
-            let why = format!("the {side} limit of joint `{}` is {bound:?}", joint.name);
-            (bound, why)
-        }
+    let (bounds, what, without) = match joint.position_limits() {
+        Some((lower, upper)) => ([lower, upper], "limit", ""),
         None => {
-            let bound = bounds_without_limits(joint.joint_type, place)?[end];
-            let why = format!(
-                "the {side} bound of joint `{}`, which has no limits, is {bound:?}",
-                joint.name
-            );
-            (bound, why)
+            (bounds_without_limits(joint.joint_type, place)?, "bound", ", which has no limits,")
         }
-    })
+    };
+    let (bound, name) = (bounds[end], &joint.name);
+    Some((bound, format!("the {side} {what} of joint `{name}`{without} is {bound:?}")))
 }

@@ -16,7 +16,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?.v1?;
-    let module = context.module(ModuleKind::Bounds)?;
     for (written, (dof, joint)) in bounds.dof_limited.iter().zip(dofs(context)?) {
         let limited = joint.position_limits().is_some();
         if *written != limited {
@@ -25,9 +24,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 false => format!("is a {} joint without position limits", joint.joint_type),
             };
             let message = format!("DOF {dof} moves joint {:?}, which {why}", joint.name);
-            finding_in(module, format!("/dof_limited/{dof}"), message)
-                .expected(limited)
-                .actual(written)
+            finding_in(Kind::Bounds, format!("/dof_limited/{dof}"), message)
+                .values(limited, written)
                 .report(findings);
         }
     }

@@ -7,13 +7,9 @@ use urdd_document::robot::Joint;
 
 /// A DOF of a joint with position limits, and the bounds that the module gives it.
 pub(in crate::rules) struct LimitedDof<'a> {
-    /// Its index.
     pub dof: usize,
-    /// Its joint.
     pub joint: &'a Joint,
-    /// Lower and upper limit.
     pub limits: [f64; 2],
-    /// Lower and upper bound.
     pub bounds: [f64; 2],
 }
 

@@ -6,7 +6,6 @@ mod bounds_columns_differ;
 mod limited_flag_wrong;
 pub(super) mod limits;
 mod speed_or_effort_differs;
-#[doc(hidden)]
 pub mod unlimited_bounds_wrong;
 
 use crate::rule::rules;

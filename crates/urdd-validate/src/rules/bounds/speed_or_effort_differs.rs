@@ -15,7 +15,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let bounds = context.bounds()?.v1?;
-    let module = context.module(ModuleKind::Bounds)?;
     let lists = bounds.dof_velocity_limits.iter().zip(&bounds.dof_effort_limits);
     for ((dof, joint), (speed, effort)) in dofs(context)?.zip(lists) {
         let limit = joint.limit.filter(|_| joint.num_dofs() == 1);
@@ -33,12 +32,12 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "this is not what urdf_module says of joint {:?}, which DOF {dof} moves",
                 joint.name
             );
-            let finding = finding_in(module, format!("/{key}/{dof}"), message);
+            let finding = finding_in(Kind::Bounds, format!("/{key}/{dof}"), message);
             findings.report(match both {
                 Some((right, written)) => {
                     finding.numbers(right, written, number_tolerance(right, written))
                 }
-                None => finding.expected(or_null(right)).actual(or_null(written)),
+                None => finding.values(or_null(right), or_null(written)),
             });
         }
     }

@@ -20,7 +20,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let layout = context.dof_layout()?;
     let bounds = context.bounds()?;
-    let module = context.module(ModuleKind::Bounds)?;
     for (pair, (dof, joint)) in bounds.bounds.iter().zip(dofs(context)?) {
         if joint.position_limits().is_some() {
             continue;
@@ -44,9 +43,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         joint.name
                     ),
                 };
-                finding_in(module, format!("/bounds/{dof}"), message)
-                    .expected(format!("{ends:?}"))
-                    .actual(format!("{pair:?}"))
+                finding_in(Kind::Bounds, format!("/bounds/{dof}"), message)
+                    .literals(&ends, &pair)
                     .report(findings);
             }
             continue;
@@ -58,7 +56,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "DOF {dof} of joint {:?} ({kind}) has no limits, and this is not the bound of a DOF without limits",
                     joint.name
                 );
-                finding_in(module, pointer, message)
+                finding_in(Kind::Bounds, pointer, message)
                     .numbers(right, written, number_tolerance(right, written))
                     .report(findings);
             }

@@ -17,13 +17,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let module = context.module(ModuleKind::Chain)?;
     let (right, written) = (robot.joints.len(), chain.joints.len());
     if right != written {
-        let message = "one entry per joint of urdf_module is needed";
-        finding_in(module, "/joints_in_chain", message)
-            .expected(format!("{right} joints"))
-            .actual(format!("{written} joints"))
+        finding_in(Kind::Chain, "/joints_in_chain", "one entry per joint of urdf_module is needed")
+            .counts(right, written, "joints")
             .report(findings);
         return Some(());
     }
@@ -33,8 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if right != written {
                 let pointer = format!("/joints_in_chain/{index}/{key}");
                 let message = format!("this is not what urdf_module says of joint {index}");
-                let finding = finding_in(module, pointer, message);
-                findings.report(finding.expected(right).actual(written));
+                finding_in(Kind::Chain, pointer, message).values(right, written).report(findings);
             }
         };
         let mut name = |key, right: &str, written: &str| {

@@ -15,30 +15,24 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let chain = context.chain()?;
-    let module = context.module(ModuleKind::Chain)?;
     let (right, written) = (robot.links.len(), chain.links.len());
     if right != written {
-        let message = "one entry per link of urdf_module is needed";
-        finding_in(module, "/links_in_chain", message)
-            .expected(format!("{right} links"))
-            .actual(format!("{written} links"))
+        finding_in(Kind::Chain, "/links_in_chain", "one entry per link of urdf_module is needed")
+            .counts(right, written, "links")
             .report(findings);
         return Some(());
     }
     for (index, (link, right)) in chain.links.iter().zip(&robot.links).enumerate() {
         if link.name != right.name {
-            let pointer = format!("/links_in_chain/{index}/name");
             let message = format!("this is not the name of link {index} of urdf_module");
-            finding_in(module, pointer, message)
-                .expected(format!("{:?}", right.name))
-                .actual(format!("{:?}", link.name))
+            finding_in(Kind::Chain, format!("/links_in_chain/{index}/name"), message)
+                .literals(&right.name, &link.name)
                 .report(findings);
         }
         if link.link_idx.get() != index {
             let pointer = format!("/links_in_chain/{index}/link_idx");
             let message = "`link_idx` is not the link's place in this list";
-            let finding = finding_in(module, pointer, message);
-            findings.report(finding.expected(index).actual(link.link_idx));
+            finding_in(Kind::Chain, pointer, message).values(index, link.link_idx).report(findings);
         }
     }
     Some(())

@@ -17,8 +17,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let module = context.module(ModuleKind::Chain)?;
-    let any_order = is_legacy(module);
+    let any_order = chain.v1.is_none();
     for (index, (link, joints)) in chain.links.iter().zip(&tree.child_joints).enumerate() {
         let links = joints.iter().filter_map(|joint| tree.joint_links.get(*joint));
         let mut links: Vec<usize> = links.map(|(_, child)| *child).collect();
@@ -49,8 +48,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "these are not the children of link {index} ({:?}) by the joints of urdf_module",
                 link.name
             );
-            let finding = finding_in(module, pointer, message);
-            findings.report(finding.expected(list(right)).actual(list(&written)));
+            let finding = finding_in(Kind::Chain, pointer, message);
+            findings.report(finding.values(list(right), list(&written)));
         }
     }
     Some(())

@@ -17,19 +17,17 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let module = context.module(ModuleKind::Chain)?;
     let levels = tree.levels();
     if levels.len() != chain.hierarchy.len() {
         let message = "the tree of urdf_module has another number of levels";
-        finding_in(module, "/kinematic_hierarchy", message)
-            .expected(format!("{} levels", levels.len()))
-            .actual(format!("{} levels", chain.hierarchy.len()))
+        finding_in(Kind::Chain, "/kinematic_hierarchy", message)
+            .counts(levels.len(), chain.hierarchy.len(), "levels")
             .report(findings);
         return Some(());
     }
     for (depth, (right, written)) in levels.iter().zip(chain.hierarchy).enumerate() {
         let mut written: Vec<usize> = written.iter().map(|link| link.get()).collect();
-        if is_legacy(module) {
+        if chain.v1.is_none() {
             written.sort_unstable();
         }
         if *right != written {
@@ -37,8 +35,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "these are not the links of level {depth} (so many joints from the root), ascending"
             );
-            let finding = finding_in(module, pointer, message);
-            findings.report(finding.expected(list(right)).actual(list(&written)));
+            let finding = finding_in(Kind::Chain, pointer, message);
+            findings.report(finding.values(list(right), list(&written)));
         }
     }
     Some(())

@@ -18,7 +18,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let chain = context.chain()?.v1?;
-    let module = context.module(ModuleKind::Chain)?;
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let expected = match right.has_axis() {
             false => None,
@@ -42,9 +41,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let (name, kind) = (&right.name, right.joint_type);
         let message = format!("joint {index} ({name:?}, {kind}) {message}");
-        let mut finding = finding_in(module, format!("/joints_in_chain/{index}/axis"), message)
-            .expected(or_null(expected.map(<[f64; 3]>::from)))
-            .actual(or_null(joint.axis));
+        let mut finding =
+            finding_in(Kind::Chain, format!("/joints_in_chain/{index}/axis"), message)
+                .values(or_null(expected.map(<[f64; 3]>::from)), or_null(joint.axis));
         finding.tolerance = compared.map(|_| UNIT_NORM);
         findings.report(finding);
     }

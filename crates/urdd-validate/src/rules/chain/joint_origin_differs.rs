@@ -20,7 +20,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
     let chain = context.chain()?.v1?;
-    let module = context.module(ModuleKind::Chain)?;
     let position_tolerance = POSITION_OF_REACH * reach(robot, tree);
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         let origin = &joint.origin;
@@ -32,9 +31,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 right.name,
                 number(offset, 4)
             );
-            finding_in(module, pointer, message)
-                .expected(format!("{:?}", right.origin.xyz))
-                .actual(format!("{:?}", origin.position))
+            finding_in(Kind::Chain, pointer, message)
+                .literals(&right.origin.xyz, &origin.position)
                 .tolerance(position_tolerance)
                 .off_by(offset, "m")
                 .report(findings);
@@ -62,7 +60,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 ),
             };
             let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
-            finding_in(module, pointer, message)
+            finding_in(Kind::Chain, pointer, message)
                 .expected(match right.origin.quat_xyzw {
                     Some(xyzw) => format!("the rotation of quat_xyzw {xyzw:?}"),
                     None => format!("the rotation of rpy {:?}", right.origin.rpy),

@@ -16,15 +16,12 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let chain = context.chain()?.v1?;
-    let module = context.module(ModuleKind::Chain)?;
     for (index, (joint, right)) in chain.joints_in_chain.iter().zip(&robot.joints).enumerate() {
         if joint.joint_type != right.joint_type {
             let name = &right.name;
-            let pointer = format!("/joints_in_chain/{index}/joint_type");
             let message = format!("joint {index} ({name:?}) is of another type in urdf_module");
-            finding_in(module, pointer, message)
-                .expected(right.joint_type)
-                .actual(joint.joint_type)
+            finding_in(Kind::Chain, format!("/joints_in_chain/{index}/joint_type"), message)
+                .values(right.joint_type, joint.joint_type)
                 .report(findings);
         }
     }

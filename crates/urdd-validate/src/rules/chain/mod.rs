@@ -12,7 +12,6 @@ mod joint_origin_differs;
 mod joint_type_differs;
 mod list;
 mod parent_wrong;
-#[doc(hidden)]
 pub mod quaternion_not_canonical;
 mod root_wrong;
 

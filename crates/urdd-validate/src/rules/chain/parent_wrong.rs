@@ -15,7 +15,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let chain = context.chain()?;
-    let module = context.module(ModuleKind::Chain)?;
     let parents = tree.parent_joint.iter().zip(&tree.parent_link);
     for (index, (link, (joint, parent))) in chain.links.iter().zip(parents).enumerate() {
         let written_joint = link.parent_joint_idx.map(|joint| joint.get());
@@ -30,8 +29,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "this is not the parent of link {index} ({:?}) by the joints of urdf_module",
                     link.name
                 );
-                let finding = finding_in(module, pointer, message);
-                findings.report(finding.expected(or_null(right)).actual(or_null(written)));
+                let finding = finding_in(Kind::Chain, pointer, message);
+                findings.report(finding.values(or_null(right), or_null(written)));
             }
         }
     }

@@ -15,12 +15,11 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let chain = context.chain()?.v1?;
-    let module = context.module(ModuleKind::Chain)?;
     for (index, joint) in chain.joints_in_chain.iter().enumerate() {
         let quaternion = joint.origin.quaternion_wxyz;
         let at = |message: &str| {
             let pointer = format!("/joints_in_chain/{index}/origin/quaternion_wxyz");
-            finding_in(module, pointer, message).actual(format!("{quaternion:?}"))
+            finding_in(Kind::Chain, pointer, message).actual(format!("{quaternion:?}"))
         };
         let norm = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
         if (norm - 1.0).abs() > UNIT_NORM {
@@ -47,6 +46,5 @@ fn is_other_rotation(context: &Context, index: usize, quaternion: [f64; 4]) -> b
 
 /// Whether the first non-zero number is negative.
 pub fn is_negative(quaternion: &[f64]) -> bool {
-    let mut numbers = quaternion.iter();
-    numbers.find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
+    quaternion.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0)
 }

@@ -15,13 +15,12 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let root = context.tree()?.root;
     let written = context.chain()?.root;
-    let module = context.module(ModuleKind::Chain)?;
     if written.get() != root {
         let name = &robot.links.get(root)?.name;
         let message = format!(
             "the root is link {root} ({name:?}), which no joint of urdf_module has as its child"
         );
-        finding_in(module, "/root_idx", message).expected(root).actual(written).report(findings);
+        finding_in(Kind::Chain, "/root_idx", message).values(root, written).report(findings);
     }
     Some(())
 }

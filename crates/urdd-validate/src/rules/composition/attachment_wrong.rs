@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::composition::CompositionPart;
 
@@ -19,10 +18,11 @@ fn has(part: &CompositionPart, link: usize) -> bool {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, robot) = subject(context)?;
+    let composition = document!(context, Composition)?;
+    let robot = context.robot()?;
     let parts = &composition.parts;
     let mut report = |pointer: String, message: &str| {
-        finding_in(module, pointer, message).report(findings);
+        finding_in(Kind::Composition, pointer, message).report(findings);
     };
     let ends = |joint: usize| {
         let joint = &robot.joints[joint];
@@ -62,8 +62,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let expected = usize::from(composition.base.is_none());
     if roots != expected {
         let message = "exactly one part without `attach`, or none if there is a base";
-        let finding = finding_in(module, "/parts", message);
-        findings.report(finding.expected(expected).actual(roots));
+        finding_in(Kind::Composition, "/parts", message).values(expected, roots).report(findings);
     }
     Some(())
 }

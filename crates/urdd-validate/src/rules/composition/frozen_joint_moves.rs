@@ -1,6 +1,4 @@
-use super::subject;
 use crate::rules::prelude::*;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// A joint that was made fixed, as `composition_module` says, moves, is of another part, or is listed twice.
@@ -15,7 +13,8 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, robot) = subject(context)?;
+    let composition = document!(context, Composition)?;
+    let robot = context.robot()?;
     for (place, part) in composition.parts.iter().enumerate() {
         let mut before = None;
         for (idx, frozen) in part.frozen_joints.iter().enumerate() {
@@ -34,15 +33,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             };
             let at = |key: &str| format!("/parts/{place}/frozen_joints/{idx}/{key}");
             if let Some(message) = message {
-                finding_in(module, at("joint_idx"), message)
+                finding_in(Kind::Composition, at("joint_idx"), message)
                     .expected("a fixed joint of the part, after the one before")
                     .actual(format!("joint `{}`, {}", joint.name, joint.joint_type))
                     .report(findings);
             }
             let values = frozen.position.len();
             if !matches!(values, 1 | 3 | 6) {
-                let finding = finding_in(module, at("position"), "no joint has so many DOFs");
-                findings.report(finding.expected("1, 3 or 6 values").actual(values));
+                let finding =
+                    finding_in(Kind::Composition, at("position"), "no joint has so many DOFs");
+                findings.report(finding.values("1, 3 or 6 values", values));
             }
         }
     }

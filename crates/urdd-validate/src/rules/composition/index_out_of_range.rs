@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -13,11 +12,13 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, robot) = subject(context)?;
+    let composition = document!(context, Composition)?;
+    let robot = context.robot()?;
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
-            let finding = finding_in(module, pointer, format!("there is no such {what}"));
-            findings.report(finding.expected(format!("below {count}")).actual(index));
+            let finding =
+                finding_in(Kind::Composition, pointer, format!("there is no such {what}"));
+            findings.report(finding.values(format!("below {count}"), index));
         }
     };
     let (links, joints) = (robot.links.len(), robot.joints.len());

@@ -6,10 +6,8 @@ mod index_out_of_range;
 mod not_one_to_one;
 mod part_ids;
 mod renamed_otherwise;
-mod subject;
 
 use crate::rule::rules;
-use subject::subject;
 
 rules! {
     attachment_wrong, frozen_joint_moves, index_out_of_range, not_one_to_one, part_ids,

@@ -1,6 +1,3 @@
-use std::collections::BTreeSet;
-
-use super::subject;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -16,9 +13,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, robot) = subject(context)?;
+    let composition = document!(context, Composition)?;
+    let robot = context.robot()?;
     let mut report = |pointer: String, message: String| {
-        finding_in(module, pointer, message).report(findings);
+        finding_in(Kind::Composition, pointer, message).report(findings);
     };
     let mut links: Vec<u32> = vec![0; robot.links.len()];
     let mut joints: Vec<u32> = vec![0; robot.joints.len()];

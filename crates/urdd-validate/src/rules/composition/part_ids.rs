@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -13,7 +12,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, _) = subject(context)?;
+    let composition = document!(context, Composition)?;
     let parts = &composition.parts;
     for (place, part) in parts.iter().enumerate() {
         let is_taken = parts[..place].iter().any(|before| before.id == part.id);
@@ -23,8 +22,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             () if is_taken => "another part has this id",
             () => continue,
         };
-        let pointer = format!("/parts/{place}/id");
-        finding_in(module, pointer, message).actual(format!("`{}`", part.id)).report(findings);
+        finding_in(Kind::Composition, format!("/parts/{place}/id"), message)
+            .actual(format!("`{}`", part.id))
+            .report(findings);
     }
     Some(())
 }

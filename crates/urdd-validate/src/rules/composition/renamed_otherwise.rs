@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -13,7 +12,8 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, composition, robot) = subject(context)?;
+    let composition = document!(context, Composition)?;
+    let robot = context.robot()?;
     for (place, part) in composition.parts.iter().enumerate() {
         let links = part.links.iter().enumerate().map(|(idx, of)| {
             let name = &robot.links[of.link_idx.get()].name;
@@ -26,11 +26,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for (key, idx, own, name) in links.chain(joints) {
             let renamed = format!("{}{own}", part.prefix);
             if renamed != *name {
-                let pointer = format!("/parts/{place}/{key}/{idx}/name");
                 let message = "prefix and name are not the name in this robot";
-                finding_in(module, pointer, message)
-                    .expected(format!("`{name}`"))
-                    .actual(format!("`{renamed}`"))
+                finding_in(Kind::Composition, format!("/parts/{place}/{key}/{idx}/name"), message)
+                    .values(format!("`{name}`"), format!("`{renamed}`"))
                     .report(findings);
             }
         }

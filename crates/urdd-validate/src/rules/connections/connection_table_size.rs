@@ -15,7 +15,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let links = context.robot()?.links.len();
     let connections = context.connections()?;
-    let module = context.module(ModuleKind::Connections)?;
     let mut tables: Vec<(&str, Vec<usize>)> = Vec::new();
     let mut lists: Vec<(&str, usize)> = Vec::new();
     if let Some(v1) = connections.v1 {
@@ -31,9 +30,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     }
     lists.extend(tables.iter().map(|(name, rows)| (*name, rows.len())));
     let mut report = |pointer: String, message: String, size: usize| {
-        finding_in(module, pointer, message)
-            .expected(format!("{links} entries"))
-            .actual(format!("{size} entries"))
+        finding_in(Kind::Connections, pointer, message)
+            .counts(links, size, "entries")
             .report(findings);
     };
     if let Some(wrong) = wrong_lengths(&lists, links) {

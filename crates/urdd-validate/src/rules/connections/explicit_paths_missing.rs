@@ -24,7 +24,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let tree = context.tree()?;
     let connections = context.connections()?.v1?;
-    let module = context.module(ModuleKind::Connections)?;
     let links = tree.parent_link.len();
     if links > EXPLICIT_UP_TO {
         return Some(());
@@ -42,9 +41,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "this table may be null only above {EXPLICIT_UP_TO} links, or where the paths of all pairs have more than {LINKS_IN_PATHS_UP_TO} links; this robot has {links}, and {in_paths} in the paths"
             );
-            finding_in(module, format!("/{name}"), message)
-                .expected(format!("{links} x {links} paths"))
-                .actual("null")
+            finding_in(Kind::Connections, format!("/{name}"), message)
+                .values(format!("{links} x {links} paths"), "null")
                 .report(findings);
         }
     }

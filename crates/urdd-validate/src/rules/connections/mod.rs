@@ -7,11 +7,9 @@
 mod common_ancestor_wrong;
 mod connection_table_size;
 mod descendant_path_wrong;
-#[doc(hidden)]
 pub mod explicit_paths_missing;
 mod link_to_link_path_wrong;
 mod root_path_wrong;
-#[doc(hidden)]
 pub mod walk;
 
 use crate::rule::rules;

@@ -17,7 +17,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
     let connections = context.connections()?.v1?;
-    let module = context.module(ModuleKind::Connections)?;
     let mut fold = Fold::new(findings);
     let paths = connections.root_paths.iter().zip(&robot.links);
     for (to, (path, link)) in paths.enumerate() {
@@ -26,8 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/root_paths/{to}{place}");
                 let message =
                     format!("this is not the path from the root to link {to} ({:?})", link.name);
-                let finding = finding_in(module, pointer, message);
-                finding.expected(right).actual(written)
+                finding_in(Kind::Connections, pointer, message).values(right, written)
             });
         }
     }

@@ -17,7 +17,6 @@ pub(super) fn report_pairs<T>(
     message: impl Fn([usize; 3]) -> String,
 ) -> Option<()> {
     let tree = context.tree()?;
-    let module = context.module(ModuleKind::Connections)?;
     let mut fold = Fold::new(findings);
     let mut ancestors = Ancestors::new(tree);
     for (i, row) in table.iter().enumerate() {
@@ -26,8 +25,7 @@ pub(super) fn report_pairs<T>(
             if let Some((place, right, written)) = fault(tree, links, entry) {
                 fold.add(|| {
                     let pointer = format!("/{name}/{i}/{j}{place}");
-                    let finding = finding_in(module, pointer, message(links));
-                    finding.expected(right).actual(written)
+                    finding_in(Kind::Connections, pointer, message(links)).values(right, written)
                 });
             }
         }

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::path;
-use urdd_document::paths;
 
 declare_rule! {
     /// A path is not one that a URDD may name.
@@ -22,8 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             && let Err(fault) = path::check(path.path)
         {
             Finding::at(path.file(), path.pointer.clone(), fault.to_string())
-                .expected("a path relative to the URDD's root")
-                .actual(format!("{:?}", path.path))
+                .values("a path relative to the URDD's root", format!("{:?}", path.path))
                 .report(findings);
         }
     }

@@ -1,5 +1,3 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -20,7 +18,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     };
     // A module may be a folder or an entry of urdd.json; DIR002 and DIR003 report that one of the two is missing.
     let entries = entries::all(context);
-    let listed: HashSet<ModuleKind> = entries.iter().filter_map(|entry| entry.kind).collect();
+    let listed: HashSet<Kind> = entries.iter().filter_map(|entry| entry.kind).collect();
     let missing: Vec<&str> = entries::version_1_kinds()
         .filter(|kind| kind.class().is_some_and(|asked| asked <= class))
         .filter(|kind| context.module(*kind).is_none() && !listed.contains(kind))

@@ -1,5 +1,3 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -18,13 +16,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut names: HashSet<&str> = context.modules().map(|module| module.name()).collect();
     for entry in &entries {
         names.insert(&entry.entry.name);
-        names.extend(entry.kind.map(ModuleKind::name));
+        names.extend(entry.kind.map(Kind::name));
     }
     for entry in &entries {
         for (place, name) in entry.entry.depends_on.iter().enumerate() {
             let needed = entries::version_1_kinds().find(|kind| kind.name() == name);
             let is_right =
-                |kind: ModuleKind| needed.is_some_and(|needed| kind.depends_on().contains(&needed));
+                |kind: Kind| needed.is_some_and(|needed| kind.depends_on().contains(&needed));
             let reported_elsewhere = match entry.kind {
                 // DIR018 reports a name that should not be there at all.
                 Some(kind) if !is_right(kind) => true,
@@ -41,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 entry.entry.name
             );
             let finding = finding_in(entry, format!("depends_on/{place}"), message);
-            findings.report(finding.expected(format!("a module {name}")).actual("none"));
+            findings.report(finding.values(format!("a module {name}"), "none"));
         }
     }
     Some(())

@@ -29,18 +29,18 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         }
         module.is_some()
     };
-    is_draft(ModuleKind::SelfCollisionModel, "evaluation", of_model);
-    if is_draft(ModuleKind::LinkShapesSkips, "skipped_reasons", of_skips) {
+    is_draft(Kind::SelfCollisionModel, "evaluation", of_model);
+    if is_draft(Kind::LinkShapesSkips, "skipped_reasons", of_skips) {
         return Some(());
     }
-    let names = SIMPLE_SKIPS_DEPENDENCIES.map(ModuleKind::name);
-    let kind = ModuleKind::LinkShapesSimpleSkips;
+    let names = SIMPLE_SKIPS_DEPENDENCIES.map(Kind::name);
+    let kind = Kind::LinkShapesSimpleSkips;
     for entry in entries::all(context) {
         let stated = entry.entry.depends_on.iter().map(String::as_str);
         if entry.kind == Some(kind) && stated.eq(names) {
             let all: Vec<&str> = kind.depends_on().iter().map(|kind| kind.name()).collect();
             let finding = finding_in(&entry, "depends_on", of_skips);
-            findings.report(finding.expected(all.join(", ")).actual(names.join(", ")));
+            findings.report(finding.values(all.join(", "), names.join(", ")));
             break;
         }
     }

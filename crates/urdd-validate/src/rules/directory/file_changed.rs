@@ -1,13 +1,9 @@
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
-use urdd_directory::root::EntryKind;
-use urdd_document::paths;
 use urdd_findings::finding::{KEPT_PLACES, Place};
-use urdd_format::root_metadata::{FileEntry, Source};
+use urdd_format::root_metadata::FileEntry;
 
 declare_rule! {
     /// A file is not the one that `urdd.json` describes: its size or its SHA-256 differs.
@@ -80,14 +76,12 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             listed.file.path
         );
         Finding::at(ROOT_METADATA, pointer, message)
-            .expected(expected)
-            .actual(format!("{actual} ({})", listed.file.path))
+            .values(expected, format!("{actual} ({})", listed.file.path))
             .report(findings);
     }
     for (listed, size) in too_large {
-        let pointer = format!("{}/size", listed.pointer);
         let message = "the files are too large to be checked: at most 64 GiB of a URDD are read";
-        Finding::at(ROOT_METADATA, pointer, message)
+        Finding::at(ROOT_METADATA, format!("{}/size", listed.pointer), message)
             .expected(format!("{} bytes", listed.file.size))
             .actual(format!("{size} bytes ({})", listed.file.path))
             .report(findings);
@@ -98,10 +92,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 /// Every file with a size and a hash, except duplicates, which DIR026 reports, and entries that are not files.
 fn listed(context: &Context) -> Option<Vec<Listed<'_>>> {
     let metadata = context.metadata()?;
-    let source = match &metadata.source {
-        Some(Source::Urdf(file)) => Some(Listed { pointer: "/source/Urdf".to_owned(), file }),
-        _ => None,
-    };
+    let source = source(context).map(|file| Listed { pointer: "/source/Urdf".to_owned(), file });
     let modules = entries::all(context).into_iter().flat_map(|entry| {
         let m = entry.index;
         let files = entry.entry.files.iter().enumerate();

@@ -1,9 +1,7 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 use urdd_document::entries::MODULE_FILES;
 use urdd_document::module::is_extension;
-use urdd_document::paths::{self, Place};
+use urdd_document::paths::Place;
 
 declare_rule! {
     /// `urdd.json` does not list the files of a module as they are.
@@ -28,8 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if let Some((place, file)) = files.find(|(_, file)| !entry.holds(&file.path)) {
             let message = "the file is not in the module's folder: list it with the module that it belongs to";
             finding_in(&entry, format!("files/{place}/path"), message)
-                .expected(format!("a path in {}/", entry.entry.path))
-                .actual(&file.path)
+                .values(format!("a path in {}/", entry.entry.path), &file.path)
                 .report(findings);
             continue;
         }
@@ -57,10 +54,8 @@ fn unlisted(context: &Context, entry: &Entry<'_>) -> Vec<String> {
     let files = entry.entry.files.iter();
     let listed: HashSet<&str> = files.map(|file| file.path.as_str()).collect();
     let schema = is_extension(&module.folder).then_some("schema.json");
-    let own = MODULE_FILES.into_iter().chain(schema);
-    let own = own.map(|name| module.file(name));
-    let named = paths::of_module(module).into_iter();
-    let named = named.filter_map(|path| match path.place(context) {
+    let own = MODULE_FILES.into_iter().chain(schema).map(|name| module.file(name));
+    let named = paths::of_module(module).into_iter().filter_map(|path| match path.place(context) {
         Place::Here(path) if entry.holds(path) => Some(path.to_owned()),
         _ => None,
     });

@@ -1,8 +1,5 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
-use urdd_directory::root::EntryKind;
-use urdd_document::paths::{self, Place};
+use urdd_document::paths::Place;
 
 declare_rule! {
     /// A symbolic link leads out of the URDD.
@@ -21,10 +18,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         Place::Here(path) => Some(path),
         _ => None,
     });
-    let module_folders = ModuleKind::ALL.iter().map(|kind| kind.folder());
+    let module_folders = Kind::ALL.iter().map(|kind| kind.folder());
     let named: HashSet<&str> = here.chain(module_folders).flat_map(with_parents).collect();
-    let modules = context.modules();
-    let modules: HashSet<&str> = modules.map(|module| module.folder.as_str()).collect();
+    let modules: HashSet<&str> = context.modules().map(|module| module.folder.as_str()).collect();
     for entry in &context.listing().entries {
         let path = entry.path.as_str();
         // Other files in the root do not belong to the URDD.

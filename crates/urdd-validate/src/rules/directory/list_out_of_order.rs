@@ -24,8 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (before, name) = (&entries[index - 1].entry.name, &entries[index].entry.name);
         let message = "the modules are not in the order of the specification's table";
         Finding::at(ROOT_METADATA, format!("/modules/{index}"), message)
-            .expected(format!("{name} before {before}"))
-            .actual(format!("{name} after {before}"))
+            .values(format!("{name} before {before}"), format!("{name} after {before}"))
             .report(findings);
     }
     for entry in &entries {
@@ -44,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             false => "the files are not sorted by path, byte by byte",
         };
         let finding = finding_in(entry, format!("files/{place}/path"), message);
-        findings.report(finding.expected(format!("a path after {before}")).actual(path));
+        findings.report(finding.values(format!("a path after {before}"), path));
     }
     Some(())
 }

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::root::ReadError;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// A file that `urdd.json` lists is not there.
@@ -17,12 +15,11 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mut look = |pointer: String, path: &str, message: &str| {
         if entries::look(context, path) == Err(ReadError::Missing) {
             Finding::at(ROOT_METADATA, pointer, message)
-                .expected("a file")
-                .actual(format!("nothing at {path}"))
+                .values("a file", format!("nothing at {path}"))
                 .report(findings);
         }
     };
-    if let Some(Source::Urdf(file)) = &context.metadata()?.source {
+    if let Some(file) = source(context) {
         let message = "the source URDF is missing: put it into the root folder";
         look("/source/Urdf/path".to_owned(), &file.path, message);
     }

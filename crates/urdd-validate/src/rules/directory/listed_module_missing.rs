@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::path;
-use urdd_directory::root::EntryKind;
 
 declare_rule! {
     /// A module that `urdd.json` lists is not there.
@@ -39,8 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 ("a file", format!("{folder} is not a folder: put the module's folder there"))
             }
         };
-        let finding = finding_in(&entry, "path", message);
-        findings.report(finding.expected("a folder").actual(actual));
+        finding_in(&entry, "path", message).values("a folder", actual).report(findings);
     }
     Some(())
 }

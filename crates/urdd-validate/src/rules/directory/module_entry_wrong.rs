@@ -1,7 +1,4 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
-use urdd_directory::path;
 
 declare_rule! {
     /// An entry of `modules` has a name and a path that do not belong together, or is there twice.
@@ -38,8 +35,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             _ => continue,
         };
         let actual = if key == "path" { path } else { name };
-        let finding = finding_in(&entry, key, message);
-        findings.report(finding.expected(expected).actual(format!("{actual:?}")));
+        finding_in(&entry, key, message).values(expected, format!("{actual:?}")).report(findings);
     }
     Some(())
 }

@@ -1,8 +1,6 @@
 use super::version_differs;
 use crate::rules::prelude::*;
-use urdd_document::module::VersionFile;
 use urdd_format::registry;
-use urdd_format::root_metadata::Version;
 
 declare_rule! {
     /// A module has a version that does not exist, or one from before the specification in a URDD of
@@ -36,8 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             false => format!("unknown version {version} of {}", kind.name()),
         };
         Finding::in_file(module.file("VERSION"), message)
-            .expected(known_versions(kind, context.profile()))
-            .actual(version)
+            .values(known_versions(kind, context.profile()), version)
             .report(findings);
     }
     Some(())
@@ -47,7 +44,7 @@ fn is_malformed(module: &Module) -> bool {
     matches!(&module.version_file, VersionFile::Text(text) if Version::new(text.as_str()).is_none())
 }
 
-fn known_versions(kind: ModuleKind, profile: Profile) -> String {
+fn known_versions(kind: Kind, profile: Profile) -> String {
     let versions: Vec<&str> = registry::modules()
         .iter()
         .filter(|spec| spec.kind == kind && !spec.version.is_empty())

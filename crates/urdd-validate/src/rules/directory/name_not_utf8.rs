@@ -16,8 +16,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let mut bad = context.listing().below(&module.folder).filter(|entry| !entry.utf8);
         if let Some(first) = bad.next() {
             let message = "the name is not UTF-8 (shown with replacement characters): rename it";
-            let finding = Finding::in_file(&first.path, message);
-            findings.report(finding.count(1 + bad.count()));
+            Finding::in_file(&first.path, message).count(1 + bad.count()).report(findings);
         }
     }
     Some(())

@@ -1,7 +1,4 @@
-use std::collections::BTreeMap;
-
 use crate::rules::prelude::*;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// Two names in one folder differ only in letter case.
@@ -16,10 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let source = match context.metadata().and_then(|m| m.source.as_ref()) {
-        Some(Source::Urdf(file)) => Some(file.path.as_str()),
-        _ => None,
-    };
+    let source = source(context).map(|file| file.path.as_str());
     // Other files in the root do not belong to the URDD.
     let is_of_urdd = |path: &str| {
         let folders = entries::known_modules(context).map(|module| module.folder.as_str());
@@ -42,8 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "this name differs from that of {first} only in letter case, and many file systems treat the two as one: rename one"
             );
-            let finding = Finding::in_file(*second, message);
-            findings.report(finding.count(paths.len() - 1));
+            Finding::in_file(*second, message).count(paths.len() - 1).report(findings);
         }
     }
     Some(())

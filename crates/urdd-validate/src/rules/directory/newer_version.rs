@@ -24,8 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "this program knows the specification up to {SPEC_VERSION}: check with a newer one"
         );
         Finding::at(ROOT_METADATA, "/urdd_version", message)
-            .expected(format!("at most {SPEC_VERSION}"))
-            .actual(stated)
+            .values(format!("at most {SPEC_VERSION}"), stated)
             .report(findings);
     }
     let differing = version_differs::folders(context);
@@ -38,8 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 spec.version
             );
             Finding::in_file(module.file("VERSION"), message)
-                .expected(format!("at most {}", spec.version))
-                .actual(version)
+                .values(format!("at most {}", spec.version), version)
                 .report(findings);
         }
     }

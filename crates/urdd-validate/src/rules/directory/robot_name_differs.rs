@@ -22,8 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if stated != name && carried.as_ref() != Some(stated) {
         let message = "this is not the name in urdf_module: write that one here";
         Finding::at(ROOT_METADATA, "/robot_name", message)
-            .expected(format!("{name:?}"))
-            .actual(format!("{stated:?}"))
+            .literals(&name, &stated)
             .report(findings);
     }
     Some(())

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::path;
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// The source URDF is in a folder below the root.
@@ -15,7 +13,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // DIR015 reports an invalid path.
-    if let Some(Source::Urdf(file)) = &context.metadata()?.source
+    if let Some(file) = source(context)
         && path::check(&file.path).is_ok()
         && file.path.contains('/')
     {

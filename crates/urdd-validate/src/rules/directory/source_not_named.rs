@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_directory::root::EntryKind;
 
 declare_rule! {
     /// The root folder holds a URDF, and `source` is null.
@@ -26,8 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "`{path}` is in the root folder, but no source is named, so the modules were not compared with it: name it as the source"
         );
         Finding::at(ROOT_METADATA, "/source", message)
-            .expected(format!("{{\"Urdf\": {{\"path\": \"{path}\", …}}}}"))
-            .actual("null")
+            .values(format!("{{\"Urdf\": {{\"path\": \"{path}\", …}}}}"), "null")
             .report(findings);
     }
     Some(())

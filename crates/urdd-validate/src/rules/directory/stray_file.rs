@@ -1,10 +1,7 @@
-use std::collections::HashSet;
-
 use super::listed_files;
 use crate::rules::prelude::*;
-use urdd_directory::root::EntryKind;
 use urdd_document::entries::MODULE_FILES;
-use urdd_document::paths::{self, Place};
+use urdd_document::paths::Place;
 
 declare_rule! {
     /// A module's folder holds a file that neither the module nor `urdd.json` names.
@@ -47,8 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "{} does not name this file{others}: delete it, or keep it outside the module folders",
             module.name()
         );
-        let finding = Finding::in_file(*first, message);
-        findings.report(finding.count(stray.len()));
+        Finding::in_file(*first, message).count(stray.len()).report(findings);
     }
     Some(())
 }

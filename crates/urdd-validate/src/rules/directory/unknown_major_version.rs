@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_format::root_metadata::Version;
 
 declare_rule! {
     /// The URDD follows another major version of the specification.
@@ -25,8 +24,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if let Some(version) = other_major(context) {
         let message = "this program knows version 1 of the specification: check with a program of that version";
         Finding::at(ROOT_METADATA, "/urdd_version", message)
-            .expected("1.x.y")
-            .actual(version)
+            .values("1.x.y", version)
             .report(findings);
     }
     Some(())

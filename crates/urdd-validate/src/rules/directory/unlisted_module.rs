@@ -1,5 +1,3 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 
 declare_rule! {

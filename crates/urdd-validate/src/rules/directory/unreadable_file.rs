@@ -1,11 +1,7 @@
-use std::collections::BTreeMap;
-
 use super::listed_files;
 use crate::rules::prelude::*;
 use urdd_directory::limits::{MAX_FILES, MAX_FOLDER_DEPTH};
-use urdd_directory::root::ReadError;
 use urdd_document::module::{JsonFile, Mirror, VersionFile};
-use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// A file that belongs to the URDD cannot be read.
@@ -40,12 +36,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             _ => {}
         }
     }
-    let metadata = context.metadata();
-    let source = metadata.and_then(|metadata| match &metadata.source {
-        Some(Source::Urdf(file)) => Some(file.path.as_str()),
-        _ => None,
-    });
-    let listed = metadata.map(listed_files).into_iter().flatten();
+    let source = source(context).map(|file| file.path.as_str());
+    let listed = context.metadata().map(listed_files).into_iter().flatten();
     for listed in listed.chain(source) {
         let opened = entries::look(context, listed).and_then(|_| context.root().open_file(listed));
         match opened {

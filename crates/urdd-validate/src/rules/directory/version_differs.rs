@@ -1,8 +1,4 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
-use urdd_document::module::VersionFile;
-use urdd_format::root_metadata::Version;
 
 declare_rule! {
     /// `urdd.json` and a module's `VERSION` name different versions.
@@ -43,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 module.file("VERSION")
             );
             let finding = finding_in(&entry, "version", message);
-            findings.report(finding.expected(version).actual(&entry.entry.version));
+            findings.report(finding.values(version, &entry.entry.version));
         }
     }
     Some(())

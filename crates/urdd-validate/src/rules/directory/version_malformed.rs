@@ -1,10 +1,5 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 use urdd_directory::digest::{Change, compare};
-use urdd_directory::root::ReadError;
-use urdd_document::module::VersionFile;
-use urdd_format::root_metadata::Version;
 
 declare_rule! {
     /// A `VERSION` file does not hold a version.
@@ -51,8 +46,7 @@ fn checked_modules(context: &Context) -> impl Iterator<Item = &Module> {
 /// Whether line endings were converted since the file was listed; DIR014 reports that.
 fn is_converted(context: &Context, path: &str) -> bool {
     let modules = context.metadata().into_iter().flat_map(|m| &m.modules);
-    let mut listed = modules.flat_map(|module| &module.files);
-    listed.find(|file| file.path == path).is_some_and(|file| {
+    modules.flat_map(|module| &module.files).find(|file| file.path == path).is_some_and(|file| {
         let (size, sha256) = (u64::from(file.size.0), file.sha256.as_str());
         compare(context.root(), path, size, sha256) == Some(Change::LineEndings)
     })

@@ -17,8 +17,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for module in entries::known_modules(context) {
         // Before the specification, some modules were published without one.
-        let unversioned = module.kind.and_then(|kind| registry::find(kind, ""));
-        let never_had_one = unversioned.is_some();
+        let never_had_one = module.kind.and_then(|kind| registry::find(kind, "")).is_some();
         let empty = matches!(module.json, JsonFile::Missing);
         if matches!(module.version_file, VersionFile::Missing) && !never_had_one && !empty {
             let message =

@@ -1,5 +1,3 @@
-use std::collections::BTreeSet;
-
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -17,7 +15,7 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for entry in listed_modules(context)? {
         let stated: Vec<&str> = entry.entry.depends_on.iter().map(String::as_str).collect();
-        let names = |kind: ModuleKind| kind.depends_on().iter().map(|kind| kind.name()).collect();
+        let names = |kind: Kind| kind.depends_on().iter().map(|kind| kind.name()).collect();
         let right: Option<Vec<&str>> = entry.kind.map(names);
         let set: BTreeSet<&str> = stated.iter().copied().collect();
         let twice = set.len() < stated.len();

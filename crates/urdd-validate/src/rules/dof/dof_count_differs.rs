@@ -15,7 +15,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Dof)?;
     let mut counts = vec![
         ("num_dofs", dofs.num_dofs.get()),
         ("dof_idx_to_joint_idx_mapping", dofs.joint_of_dof.len()),
@@ -29,9 +28,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the number of DOFs differs from place to place: {}; make them agree",
             all.collect::<Vec<_>>().join(", ")
         );
-        finding_in(module, format!("/{name}"), message)
-            .expected(format!("{others} DOFs"))
-            .actual(format!("{count} DOFs"))
+        finding_in(Kind::Dof, format!("/{name}"), message)
+            .values(format!("{others} DOFs"), format!("{count} DOFs"))
             .report(findings);
     }
     Some(())

@@ -17,10 +17,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Dof)?;
     let joint_of_dof: Vec<usize> = dofs.joint_of_dof.iter().map(|joint| joint.get()).collect();
-    let lists = dofs.dofs_of_joint.iter();
-    let dofs_of_joint = lists.map(|list| list.iter().map(|dof| dof.get()));
+    let dofs_of_joint = dofs.dofs_of_joint.iter().map(|list| list.iter().map(|dof| dof.get()));
     if are_inverse(&joint_of_dof, dofs_of_joint.clone()) {
         return Some(());
     }
@@ -36,8 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "the mappings disagree: joint {joint} ({}) is said to have DOF {dof}",
                     name(joint)
                 );
-                let finding = finding_in(module, pointer, message);
-                findings.report(finding.expected(right).actual(dof));
+                finding_in(Kind::Dof, pointer, message).values(right, dof).report(findings);
             }
         }
     }
@@ -51,15 +48,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 name(joint)
             );
             let right = right.map_or(format!("{all} DOFs in all"), |right| right.to_string());
-            let finding = finding_in(module, pointer, message);
-            findings.report(finding.expected(right).actual(joint));
+            finding_in(Kind::Dof, pointer, message).values(right, joint).report(findings);
         }
     }
     if findings.is_empty() {
         let message = "joints have DOFs that are not listed here; list every DOF";
-        finding_in(module, "/dof_idx_to_joint_idx_mapping", message)
-            .expected(format!("{all} entries"))
-            .actual(format!("{} entries", joint_of_dof.len()))
+        finding_in(Kind::Dof, "/dof_idx_to_joint_idx_mapping", message)
+            .counts(all, joint_of_dof.len(), "entries")
             .report(findings);
     }
     Some(())

@@ -18,7 +18,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?.v1?;
-    let module = context.module(ModuleKind::Dof)?;
     for (index, dof) in dofs.dofs.iter().enumerate() {
         let (joint_idx, place) = layout.place(index)?;
         let joint = robot.joints.get(joint_idx)?;
@@ -28,8 +27,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/dofs/{index}/{key}");
                 let message =
                     format!("this does not describe DOF {index}, which moves joint {joint_idx}");
-                let finding = finding_in(module, pointer, message);
-                findings.report(finding.expected(right).actual(written));
+                finding_in(Kind::Dof, pointer, message).values(right, written).report(findings);
             }
         };
         let quoted = |name: &str| format!("{name:?}");

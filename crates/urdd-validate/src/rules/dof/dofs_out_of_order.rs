@@ -15,7 +15,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Dof)?;
     let joints = dofs.joint_of_dof.iter();
     for (dof, (before, after)) in (1..).zip(joints.clone().zip(joints.skip(1))) {
         if after < before {
@@ -23,9 +22,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message = format!(
                 "DOF {dof} moves joint {after}, but the DOF before it moves joint {before}: number the DOFs in joint order"
             );
-            finding_in(module, pointer, message)
-                .expected(format!("joint {before} or later"))
-                .actual(format!("joint {after}"))
+            finding_in(Kind::Dof, pointer, message)
+                .values(format!("joint {before} or later"), format!("joint {after}"))
                 .report(findings);
         }
     }
@@ -40,10 +38,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             right.sort_unstable();
             let pointer = format!("/joint_idx_to_dof_idxs_mapping/{joint}");
             let message = format!("the DOFs of joint {joint} are not in ascending order");
-            finding_in(module, pointer, message)
-                .expected(format!("{right:?}"))
-                .actual(format!("{written:?}"))
-                .report(findings);
+            finding_in(Kind::Dof, pointer, message).literals(&right, &written).report(findings);
         }
     }
     Some(())

@@ -19,7 +19,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Dof)?;
     let joints = robot.joints.iter().zip(&layout.dofs_of_joint);
     for (index, ((joint, right), list)) in joints.zip(dofs.dofs_of_joint).enumerate() {
         if list.len() == right.len() {
@@ -32,8 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let (name, right) = (&joint.name, count(right.len()));
         let pointer = format!("/joint_idx_to_dof_idxs_mapping/{index}");
         let message = format!("joint {index} ({name:?}) is {kind} and has {right} of its own");
-        let finding = finding_in(module, pointer, message);
-        findings.report(finding.expected(right).actual(count(list.len())));
+        finding_in(Kind::Dof, pointer, message).values(right, count(list.len())).report(findings);
     }
     Some(())
 }

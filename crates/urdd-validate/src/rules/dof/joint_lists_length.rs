@@ -16,7 +16,6 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let joints = context.robot()?.joints.len();
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Dof)?;
     let mut lists = vec![("joint_idx_to_dof_idxs_mapping", dofs.dofs_of_joint.len())];
     if let Some(v1) = dofs.v1 {
         let mimics = v1.joint_idx_to_mimic_mapping.len();
@@ -25,9 +24,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if let Some(wrong) = wrong_lengths(&lists, joints) {
         let all = wrong.in_words;
         let message = format!("one entry per joint of urdf_module is needed: {all}");
-        finding_in(module, wrong.pointer, message)
-            .expected(format!("{joints} entries"))
-            .actual(format!("{} entries", wrong.length))
+        finding_in(Kind::Dof, wrong.pointer, message)
+            .counts(joints, wrong.length, "entries")
             .report(findings);
     }
     Some(())

@@ -20,7 +20,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let mimics = context.mimics()?;
     let layout = context.dof_layout()?;
     let dofs = context.dofs()?.v1?;
-    let module = context.module(ModuleKind::Dof)?;
     let joints = robot.joints.iter().zip(&mimics.by_joint);
     let written = dofs.joint_idx_to_mimic_mapping.iter();
     for (index, ((joint, right), written)) in joints.zip(written).enumerate() {
@@ -34,8 +33,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     None => ("follows no other joint; write null", "null", "a mimic"),
                     Some(_) => ("is a mimic joint; write what it follows", "a mimic", "null"),
                 };
-                let finding = finding_in(module, pointer, format!("{joint} {message}"));
-                findings.report(finding.expected(expected).actual(actual));
+                let finding = finding_in(Kind::Dof, pointer, format!("{joint} {message}"));
+                findings.report(finding.values(expected, actual));
                 continue;
             }
         };
@@ -48,9 +47,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 right.driver,
                 robot.joints.get(right.driver)?.name
             );
-            finding_in(module, format!("{pointer}/dof_idx"), message)
-                .expected(or_null(dof))
-                .actual(or_null(written_dof))
+            finding_in(Kind::Dof, format!("{pointer}/dof_idx"), message)
+                .values(or_null(dof), or_null(written_dof))
                 .report(findings);
         }
         for (key, right, written) in [
@@ -60,7 +58,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !numbers_agree(right, written) {
                 let message =
                     format!("this is not the {key} with which {joint} follows its driver");
-                finding_in(module, format!("{pointer}/{key}"), message)
+                finding_in(Kind::Dof, format!("{pointer}/{key}"), message)
                     .numbers(right, written, number_tolerance(right, written))
                     .report(findings);
             }

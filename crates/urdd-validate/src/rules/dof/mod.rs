@@ -1,8 +1,6 @@
 //! DOF: `dof_module`.
 
-#[doc(hidden)]
 pub mod dof_count_differs;
-#[doc(hidden)]
 pub mod dof_mappings_disagree;
 mod dof_misdescribed;
 mod dofs_out_of_order;

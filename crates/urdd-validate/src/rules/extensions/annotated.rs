@@ -6,7 +6,6 @@ use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
 use crate::views::annotated::Judged;
 use crate::views::counts::Counts;
-use crate::views::extension_schema;
 use serde_json::Value;
 use urdd_document::schema_check;
 
@@ -15,13 +14,13 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
     let mut counts = None;
     let mentions = move |schema: &Value| extension_schema::mentions(schema, judged.keyword());
     for (module, schema, document) in described(context, mentions) {
-        let others = extension_schema::violations(&schema, document, 1);
+        let others = extension_schema::violations(&schema, document, None, 1);
         if !others.found.is_empty() {
             continue;
         }
         let counts = counts.get_or_insert_with(|| Arc::new(Counts::of(context)));
-        let violations =
-            extension_schema::annotation_violations(&schema, document, judged, counts, MAX_PLACES);
+        let asserted = Some((judged, &*counts));
+        let violations = extension_schema::violations(&schema, document, asserted, MAX_PLACES);
         let more = violations.more();
         for (pointer, message) in violations.found {
             let actual = document.pointer(&pointer).map(|value| match value {
@@ -29,8 +28,7 @@ pub(super) fn report(context: &Context, judged: Judged, findings: &mut Findings)
                 Value::Array(list) => format!("{} elements", list.len()),
                 value => schema_check::excerpt(value),
             });
-            let message = format!("{message}{more}");
-            let mut finding = finding_in(module, pointer, message);
+            let mut finding = finding_in(module, pointer, format!("{message}{more}"));
             finding.place.actual = actual;
             findings.report(finding);
         }

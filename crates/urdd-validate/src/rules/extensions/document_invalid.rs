@@ -1,6 +1,5 @@
 use super::{MAX_PLACES, described};
 use crate::rules::prelude::*;
-use crate::views::extension_schema;
 use urdd_document::schema_check;
 
 declare_rule! {
@@ -16,7 +15,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for (module, schema, document) in described(context, |_| true) {
-        let violations = extension_schema::violations(&schema, document, MAX_PLACES);
+        let violations = extension_schema::violations(&schema, document, None, MAX_PLACES);
         let more = violations.more();
         for (pointer, message) in violations.found {
             let actual = document.pointer(&pointer).map(schema_check::excerpt);

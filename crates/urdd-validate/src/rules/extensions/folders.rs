@@ -22,8 +22,8 @@ pub(super) fn described<'a>(
 ) -> impl Iterator<Item = (&'a Module, Value, &'a Value)> {
     extensions(context).filter_map(move |module| {
         let document = &module.json.document()?.value;
-        let schema = extension_schema::read(context, module).ok();
-        let schema = schema.filter(|schema| wanted(schema))?;
+        let schema =
+            extension_schema::read(context, module).ok().filter(|schema| wanted(schema))?;
         let faults = extension_schema::faults(&schema, Some(document));
         faults.is_empty().then_some((module, schema, document))
     })

@@ -1,6 +1,5 @@
 use super::extensions;
 use crate::rules::prelude::*;
-use crate::views::extension_schema;
 
 declare_rule! {
     /// An extension has no `schema.json` that can be used.

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_json;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A JSON file is not UTF-8.

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_json;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A number is not finite: `NaN`, `Infinity`, or too large for a 64-bit float.

@@ -2,9 +2,7 @@ use nalgebra::Isometry3;
 
 use crate::reference::{MimicDofs, Reference};
 use crate::rules::prelude::*;
-use crate::skip;
 use urdd_document::consumer;
-use urdd_format::urdf::JointType;
 use urdd_kinematics::rotation::canonical;
 use urdd_kinematics::unit;
 use urdd_kinematics::{ConfigurationError, ForwardKinematics};
@@ -40,7 +38,6 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let tree = context.tree()?;
     let dofs = context.dofs()?;
-    let module = context.module(ModuleKind::Chain)?;
     let modules = findings.or_skip(consumer::modules(context).ok_or(skip::KINEMATICS_OPEN))?;
     let mut joints = robot.joints.iter().zip(dofs.dofs_of_joint);
     let mimics =
@@ -53,7 +50,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     if legacy && reference.has(JointType::Planar) {
         return findings.skip(skip::LEGACY_COORDINATES);
     }
-    let file = module.file("module.json");
+    let file = format!("{}/module.json", Kind::Chain.folder());
     let kinematics = match ForwardKinematics::new(&modules.chain, &modules.dof) {
         Ok(kinematics) => kinematics,
         Err(error) => {
@@ -78,8 +75,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let Some((found, expected)) = found.zip(reference.link_poses(&configuration)) else {
             let message = "the modules and the URDF have configurations of different lengths";
             Finding::in_file(file, message)
-                .expected(format!("{} DOFs", reference.num_dofs()))
-                .actual(format!("{} DOFs", kinematics.num_dofs()))
+                .counts(reference.num_dofs(), kinematics.num_dofs(), "DOFs")
                 .report(findings);
             return Some(());
         };
@@ -101,8 +97,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             number(turn, 4)
         );
         Finding::at(file, pointer, message)
-            .expected(describe(expected))
-            .actual(describe(found))
+            .values(describe(expected), describe(found))
             .tolerance(tolerance)
             .off_by(shift, "m")
             .report(findings);

@@ -21,7 +21,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::KinematicsSamples)?;
     let samples = document!(context, KinematicsSamples)?;
     let chain = document!(context, Chain)?;
     let dof = document!(context, Dof)?;
@@ -56,9 +55,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let kind = sample.kind;
             let pointer = format!("/samples/{place}/configuration/{dof}");
             let message = format!("in the configuration {kind} this DOF has another value");
-            finding_in(module, pointer, message)
-                .expected(expected)
-                .actual(found)
+            finding_in(Kind::KinematicsSamples, pointer, message)
+                .values(expected, found)
                 .tolerance(tolerance)
                 .report(findings);
         }
@@ -72,9 +70,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "in the configuration {} the rotation vector that begins here has another value",
                 sample.kind
             );
-            finding_in(module, pointer, message)
-                .expected(format!("{expected:?}"))
-                .actual(format!("{found:?}"))
+            finding_in(Kind::KinematicsSamples, pointer, message)
+                .literals(&expected, &found)
                 .tolerance(ROTATION)
                 .report(findings);
         }

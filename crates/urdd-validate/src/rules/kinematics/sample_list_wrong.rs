@@ -23,7 +23,6 @@ const NAMED: [ConfigurationKind; 4] = [
 ];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::KinematicsSamples)?;
     let samples = &document!(context, KinematicsSamples)?.samples;
     let (dofs, links) = (context.dofs()?.num_dofs.get(), context.robot()?.links.len());
     for (place, sample) in samples.iter().enumerate() {
@@ -36,9 +35,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         if (sample.kind, sample.sample_idx) != (kind, number) {
             let message = "a sample is in the wrong place; write Zero, Middle, Lower, Upper, then Sampled with sample_idx 0, 1, 2, …";
-            finding_in(module, format!("/samples/{place}"), message)
-                .expected(describe(kind, number))
-                .actual(describe(sample.kind, sample.sample_idx))
+            finding_in(Kind::KinematicsSamples, format!("/samples/{place}"), message)
+                .values(describe(kind, number), describe(sample.kind, sample.sample_idx))
                 .report(findings);
             // The samples that follow are displaced too: one mistake, one finding.
             return Some(());
@@ -49,10 +47,13 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ] {
             if found != expected {
                 let pointer = format!("/samples/{place}/{key}");
-                finding_in(module, pointer, format!("`{key}` needs one entry per {unit}"))
-                    .expected(format!("{expected} entries"))
-                    .actual(format!("{found} entries"))
-                    .report(findings);
+                finding_in(
+                    Kind::KinematicsSamples,
+                    pointer,
+                    format!("`{key}` needs one entry per {unit}"),
+                )
+                .counts(expected, found, "entries")
+                .report(findings);
             }
         }
     }
@@ -60,8 +61,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the configuration {missing} is missing; the first four samples are Zero, Middle, Lower, Upper"
         );
-        let finding = finding_in(module, "/samples", message);
-        findings.report(finding.expected(missing));
+        finding_in(Kind::KinematicsSamples, "/samples", message).expected(missing).report(findings);
     }
     Some(())
 }

@@ -24,7 +24,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::KinematicsSamples)?;
     let robot = context.robot()?;
     let tree = context.tree()?;
     let samples = document!(context, KinematicsSamples)?;
@@ -46,7 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     let message = format!(
                         "the pose of link {name:?} in {kind} cannot be read as a pose: {error}"
                     );
-                    finding_in(module, pointer, message).report(findings);
+                    finding_in(Kind::KinematicsSamples, pointer, message).report(findings);
                     continue;
                 }
             };
@@ -57,9 +56,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "the quaternion of link {name:?} in {kind} has length {norm:?}; divide it by that"
                 );
-                finding_in(module, pointer, message)
-                    .expected("length 1")
-                    .actual(norm)
+                finding_in(Kind::KinematicsSamples, pointer, message)
+                    .values("length 1", norm)
                     .tolerance(UNIT_NORM)
                     .report(findings);
                 continue;
@@ -71,10 +69,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let is_xyzw =
                     shift <= tolerance && pose_distance(&reordered, expected).1 <= ROTATION;
                 let angle = angle_of_distance(turn);
-                let (off, unit) = match shift > tolerance {
-                    true => (shift, "m"),
-                    false => (angle, "rad"),
-                };
+                let (off, unit) = if shift > tolerance { (shift, "m") } else { (angle, "rad") };
                 let message = match is_xyzw {
                     true => format!(
                         "in {kind}, the quaternion of link {name:?} is written x, y, z, w; write w first"
@@ -85,7 +80,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         number(angle, 4)
                     ),
                 };
-                finding_in(module, pointer, message)
+                finding_in(Kind::KinematicsSamples, pointer, message)
                     .expected(describe(expected))
                     .actual(format!(
                         "position {:?}, quaternion {:?}",
@@ -98,7 +93,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "the quaternion of link {name:?} in {kind} has w < 0; negate all four numbers, which is the same rotation"
                 );
-                finding_in(module, pointer, message).expected("w >= 0").actual(w).report(findings);
+                finding_in(Kind::KinematicsSamples, pointer, message)
+                    .values("w >= 0", w)
+                    .report(findings);
             }
         }
     }

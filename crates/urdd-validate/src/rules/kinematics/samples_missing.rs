@@ -13,7 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::KinematicsSamples;
+    let kind = Kind::KinematicsSamples;
     // DIR002 reports a module that is listed and missing.
     let mut listed = context.metadata().into_iter().flat_map(|metadata| &metadata.modules);
     if context.module(kind).is_none() && listed.all(|module| module.name != kind.name()) {

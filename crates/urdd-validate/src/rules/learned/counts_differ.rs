@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::self_collision_model::{EVALUATION_COUNT, EVALUATION_FIRST};
 
@@ -24,7 +23,7 @@ declare_rule! {
 const PER_TOLERANCE: u32 = 10_000;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let judge = findings.or_skip(context.model_judge())?;
     let found = findings.or_skip(judge.count(EVALUATION_FIRST, EVALUATION_COUNT))?;
     let stated = &model.evaluation;
@@ -41,9 +40,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let tolerance = among.div_ceil(PER_TOLERANCE);
         if found.0.abs_diff(stated.0) > tolerance {
             let message = "counting these configurations again gives a different number";
-            finding_in(module, format!("/evaluation/{key}"), message)
-                .expected(found)
-                .actual(stated)
+            finding_in(Kind::SelfCollisionModel, format!("/evaluation/{key}"), message)
+                .values(found, stated)
                 .tolerance(f64::from(tolerance))
                 .report(findings);
         }

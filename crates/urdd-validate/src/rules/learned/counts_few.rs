@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::self_collision_model::EVALUATION_MIN;
 
@@ -14,7 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let stated = &model.evaluation;
     for (key, what, count) in [
         ("num_colliding", "collisions", stated.num_colliding),
@@ -22,9 +21,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] {
         if count.0 < EVALUATION_MIN {
             let message = format!("too few {what} to state a rate");
-            finding_in(module, format!("/evaluation/{key}"), message)
-                .expected(format!("at least {EVALUATION_MIN}"))
-                .actual(count)
+            finding_in(Kind::SelfCollisionModel, format!("/evaluation/{key}"), message)
+                .values(format!("at least {EVALUATION_MIN}"), count)
                 .report(findings);
         }
     }

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::self_collision_model::{EVALUATION_COUNT, EVALUATION_FIRST, SampleRange};
 
@@ -15,13 +14,13 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let stated = &model.evaluation;
     let all = u64::from(stated.num_colliding.0) + u64::from(stated.num_free.0);
     if all != u64::from(EVALUATION_COUNT) {
         let message = "`num_colliding` and `num_free` together are not all configurations";
-        let finding = finding_in(module, "/evaluation", message);
-        findings.report(finding.expected(EVALUATION_COUNT).actual(all));
+        let finding = finding_in(Kind::SelfCollisionModel, "/evaluation", message);
+        findings.report(finding.values(EVALUATION_COUNT, all));
     }
     let colliding = ("num_colliding", stated.num_colliding);
     let missed = ("num_missed", stated.num_missed);
@@ -38,8 +37,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     ] {
         if count.0 > most.0 {
             let message = format!("this is more than `{what}`");
-            let finding = finding_in(module, format!("/evaluation/{key}"), message);
-            findings.report(finding.expected(format!("at most {most}")).actual(count));
+            let finding =
+                finding_in(Kind::SelfCollisionModel, format!("/evaluation/{key}"), message);
+            findings.report(finding.values(format!("at most {most}"), count));
         }
     }
     let range = |of: &SampleRange| {
@@ -48,7 +48,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     };
     let (training, calibration) = (range(&model.training), range(&model.calibration));
     let mut report = |key: &str, message: &str| {
-        finding_in(module, format!("/{key}"), message).report(findings);
+        finding_in(Kind::SelfCollisionModel, format!("/{key}"), message).report(findings);
     };
     for (key, range) in [("training", &training), ("calibration", &calibration)] {
         if range.is_empty() {

@@ -1,6 +1,5 @@
-use super::subject;
 use crate::rules::prelude::*;
-use urdd_format::index::LinkIdx;
+use urdd_format::index::{DofIdx, LinkIdx};
 use urdd_format::self_collision_model::ModelInput;
 
 declare_rule! {
@@ -17,30 +16,26 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let robot = context.robot()?;
     let dofs = context.dofs()?;
     let num_dofs = dofs.num_dofs.get();
     let mut judge = |pointer: String, what: &str, index: usize, count: usize| {
         if index >= count {
-            let message = format!("there is no such {what}");
-            finding_in(module, pointer, message)
-                .expected(format!("below {count}"))
-                .actual(index)
+            finding_in(Kind::SelfCollisionModel, pointer, format!("there is no such {what}"))
+                .values(format!("below {count}"), index)
                 .report(findings);
         }
     };
+    let mut dof = |pointer, idx: DofIdx| judge(pointer, "DOF", idx.get(), num_dofs);
     for (place, input) in model.inputs.iter().enumerate() {
         let at = |rest: &str| format!("/inputs/{place}/{rest}");
         match input {
-            ModelInput::Angle(of) => judge(at("Angle/dof_idx"), "DOF", of.dof_idx.get(), num_dofs),
-            ModelInput::Length(of) => {
-                judge(at("Length/dof_idx"), "DOF", of.dof_idx.get(), num_dofs)
-            }
+            ModelInput::Angle(of) => dof(at("Angle/dof_idx"), of.dof_idx),
+            ModelInput::Length(of) => dof(at("Length/dof_idx"), of.dof_idx),
             ModelInput::RotationVector(of) => {
-                for (k, dof) in of.dof_idxs.iter().enumerate() {
-                    let pointer = at(&format!("RotationVector/dof_idxs/{k}"));
-                    judge(pointer, "DOF", dof.get(), num_dofs);
+                for (k, idx) in of.dof_idxs.into_iter().enumerate() {
+                    dof(at(&format!("RotationVector/dof_idxs/{k}")), idx);
                 }
             }
         }
@@ -67,14 +62,15 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         if let Some((place, expected)) = fault {
             let message = "this pair is out of order";
-            let finding = finding_in(module, format!("/{list}/{place}"), message);
+            let finding = finding_in(Kind::SelfCollisionModel, format!("/{list}/{place}"), message);
             findings.report(finding.expected(expected));
             return Some(());
         }
     }
     if let Some(place) = others.iter().position(|pair| outputs.contains(pair)) {
         let message = "this pair is also in `pairs`";
-        let finding = finding_in(module, format!("/other_pairs/{place}"), message);
+        let finding =
+            finding_in(Kind::SelfCollisionModel, format!("/other_pairs/{place}"), message);
         findings.report(finding);
     }
     Some(())

@@ -1,10 +1,6 @@
-use std::collections::BTreeSet;
-
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::dof::Quantity;
 use urdd_format::self_collision_model::ModelInput;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// An input of the self-collision model is not of a DOF of its kind.
@@ -23,7 +19,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let robot = context.robot()?;
     let dof = context.dofs()?.v1?;
     let mut vectors: Vec<[usize; 3]> = Vec::new();
@@ -66,7 +62,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             }
         };
-        let finding = finding_in(module, format!("/inputs/{place}/{key}"), message);
+        let finding =
+            finding_in(Kind::SelfCollisionModel, format!("/inputs/{place}/{key}"), message);
         findings.report(finding.expected(expected));
     }
     Some(())

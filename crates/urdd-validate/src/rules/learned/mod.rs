@@ -10,12 +10,10 @@ mod output_differs;
 mod overflow;
 mod pairs_differ;
 mod rates_not_met;
-mod subject;
 mod too_large;
 mod wrong_shape;
 
 use crate::rule::rules;
-use subject::subject;
 
 rules! {
     counts_differ, counts_few, counts_impossible, index_out_of_range, input_wrong,

@@ -1,6 +1,5 @@
 use sha2::{Digest, Sha256};
 
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_document::meshes::Format;
 
@@ -20,13 +19,12 @@ declare_rule! {
 }
 
 /// The modules whose documents are part of the digest.
-const TRAINED_ON: [ModuleKind; 4] =
-    [ModuleKind::Dof, ModuleKind::Chain, ModuleKind::Bounds, ModuleKind::LinkShapesSkips];
+const TRAINED_ON: [Kind; 4] = [Kind::Dof, Kind::Chain, Kind::Bounds, Kind::LinkShapesSkips];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let metadata = context.metadata()?;
-    let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
     let documents = TRAINED_ON.map(|kind| format!("{}/module.json", kind.folder()));
     let glbs = pieces.paths().filter(|(_, path)| path.format == Some(Format::Glb));
     let glbs = glbs.map(|(_, path)| path.path.to_owned());
@@ -42,9 +40,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let expected = urdd_directory::writer::sha256(&Sha256::digest(text));
     if expected != model.trained_on {
         let message = "the model was trained on other files than those of this URDD";
-        finding_in(module, "/trained_on", message)
-            .expected(expected.as_str())
-            .actual(model.trained_on.as_str())
+        finding_in(Kind::SelfCollisionModel, "/trained_on", message)
+            .values(expected.as_str(), model.trained_on.as_str())
             .report(findings);
     }
     Some(())

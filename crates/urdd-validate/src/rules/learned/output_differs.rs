@@ -1,4 +1,3 @@
-use super::subject;
 use crate::learned::network::Network;
 use crate::rules::prelude::*;
 
@@ -18,7 +17,7 @@ declare_rule! {
 const TOLERANCE: f64 = 1e-9;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let network = Network::new(model);
     for (place, vector) in model.test_vectors.iter().enumerate() {
         let found = network.clearances(&vector.configuration);
@@ -32,9 +31,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
             let pointer = format!("/test_vectors/{place}/clearances/{pair}");
             let message = "this is not what the network gives in this configuration";
-            finding_in(module, pointer, message)
-                .expected(expected)
-                .actual(actual)
+            finding_in(Kind::SelfCollisionModel, pointer, message)
+                .values(expected, actual)
                 .tolerance(tolerance)
                 .off_by(off, "m")
                 .report(findings);

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 use urdd_format::self_collision_model::ModelInput;
 
@@ -17,7 +16,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let bounds = context.bounds()?.bounds;
     let mut largest: Vec<f64> = Vec::new();
     for input in &model.inputs {
@@ -37,7 +36,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !(bias.abs() + products.sum::<f64>()).is_finite() {
                 let pointer = format!("/layers/{place}/weights/{row}");
                 let message = "the sum of these weights may be beyond 64-bit numbers";
-                finding_in(module, pointer, message).report(findings);
+                finding_in(Kind::SelfCollisionModel, pointer, message).report(findings);
             }
         }
         largest = vec![1.0; layer.biases.len()];

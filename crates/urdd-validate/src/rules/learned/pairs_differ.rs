@@ -1,6 +1,3 @@
-use std::collections::BTreeSet;
-
-use super::subject;
 use crate::learned::pairs;
 use crate::rules::prelude::*;
 
@@ -21,12 +18,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
-    let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context.urdd())?.into_iter().collect();
-    let outputs = model.pairs.iter();
-    let outputs = outputs.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
-    let others = model.other_pairs.iter();
-    let others = others.map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
+    let model = document!(context, SelfCollisionModel)?;
+    let expected: BTreeSet<[usize; 2]> = pairs::not_skipped(context)?.into_iter().collect();
+    let outputs = model.pairs.iter().map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
+    let others = model.other_pairs.iter().map(|of| [of.link_a_idx.get(), of.link_b_idx.get()]);
     let found: BTreeSet<[usize; 2]> = outputs.clone().chain(others.clone()).collect();
     let named = |[a, b]: [usize; 2]| {
         let (a, b) = (context.link_label(a), context.link_label(b));
@@ -39,7 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if !expected.contains(&pair) {
             fold.add(|| {
                 let message = format!("{} are skipped", named(pair));
-                finding_in(module, format!("/{list}/{place}"), message)
+                finding_in(Kind::SelfCollisionModel, format!("/{list}/{place}"), message)
             });
         }
     }
@@ -48,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for pair in expected.difference(&found) {
         fold.add(|| {
             let message = format!("{} are not skipped, and not among the pairs", named(*pair));
-            finding_in(module, "/pairs", message)
+            finding_in(Kind::SelfCollisionModel, "/pairs", message)
         });
     }
     Some(())

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::learned::network;
 use crate::rules::prelude::*;
 use urdd_format::rate::Rate;
@@ -19,7 +18,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let judge = findings.or_skip(context.model_judge())?;
     let stated = &model.evaluation;
     for first in [CONFIRMATION_FIRST, network::second_confirmation(model)] {
@@ -27,9 +26,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let last = first + (CONFIRMATION_COUNT - 1);
         let mut report = |key: &str, what: &str, stated: Rate, found: Rate| {
             let message = format!("{what} on sampled configurations {first} to {last} than stated");
-            finding_in(module, format!("/evaluation/{key}"), message)
-                .expected(found.to_string())
-                .actual(stated.to_string())
+            finding_in(Kind::SelfCollisionModel, format!("/evaluation/{key}"), message)
+                .values(found.to_string(), stated.to_string())
                 .report(findings);
         };
         let (stated_misses, misses) = (stated.miss_rate(), found.miss_rate());

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::rules::prelude::*;
 
 declare_rule! {
@@ -18,7 +17,7 @@ const MAX_NUMBERS: usize = 65_536;
 const MAX_VECTORS: usize = 100;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let layers = model.layers.iter();
     let numbers = layers.map(|of| of.weights.iter().map(Vec::len).sum::<usize>() + of.biases.len());
     let vectors = model.test_vectors.len();
@@ -27,8 +26,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ("/test_vectors", "test vectors", MAX_VECTORS, vectors),
     ] {
         if actual > most {
-            let finding = finding_in(module, pointer, format!("too many {what}"));
-            findings.report(finding.expected(format!("at most {most}")).actual(actual));
+            let finding = finding_in(Kind::SelfCollisionModel, pointer, format!("too many {what}"));
+            findings.report(finding.values(format!("at most {most}"), actual));
         }
     }
     Some(())

@@ -1,4 +1,3 @@
-use super::subject;
 use crate::learned::network;
 use crate::rules::prelude::*;
 
@@ -18,14 +17,14 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let (module, model) = subject(context)?;
+    let model = document!(context, SelfCollisionModel)?;
     let num_dofs = context.dofs()?.num_dofs.get();
     let mut judge = |pointer: String, what: &str, expected: usize, actual: usize| {
         let right = expected == actual && actual > 0;
         if !right {
             let message = format!("there must be {what}, and at least one");
-            let finding = finding_in(module, pointer, message);
-            findings.report(finding.expected(expected).actual(actual));
+            let finding = finding_in(Kind::SelfCollisionModel, pointer, message);
+            findings.report(finding.values(expected, actual));
         }
         right
     };
@@ -43,10 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let what = "one number for each value before";
             judge(at(&format!("weights/{row}")), what, width, length);
         }
-        let wanted = match place + 1 == layers {
-            true => model.pairs.len(),
-            false => rows,
-        };
+        let wanted = if place + 1 == layers { model.pairs.len() } else { rows };
         let what = "one row for each value of the layer";
         judge(at("weights"), what, wanted, rows);
         judge(at("biases"), "one bias for each row", rows, biases);

@@ -16,7 +16,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    for (_, module, document) in context.documents(&[ModuleKind::AdjustedRobot]) {
+    for (_, module, document) in context.documents(&[Kind::AdjustedRobot]) {
         let ModuleDocument::LegacyAdjustedRobot(adjusted) = document else {
             continue;
         };
@@ -73,8 +73,7 @@ impl Mapping {
             if right != written {
                 let message = format!("one entry is needed for each {what} that {why}");
                 Finding::at(file, format!("/{name}"), message)
-                    .expected(format!("{right} entries"))
-                    .actual(format!("{written} entries"))
+                    .counts(right, written, "entries")
                     .report(findings);
                 return;
             }
@@ -90,8 +89,7 @@ impl Mapping {
                 let message =
                     format!("`{up}` does not lead from {what} {base} back to {what} {adjusted}");
                 Finding::at(file, format!("/{down}/{adjusted}"), message)
-                    .expected(format!("{what} {adjusted} at /{up}/{base}"))
-                    .actual(there)
+                    .values(format!("{what} {adjusted} at /{up}/{base}"), there)
                     .report(findings);
             }
         }
@@ -105,8 +103,7 @@ impl Mapping {
                 let message =
                     format!("`{down}` does not lead from {what} {adjusted} back to {what} {base}");
                 Finding::at(file, format!("/{up}/{base}"), message)
-                    .expected("null")
-                    .actual(format!("{what} {adjusted}"))
+                    .values("null", format!("{what} {adjusted}"))
                     .report(findings);
             }
         }

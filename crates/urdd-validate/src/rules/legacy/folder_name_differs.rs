@@ -15,15 +15,14 @@ declare_rule! {
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     // With the robot of the carried URDF, urdf_module may be missing.
-    let Some(module) = context.module(ModuleKind::Urdf) else {
+    let Some(module) = context.module(Kind::Urdf) else {
         return Some(());
     };
     let folder = context.root().folder_name();
     if folder != robot.name {
         let message = "the robot's name differs from that of its folder, which mesh paths use";
         finding_in(module, "/name", message)
-            .expected(format!("{folder:?} (the folder)"))
-            .actual(format!("{:?}", robot.name))
+            .values(format!("{folder:?} (the folder)"), format!("{:?}", robot.name))
             .report(findings);
     }
     Some(())

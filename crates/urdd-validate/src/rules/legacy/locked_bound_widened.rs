@@ -14,7 +14,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::Bounds)?;
     for limited in limited_dofs(context)? {
         let ([lower, upper], [_, written]) = (limited.limits, limited.bounds);
         let raised = upper + LEGACY_WIDENING;
@@ -23,9 +22,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "joint {:?} is locked at {upper:?}; its upper bound was raised by {LEGACY_WIDENING:?}",
                 limited.joint.name
             );
-            finding_in(module, format!("/bounds/{}/1", limited.dof), message)
-                .expected(format!("{upper:?}"))
-                .actual(format!("{written:?}"))
+            finding_in(Kind::Bounds, format!("/bounds/{}/1", limited.dof), message)
+                .literals(&upper, &written)
                 .report(findings);
         }
     }

@@ -1,5 +1,3 @@
-use std::collections::BTreeSet;
-
 use crate::rules::prelude::*;
 use crate::views::shared_meshes;
 

@@ -1,6 +1,5 @@
 //! LEG: conventions of URDDs that were published before version 1.
 
-#[doc(hidden)]
 pub mod adjusted_mappings_wrong;
 mod folder_name_differs;
 mod locked_bound_widened;

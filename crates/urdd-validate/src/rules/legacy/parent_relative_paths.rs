@@ -1,7 +1,5 @@
-use std::collections::BTreeSet;
-
 use crate::rules::prelude::*;
-use urdd_document::paths::{self, Place};
+use urdd_document::paths::Place;
 
 declare_rule! {
     /// Mesh paths begin with a robot's folder name and are relative to the folder above the URDD.

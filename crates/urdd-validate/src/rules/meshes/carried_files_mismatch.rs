@@ -1,5 +1,3 @@
-use std::collections::{HashMap, HashSet};
-
 use crate::rules::prelude::*;
 use urdd_format::original_meshes::OriginalMeshesModule;
 
@@ -18,25 +16,19 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let original = document!(context, OriginalMeshes)?;
-    let module = context.module(ModuleKind::OriginalMeshes)?;
     // One wrong path shows in several of these: each runs only if those before it found nothing.
     for look in [paths, used, order] {
-        look(original, module, findings);
+        look(original, findings);
         if !findings.is_empty() {
             return Some(());
         }
     }
-    listed(context, original, module, findings);
+    listed(context, original, findings);
     Some(())
 }
 
 /// Reports mesh files that `urdd.json` lists and the module does not name.
-fn listed(
-    context: &Context,
-    original: &OriginalMeshesModule,
-    module: &Module,
-    findings: &mut Findings,
-) {
+fn listed(context: &Context, original: &OriginalMeshesModule, findings: &mut Findings) {
     let side_files = original.files.iter().flat_map(|f| &f.side_files);
     let paths = original.files.iter().map(|f| &f.path).chain(side_files);
     let named: HashSet<&str> = paths.map(String::as_str).collect();
@@ -44,7 +36,7 @@ fn listed(
     if named.iter().any(|path| entries::look(context, path).is_err()) {
         return;
     }
-    let meshes = module.file("meshes/");
+    let meshes = format!("{}/meshes/", Kind::OriginalMeshes.folder());
     for entry in entries::all(context) {
         for file in &entry.entry.files {
             let path = file.path.as_str();
@@ -54,9 +46,8 @@ fn listed(
                 && entries::look(context, path).is_ok()
             {
                 let message = "urdd.json lists a file in `meshes/` that is not named here: name it with the mesh that needs it, or remove it";
-                finding_in(module, "/files", message)
-                    .expected(format!("`{path}` as `path` or in `side_files`"))
-                    .actual("neither")
+                finding_in(Kind::OriginalMeshes, "/files", message)
+                    .values(format!("`{path}` as `path` or in `side_files`"), "neither")
                     .report(findings);
             }
         }
@@ -64,7 +55,7 @@ fn listed(
 }
 
 /// Reports references that name an unlisted file, or another file than the same name before.
-fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
+fn paths(original: &OriginalMeshesModule, findings: &mut Findings) {
     let files: HashSet<&str> = original.files.iter().map(|f| f.path.as_str()).collect();
     let mut by_name: HashMap<&str, Option<&str>> = HashMap::new();
     for (at, reference) in original.references.iter().enumerate() {
@@ -74,9 +65,8 @@ fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
             && !files.contains(path)
         {
             let message = "`files` does not list this file: list it there";
-            finding_in(module, pointer, message)
-                .expected("the path of one of `files`, or null")
-                .actual(format!("`{path}`"))
+            finding_in(Kind::OriginalMeshes, pointer, message)
+                .values("the path of one of `files`, or null", format!("`{path}`"))
                 .report(findings);
             continue;
         }
@@ -87,32 +77,30 @@ fn paths(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
                 "`{}` is another file here than in an earlier reference",
                 reference.filename
             );
-            finding_in(module, pointer, message)
-                .expected(shown(first))
-                .actual(shown(path))
+            finding_in(Kind::OriginalMeshes, pointer, message)
+                .values(shown(first), shown(path))
                 .report(findings);
         }
     }
 }
 
 /// Reports files that no reference names.
-fn used(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
+fn used(original: &OriginalMeshesModule, findings: &mut Findings) {
     let used: HashSet<&str> =
         original.references.iter().filter_map(|reference| reference.path.as_deref()).collect();
     for (at, carried) in original.files.iter().enumerate() {
         if !used.contains(carried.path.as_str()) {
             let message =
                 "no reference names this file: give the reference its path, or leave the file out";
-            finding_in(module, format!("/files/{at}"), message)
-                .expected("a file that a reference names")
-                .actual(format!("`{}`", carried.path))
+            finding_in(Kind::OriginalMeshes, format!("/files/{at}"), message)
+                .values("a file that a reference names", format!("`{}`", carried.path))
                 .report(findings);
         }
     }
 }
 
 /// Reports lists of files that are unsorted or contain duplicates.
-fn order(original: &OriginalMeshesModule, module: &Module, findings: &mut Findings) {
+fn order(original: &OriginalMeshesModule, findings: &mut Findings) {
     let mut lists =
         vec![("/files".to_owned(), original.files.iter().map(|f| f.path.as_str()).collect())];
     for (at, carried) in original.files.iter().enumerate() {
@@ -126,7 +114,7 @@ fn order(original: &OriginalMeshesModule, module: &Module, findings: &mut Findin
         });
         if let Some(at) = unsorted {
             let message = "files are sorted by path, byte by byte, each once";
-            finding_in(module, format!("{pointer}/{}", at + 1), message)
+            finding_in(Kind::OriginalMeshes, format!("{pointer}/{}", at + 1), message)
                 .expected(format!("a path after `{}`", list.get(at).unwrap_or(&"")))
                 .actual(format!("`{}`", list.get(at + 1).unwrap_or(&"")))
                 .report(findings);

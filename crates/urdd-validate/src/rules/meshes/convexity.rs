@@ -9,13 +9,12 @@ use crate::solids::polytope::{NotConvex, not_convex};
 use urdd_geometry::surface::extent;
 
 /// Reports every mesh of a module that is not the closed surface of a convex body.
-pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> Option<()> {
-    let module = context.module(kind)?;
+pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<()> {
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
         let key = context.solids().content(kind, mesh.link, mesh.piece)?;
         let compute = || Some((not_convex(solid)?, dents(solid)));
-        context.memos().convexity.get(key, compute)
+        context.memos.convexity.get(key, compute)
     };
     let meshes = context.solids().derived(kind);
     let faults: Vec<Option<(NotConvex, Option<Dents>)>> = meshes.par_iter().map(judge).collect();
@@ -29,8 +28,7 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
         };
         let extent = mesh.mesh.as_ref().map_or(0.0, extent);
         let resolution = mesh_resolution(extent);
-        let depth = dents.map(|dents| dents.depth);
-        let depth = depth.filter(|depth| *depth > resolution);
+        let depth = dents.map(|dents| dents.depth).filter(|depth| *depth > resolution);
         let what = match fault {
             NotConvex::Nothing => "it has no face with an area".to_owned(),
             NotConvex::Open(at) => {
@@ -44,13 +42,12 @@ pub fn report(context: &Context, kind: ModuleKind, findings: &mut Findings) -> O
         };
         let label = context.link_label(mesh.link);
         let which = match kind {
-            ModuleKind::ConvexDecompositionMeshes => format!("piece {} of {label}", mesh.piece),
+            Kind::ConvexDecompositionMeshes => format!("piece {} of {label}", mesh.piece),
             _ => format!("the {} of {label}", noun(kind)),
         };
         let message = format!("{which} is not a convex body: {what}");
-        let mut finding = finding_in(module, mesh.pointer(), message)
-            .expected("a closed convex surface, faces counter-clockwise seen from outside")
-            .actual(what)
+        let mut finding = finding_in(kind, mesh.pointer(), message)
+            .values("a closed convex surface, faces counter-clockwise seen from outside", what)
             .tolerance(resolution)
             .part(part);
         if let Some(depth) = depth {

@@ -31,8 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if let Ok(Some(fault)) = glb_chunks::fault(BufReader::new(file), size) {
                 let message = format!("`{}` is not binary glTF 2.0: {fault}", mesh.path);
                 finding_in(module, &mesh.pointer, message)
-                    .expected("glTF, version 2, the file's length, and chunks up to its end")
-                    .actual(fault)
+                    .values("glTF, version 2, the file's length, and chunks up to its end", fault)
                     .report(findings);
             }
         }

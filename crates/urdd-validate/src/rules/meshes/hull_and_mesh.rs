@@ -2,33 +2,21 @@
 
 use rayon::prelude::*;
 
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
-use crate::views::judged::judged;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
-
-/// What a finding says.
-pub struct Words {
-    pub message: String,
-    pub expected: &'static str,
-    pub actual: String,
-}
 
 /// Reports for a rule every hull for which `off`, given the hull and the plain mesh, finds a vertex. `words` describes it, given
-/// the link, the place and the distance.
+/// the link, the place and the distance: message, expected, actual.
 pub fn report(
     context: &Context,
     findings: &mut Findings,
     code: Code,
     off: impl Fn(&Mesh, &Mesh) -> Option<Farthest> + Sync,
-    words: impl Fn(&str, &str, &str) -> Words,
+    words: impl Fn(&str, &str, &str) -> (String, &'static str, String),
 ) -> Option<()> {
-    let kind = ModuleKind::ConvexHullMeshes;
-    let module = context.module(kind)?;
+    let kind = Kind::ConvexHullMeshes;
     // Computed before the threads start, so that the computation itself can use all of them.
-    context.misplaced();
+    context.placed();
     let solids = context.solids();
     let hulls = solids.derived(kind).iter().filter(|hull| {
         let by = [Part::Plain(hull.link)];
@@ -36,11 +24,11 @@ pub fn report(
     });
     let hulls: Vec<&Derived> = hulls.collect();
     let off_of = |link| {
-        let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
+        let mesh = solids.sound(Kind::PlainMeshes, link, 0)?;
         let hull = solids.sound(kind, link, 0)?;
-        let contents = [kind, ModuleKind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
+        let contents = [kind, Kind::PlainMeshes].map(|kind| solids.content(kind, link, 0));
         let key = (code, contents.into_iter().flatten().collect());
-        context.memos().farthest.get(key, || off(hull, mesh))
+        context.memos.farthest.get(key, || off(hull, mesh))
     };
     let off: Vec<Option<Farthest>> = hulls.par_iter().map(|hull| off_of(hull.link)).collect();
     for (hull, off) in hulls.iter().zip(off) {
@@ -48,10 +36,9 @@ pub fn report(
             continue;
         };
         let label = context.link_label(hull.link);
-        let words = words(&label, &point(off.place), &metres(off.distance));
-        finding_in(module, hull.pointer(), words.message)
-            .expected(words.expected)
-            .actual(words.actual)
+        let (message, expected, actual) = words(&label, &point(off.place), &metres(off.distance));
+        finding_in(kind, hull.pointer(), message)
+            .values(expected, actual)
             .tolerance(off.tolerance)
             .off_by(off.distance, "m")
             .part(Part::Hull(hull.link))

@@ -1,12 +1,6 @@
-use std::collections::HashSet;
-
-use super::farthest;
-use super::hull_and_mesh::{self, Words};
-use crate::memo::Farthest;
+use super::hull_and_mesh;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::hull::ConvexHull;
 use urdd_geometry::surface::{bits, distinct};
 
@@ -20,8 +14,7 @@ declare_rule! {
     /// Compute the hull of the link's plain mesh again.
     MSH018 "hull-leaves-out-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        CONVEX_HULL,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NoneFailed(&[MSH003, MSH007]), CONVEX_HULL,
     ],
 }
 
@@ -31,12 +24,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         findings,
         Code::MSH018,
         farthest_outside,
-        |label, place, distance| Words {
-            message: format!(
-                "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
-            ),
-            expected: "every vertex of the plain mesh inside",
-            actual: format!("{distance} outside"),
+        |label, place, distance| {
+            (
+                format!(
+                    "the hull of {label} leaves out its mesh: the vertex at {place} is {distance} outside"
+                ),
+                "every vertex of the plain mesh inside",
+                format!("{distance} outside"),
+            )
         },
     )
 }
@@ -53,7 +48,6 @@ fn farthest_outside(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     corners.retain(|corner| !known.contains(&bits(*corner)));
     let every = step(corners.len(), polytope.num_faces());
     let corners = corners.into_iter().step_by(every);
-    let (place, distance) = farthest(corners.map(|corner| (corner, polytope.outside(corner))))?;
-    let tolerance = polytope.resolution;
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    let outside = corners.map(|corner| (corner, polytope.outside(corner)));
+    Farthest::of(outside, polytope.resolution).filter(Farthest::is_off)
 }

@@ -15,5 +15,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    convexity::report(context, ModuleKind::ConvexHullMeshes, findings)
+    convexity::report(context, Kind::ConvexHullMeshes, findings)
 }

@@ -1,11 +1,5 @@
-use std::collections::HashSet;
-
-use super::farthest;
-use super::hull_and_mesh::{self, Words};
-use crate::memo::Farthest;
+use super::hull_and_mesh;
 use crate::rules::prelude::*;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::surface::{bits, distinct, extent, nearest};
 
 declare_rule! {
@@ -18,8 +12,7 @@ declare_rule! {
     /// Compute the hull from the vertices of the plain mesh as its files have them.
     MSH019 "hull-vertex-off-mesh", Error, clause "7.9", since "0.1.0",
     phase Geometry, consequence Collisions, needs [
-        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NotFailed(MSH003), NotFailed(MSH007),
-        HULL_ABOUT_MESH,
+        Module(Kind::PlainMeshes), Module(Kind::ConvexHullMeshes), NoneFailed(&[MSH003, MSH007]), HULL_ABOUT_MESH,
     ],
 }
 
@@ -32,12 +25,14 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         findings,
         Code::MSH019,
         farthest_off,
-        |label, place, distance| Words {
-            message: format!(
-                "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
-            ),
-            expected: "vertices of the plain mesh only",
-            actual: format!("a vertex {distance} off"),
+        |label, place, distance| {
+            (
+                format!(
+                    "the hull of {label} has a vertex at {place} that is not a vertex of its mesh: the nearest one is {distance} away"
+                ),
+                "vertices of the plain mesh only",
+                format!("a vertex {distance} off"),
+            )
         },
     )
 }
@@ -46,9 +41,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 fn farthest_off(hull: &Mesh, mesh: &Mesh) -> Option<Farthest> {
     let known: HashSet<[u64; 3]> = mesh.vertices.iter().copied().map(bits).collect();
     let vertices = distinct(hull).into_iter();
-    let unknown = vertices.filter(|vertex| !known.contains(&bits(*vertex)));
-    let unknown = unknown.take(MAX_SEARCHED);
-    let (place, distance) = farthest(unknown.map(|vertex| (vertex, nearest(mesh, vertex))))?;
-    let tolerance = mesh_resolution(extent(mesh));
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    let unknown = vertices.filter(|vertex| !known.contains(&bits(*vertex))).take(MAX_SEARCHED);
+    let off = unknown.map(|vertex| (vertex, nearest(mesh, vertex)));
+    Farthest::of(off, mesh_resolution(extent(mesh))).filter(Farthest::is_off)
 }

@@ -23,8 +23,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let meshes = context.meshes(ModuleKind::PlainMeshes)?;
-    let module = context.module(ModuleKind::PlainMeshes)?;
+    let meshes = context.meshes(Kind::PlainMeshes)?;
     let usable = UsableGeometry::new(context);
     for (link, named) in robot.links.iter().enumerate() {
         let has = |kind| usable.has(link, kind);
@@ -35,19 +34,17 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let label = context.link_label(link);
         let mut kinds = shapes("visual", &named.visual);
         kinds.extend(shapes("collision", &named.collision));
-        let finding = |message| finding_in(module, meshes.pointer(link), message);
+        let finding = |message| finding_in(Kind::PlainMeshes, meshes.pointer(link), message);
         findings.report(match wanted {
             true => finding(format!(
                 "{label} has geometry in urdf_module ({}) but no mesh here, so no program sees it: make one",
                 kinds.join(", ")
             ))
-            .expected("a mesh")
-            .actual(format!("none for {label}")),
+            .values("a mesh", format!("none for {label}")),
             false => finding(format!(
                 "{label} has no geometry in urdf_module that a mesh could be made from, but a mesh here"
             ))
-            .expected("null")
-            .actual(format!("a mesh for {label}")),
+            .values("null", format!("a mesh for {label}")),
         });
     }
     Some(())
@@ -55,8 +52,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 
 /// The shapes of a link's elements, as `visual Box`.
 fn shapes(element: &str, elements: &[Element]) -> Vec<String> {
-    let geometries = elements.iter().filter_map(|e| e.geometry.as_ref());
-    let named = geometries.map(|geometry| {
+    let named = elements.iter().filter_map(|e| e.geometry.as_ref()).map(|geometry| {
         let shape = match geometry {
             Geometry::Mesh(_) => "Mesh",
             Geometry::Box(_) => "Box",

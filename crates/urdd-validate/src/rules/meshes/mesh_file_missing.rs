@@ -1,5 +1,3 @@
-use std::collections::BTreeMap;
-
 use super::MODULES;
 use crate::rules::directory::listed_files::listed_files;
 use crate::rules::prelude::*;
@@ -23,23 +21,24 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // DIR011 reports a file that is listed and missing.
     let listed = context.metadata().map(listed_files).unwrap_or_default();
     let mut files = MeshFiles::new(context);
-    let mut gone: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
-    for (kind, module, document) in context.documents(MODULES) {
-        for (profile, path, pointer) in named(context, kind, document) {
-            if profile == Profile::V1 && listed.contains(path.as_str()) {
+    let mut no_siblings: BTreeMap<String, (usize, Finding)> = BTreeMap::new();
+    for module in MODULES.iter().filter_map(|kind| context.module(*kind)) {
+        for named in paths::of_module(module) {
+            let (path, pointer) = (named.path, named.pointer.clone());
+            let profile = if named.from_parent() { Profile::Legacy } else { Profile::V1 };
+            if named.is_reference || (profile == Profile::V1 && listed.contains(path)) {
                 continue;
             }
-            match files.find(profile, &path) {
+            match files.find(profile, path) {
                 Ok(()) | Err(Absence::Other(_)) => {}
                 Err(Absence::Missing) => {
                     let message =
                         format!("`{path}` is missing: restore the file, or write the module again");
-                    let finding = finding_in(module, pointer, message);
-                    findings.report(finding.expected("a file").actual("none"));
+                    finding_in(module, pointer, message).values("a file", "none").report(findings);
                 }
                 // A missing sibling URDD is one mistake, however many paths lead there.
                 Err(Absence::NoSibling(name)) => {
-                    let entry = gone.entry(name).or_insert_with_key(|name| {
+                    let entry = no_siblings.entry(name).or_insert_with_key(|name| {
                         (0, finding_in(module, pointer, no_sibling(context, name)))
                     });
                     entry.0 += 1;
@@ -47,41 +46,16 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
         }
     }
-    for (name, (count, finding)) in gone {
+    for (name, (count, finding)) in no_siblings {
         let expected = format!("a URDD in the folder `{name}` beside this one");
-        findings.report(finding.expected(expected).actual("none").count(count));
+        findings.report(finding.values(expected, "none").count(count));
     }
     Some(())
 }
 
-/// The files that a mesh module names: profile, path, pointer.
-fn named(
-    context: &Context,
-    kind: ModuleKind,
-    document: &ModuleDocument,
-) -> Vec<(Profile, String, String)> {
-    if let ModuleDocument::OriginalMeshes(module) = document {
-        let mut named = Vec::new();
-        for (index, mesh) in module.files.iter().enumerate() {
-            let at = format!("/files/{index}");
-            named.push((Profile::V1, mesh.path.clone(), format!("{at}/path")));
-            for (side, path) in mesh.side_files.iter().enumerate() {
-                named.push((Profile::V1, path.clone(), format!("{at}/side_files/{side}")));
-            }
-        }
-        return named;
-    }
-    let Some(meshes) = context.meshes(kind) else {
-        return Vec::new();
-    };
-    let paths = meshes.paths();
-    paths.map(|(_, mesh)| (meshes.profile, mesh.path.to_owned(), mesh.pointer.clone())).collect()
-}
-
 fn no_sibling(context: &Context, name: &str) -> String {
     let own = context.root().folder_name();
-    let within = context.listing().has_folder("mesh_modules");
-    let renamed = if within {
+    let renamed = if context.listing().has_folder("mesh_modules") {
         format!("; or, if this URDD's folder `{own}` was `{name}` before, rename it back")
     } else {
         String::new()

@@ -45,8 +45,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     let label = context.link_label(link);
                     let message = format!("the file of {label} is not named after it");
                     finding_in(module, &path.pointer, message)
-                        .expected(format!("`{expected}`"))
-                        .actual(format!("`{}`", path.path))
+                        .values(format!("`{expected}`"), format!("`{}`", path.path))
                         .report(findings);
                 }
             }
@@ -56,11 +55,11 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 }
 
 /// Path of a derived file (SPEC 7.3).
-fn expected_path(kind: ModuleKind, format: Format, stem: &str, piece: usize) -> String {
+fn expected_path(kind: Kind, format: Format, stem: &str, piece: usize) -> String {
     let extension = format.extension();
     let folder = format!("{}/meshes/{extension}", kind.folder());
     match kind {
-        ModuleKind::ConvexDecompositionMeshes => format!("{folder}/{stem}/{piece}.{extension}"),
+        Kind::ConvexDecompositionMeshes => format!("{folder}/{stem}/{piece}.{extension}"),
         _ => format!("{folder}/{stem}.{extension}"),
     }
 }

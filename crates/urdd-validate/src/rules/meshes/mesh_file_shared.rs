@@ -33,8 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let file = format!("{}/module.json", shared.kind.folder());
         let mut finding = Finding::at(file, pointer, message)
-            .expected("a file of its own")
-            .actual(format!("`{}` (also {first_pointer})", shared.path));
+            .values("a file of its own", format!("`{}` (also {first_pointer})", shared.path));
         finding.parts = shared.parts;
         findings.report(finding);
     }

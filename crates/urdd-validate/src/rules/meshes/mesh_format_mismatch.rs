@@ -31,8 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let label = context.link_label(link);
                 let message = format!("for {label} this should name a .{right} file");
                 finding_in(module, &mesh.pointer, message)
-                    .expected(format!("a path that ends in .{right}"))
-                    .actual(format!("`{}`", mesh.path))
+                    .values(format!("a path that ends in .{right}"), format!("`{}`", mesh.path))
                     .report(findings);
             }
         }
@@ -61,8 +60,7 @@ fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut F
                 context.link_label(link)
             );
             finding_in(module, format!("{entry}/{key}"), message)
-                .expected(word(expected))
-                .actual(word(!expected))
+                .values(word(expected), word(!expected))
                 .report(findings);
         }
     }
@@ -72,7 +70,7 @@ fn formats(context: &Context, meshes: &Meshes, module: &Module, findings: &mut F
 fn counts(
     context: &Context,
     meshes: &Meshes,
-    kind: ModuleKind,
+    kind: Kind,
     module: &Module,
     findings: &mut Findings,
 ) {
@@ -94,7 +92,7 @@ fn counts(
             continue;
         };
         let what = match kind {
-            ModuleKind::ConvexDecompositionMeshes => "pieces",
+            Kind::ConvexDecompositionMeshes => "pieces",
             _ => "meshes",
         };
         let all: Vec<String> =
@@ -105,8 +103,7 @@ fn counts(
             all.join(", ")
         );
         finding_in(module, format!("/{key}/{link}"), message)
-            .expected(format!("{expected} {what}"))
-            .actual(format!("{actual} {what}"))
+            .values(format!("{expected} {what}"), format!("{actual} {what}"))
             .report(findings);
     }
 }

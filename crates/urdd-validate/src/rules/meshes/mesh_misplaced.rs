@@ -19,11 +19,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::PlainMeshes)?;
-    for (link, why) in context.unplaced() {
+    for (link, why) in &context.placed().unknown {
         findings.not_verified(Part::Plain(*link), *why);
     }
-    for wrong in context.misplaced() {
+    for wrong in &context.placed().wrong {
         let label = context.link_label(wrong.link);
         let owner = placed::owner(context, context.solids(), wrong.link);
         let hint = owner.map_or_else(String::new, |owner| {
@@ -33,9 +32,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
-        finding_in(module, &wrong.pointer, message)
-            .expected(&wrong.expected)
-            .actual(&wrong.actual)
+        finding_in(Kind::PlainMeshes, &wrong.pointer, message)
+            .values(&wrong.expected, &wrong.actual)
             .tolerance(wrong.tolerance)
             .part(Part::Plain(wrong.link))
             .report(findings);

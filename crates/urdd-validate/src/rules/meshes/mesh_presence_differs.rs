@@ -37,7 +37,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
         };
         let finding = finding_in(*module, meshes.pointer(link), message);
-        findings.report(finding.expected(expected).actual(actual));
+        findings.report(finding.values(expected, actual));
     }
     Some(())
 }

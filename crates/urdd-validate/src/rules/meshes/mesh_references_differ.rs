@@ -1,8 +1,5 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 use urdd_document::meshes::Meshes;
-use urdd_document::robot::Robot;
 use urdd_format::meshes::GeometryKind;
 use urdd_format::original_meshes::OriginalMeshesModule;
 use urdd_format::urdf::Geometry;
@@ -26,12 +23,11 @@ type Named<'a> = (usize, GeometryKind, usize, &'a str);
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let module = context.module(ModuleKind::OriginalMeshes)?;
-    match context.document(ModuleKind::OriginalMeshes)? {
-        ModuleDocument::OriginalMeshes(original) => references(robot, original, module, findings),
+    match context.document(Kind::OriginalMeshes)? {
+        ModuleDocument::OriginalMeshes(original) => references(robot, original, findings),
         _ => {
-            let meshes = context.meshes(ModuleKind::OriginalMeshes)?;
-            legacy(context, robot, &meshes, module, findings);
+            let meshes = context.meshes(Kind::OriginalMeshes)?;
+            legacy(context, robot, &meshes, findings);
         }
     }
     Some(())
@@ -41,11 +37,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 fn named(robot: &Robot) -> Vec<Named<'_>> {
     let mut named = Vec::new();
     for (link, elements) in robot.links.iter().enumerate() {
-        for (kind, elements) in [
-            (GeometryKind::Visual, &elements.visual),
-            (GeometryKind::Collision, &elements.collision),
-        ] {
-            for (at, element) in elements.iter().enumerate() {
+        for kind in [GeometryKind::Visual, GeometryKind::Collision] {
+            for (at, element) in elements.elements(kind).iter().enumerate() {
                 if let Some(Geometry::Mesh(mesh)) = &element.geometry {
                     named.push((link, kind, at, mesh.filename.as_str()));
                 }
@@ -56,21 +49,14 @@ fn named(robot: &Robot) -> Vec<Named<'_>> {
 }
 
 /// Compares `references` with the robot's meshes.
-fn references(
-    robot: &Robot,
-    original: &OriginalMeshesModule,
-    module: &Module,
-    findings: &mut Findings,
-) {
+fn references(robot: &Robot, original: &OriginalMeshesModule, findings: &mut Findings) {
     let shown = |(link, kind, element, filename): &Named| {
         format!("link {link}, {kind:?} {element}, `{filename}`")
     };
     let expected = named(robot);
-    let actual = original.references.iter().map(|of| {
-        let (link, element) = (of.link_idx.get(), of.element_idx.get());
-        (link, of.geometry, element, of.filename.as_str())
-    });
-    let actual: Vec<Named> = actual.collect();
+    let actual: Vec<Named> = (original.references.iter())
+        .map(|of| (of.link_idx.get(), of.geometry, of.element_idx.get(), of.filename.as_str()))
+        .collect();
     if expected.len() != actual.len() {
         let differs = (0..).find(|at| expected.get(*at) != actual.get(*at));
         let at = differs.unwrap_or_default();
@@ -84,31 +70,23 @@ fn references(
             (None, None) => String::new(),
         };
         let message = format!("one reference for each mesh of urdf_module is needed; {first}");
-        finding_in(module, place, message)
-            .expected(format!("{} references", expected.len()))
-            .actual(format!("{} references", actual.len()))
+        finding_in(Kind::OriginalMeshes, place, message)
+            .counts(expected.len(), actual.len(), "references")
             .report(findings);
         return;
     }
     for (at, (expected, actual)) in expected.iter().zip(&actual).enumerate() {
         if expected != actual {
             let message = "this is not the mesh that urdf_module has in this place";
-            finding_in(module, format!("/references/{at}"), message)
-                .expected(shown(expected))
-                .actual(shown(actual))
+            finding_in(Kind::OriginalMeshes, format!("/references/{at}"), message)
+                .values(shown(expected), shown(actual))
                 .report(findings);
         }
     }
 }
 
 /// Legacy: the files of a link are copies of its visual meshes, under their own names.
-fn legacy(
-    context: &Context,
-    robot: &Robot,
-    meshes: &Meshes,
-    module: &Module,
-    findings: &mut Findings,
-) {
+fn legacy(context: &Context, robot: &Robot, meshes: &Meshes, findings: &mut Findings) {
     let base = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or(path).to_owned();
     let mut names: Vec<HashSet<String>> = vec![HashSet::new(); robot.links.len()];
     for (link, kind, _, filename) in named(robot) {
@@ -129,7 +107,7 @@ fn legacy(
                 "the URDF does not name this file as a visual mesh of {}",
                 context.link_label(link)
             );
-            finding_in(module, &path.pointer, message)
+            finding_in(Kind::OriginalMeshes, &path.pointer, message)
                 .expected(match expected.is_empty() {
                     true => "null: the link has no visual mesh".to_owned(),
                     false => format!("a copy of {}", expected.join(" or ")),

@@ -23,10 +23,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         for mesh in context.solids().derived(kind) {
             for file in &mesh.files {
                 if let Some(fault) = fault(file, meshes.profile) {
-                    let message = format!("`{}`: {fault}", file.path);
-                    finding_in(module, &file.pointer, message)
-                        .expected(expected(file.format))
-                        .actual(fault)
+                    finding_in(module, &file.pointer, format!("`{}`: {fault}", file.path))
+                        .values(expected(file.format), fault)
                         .report(findings);
                 }
             }

@@ -2,7 +2,6 @@
 
 mod carried_files_mismatch;
 mod convexity;
-mod farthest;
 mod glb_not_binary;
 mod hull_and_mesh;
 mod hull_leaves_out_mesh;
@@ -10,7 +9,6 @@ mod hull_not_convex;
 mod hull_vertex_off_mesh;
 mod link_without_mesh;
 mod mesh_file_missing;
-#[doc(hidden)]
 pub mod mesh_file_name;
 mod mesh_file_shared;
 mod mesh_format_mismatch;
@@ -24,7 +22,6 @@ mod modules;
 mod original_misdescribed;
 mod outreach;
 mod piece_barely_leaves_hull;
-#[doc(hidden)]
 pub mod piece_count_mismatch;
 mod piece_leaves_hull;
 mod piece_not_convex;
@@ -32,7 +29,6 @@ mod pieces_leave_surface;
 mod wrong_geometry_used;
 
 use crate::rule::rules;
-use farthest::farthest;
 use modules::MODULES;
 
 rules! {

@@ -16,7 +16,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let original = document!(context, OriginalMeshes)?;
-    let module = context.module(ModuleKind::OriginalMeshes)?;
     for (at, listed) in original.files.iter().enumerate() {
         let Some(read) = context.solids().original(&listed.path) else {
             continue;
@@ -31,8 +30,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             Err(MeshFault::Absent(_)) => continue,
         };
         if usable != listed.usable {
-            let finding = finding_in(module, format!("/files/{at}/usable"), message);
-            findings.report(finding.expected(usable).actual(listed.usable));
+            let finding = finding_in(Kind::OriginalMeshes, format!("/files/{at}/usable"), message);
+            findings.report(finding.values(usable, listed.usable));
         }
         if let Some(named) = &read.side_files
             && *named != listed.side_files
@@ -46,9 +45,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 }
                 None => format!("`{path}` also names other files"),
             };
-            finding_in(module, pointer, message)
-                .expected(format!("{named:?}"))
-                .actual(format!("{:?}", listed.side_files))
+            finding_in(Kind::OriginalMeshes, pointer, message)
+                .literals(&named, &listed.side_files)
                 .report(findings);
         }
     }

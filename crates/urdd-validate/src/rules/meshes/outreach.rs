@@ -1,19 +1,13 @@
 //! Pieces that reach out of the hulls of their links, for MSH021 and MSH023.
 
-use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::farthest;
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::derived::Derived;
 use crate::solids::polytope::{Polytope, step};
-use crate::views::judged::judged;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::surface::distinct;
 
 /// Which pieces to report.
@@ -27,8 +21,7 @@ pub enum How {
 
 /// Reports the pieces that reach out of the hulls of their links.
 pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::ConvexDecompositionMeshes;
-    let module = context.module(kind)?;
+    let kind = Kind::ConvexDecompositionMeshes;
     let part = |piece: &Derived| Part::Piece { link: piece.link, piece: piece.piece };
     let pieces: Vec<&Derived> = context
         .solids()
@@ -66,9 +59,8 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
             context.link_label(piece.link),
             point(out.place),
         );
-        finding_in(module, piece.pointer(), message)
-            .expected("every vertex inside the hull")
-            .actual(distance)
+        finding_in(Kind::ConvexDecompositionMeshes, piece.pointer(), message)
+            .values("every vertex inside the hull", distance)
             .tolerance(tolerance)
             .off_by(out.distance, "m")
             .part(part(piece))
@@ -77,7 +69,6 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
     Some(())
 }
 
-/// The hull of a link.
 struct Hull<'a> {
     mesh: &'a Mesh,
     diagonal: f64,
@@ -87,7 +78,7 @@ struct Hull<'a> {
 impl<'a> Hull<'a> {
     fn of(context: &'a Context, link: usize) -> Option<Self> {
         let solids = context.solids();
-        let mesh = solids.sound(ModuleKind::ConvexHullMeshes, link, 0)?;
+        let mesh = solids.sound(Kind::ConvexHullMeshes, link, 0)?;
         let bounds = mesh.bounds()?;
         Some(Hull {
             mesh,
@@ -100,21 +91,19 @@ impl<'a> Hull<'a> {
 /// The vertex of a piece that is farthest outside its link's hull, with the resolution of the hull.
 fn farthest_outside(context: &Context, piece: &Derived, hull: &Hull) -> Option<Farthest> {
     let solids = context.solids();
-    let (link, kind) = (piece.link, ModuleKind::ConvexDecompositionMeshes);
+    let (link, kind) = (piece.link, Kind::ConvexDecompositionMeshes);
     // MSH021 and MSH023 measure the same.
     let contents = [
-        solids.content(ModuleKind::ConvexHullMeshes, link, 0)?,
+        solids.content(Kind::ConvexHullMeshes, link, 0)?,
         solids.content(kind, link, piece.piece)?,
     ];
     let key = (Code::MSH021, contents.to_vec());
-    context.memos().farthest.get(key, || {
-        let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh));
-        let polytope = polytope.as_ref()?;
+    context.memos.farthest.get(key, || {
+        let polytope = hull.polytope.get_or_init(|| Polytope::new(hull.mesh)).as_ref()?;
         let vertices = distinct(piece.sound()?);
         let every = step(vertices.len(), polytope.num_faces());
         let vertices = vertices.into_iter().step_by(every);
         let outside = vertices.map(|vertex| (vertex, polytope.outside(vertex)));
-        let (place, distance) = farthest(outside)?;
-        Some(Farthest { place, distance, tolerance: polytope.resolution })
+        Farthest::of(outside, polytope.resolution)
     })
 }

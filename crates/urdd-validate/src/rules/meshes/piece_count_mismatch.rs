@@ -1,5 +1,3 @@
-use std::collections::BTreeMap;
-
 use crate::rules::prelude::*;
 use urdd_document::shapes::{LIST_MODULES, entry_counts};
 
@@ -26,10 +24,10 @@ struct Counted<'a> {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let pieces = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    let pieces = context.meshes(Kind::ConvexDecompositionMeshes)?;
     let links = 0..pieces.num_links();
     let mut lists = vec![Counted {
-        module: context.module(ModuleKind::ConvexDecompositionMeshes)?,
+        module: context.module(Kind::ConvexDecompositionMeshes)?,
         key: pieces.lists.first().map_or("", |list| list.key),
         counts: links.clone().map(|link| pieces.count(link)).collect(),
     }];
@@ -58,8 +56,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             context.link_label(link)
         );
         finding_in(first.module, format!("/{}/{link}", first.key), message)
-            .expected(format!("{usual} entries"))
-            .actual(format!("{count} entries"))
+            .counts(usual, count, "entries")
             .report(findings);
     }
     Some(())

@@ -14,5 +14,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    convexity::report(context, ModuleKind::ConvexDecompositionMeshes, findings)
+    convexity::report(context, Kind::ConvexDecompositionMeshes, findings)
 }

@@ -1,13 +1,8 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::farthest;
-use crate::memo::Farthest;
 use crate::rules::prelude::*;
 use crate::solids::polytope::{Polytope, step};
-use crate::views::judged::judged;
-use urdd_findings::code::Code;
-use urdd_geometry::Mesh;
 use urdd_geometry::surface::extent;
 
 declare_rule! {
@@ -27,15 +22,14 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::ConvexDecompositionMeshes;
-    let module = context.module(kind)?;
+    let kind = Kind::ConvexDecompositionMeshes;
     let meshes = context.meshes(kind)?;
     let promised = match context.document(kind) {
         Some(ModuleDocument::ConvexDecompositionMeshes(module)) => module.method.surface_tolerance,
         _ => None,
     };
     // Computed before the threads start, so that the computation itself can use all of them.
-    context.misplaced();
+    context.placed();
     let pieces_of = |link: usize| -> Vec<Part> {
         let pieces = 0..meshes.count(link);
         pieces.map(|piece| Part::Piece { link, piece }).collect()
@@ -54,9 +48,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let compute = || bare(context, *link, meshes.count(*link), promised);
             let solids = context.solids();
             let pieces = (0..meshes.count(*link)).map(|piece| solids.content(kind, *link, piece));
-            let contents = std::iter::once(solids.content(ModuleKind::PlainMeshes, *link, 0));
+            let contents = std::iter::once(solids.content(Kind::PlainMeshes, *link, 0));
             let contents: Option<Vec<usize>> = contents.chain(pieces).collect();
-            context.memos().farthest.get((Code::MSH022, contents?), compute)
+            context.memos.farthest.get((Code::MSH022, contents?), compute)
         })
         .collect();
     for (link, bare) in links.into_iter().zip(bare) {
@@ -69,7 +63,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             context.link_label(link),
             point(bare.place)
         );
-        let mut finding = finding_in(module, meshes.pointer(link), message)
+        let mut finding = finding_in(kind, meshes.pointer(link), message)
             .expected("the whole surface of the plain mesh inside the pieces")
             .actual(format!("{distance} outside"))
             .tolerance(bare.tolerance)
@@ -83,8 +77,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 /// Where a link's surface is farthest outside its pieces, if that exceeds the tolerance.
 fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) -> Option<Farthest> {
     let solids = context.solids();
-    let mesh = solids.sound(ModuleKind::PlainMeshes, link, 0)?;
-    let kind = ModuleKind::ConvexDecompositionMeshes;
+    let mesh = solids.sound(Kind::PlainMeshes, link, 0)?;
+    let kind = Kind::ConvexDecompositionMeshes;
     let pieces: Option<Vec<Polytope>> =
         (0..pieces).map(|piece| Polytope::new(solids.sound(kind, link, piece)?)).collect();
     let pieces = pieces.filter(|pieces| !pieces.is_empty())?;
@@ -97,11 +91,11 @@ fn bare(context: &Context, link: usize, pieces: usize, promised: Option<f64>) ->
     let points = mesh.vertices.len() + mesh.triangles.len();
     let points = points_of(mesh).step_by(step(points, faces));
     let bare = points.filter(|point| !pieces.iter().any(|piece| piece.holds(*point, tolerance)));
-    let (place, distance) = farthest(bare.map(|point| {
+    let off = bare.map(|point| {
         let outside = pieces.iter().map(|piece| piece.outside(point));
         (point, outside.fold(f64::INFINITY, f64::min))
-    }))?;
-    (distance > tolerance).then_some(Farthest { place, distance, tolerance })
+    });
+    Farthest::of(off, tolerance).filter(Farthest::is_off)
 }
 
 /// Points of a surface: corners and centroids of triangles.

@@ -30,7 +30,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let plain = document!(context, PlainMeshes)?;
-    let module = context.module(ModuleKind::PlainMeshes)?;
     let usable = UsableGeometry::new(context);
     let preferred = plain.preferred_geometry;
     let other = match preferred {
@@ -49,9 +48,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "preferred_geometry is {preferred:?}, and for {} this must be {expected:?}: {why}",
                 context.link_label(link)
             );
-            finding_in(module, format!("/link_meshes/{link}/geometry"), message)
-                .expected(format!("{expected:?}"))
-                .actual(format!("{:?}", mesh.geometry))
+            finding_in(Kind::PlainMeshes, format!("/link_meshes/{link}/geometry"), message)
+                .literals(&expected, &mesh.geometry)
                 .report(findings);
         }
     }

@@ -18,7 +18,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::NamedConfigurations)?;
     let named = document!(context, NamedConfigurations)?;
     let dof = document!(context, Dof)?;
     let bounds = &document!(context, Bounds)?.bounds;
@@ -30,9 +29,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let found = &configuration.configuration;
         let at = format!("/configurations/{place}/configuration");
         if found.len() != default.len() {
-            finding_in(module, at, "`configuration` needs one value per DOF")
-                .expected(format!("{} values", default.len()))
-                .actual(format!("{} values", found.len()))
+            finding_in(Kind::NamedConfigurations, at, "`configuration` needs one value per DOF")
+                .counts(default.len(), found.len(), "values")
                 .report(findings);
             continue;
         }
@@ -55,9 +53,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "`positions` does not set the DOF `{name}`, and its default value is another"
                 ),
             };
-            finding_in(module, format!("{at}/{idx}"), message)
-                .expected(expected)
-                .actual(found)
+            finding_in(Kind::NamedConfigurations, format!("{at}/{idx}"), message)
+                .values(expected, found)
                 .tolerance(tolerance)
                 .report(findings);
         }

@@ -12,14 +12,12 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::NamedConfigurations)?;
     let named = document!(context, NamedConfigurations)?;
     let names = named.configurations.iter().map(|one| one.name.as_str());
     for (index, first, name) in repeated(names) {
         let pointer = format!("/configurations/{index}/name");
-        finding_in(module, pointer, "another configuration has this name")
-            .expected("each name once")
-            .actual(format!("`{name}`, as configuration {first}"))
+        finding_in(Kind::NamedConfigurations, pointer, "another configuration has this name")
+            .values("each name once", format!("`{name}`, as configuration {first}"))
             .report(findings);
     }
     Some(())

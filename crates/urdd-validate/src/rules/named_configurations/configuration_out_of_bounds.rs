@@ -17,7 +17,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::NamedConfigurations)?;
     let named = document!(context, NamedConfigurations)?;
     let bounds = document!(context, Bounds)?;
     let known = indices(document!(context, Dof)?);
@@ -38,9 +37,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             }
             let pointer = format!("/configurations/{place}/positions/{entry}/position");
             let message = format!("the limited DOF `{}` cannot be there", set.dof_name);
-            finding_in(module, pointer, message)
-                .expected(format!("{lower:?} to {upper:?}"))
-                .actual(format!("{:?}", set.position))
+            finding_in(Kind::NamedConfigurations, pointer, message)
+                .values(format!("{lower:?} to {upper:?}"), format!("{:?}", set.position))
                 .tolerance(tolerance)
                 .report(findings);
         }

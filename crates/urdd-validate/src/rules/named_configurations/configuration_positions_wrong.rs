@@ -18,7 +18,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::NamedConfigurations)?;
     let named = document!(context, NamedConfigurations)?;
     let dof = document!(context, Dof)?;
     let known = indices(dof);
@@ -30,9 +29,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             };
             let pointer = format!("/configurations/{place}/positions/{entry}/dof_name");
-            finding_in(module, pointer, message)
-                .expected(expected)
-                .actual(format!("`{name}`"))
+            finding_in(Kind::NamedConfigurations, pointer, message)
+                .values(expected, format!("`{name}`"))
                 .report(findings);
         }
     }

@@ -54,8 +54,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} have different values in the two halves of the matrix: make them equal"
                     );
                     let finding = finding_in(module, pointer, message)
-                        .expected(format!("{there}, as at {mirror}"))
-                        .actual(here);
+                        .values(format!("{there}, as at {mirror}"), here);
                     match elements {
                         Elements::Distances(_) | Elements::Models(_) => {
                             finding.tolerance(NUMBER_RELATIVE)
@@ -73,16 +72,15 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 /// before the edits is unknown.
 fn edited_half(
     context: &Context,
-    module: ModuleKind,
+    module: Kind,
     matrix: &Matrix,
     i: usize,
     j: usize,
 ) -> Option<(usize, usize)> {
-    let (ModuleKind::LinkShapesSkips, Some(Elements::Skips(rows))) = (module, matrix.elements)
-    else {
+    let (Kind::LinkShapesSkips, Some(Elements::Skips(rows))) = (module, matrix.elements) else {
         return None;
     };
-    let simple = context.document(ModuleKind::LinkShapesSimpleSkips)?;
+    let simple = context.document(Kind::LinkShapesSimpleSkips)?;
     let place = matrix.kind as usize;
     let before = match context.document(module)? {
         ModuleDocument::LinkShapesSkips(skips) => {
@@ -92,8 +90,5 @@ fn edited_half(
         }
         _ => of_pair(skips(simple)?[place]?, i, j)?,
     };
-    match at(rows, i, j)? == before {
-        true => Some((j, i)),
-        false => Some((i, j)),
-    }
+    if at(rows, i, j)? == before { Some((j, i)) } else { Some((i, j)) }
 }

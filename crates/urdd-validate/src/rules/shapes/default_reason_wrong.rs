@@ -1,4 +1,3 @@
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::sound_pairs;
@@ -21,24 +20,21 @@ declare_rule! {
         Version1, Module(Kind::Urdf), Module(Kind::Dof), Module(Kind::Chain), Module(Kind::Bounds),
         Module(Kind::ConvexHullMeshes), Module(Kind::ConvexDecompositionMeshes),
         Module(Kind::LinkShapesApproximations), Module(Kind::LinkShapesDistanceStatistics),
-        ModuleV1(Kind::LinkShapesSimpleSkips), NotFailed(DIR030), NotFailed(SHP012),
-        POSES_KNOWN, BOUNDS_SOUND, PIECES_LISTED, NotFailed(MSH005),
-        NotFailed(MSH017), NotFailed(MSH018), NotFailed(MSH019), NotFailed(MSH020), NotFailed(MSH021), NotFailed(MSH022),
-        SHAPES_LISTED, NotFailed(SHP003), Passed(SHP005), NotFailed(SHP010), NotFailed(SHP016),
+        ModuleV1(Kind::LinkShapesSimpleSkips), NoneFailed(&[DIR030, SHP012]), POSES_KNOWN, BOUNDS_SOUND,
+        PIECES_LISTED, NoneFailed(&[MSH005, MSH017, MSH018, MSH019, MSH020, MSH021, MSH022]), SHAPES_LISTED,
+        NotFailed(SHP003), Passed(SHP005), NoneFailed(&[SHP010, SHP016]),
     ],
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesSimpleSkips;
-    let module = context.module(kind)?;
+    let kind = Kind::LinkShapesSimpleSkips;
     let six = reasons(context.document(kind)?)?;
     let shapes = context.shapes()?;
     let distances = findings.or_skip(context.distances())?;
-    for ((kind, rows), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, rows), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
         let (Some(rows), Some(found)) = (rows, found) else {
             continue;
         };
-        let set = found.shapes();
         let at_default = distances.at_default_configuration(found);
         let tolerances = Tolerances::new(context, context.solids(), &shapes, kind);
         let mut fold = Fold::new(findings);
@@ -47,7 +43,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             if !stated && !matches!(reason, SkipReason::Never | SkipReason::None) {
                 continue;
             }
-            let places = set.place(i).zip(set.place(j));
+            let places = found.shapes.place(i).zip(found.shapes.place(j));
             let Some(distance) = places.and_then(|(a, b)| at(&at_default, a, b)) else {
                 continue;
             };
@@ -64,8 +60,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} are {} apart in the default configuration, and {CONTACT} m or less is contact",
                         metres(distance)
                     );
-                    let finding = finding_in(module, pointer, message);
-                    finding.expected(expected).actual(reason).tolerance(tolerance)
+                    let finding = finding_in(Kind::LinkShapesSimpleSkips, pointer, message);
+                    finding.values(expected, reason).tolerance(tolerance)
                 });
             }
         }

@@ -33,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     "this is the element of shape {i} and itself, which is always {expected}"
                 );
                 let finding = finding_in(module, format!("{}/{i}/{i}", matrix.pointer), message);
-                findings.report(finding.expected(expected).actual(elements.text(i, i)));
+                findings.report(finding.values(expected, elements.text(i, i)));
             }
         }
     }

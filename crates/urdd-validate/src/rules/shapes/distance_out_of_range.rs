@@ -1,8 +1,5 @@
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
 use crate::views::judged::JudgedShapes;
-use crate::views::shape_pair::{Pair, Pairs};
-use crate::views::tangled::pairs;
 
 declare_rule! {
     /// In one of the sampled configurations two shapes are at a distance that the statistics rule out.
@@ -19,11 +16,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     let six = context.statistics()?;
     let shapes = context.shapes()?;
     let distances = findings.or_skip(context.distances())?;
-    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
         // SHP024 judges what was recomputed completely.
         let (Some(one), Some(found)) = (one, found.as_ref().filter(|found| !found.complete)) else {
             continue;
@@ -54,7 +50,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "in sampled configuration {sample} the distance of shapes {a} and {b} is outside of the stated range"
                 );
-                finding_in(module, pointer, message)
+                finding_in(Kind::LinkShapesDistanceStatistics, pointer, message)
                     .expected(format!("a range that contains {distance}"))
                     .actual(format!("from {} to {}", pair.min, pair.max))
                     .tolerance(tolerance)

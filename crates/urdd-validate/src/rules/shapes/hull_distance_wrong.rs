@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::judged::judged;
 use urdd_document::shapes::max_distances;
 use urdd_geometry::farthest;
 
@@ -22,11 +21,10 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
-    let module = context.module(kind)?;
+    let kind = Kind::LinkShapesMaxDistanceFromOrigin;
     let [hulls, _, _, pieces, _, _] = max_distances(context.document(kind)?)?;
     for (list, meshes) in
-        [(hulls, ModuleKind::ConvexHullMeshes), (pieces, ModuleKind::ConvexDecompositionMeshes)]
+        [(hulls, Kind::ConvexHullMeshes), (pieces, Kind::ConvexDecompositionMeshes)]
     {
         for (link, piece, value) in list.entries() {
             let part = Part::of_shape(list.kind, link, piece);
@@ -49,9 +47,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 "this is not the distance of the farthest vertex of {what} of {}",
                 context.link_label(link)
             );
-            finding_in(module, list.pointer(link, piece), message)
-                .expected(expected)
-                .actual(value)
+            finding_in(Kind::LinkShapesMaxDistanceFromOrigin, list.pointer(link, piece), message)
+                .values(expected, value)
                 .tolerance(tolerance)
                 .off_by(value - expected, "m")
                 .report(findings);

@@ -14,16 +14,15 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesApproximations;
-    let module = context.module(kind)?;
+    let kind = Kind::LinkShapesApproximations;
     for list in approximations(context.document(kind)?)? {
         for (link, piece, volume) in list.entries() {
             if let Some((field, expected, actual)) = fault(&volume) {
                 let pointer = format!("{}/{field}", list.pointer(link, piece));
                 let message =
                     format!("this cannot enclose a shape of {}", context.link_label(link));
-                let finding = finding_in(module, pointer, message);
-                findings.report(finding.expected(expected).actual(actual));
+                let finding = finding_in(Kind::LinkShapesApproximations, pointer, message);
+                findings.report(finding.values(expected, actual));
             }
         }
     }

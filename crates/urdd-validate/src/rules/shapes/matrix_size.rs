@@ -42,10 +42,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
 fn wrong_size(module: &Module, matrix: &Matrix, shapes: &Shapes) -> Option<Finding> {
     let rows = matrix.elements?.row_lengths();
     let size = shapes.count(matrix.kind);
-    let what = match matrix.kind.is_of_links() {
-        true => "links with a hull",
-        false => "convex pieces",
-    };
+    let what = if matrix.kind.is_of_links() { "links with a hull" } else { "convex pieces" };
     if rows.len() != size {
         let message = format!("there are {size} {what}, and {} rows here", rows.len());
         let finding = finding_in(module, &matrix.pointer, message);

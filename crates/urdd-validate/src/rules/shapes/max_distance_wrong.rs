@@ -25,12 +25,12 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesMaxDistanceFromOrigin;
+    let kind = Kind::LinkShapesMaxDistanceFromOrigin;
     let document = context.document(kind)?;
     let distances = max_distances(document)?;
     let [full_hulls, full_box_values, full_sphere_values, pieces, box_values, sphere_values] =
         &distances;
-    let volumes = approximations(context.document(ModuleKind::LinkShapesApproximations)?)?;
+    let volumes = approximations(context.document(Kind::LinkShapesApproximations)?)?;
     let [full_boxes, full_spheres, boxes, spheres] = &volumes;
     let module = context.module(kind)?;
     for (values, volumes) in [
@@ -62,8 +62,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     context.link_label(link)
                 );
                 finding_in(module, values.pointer(link, piece), message)
-                    .expected(expected)
-                    .actual(value)
+                    .values(expected, value)
                     .tolerance(shortfall.max(tolerance))
                     .report(findings);
             }
@@ -85,8 +84,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 continue;
             };
             finding_in(module, values.pointer(link, piece), message)
-                .expected(format!("from 0 to {most}"))
-                .actual(value)
+                .values(format!("from 0 to {most}"), value)
                 .tolerance(tolerance)
                 .report(findings);
         }

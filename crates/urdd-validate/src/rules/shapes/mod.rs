@@ -10,7 +10,6 @@ mod matrix_size;
 mod max_distance_wrong;
 mod needlessly_large;
 mod needlessly_large_box;
-#[doc(hidden)]
 pub mod needlessly_large_sphere;
 mod negative_distance;
 mod no_samples;

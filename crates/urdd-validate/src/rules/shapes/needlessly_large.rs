@@ -16,7 +16,6 @@ pub fn report(
     [shape, size]: [&str; 2],
     ratio: impl Fn(&Enclosure) -> Option<f64> + Sync,
 ) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesApproximations)?;
     let tight = context.profile() == Profile::V1;
     // SHP017 and SHP018 report those that do not fit.
     let fits = |e: &Enclosure| e.noun() == shape && e.holds() && (e.touches() || !tight);
@@ -31,7 +30,7 @@ pub fn report(
                 Volume::Sphere { radius, .. } => [0.0, 0.0, 0.0, radius],
             };
             let key = (content, size.map(f64::to_bits));
-            let found = context.memos().ratios.get(key, || ratio(&enclosure));
+            let found = context.memos.ratios.get(key, || ratio(&enclosure));
             let ratio = found.filter(|ratio| *ratio > most)?;
             Some((enclosure, ratio))
         })
@@ -42,9 +41,8 @@ pub fn report(
         let of_what = enclosure.of_what(context);
         let message =
             format!("the {shape} of {of_what} has {ratio:.2} times the {size} of the smallest one");
-        finding_in(module, &enclosure.pointer, message)
-            .expected(format!("at most {most} times"))
-            .actual(format!("{ratio:.2} times"))
+        finding_in(Kind::LinkShapesApproximations, &enclosure.pointer, message)
+            .values(format!("at most {most} times"), format!("{ratio:.2} times"))
             .report(findings);
     }
     Some(())

@@ -55,8 +55,7 @@ fn outermost(vertices: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let farthest = directions.filter_map(|[x, y, z]| {
         let along = |p: &[f64; 3]| x * p[0] + y * p[1] + z * p[2];
         let pairs = vertices.iter().map(|p| (along(p), *p));
-        let most = pairs.reduce(|best, next| if next.0 > best.0 { next } else { best });
-        most.map(|(_, p)| p)
+        pairs.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, p)| p)
     });
     farthest.collect()
 }

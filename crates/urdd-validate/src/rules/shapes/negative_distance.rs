@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::tangled::pairs;
 use urdd_document::shape_matrices::at;
 
 declare_rule! {
@@ -14,7 +13,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     for (kind, one) in by_kind(context.statistics()?) {
         // Distances of a legacy module may be negative.
         if one.num_samples.is_none() {
@@ -31,8 +29,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     fold.add(|| {
                         let pointer = format!("/{}/{key}/{i}/{j}", kind.key());
                         let message = "a distance is never negative: it is 0 in contact";
-                        let finding = finding_in(module, pointer, message);
-                        finding.expected("0 or more").actual(one)
+                        let finding =
+                            finding_in(Kind::LinkShapesDistanceStatistics, pointer, message);
+                        finding.values("0 or more", one)
                     });
                 }
             }

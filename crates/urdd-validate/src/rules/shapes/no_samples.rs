@@ -13,12 +13,10 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let statistics = document!(context, LinkShapesDistanceStatistics)?;
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     if statistics.num_samples.get() == 0 {
         let message = "distances are taken over at least one sampled configuration";
-        finding_in(module, "/num_samples", message)
-            .expected("1 or more")
-            .actual(0)
+        finding_in(Kind::LinkShapesDistanceStatistics, "/num_samples", message)
+            .values("1 or more", 0)
             .report(findings);
     }
     Some(())

@@ -16,7 +16,7 @@ declare_rule! {
 const REQUIRED_UP_TO: usize = 500;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let meshes = context.meshes(ModuleKind::ConvexDecompositionMeshes)?;
+    let meshes = context.meshes(Kind::ConvexDecompositionMeshes)?;
     let pieces: usize = (0..meshes.num_links()).map(|link| meshes.count(link)).sum();
     if pieces > REQUIRED_UP_TO {
         return Some(());
@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 missing.join(", ")
             );
             let finding = finding_in(module, first, message).count(missing.len());
-            findings.report(finding.expected("a matrix").actual("null"));
+            findings.report(finding.values("a matrix", "null"));
         }
     }
     Some(())

@@ -1,7 +1,4 @@
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
-use crate::views::shape_pair::{Pair, Pairs};
-use crate::views::tangled::pairs;
 
 declare_rule! {
     /// The distance of two shapes that fixed joints hold together is not the same at all times.
@@ -19,7 +16,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     let shapes = context.shapes()?;
     let groups = context.rigid_groups()?;
     for (kind, one) in by_kind(context.statistics()?) {
@@ -44,7 +40,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "shapes {a} and {b} do not move relative to each other, but have more than one distance"
                 );
-                finding_in(module, pointer, message)
+                finding_in(Kind::LinkShapesDistanceStatistics, pointer, message)
                     .expected("smallest = mean = largest")
                     .actual(format!("{}, {}, {}", pair.min, pair.mean, pair.max))
                     .tolerance(tolerance)

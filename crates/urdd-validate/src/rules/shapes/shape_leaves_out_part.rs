@@ -14,7 +14,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesApproximations)?;
     for enclosure in enclosures(context, findings) {
         if enclosure.holds() {
             continue;
@@ -25,9 +24,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the {noun} leaves out a part of {what}: the vertex at {place} is {distance} outside"
         );
-        finding_in(module, &enclosure.pointer, message)
-            .expected("every vertex inside")
-            .actual(format!("{distance} outside"))
+        finding_in(Kind::LinkShapesApproximations, &enclosure.pointer, message)
+            .values("every vertex inside", format!("{distance} outside"))
             .tolerance(enclosure.tolerance)
             .off_by(away, "m")
             .report(findings);

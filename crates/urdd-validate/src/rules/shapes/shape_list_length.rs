@@ -30,8 +30,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             false => format!("one entry per link is needed: {}", wrong.in_words),
         };
         finding_in(module, wrong.pointer, message)
-            .expected(format!("{links} entries (links of urdf_module)"))
-            .actual(format!("{length} entries"))
+            .values(format!("{links} entries (links of urdf_module)"), format!("{length} entries"))
             .report(findings);
     }
     Some(())

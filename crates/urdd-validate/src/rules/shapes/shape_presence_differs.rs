@@ -13,7 +13,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let hulls = context.meshes(ModuleKind::ConvexHullMeshes)?;
+    let hulls = context.meshes(Kind::ConvexHullMeshes)?;
     for (_, module, document) in context.documents(LIST_MODULES) {
         let mut lists = entry_counts(document);
         lists.retain(|list| list.kind.is_of_links());
@@ -39,7 +39,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message =
                 format!("{label} has {has} in convex_hull_meshes_module, but {but} here{also}");
             let finding = finding_in(module, first.pointer(link, 0), message);
-            findings.report(finding.expected(expected).actual(actual));
+            findings.report(finding.values(expected, actual));
         }
     }
     Some(())

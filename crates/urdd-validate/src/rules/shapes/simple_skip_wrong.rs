@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::shape_pair::{Pair, Pairs};
 use crate::views::tangled::sound_pairs;
 use urdd_document::shape_matrices::{Elements, skips, skips_pointer};
 
@@ -19,9 +18,8 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesSimpleSkips;
+    let kind = Kind::LinkShapesSimpleSkips;
     let document = context.document(kind)?;
-    let module = context.module(kind)?;
     let shapes = context.shapes()?;
     let six = context.statistics()?.into_iter().zip(skips(document)?);
     for (kind, (statistics, rows)) in ShapeKind::ALL.into_iter().zip(six) {
@@ -51,8 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let not = if skip { "not " } else { "" };
                 let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
                 let message = format!("shapes {a} and {b} are {not}to be skipped: {why}");
-                let finding = finding_in(module, pointer, message);
-                finding.expected(!skip).actual(skip)
+                finding_in(Kind::LinkShapesSimpleSkips, pointer, message).values(!skip, skip)
             });
         }
     }

@@ -1,7 +1,4 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
-use crate::views::shape_pair::{Pair, Pairs};
 use crate::views::tangled::{Tangled, of_pair};
 use urdd_document::shape_matrices::{Elements, at, reasons, skips};
 use urdd_format::link_shapes_simple_skips::SkipReason;
@@ -24,9 +21,8 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesSimpleSkips;
+    let kind = Kind::LinkShapesSimpleSkips;
     let document = context.document(kind)?;
-    let module = context.module(kind)?;
     let shapes = context.shapes()?;
     let joints = context.chain()?.joints.into_iter();
     let joined: HashSet<(usize, usize)> = joints
@@ -73,9 +69,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/reasons/{}/{i}/{j}", kind.key());
                 let message =
                     format!("for shapes {a} and {b} this is not the first reason that applies");
-                finding_in(module, pointer, message)
-                    .expected(format!("{expected:?}"))
-                    .actual(format!("{reason:?}"))
+                finding_in(Kind::LinkShapesSimpleSkips, pointer, message)
+                    .literals(&expected, &reason)
             });
         }
     }
@@ -90,10 +85,7 @@ fn first_reason(pair: &Pair, adjacent: bool) -> Option<SkipReason> {
     if adjacent {
         return Some(SkipReason::Adjacent);
     }
-    Some(match pair.never()? {
-        true => SkipReason::Never,
-        false => SkipReason::None,
-    })
+    Some(if pair.never()? { SkipReason::Never } else { SkipReason::None })
 }
 
 fn ordered(a: usize, b: usize) -> (usize, usize) {

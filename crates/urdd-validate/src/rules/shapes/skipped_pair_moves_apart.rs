@@ -1,12 +1,8 @@
-use std::collections::HashSet;
-
 use crate::distances::other_reasons::OtherReasons;
 use crate::distances::plan;
 use crate::distances::poses::Poses;
 use crate::distances::shape_set::ShapeSet;
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
-use crate::skip;
 use crate::views::judged::JudgedShapes;
 use crate::views::shape_pair::CONTACT;
 use crate::views::tangled::sound_pairs;
@@ -48,7 +44,7 @@ const WORK: u64 = 100_000_000;
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // Without simple skips, the other module contains those that no edit is about, among others.
-    let modules = [ModuleKind::LinkShapesSimpleSkips, ModuleKind::LinkShapesSkips];
+    let modules = [Kind::LinkShapesSimpleSkips, Kind::LinkShapesSkips];
     let (_, module, document) = context.documents(&modules).next()?;
     let shapes = context.shapes()?;
     let edited = edited(context, document).ok_or(skip::EDITS_NOT_RECORDED);
@@ -68,8 +64,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let motion = findings.or_skip(poses.motion(0..n))?;
     let known = context.distances().ok();
     let known = |kind: ShapeKind| {
-        let of = known?.kinds().iter().flatten();
-        of.map(|of| of.shapes()).find(|set| set.kind() == kind)
+        let mut known = known?.kinds.iter().flatten().map(|of| &of.shapes);
+        known.find(|set| set.kind == kind)
     };
     for (kind, pairs) in skipped {
         if pairs.is_empty() {
@@ -106,8 +102,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                         "shapes {a} and {b} are skipped, and are in contact in sampled configuration {met} and {} apart in {parted}",
                         metres(*most)
                     );
-                    let finding = finding_in(module, pointer, message);
-                    finding.expected(false).actual(true)
+                    finding_in(module, pointer, message).values(false, true)
                 });
             }
         }

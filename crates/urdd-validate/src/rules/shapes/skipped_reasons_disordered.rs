@@ -14,7 +14,6 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let stated = &document!(context, LinkShapesSkips)?.skipped_reasons;
-    let module = context.module(ModuleKind::LinkShapesSkips)?;
     let mut ordered = stated.clone();
     ordered.sort();
     ordered.dedup();
@@ -24,8 +23,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             words.join(", ")
         };
         let message = "name each reason once, in the order of SPEC 8.6";
-        let finding = finding_in(module, "/skipped_reasons", message);
-        findings.report(finding.expected(words(&ordered)).actual(words(stated)));
+        let finding = finding_in(Kind::LinkShapesSkips, "/skipped_reasons", message);
+        findings.report(finding.values(words(&ordered), words(stated)));
     }
     Some(())
 }

@@ -1,5 +1,3 @@
-use std::collections::HashMap;
-
 use crate::rules::prelude::*;
 use crate::views::tangled::{Tangled, of_pair, sound_pairs};
 use urdd_document::shape_matrices::{Elements, reasons, skips, skips_pointer};
@@ -21,10 +19,9 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let kind = ModuleKind::LinkShapesSkips;
+    let kind = Kind::LinkShapesSkips;
     let document = context.document(kind)?;
     let edited = document!(context, LinkShapesSkips)?;
-    let module = context.module(kind)?;
     let shapes = context.shapes()?;
     let robot = context.robot()?;
     // Each edit sets all pairs of its two links, so the last of several counts.
@@ -34,7 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             last.insert((a.min(b), a.max(b)), (place, edit.skip));
         }
     }
-    let simple = reasons(context.document(ModuleKind::LinkShapesSimpleSkips)?)?;
+    let simple = reasons(context.document(Kind::LinkShapesSimpleSkips)?)?;
     for ((kind, simple), rows) in ShapeKind::ALL.into_iter().zip(simple).zip(skips(document)?) {
         let (Some(simple), Some(rows)) = (simple, rows) else {
             continue;
@@ -68,8 +65,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let [a, b] = [i, j].map(|shape| shapes.describe(context, kind, shape));
                 let pointer = format!("{}/{i}/{j}", skips_pointer(document, kind));
                 let message = format!("the pair of shapes {a} and {b}: {why}");
-                let finding = finding_in(module, pointer, message);
-                finding.expected(!skip).actual(skip)
+                finding_in(Kind::LinkShapesSkips, pointer, message).values(!skip, skip)
             });
         }
     }

@@ -1,9 +1,5 @@
-use crate::distances::tolerances::Tolerances;
 use crate::rules::prelude::*;
-use crate::skip;
 use crate::views::judged::JudgedShapes;
-use crate::views::shape_pair::{Pair, Pairs};
-use crate::views::tangled::pairs;
 
 declare_rule! {
     /// The mean, smallest or largest distance of two shapes is not that of the sampled configurations.
@@ -21,13 +17,12 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     let six = context.statistics()?;
     let shapes = context.shapes()?;
     let groups = context.rigid_groups()?;
     let distances = findings.or_skip(context.distances())?;
     let mut left = Vec::new();
-    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(distances.kinds()) {
+    for ((kind, one), found) in ShapeKind::ALL.into_iter().zip(six).zip(&distances.kinds) {
         let (Some(one), Some(found)) = (one, found) else {
             continue;
         };
@@ -75,9 +70,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let message = format!(
                     "for shapes {a} and {b} this is not what the sampled configurations give{which}"
                 );
-                finding_in(module, pointer, message)
-                    .expected(expected)
-                    .actual(actual)
+                finding_in(Kind::LinkShapesDistanceStatistics, pointer, message)
+                    .values(expected, actual)
                     .tolerance(tolerance)
                     .off_by(actual - expected, "m")
             });

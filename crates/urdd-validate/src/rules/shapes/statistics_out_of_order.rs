@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::shape_pair::Pairs;
-use crate::views::tangled::pairs;
 
 declare_rule! {
     /// A mean distance does not lie between the smallest and the largest.
@@ -15,7 +13,6 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    let module = context.module(ModuleKind::LinkShapesDistanceStatistics)?;
     for (kind, one) in by_kind(context.statistics()?) {
         let [mean_key, ..] = one.keys;
         let stated = Pairs::new(&one);
@@ -27,9 +24,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 fold.add(|| {
                     let pointer = format!("/{}/{mean_key}/{i}/{j}", kind.key());
                     let message = "the mean distance is not between the smallest and the largest";
-                    finding_in(module, pointer, message)
-                        .expected(format!("from {} to {}", pair.min, pair.max))
-                        .actual(pair.mean)
+                    finding_in(Kind::LinkShapesDistanceStatistics, pointer, message)
+                        .values(format!("from {} to {}", pair.min, pair.max), pair.mean)
                         .tolerance(pair.tolerance)
                 });
             }

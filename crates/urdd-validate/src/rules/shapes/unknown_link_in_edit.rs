@@ -15,15 +15,13 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let skips = document!(context, LinkShapesSkips)?;
-    let module = context.module(ModuleKind::LinkShapesSkips)?;
     let robot = context.robot()?;
     for (place, edit) in skips.edits.iter().enumerate() {
         for (key, name) in [("link_a", &edit.link_a), ("link_b", &edit.link_b)] {
             if robot.link(name).is_none() {
                 let message = "the robot has no link of this name";
-                finding_in(module, format!("/edits/{place}/{key}"), message)
-                    .expected("the name of a link of urdf_module")
-                    .actual(format!("`{name}`"))
+                finding_in(Kind::LinkShapesSkips, format!("/edits/{place}/{key}"), message)
+                    .values("the name of a link of urdf_module", format!("`{name}`"))
                     .report(findings);
             }
         }

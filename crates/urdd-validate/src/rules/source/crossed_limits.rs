@@ -28,8 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let message =
                 format!("the limits of joint `{name}` are crossed{absent}: no position is allowed");
             Finding::at(&file, format!("/joints/{index}/limit"), message)
-                .expected("lower <= upper")
-                .actual(format!("joint `{name}`: {lower} > {upper}"))
+                .values("lower <= upper", format!("joint `{name}`: {lower} > {upper}"))
                 .report(findings);
         }
     }

@@ -1,7 +1,6 @@
 use super::{links_of, moments};
 use crate::rules::prelude::*;
 use urdd_document::robot::Link;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// An inertia tensor is not positive definite.
@@ -24,6 +23,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let bodies = context.rigid_groups()?;
     let file = context.robot_file()?;
+    let at = |index: usize, message: String, link: &Link, found: &str| {
+        Finding::at(&file, format!("/links/{index}/inertial/inertia"), message)
+            .values("three positive principal moments", format!("link `{}`: {found}", link.name))
+    };
     for body in &bodies.groups {
         let mut links = links_of(robot, body);
         for (index, link) in links.clone() {
@@ -31,11 +34,8 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let Some(moments) = moments.filter(|moments| !positive(*moments)) else {
                 continue;
             };
-            let pointer = format!("/links/{index}/inertial/inertia");
             let message = format!("link `{}`: the inertia is not positive definite", link.name);
-            Finding::at(&file, pointer, message)
-                .expected("three positive principal moments")
-                .actual(format!("link `{}`: {}", link.name, moments::show(moments)))
+            at(index, message, link, &moments::show(moments))
                 .tolerance(INERTIA_DEFINITE * moments[2].abs())
                 .report(findings);
         }
@@ -44,15 +44,10 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let point = links.clone().find(|(_, link)| is_point_mass(link));
         let no_inertia = links.all(|(_, link)| tensor(link).is_none());
         if let (Some(joint), Some((index, link)), true) = (turned_by, point, no_inertia) {
-            let pointer = format!("/links/{index}/inertial/inertia");
-            let message = format!(
-                "joint `{}` turns link `{}`, which has mass, but no inertia",
-                joint.name, link.name
-            );
-            Finding::at(&file, pointer, message)
-                .expected("three positive principal moments")
-                .actual(format!("link `{}`: every moment is 0 or missing", link.name))
-                .report(findings);
+            let (joint, name) = (&joint.name, &link.name);
+            let message =
+                format!("joint `{joint}` turns link `{name}`, which has mass, but no inertia");
+            at(index, message, link, "every moment is 0 or missing").report(findings);
         }
     }
     Some(())

@@ -20,44 +20,35 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
     let bodies = context.rigid_groups()?;
     let file = context.robot_file()?;
+    let at = |index: usize, message: String, expected: &str, link: &Link| {
+        Finding::at(&file, format!("/links/{index}/inertial/mass"), message)
+            .values(expected, found(link))
+    };
     for body in &bodies.groups {
         let mut links = links_of(robot, body);
-        let mut told = false;
+        let mut reported = false;
         for (index, link) in links.clone() {
             let Some((message, expected)) = fault(link) else {
                 continue;
             };
-            told = true;
-            let pointer = format!("/links/{index}/inertial/mass");
-            Finding::at(&file, pointer, message)
-                .expected(expected)
-                .actual(found(link))
-                .report(findings);
+            reported = true;
+            at(index, message, expected, link).report(findings);
         }
         let Some(joint) = body.moved_by.and_then(|joint| robot.joints.get(joint)) else {
             continue;
         };
         let stated = links.clone().find(|(_, link)| link.inertial.is_some());
         let weightless = links.all(|(_, link)| mass(link) == 0.0);
-        if let (Some((index, link)), true, false) = (stated, weightless, told) {
-            let others = match body.links.len() {
-                1 => String::new(),
-                count => format!(" and what is fixed to it ({count} links)"),
-            };
-            let message = format!(
-                "joint `{}` moves link `{}`{others}, but {}",
-                joint.name,
-                link.name,
-                match body.links.len() {
-                    1 => no_mass(link),
-                    _ => "none of them has mass",
+        if let (Some((index, link)), true, false) = (stated, weightless, reported) {
+            let (others, but) = match body.links.len() {
+                1 => (String::new(), no_mass(link)),
+                count => {
+                    (format!(" and what is fixed to it ({count} links)"), "none of them has mass")
                 }
-            );
-            let pointer = format!("/links/{index}/inertial/mass");
-            Finding::at(&file, pointer, message)
-                .expected("a positive mass")
-                .actual(found(link))
-                .report(findings);
+            };
+            let (joint, name) = (&joint.name, &link.name);
+            let message = format!("joint `{joint}` moves link `{name}`{others}, but {but}");
+            at(index, message, "a positive mass", link).report(findings);
         }
     }
     Some(())

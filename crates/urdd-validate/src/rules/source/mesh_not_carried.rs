@@ -18,19 +18,16 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let robot = context.robot()?;
-    let module = context.module(ModuleKind::OriginalMeshes)?;
     let meshes = document!(context, OriginalMeshes)?;
     for (index, reference) in meshes.references.iter().enumerate() {
         if reference.path.is_some() {
             continue;
         }
-        let link = robot.links.get(reference.link_idx.get());
-        let link = link.map_or("", |link| &link.name);
+        let link = robot.links.get(reference.link_idx.get()).map_or("", |link| &link.name);
         let filename = excerpt(&reference.filename.as_str().into());
         let message = format!("a mesh of link `{link}` was not found and is not carried");
-        finding_in(module, format!("/references/{index}/path"), message)
-            .expected("a file")
-            .actual(format!("null for {filename} of link `{link}`"))
+        finding_in(Kind::OriginalMeshes, format!("/references/{index}/path"), message)
+            .values("a file", format!("null for {filename} of link `{link}`"))
             .report(findings);
     }
     Some(())

@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// A mimic joint leaves its own limits while its driver is within its limits.

@@ -1,16 +1,12 @@
 //! SRC: unusual robots, whose URDD may still be correct.
 
 mod crossed_limits;
-#[doc(hidden)]
 pub mod inertia_breaks_triangle;
-#[doc(hidden)]
 pub mod inertia_not_positive_definite;
 mod links;
 mod mass_not_positive;
 mod mesh_not_carried;
-#[doc(hidden)]
 pub mod mimic_leaves_limits;
-#[doc(hidden)]
 pub mod moments;
 mod no_effort_and_no_speed;
 mod no_limits;

@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// A joint that can move has the limits `effort="0"` and `velocity="0"`.

@@ -1,5 +1,4 @@
 use crate::rules::prelude::*;
-use urdd_format::urdf::JointType;
 
 declare_rule! {
     /// A revolute or prismatic joint has no limits.
@@ -29,8 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let message = format!("joint `{name}` ({kind}) has no limits; it counts as unlimited");
         Finding::at(&file, format!("/joints/{index}/limit"), message)
-            .expected("`lower` and `upper`")
-            .actual(format!("joint `{name}`: {actual}"))
+            .values("`lower` and `upper`", format!("joint `{name}`: {actual}"))
             .report(findings);
     }
     Some(())

@@ -1,6 +1,5 @@
 use crate::rules::prelude::*;
 use crate::urdf_text::compare::first_names;
-use urdd_document::robot::Robot;
 
 declare_rule! {
     /// Joints connect links in a circle.

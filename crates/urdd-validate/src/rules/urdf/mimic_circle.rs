@@ -28,8 +28,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 first_names(&names)
             ),
         };
-        let pointer = format!("/joints/{}/mimic/joint", circle.first()?);
-        Finding::at(&file, pointer, message)
+        Finding::at(&file, format!("/joints/{}/mimic/joint", circle.first()?), message)
             .expected("a joint that leads to one that follows nothing")
             .actual(format!("a circle of {}", names.len()))
             .report(findings);

@@ -34,8 +34,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         };
         let (kind, dofs) = (culprit.joint_type, culprit.num_dofs());
         Finding::at(&file, format!("/joints/{index}/mimic"), message)
-            .expected("a joint of one DOF, or a fixed one")
-            .actual(format!("{kind}, with {dofs} DOFs"))
+            .values("a joint of one DOF, or a fixed one", format!("{kind}, with {dofs} DOFs"))
             .report(findings);
     }
     Some(())

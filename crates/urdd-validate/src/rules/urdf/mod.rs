@@ -1,6 +1,5 @@
 //! URD: `urdf_module` against the carried URDF, and as a tree.
 
-#[doc(hidden)]
 pub mod cycle;
 mod duplicate_joint_name;
 mod duplicate_link_name;
@@ -10,16 +9,13 @@ mod materials_not_the_urdfs;
 mod mimic_circle;
 mod mimic_of_many_dofs;
 mod not_one_root;
-#[doc(hidden)]
 pub mod parts;
 mod repeated_names;
-#[doc(hidden)]
 pub mod source_differences;
 mod two_parents;
 mod unknown_link;
 mod unknown_mimic_driver;
 mod unreadable_urdf;
-#[doc(hidden)]
 pub mod zero_axis;
 
 use crate::rule::rules;

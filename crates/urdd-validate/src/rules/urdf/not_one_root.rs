@@ -1,5 +1,3 @@
-use std::collections::HashSet;
-
 use crate::rules::prelude::*;
 use crate::urdf_text::compare::first_names;
 
@@ -33,8 +31,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         ),
     };
     Finding::at(file, "/links", message)
-        .expected("one link that is not the child of a joint")
-        .actual(actual)
+        .values("one link that is not the child of a joint", actual)
         .report(findings);
     Some(())
 }

@@ -13,12 +13,10 @@ pub(super) fn report<'a>(
 ) -> Option<()> {
     let file = context.robot_file()?;
     for (index, first, name) in repeated(names) {
-        let pointer = format!("/{list}/{index}/name");
         let message =
             format!("another {one} is already named `{name}`; give this one a name of its own");
-        Finding::at(&file, pointer, message)
-            .expected(format!("a name that no other {one} has"))
-            .actual(format!("`{name}`"))
+        Finding::at(&file, format!("/{list}/{index}/name"), message)
+            .values(format!("a name that no other {one} has"), format!("`{name}`"))
             .related(Finding::at(
                 &file,
                 format!("/{list}/{first}/name"),

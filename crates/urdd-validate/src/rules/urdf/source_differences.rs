@@ -11,7 +11,7 @@ use urdd_document::schema_check::excerpt;
 
 /// Reports where a part of the module differs from the URDF.
 pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> Option<()> {
-    let module = context.module(ModuleKind::Urdf)?;
+    let module = context.module(Kind::Urdf)?;
     let carried = context.urdf().ok()?;
     let reading = context.urdf_text()?;
     let robot = reading.robot.as_ref()?;
@@ -47,8 +47,7 @@ pub(super) fn report(context: &Context, findings: &mut Findings, part: Part) -> 
             .position(&lines, &found.source)
             .map_or(String::new(), |place| format!(" ({}, line {})", carried.path, place.line));
         let mut finding = finding_in(module, found.pointer, words)
-            .expected(format!("{}{line}", excerpt(&found.expected)))
-            .actual(excerpt(&found.actual));
+            .values(format!("{}{line}", excerpt(&found.expected)), excerpt(&found.actual));
         finding.tolerance = found.tolerance;
         findings.report(finding);
     }

@@ -1,5 +1,3 @@
-use std::collections::HashMap;
-
 use crate::rules::prelude::*;
 
 declare_rule! {

@@ -18,11 +18,9 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     for (index, joint) in robot.joints.iter().enumerate() {
         for (end, link) in [("parent", &joint.parent), ("child", &joint.child)] {
             if robot.link(link).is_none() {
-                let pointer = format!("/joints/{index}/{end}/link");
                 let message = format!("{end} of joint `{}` is not a link of the robot", joint.name);
-                Finding::at(&file, pointer, message)
-                    .expected("the name of a link")
-                    .actual(format!("`{link}`"))
+                Finding::at(&file, format!("/joints/{index}/{end}/link"), message)
+                    .values("the name of a link", format!("`{link}`"))
                     .report(findings);
             }
         }

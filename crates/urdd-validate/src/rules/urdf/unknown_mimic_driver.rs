@@ -22,8 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let name = &joint.name;
             let message = format!("joint `{name}` follows a joint that the robot does not have");
             Finding::at(&file, format!("/joints/{index}/mimic/joint"), message)
-                .expected("the name of a joint")
-                .actual(format!("`{}`", mimic.joint))
+                .values("the name of a joint", format!("`{}`", mimic.joint))
                 .report(findings);
         }
     }

@@ -22,8 +22,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     let carried = match context.urdf() {
         Ok(carried) => carried,
         Err(NoUrdf::Unreadable { path, error }) => {
-            let message = format!("the URDF is too large: {error}");
-            findings.report(Finding::in_file(path, message));
+            findings.report(Finding::in_file(path, format!("the URDF is too large: {error}")));
             return Some(());
         }
         Err(_) => return None,

@@ -20,8 +20,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             let (name, kind) = (&joint.name, joint.joint_type);
             let message = format!("the axis of joint `{name}` ({kind}) has no direction");
             Finding::at(&file, format!("/joints/{index}/axis/xyz"), message)
-                .expected("a vector other than zero")
-                .actual(format!("{:?}", joint.axis))
+                .values("a vector other than zero", format!("{:?}", joint.axis))
                 .report(findings);
         }
     }

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_yaml;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` is not plain YAML: not well-formed, not UTF-8, with a byte order mark, a
@@ -23,5 +21,5 @@ const KINDS: &[TextFaultKind] = &[
 ];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, KINDS, findings)
+    report_yaml(context, KINDS, &[], findings)
 }

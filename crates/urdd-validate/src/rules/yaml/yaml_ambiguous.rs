@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_yaml;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` holds a word that YAML 1.1 and YAML 1.2 read differently.
@@ -16,5 +14,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlAmbiguousScalar], findings)
+    report_yaml(context, &[TextFaultKind::YamlAmbiguousScalar], &[], findings)
 }

@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_yaml_unless;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` does not say what `module.json` says.
@@ -19,5 +17,5 @@ const UNREAD: &[TextFaultKind] =
     &[TextFaultKind::YamlSyntax, TextFaultKind::YamlNotUtf8, TextFaultKind::YamlTooDeep];
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml_unless(context, &[TextFaultKind::YamlDiffers], UNREAD, findings)
+    report_yaml(context, &[TextFaultKind::YamlDiffers], UNREAD, findings)
 }

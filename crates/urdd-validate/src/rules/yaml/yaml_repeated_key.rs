@@ -1,6 +1,4 @@
 use crate::rules::prelude::*;
-use crate::views::text_faults::report_yaml;
-use urdd_directory::text_fault::TextFaultKind;
 
 declare_rule! {
     /// A `module.yaml` has a key twice in one mapping.
@@ -13,5 +11,5 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
-    report_yaml(context, &[TextFaultKind::YamlDuplicateKey], findings)
+    report_yaml(context, &[TextFaultKind::YamlDuplicateKey], &[], findings)
 }
