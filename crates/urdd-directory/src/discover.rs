@@ -25,47 +25,24 @@ pub struct Found {
 
 /// Why a path yields nothing to examine.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum DiscoverError {
-    /// No such path.
     #[error("{path}: no such file or folder")]
-    Missing {
-        /// The path as given.
-        path: String,
-    },
-    /// A file that is not a zip archive.
+    Missing { path: String },
     #[error(
         "{path}: this is a file; a URDD is a folder, or a zip archive of one: give the folder that holds {ROOT_METADATA} or the module folders"
     )]
-    NotAFolder {
-        /// The path as given.
-        path: String,
-    },
-    /// A folder without a URDD.
+    NotAFolder { path: String },
     #[error(
         "{path}: no URDD here: no folder at or below it holds {ROOT_METADATA} or a module folder such as urdf_module"
     )]
-    NoUrdd {
-        /// The path as given.
-        path: String,
-    },
-    /// A folder that cannot be listed.
+    NoUrdd { path: String },
     #[error("{path}: the folder cannot be listed: {reason}")]
-    Unreadable {
-        /// The path as given.
-        path: String,
-        /// The error of the operating system.
-        reason: String,
-    },
-    /// A folder with too many entries below it.
+    Unreadable { path: String, reason: String },
     #[error(
         "{path}: more than {limit} files and folders: give the URDDs themselves, or smaller folders"
     )]
-    TooMany {
-        /// The path as given.
-        path: String,
-        /// The limit.
-        limit: usize,
-    },
+    TooMany { path: String, limit: usize },
 }
 
 /// Maximum number of folder entries visited in one search.
