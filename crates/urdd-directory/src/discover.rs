@@ -70,7 +70,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let name = canonical
             .file_name()
             .map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-        return Ok(vec![found_at(path.to_owned(), name, None)]);
+        return Ok(vec![Found { path: path.to_owned(), name, closed: None }]);
     }
     if let Err(error) = fs::read_dir(&canonical) {
         return Err(DiscoverError::Unreadable { path: shown, reason: error.kind().to_string() });
@@ -82,7 +82,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let entries = match list(&folder, depth) {
             Ok(entries) => entries,
             Err(error) => {
-                found.push(found_at(folder, prefix, Some(error)));
+                found.push(Found { path: folder, name: prefix, closed: Some(error) });
                 continue;
             }
         };
@@ -101,7 +101,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
             }
             let name = if prefix.is_empty() { name } else { format!("{prefix}/{name}") };
             if is_urdd(&entry.path()) {
-                found.push(found_at(entry.path(), name, None));
+                found.push(Found { path: entry.path(), name, closed: None });
             } else {
                 folders.push((entry.path(), name, depth + 1));
             }
@@ -114,12 +114,8 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     Ok(found)
 }
 
-fn found_at(path: PathBuf, name: String, closed: Option<ReadError>) -> Found {
-    Found { path, name, closed }
-}
-
 fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {
-    let entries = fs::read_dir(folder).map_err(|error| ReadError::from_io(&error))?;
+    let entries = fs::read_dir(folder)?;
     match depth < MAX_FOLDER_DEPTH {
         true => Ok(entries),
         false => Err(ReadError::TooDeep { limit: MAX_FOLDER_DEPTH }),

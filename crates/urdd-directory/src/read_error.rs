@@ -37,8 +37,8 @@ pub enum ReadError {
     Io(String),
 }
 
-impl ReadError {
-    pub(super) fn from_io(error: &io::Error) -> Self {
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
         if let Some(own) = error.get_ref().and_then(|inner| inner.downcast_ref::<ReadError>()) {
             return own.clone();
         }

@@ -204,10 +204,7 @@ impl Sink<'_> {
 impl std::fmt::Write for Sink<'_> {
     fn write_str(&mut self, text: &str) -> std::fmt::Result {
         self.waiting.push_str(text);
-        match self.waiting.len() < WRITTEN_AT_ONCE {
-            true => Ok(()),
-            false => self.flush(),
-        }
+        if self.waiting.len() < WRITTEN_AT_ONCE { Ok(()) } else { self.flush() }
     }
 }
 

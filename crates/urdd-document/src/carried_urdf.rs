@@ -116,10 +116,7 @@ fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => {
             let named = format!("{}.urdf", root.folder_name());
-            match listing.has_file(&named) {
-                true => Ok(named),
-                false => Err(NoUrdf::Several),
-            }
+            if listing.has_file(&named) { Ok(named) } else { Err(NoUrdf::Several) }
         }
     }
 }

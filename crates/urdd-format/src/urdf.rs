@@ -6,6 +6,7 @@ module! {
     /// The source URDF as data. What the URDF leaves out is null (or an empty list), never a default.
     /// Lengths are metres, angles radians, masses kilograms; rotations are the URDF's own fixed-axis
     /// roll, pitch, yaw. Numbers that are not finite in the URDF are written as null.
+    #[derive(Default)]
     pub struct UrdfModule {
         /// Name of the robot (`<robot name>`).
         pub name: String,

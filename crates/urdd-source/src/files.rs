@@ -12,6 +12,8 @@ use thiserror::Error;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 
+/// Maximum size of a URDF in bytes. The validator has the same limit.
+pub const MAX_SOURCE_BYTES: u64 = 64 << 20;
 /// Maximum number of files in memory.
 const MOST_FILES: usize = 20_000;
 /// Maximum size of all files in memory, bytes.
@@ -30,14 +32,12 @@ pub enum Files {
 /// Why files cannot be a set in memory.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum MemoryFault {
-    /// A path that leads out of the set, or is empty.
     #[error("`{0}` is not the relative path of a file")]
     Path(String),
-    /// Too many files.
     #[error("there are more than {MOST_FILES} files")]
     TooMany,
-    /// Too much data.
     #[error("the files are larger than {} MiB together", MOST_BYTES >> 20)]
     TooLarge,
 }

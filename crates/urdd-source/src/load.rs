@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::bounded::MAX_SOURCE_BYTES;
 use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
-use super::files::Files;
+use super::files::{Files, MAX_SOURCE_BYTES};
 use super::note::{Note, Remark};
 use super::repair;
 use super::settings::Settings;
@@ -195,10 +194,7 @@ fn source(
     Ok(Source {
         folder,
         file_name,
-        carried: match is_verbatim {
-            true => bytes.clone(),
-            false => mended.text.into_bytes(),
-        },
+        carried: if is_verbatim { bytes.clone() } else { mended.text.into_bytes() },
         found: (!is_verbatim).then_some(bytes),
         reading: mended.reading,
         notes,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::reader::{Reader, shortened};
-use super::tree::written_axis;
+use super::reading::written_axis;
 use crate::cycles::cycles;
 use crate::fault::Fault;
 use crate::note::NoteKind;
@@ -120,10 +120,7 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
     let robot = &reader.reading.robot;
     let ends = &reader.reading.tree.ends;
     if robot.links.is_empty() {
-        let fault = match reader.reading.has_xacro {
-            true => Fault::OnlyMacros,
-            false => Fault::NoLinks,
-        };
+        let fault = if reader.reading.has_xacro { Fault::OnlyMacros } else { Fault::NoLinks };
         reader.fault(robot_at, fault);
         return;
     }
