@@ -76,10 +76,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
     let (start, word) = word_around(text, offset);
     if is_non_finite(word) {
         let message = format!("`{word}` is not a number in JSON: write null or a finite number");
-        return TextFault {
-            found: Some(word.to_owned()),
-            ..at(start, TextFaultKind::NonFiniteNumber, message)
-        };
+        return at(start, TextFaultKind::NonFiniteNumber, message).finding(word);
     }
     let message = if text.trim().is_empty() {
         "the file is empty: a JSON value was expected".to_owned()
