@@ -86,7 +86,7 @@ fn check_name(stem: &str) -> Result<(), String> {
 fn module_type(name: &str, kind: &str) -> String {
     format!(
         "//! `{name}`: TODO: what it says, in some words.\n\n\
-         use super::object::module;\n\n\
+         use super::types::module;\n\n\
          module! {{\n    \
              /// TODO: what the module says, in one sentence.\n    \
              pub struct {kind}Module {{\n        \

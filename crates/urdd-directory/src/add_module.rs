@@ -21,33 +21,22 @@ use urdd_format::registry::ModuleKind;
 
 /// Why a module could not be added. Nothing is changed then.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum AddModuleError {
-    /// A file or folder of this name exists.
     #[error("{} exists, and is left as it is: take another name, or remove it first", .0.display())]
     Exists(PathBuf),
-    /// `urdd.json` lists a module of this name.
     #[error("{ROOT_METADATA} lists `{0}` already: take another name, or remove the entry first")]
     Listed(String),
-    /// `urdd.json` cannot be read.
     #[error("{ROOT_METADATA}: {0}")]
     Metadata(ReadError),
-    /// `urdd.json` is not JSON.
     #[error("{ROOT_METADATA} is not JSON: {0}; run `urdd validate` for details")]
     NotJson(#[from] UnreadableText),
-    /// `urdd.json` has no list of modules.
     #[error("{ROOT_METADATA} has no list `modules`; run `urdd validate` for details")]
     NoModules,
-    /// The URDD is in an archive.
     #[error("zip archives are read only; unpack it, add the module, and pack it again")]
     NotAFolder,
-    /// A file or folder cannot be written.
     #[error("{}: {error}", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// The error of the operating system.
-        error: io::Error,
-    },
+    Write { path: PathBuf, error: io::Error },
 }
 
 /// Writes a folder with these files into `parent`: all of them or none.

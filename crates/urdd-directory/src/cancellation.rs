@@ -38,9 +38,6 @@ impl Cancellation {
     /// # Errors
     /// If cancellation was requested.
     pub fn check(&self) -> Result<(), Cancelled> {
-        match self.is_cancelled() {
-            true => Err(Cancelled),
-            false => Ok(()),
-        }
+        if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 }

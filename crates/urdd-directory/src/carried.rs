@@ -188,10 +188,7 @@ impl Source for Carried {
     }
 
     fn open(&self, path: &str) -> Result<(OpenFile, u64), ReadError> {
-        match self.files.contains(path) {
-            true => self.root.open_file(path),
-            false => Err(ReadError::Missing),
-        }
+        if self.files.contains(path) { self.root.open_file(path) } else { Err(ReadError::Missing) }
     }
 
     fn folder(&self) -> Option<&Path> {

@@ -25,47 +25,24 @@ pub struct Found {
 
 /// Why a path yields nothing to examine.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum DiscoverError {
-    /// No such path.
     #[error("{path}: no such file or folder")]
-    Missing {
-        /// The path as given.
-        path: String,
-    },
-    /// A file that is not a zip archive.
+    Missing { path: String },
     #[error(
         "{path}: this is a file; a URDD is a folder, or a zip archive of one: give the folder that holds {ROOT_METADATA} or the module folders"
     )]
-    NotAFolder {
-        /// The path as given.
-        path: String,
-    },
-    /// A folder without a URDD.
+    NotAFolder { path: String },
     #[error(
         "{path}: no URDD here: no folder at or below it holds {ROOT_METADATA} or a module folder such as urdf_module"
     )]
-    NoUrdd {
-        /// The path as given.
-        path: String,
-    },
-    /// A folder that cannot be listed.
+    NoUrdd { path: String },
     #[error("{path}: the folder cannot be listed: {reason}")]
-    Unreadable {
-        /// The path as given.
-        path: String,
-        /// The error of the operating system.
-        reason: String,
-    },
-    /// A folder with too many entries below it.
+    Unreadable { path: String, reason: String },
     #[error(
         "{path}: more than {limit} files and folders: give the URDDs themselves, or smaller folders"
     )]
-    TooMany {
-        /// The path as given.
-        path: String,
-        /// The limit.
-        limit: usize,
-    },
+    TooMany { path: String, limit: usize },
 }
 
 /// Maximum number of folder entries visited in one search.
@@ -93,7 +70,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let name = canonical
             .file_name()
             .map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-        return Ok(vec![found_at(path.to_owned(), name, None)]);
+        return Ok(vec![Found { path: path.to_owned(), name, closed: None }]);
     }
     if let Err(error) = fs::read_dir(&canonical) {
         return Err(DiscoverError::Unreadable { path: shown, reason: error.kind().to_string() });
@@ -105,7 +82,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
         let entries = match list(&folder, depth) {
             Ok(entries) => entries,
             Err(error) => {
-                found.push(found_at(folder, prefix, Some(error)));
+                found.push(Found { path: folder, name: prefix, closed: Some(error) });
                 continue;
             }
         };
@@ -124,7 +101,7 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
             }
             let name = if prefix.is_empty() { name } else { format!("{prefix}/{name}") };
             if is_urdd(&entry.path()) {
-                found.push(found_at(entry.path(), name, None));
+                found.push(Found { path: entry.path(), name, closed: None });
             } else {
                 folders.push((entry.path(), name, depth + 1));
             }
@@ -137,12 +114,8 @@ pub fn discover(path: &Path) -> Result<Vec<Found>, DiscoverError> {
     Ok(found)
 }
 
-fn found_at(path: PathBuf, name: String, closed: Option<ReadError>) -> Found {
-    Found { path, name, closed }
-}
-
 fn list(folder: &Path, depth: usize) -> Result<fs::ReadDir, ReadError> {
-    let entries = fs::read_dir(folder).map_err(|error| ReadError::from_io(&error))?;
+    let entries = fs::read_dir(folder)?;
     match depth < MAX_FOLDER_DEPTH {
         true => Ok(entries),
         false => Err(ReadError::TooDeep { limit: MAX_FOLDER_DEPTH }),

@@ -76,10 +76,7 @@ pub fn explain(text: &str, error: &serde_json::Error, too_deep: bool) -> TextFau
     let (start, word) = word_around(text, offset);
     if is_non_finite(word) {
         let message = format!("`{word}` is not a number in JSON: write null or a finite number");
-        return TextFault {
-            found: Some(word.to_owned()),
-            ..at(start, TextFaultKind::NonFiniteNumber, message)
-        };
+        return at(start, TextFaultKind::NonFiniteNumber, message).finding(word);
     }
     let message = if text.trim().is_empty() {
         "the file is empty: a JSON value was expected".to_owned()
@@ -125,23 +122,15 @@ fn offset_of(text: &str, line: usize, column: usize) -> usize {
 fn word_around(text: &str, offset: usize) -> (usize, &str) {
     let bytes = text.as_bytes();
     let is_word = |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'-' | b'.');
-    let mut start = offset;
-    while start > 0 && is_word(bytes[start - 1]) {
-        start -= 1;
-    }
-    let end = bytes[start..]
-        .iter()
-        .position(|&byte| !is_word(byte))
-        .map_or(bytes.len(), |length| start + length);
-    (start, text.get(start..end).unwrap_or_default())
+    let before = bytes[..offset].iter().rev().take_while(|&&byte| is_word(byte)).count();
+    let after = bytes[offset..].iter().take_while(|&&byte| is_word(byte)).count();
+    let start = offset - before;
+    (start, text.get(start..offset + after).unwrap_or_default())
 }
 
 fn is_non_finite(word: &str) -> bool {
     let bare = word.trim_start_matches(['+', '-']);
-    if bare.eq_ignore_ascii_case("nan") || bare.eq_ignore_ascii_case("inf") {
-        return true;
-    }
-    bare.eq_ignore_ascii_case("infinity")
+    ["nan", "inf", "infinity"].iter().any(|name| bare.eq_ignore_ascii_case(name))
         || (bare.starts_with(|c: char| c.is_ascii_digit())
             && word.parse::<f64>().is_ok_and(f64::is_infinite))
 }

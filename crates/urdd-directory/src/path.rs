@@ -4,31 +4,24 @@ use thiserror::Error;
 
 /// What is wrong with a path in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum PathFault {
-    /// An empty path.
     #[error("the path is empty")]
     Empty,
-    /// Begins with `/`.
     #[error("the path is absolute; write it relative to the URDD's root")]
     Absolute,
-    /// An empty part: `a//b`, or a slash at the end.
     #[error("the path has an empty part; write single slashes, and none at the end")]
     EmptyPart,
-    /// A part that is `.` or `..`.
     #[error("the path has a `.` or `..` part; write it straight from the URDD's root")]
     DotPart,
-    /// A backslash.
     #[error("the path has a backslash; separate parts with forward slashes")]
     Backslash,
-    /// A colon, as in a drive letter or a URI.
     #[error(
         "the path has a colon, as a drive letter or URI has; write it relative to the URDD's root"
     )]
     Colon,
-    /// A control character.
     #[error("the path has a control character")]
     ControlCharacter,
-    /// The path of another file, or of a folder.
     #[error("the path is listed both as a file and as a folder")]
     Taken,
 }

@@ -9,55 +9,36 @@ use super::path::PathFault;
 
 /// Why a file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum ReadError {
-    /// The file does not exist.
     #[error("there is no such file")]
     Missing,
     /// The path violates SPEC 2.8.
     #[error("{0}")]
     Path(#[from] PathFault),
-    /// It is not what it was when the URDD was opened.
     #[error("it changed on disk since it was opened: open it again")]
     Changed,
-    /// A symbolic link leads out of the root.
     #[error("a symbolic link leads out of the URDD's root")]
     LeavesRoot,
-    /// Not a regular file.
     #[error("it is not a regular file")]
     NotAFile,
-    /// Neither a folder nor a zip archive.
     #[error("it is neither a folder nor a zip archive")]
     NotAUrdd,
-    /// Larger than the limit.
     #[error("it is {size} bytes long; the limit is {limit}")]
-    TooLarge {
-        /// Its size, bytes.
-        size: u64,
-        /// The limit, bytes.
-        limit: u64,
-    },
-    /// Longer than the limit, of unknown length.
+    TooLarge { size: u64, limit: u64 },
     #[error("it is longer than {} MiB", .limit >> 20)]
-    TooLong {
-        /// The limit, bytes.
-        limit: u64,
-    },
-    /// The zip archive cannot be used.
+    TooLong { limit: u64 },
     #[error("{0}")]
     Archive(#[from] ArchiveFault),
     /// A folder too deep to be searched.
     #[error("it is deeper than {limit} folders; give its path to examine it")]
-    TooDeep {
-        /// Maximum search depth, folders.
-        limit: usize,
-    },
-    /// An error of the operating system.
+    TooDeep { limit: usize },
     #[error("it cannot be read: {0}")]
     Io(String),
 }
 
-impl ReadError {
-    pub(super) fn from_io(error: &io::Error) -> Self {
+impl From<io::Error> for ReadError {
+    fn from(error: io::Error) -> Self {
         if let Some(own) = error.get_ref().and_then(|inner| inner.downcast_ref::<ReadError>()) {
             return own.clone();
         }

@@ -11,12 +11,11 @@ use super::read_error::ReadError;
 /// # Errors
 /// If it cannot be opened, or is not a regular file: a folder, a pipe, a device.
 pub fn open(path: &Path) -> Result<File, ReadError> {
-    let from_io = |error: io::Error| ReadError::from_io(&error);
     // Check before opening: opening a device may have side effects.
-    check_kind(&fs::metadata(path).map_err(from_io)?)?;
-    let file = without_waiting(path).map_err(from_io)?;
+    check_kind(&fs::metadata(path)?)?;
+    let file = without_waiting(path)?;
     // Check the opened file again: the path may have changed in between.
-    check_kind(&file.metadata().map_err(from_io)?)?;
+    check_kind(&file.metadata()?)?;
     Ok(file)
 }
 
@@ -25,15 +24,17 @@ pub fn open(path: &Path) -> Result<File, ReadError> {
 /// # Errors
 /// As for [`open()`], or if the file is longer.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    read_up_to(open(path)?, limit)
+}
+
+/// Reads a stream of at most `limit` bytes.
+///
+/// # Errors
+/// If it cannot be read, or is longer.
+pub fn read_up_to(from: impl Read, limit: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    open(path)?
-        .take(limit + 1)
-        .read_to_end(&mut bytes)
-        .map_err(|error| ReadError::from_io(&error))?;
-    if bytes.len() as u64 > limit {
-        return Err(ReadError::TooLong { limit });
-    }
-    Ok(bytes)
+    from.take(limit + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit { Err(ReadError::TooLong { limit }) } else { Ok(bytes) }
 }
 
 /// Reads a file whose size is known, of at most `limit` bytes.
@@ -41,15 +42,13 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 /// # Errors
 /// If it is larger, or cannot be read.
 pub(crate) fn read_sized(file: impl Read, size: u64, limit: u64) -> Result<Vec<u8>, ReadError> {
-    let fits = |size: u64| match size > limit {
-        true => Err(ReadError::TooLarge { size, limit }),
-        false => Ok(()),
-    };
+    let fits =
+        |size: u64| if size > limit { Err(ReadError::TooLarge { size, limit }) } else { Ok(()) };
     fits(size)?;
     // Allocate once, with room for the read that detects the end.
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default() + 32);
     // The file may grow while it is read: enforce the limit again.
-    file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| ReadError::from_io(&error))?;
+    file.take(limit + 1).read_to_end(&mut bytes)?;
     fits(bytes.len() as u64)?;
     Ok(bytes)
 }

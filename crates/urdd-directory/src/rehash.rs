@@ -22,25 +22,16 @@ const TEMPORARY_PREFIX: &str = ".urdd.json.";
 
 /// Why the hashes could not be updated.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum RehashError {
-    /// `urdd.json` cannot be read.
     #[error("{ROOT_METADATA}: {0}")]
     Metadata(ReadError),
-    /// `urdd.json` is not JSON.
     #[error("{ROOT_METADATA} is not JSON: {0}; run `urdd validate` for details")]
     NotJson(#[from] super::text_fault::UnreadableText),
-    /// A listed file cannot be read.
     #[error("{path}: {error}; remove it from the list in {ROOT_METADATA}, or restore it")]
-    File {
-        /// The listed path.
-        path: String,
-        /// What is wrong.
-        error: ReadError,
-    },
-    /// The URDD is in an archive.
+    File { path: String, error: ReadError },
     #[error("zip archives are read only; unpack it, rehash the folder, and pack it again")]
     NotAFolder,
-    /// `urdd.json` cannot be written.
     #[error("{ROOT_METADATA} cannot be written: {0}")]
     Write(#[from] io::Error),
 }

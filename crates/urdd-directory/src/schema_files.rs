@@ -1,88 +1,47 @@
 //! Writes the folder of published schemas, and compares it with the types.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use urdd_format::schema::{self, SchemaError, Subject, Variant};
+use urdd_format::schema::{self, RELEASED_PATH, SchemaError, Subject, Variant};
 
 /// Why the folder of schemas could not be written or read.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum SchemaFilesError {
-    /// A file or folder could not be read or written.
     #[error("{}: {source}", path.display())]
-    Io {
-        /// The file or folder.
-        path: PathBuf,
-        /// The error of the operating system.
-        source: io::Error,
-    },
-    /// The schemas themselves are broken.
+    Io { path: PathBuf, source: io::Error },
     #[error(transparent)]
     Schema(#[from] SchemaError),
 }
 
-/// A difference between the folder of schemas and the types.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A difference between the folder of schemas and the types. `path` is the schema's in the folder.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum SchemaFault {
-    /// A schema file is missing.
-    Missing {
-        /// Its path in the folder.
-        path: String,
-    },
-    /// A schema file differs from the types.
-    Outdated {
-        /// Its path in the folder.
-        path: String,
-    },
-    /// A file is not a published schema.
-    Stray {
-        /// Its path in the folder.
-        path: String,
-    },
+    #[error("{path}: missing")]
+    Missing { path: String },
+    #[error("{path}: not what the types write")]
+    Outdated { path: String },
+    #[error("{path}: not a published schema; remove it")]
+    Stray { path: String },
     /// A released schema now accepts different documents.
-    Changed {
-        /// Its id.
-        id: String,
-        /// Hash in the list of released schemas.
-        released: String,
-        /// Hash of the schema of the current types.
-        found: String,
-    },
-    /// The list of released schemas names a schema that does not exist.
-    Removed {
-        /// Its id.
-        id: String,
-    },
+    #[error(
+        "{RELEASED_PATH}: a released schema never changes; undo the change, or add a new version of {id} (released as {released}, the types write {found})"
+    )]
+    Changed { id: String, released: String, found: String },
+    #[error(
+        "{RELEASED_PATH}: {id} is released and does not exist; a released schema is never removed"
+    )]
+    Removed { id: String },
 }
 
 impl SchemaFault {
     /// Whether `urdd schema export` fixes it. If not, the message says how to fix it.
     pub fn is_mended_by_export(&self) -> bool {
         matches!(self, SchemaFault::Missing { .. } | SchemaFault::Outdated { .. })
-    }
-}
-
-impl fmt::Display for SchemaFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SchemaFault::Missing { path } => write!(f, "{path}: missing"),
-            SchemaFault::Outdated { path } => write!(f, "{path}: not what the types write"),
-            SchemaFault::Stray { path } => write!(f, "{path}: not a published schema; remove it"),
-            SchemaFault::Changed { id, released, found } => write!(
-                f,
-                "{}: a released schema never changes; undo the change, or add a new version of {id} \
-                 (released as {released}, the types write {found})",
-                schema::RELEASED_PATH
-            ),
-            SchemaFault::Removed { id } => write!(
-                f,
-                "{}: {id} is released and does not exist; a released schema is never removed",
-                schema::RELEASED_PATH
-            ),
-        }
     }
 }
 

@@ -22,48 +22,22 @@ use crate::cancellation::Cancellation;
 /// Why a folder could not be written. Its old content is unchanged.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum StagingError {
-    /// The target cannot be a folder.
     #[error("{}: a folder cannot be written here: {reason}", path.display())]
-    Place {
-        /// The target.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
-    /// A file or folder cannot be written.
+    Place { path: PathBuf, reason: String },
     #[error("{}: cannot be written: {}", path.display(), in_words(error))]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The error of the operating system.
-        error: io::Error,
-    },
-    /// A source file cannot be read.
+    Write { path: PathBuf, error: io::Error },
     #[error("{}: cannot be read: {error}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// The error of the operating system.
-        error: io::Error,
-    },
-    /// An unrelated file has the path of a file of the URDD.
+    Read { path: PathBuf, error: io::Error },
     #[error("{}: this file does not belong to the URDD, and would be overwritten; move it away", path.display())]
-    InTheWay {
-        /// The file.
-        path: PathBuf,
-    },
-    /// The run was cancelled.
+    InTheWay { path: PathBuf },
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
-    /// The target has unrelated content.
     #[error(
         "{}: this folder is not empty, and is not a URDD that `urdd generate` wrote; give another folder, or --force to write there (files with other names stay)", path.display()
     )]
-    Occupied {
-        /// The target.
-        path: PathBuf,
-    },
+    Occupied { path: PathBuf },
 }
 
 fn in_words(error: &io::Error) -> String {

@@ -81,6 +81,20 @@ impl TextFault {
         }
     }
 
+    /// Sets the expected content.
+    #[must_use]
+    pub fn expecting(mut self, expected: impl Into<String>) -> Self {
+        self.expected = Some(expected.into());
+        self
+    }
+
+    /// Sets the actual content.
+    #[must_use]
+    pub fn finding(mut self, found: impl Into<String>) -> Self {
+        self.found = Some(found.into());
+        self
+    }
+
     /// Sets the position of the fault.
     #[must_use]
     pub fn at(mut self, position: Position) -> Self {

@@ -49,18 +49,28 @@ impl Writer {
     pub fn copy(&self, from: &Path, path: &str) -> Result<FileEntry, StagingError> {
         let unread = |error| StagingError::Read { path: from.to_owned(), error };
         let mut source = File::open(from).map_err(unread)?;
-        let mut out = self.create(path)?;
         let (mut hasher, mut size) = (Sha256::new(), 0);
         let mut piece = vec![0; 1 << 16];
-        loop {
-            let read = source.read(&mut piece).map_err(unread)?;
-            if read == 0 {
-                self.end(path, out);
-                return Ok(entry(path, size, hasher.finalize().as_slice()));
+        let mut failure = None;
+        self.written(path, |out| {
+            loop {
+                match source.read(&mut piece) {
+                    Ok(0) => return Ok(()),
+                    Ok(read) => {
+                        size += read as u64;
+                        hasher.update(&piece[..read]);
+                        out.write_all(&piece[..read])?;
+                    }
+                    Err(error) => {
+                        failure = Some(error);
+                        return Ok(());
+                    }
+                }
             }
-            size += read as u64;
-            hasher.update(&piece[..read]);
-            self.check(path, out.write_all(&piece[..read]))?;
+        })?;
+        match failure {
+            Some(error) => Err(unread(error)),
+            None => Ok(entry(path, size, hasher.finalize().as_slice())),
         }
     }
 
@@ -117,25 +127,15 @@ impl Writer {
         path: &str,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), StagingError> {
-        let mut out = self.create(path)?;
-        self.check(path, write(&mut out))?;
-        self.end(path, out);
-        Ok(())
-    }
-
-    fn create(&self, path: &str) -> Result<Out, StagingError> {
-        if self.memory.is_some() {
-            return Ok(Out::Memory(Vec::new()));
-        }
-        let place = self.place(path)?;
-        let file = File::create(&place);
-        file.map(Out::File).map_err(|error| StagingError::Write { path: place, error })
-    }
-
-    fn end(&self, path: &str, out: Out) {
-        if let (Some(files), Out::Memory(bytes)) = (&self.memory, out) {
+        let failed = |error| StagingError::Write { path: self.root.join(path), error };
+        if let Some(files) = &self.memory {
+            let mut bytes = Vec::new();
+            write(&mut bytes).map_err(failed)?;
             files.add(path, bytes);
+            return Ok(());
         }
+        let mut file = File::create(self.place(path)?).map_err(failed)?;
+        write(&mut file).map_err(failed)
     }
 
     /// The path on disk. Creates its parent folder.
@@ -147,36 +147,10 @@ impl Writer {
         }
         Ok(place)
     }
-
-    fn check(&self, path: &str, result: io::Result<()>) -> Result<(), StagingError> {
-        result.map_err(|error| StagingError::Write { path: self.root.join(path), error })
-    }
 }
 
 /// Number of bytes hashed and written at once.
 const WRITTEN_AT_ONCE: usize = 1 << 16;
-
-/// A file that is written.
-enum Out {
-    File(File),
-    Memory(Vec<u8>),
-}
-
-impl Write for Out {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Out::File(file) => file.write(bytes),
-            Out::Memory(file) => file.write(bytes),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Out::File(file) => file.flush(),
-            Out::Memory(_) => Ok(()),
-        }
-    }
-}
 
 /// A buffered, hashing text sink for a file.
 struct Sink<'a> {
@@ -204,10 +178,7 @@ impl Sink<'_> {
 impl std::fmt::Write for Sink<'_> {
     fn write_str(&mut self, text: &str) -> std::fmt::Result {
         self.waiting.push_str(text);
-        match self.waiting.len() < WRITTEN_AT_ONCE {
-            true => Ok(()),
-            false => self.flush(),
-        }
+        if self.waiting.len() < WRITTEN_AT_ONCE { Ok(()) } else { self.flush() }
     }
 }
 

@@ -22,6 +22,7 @@ pub struct CarriedUrdf {
 
 /// Why the source URDF is not available.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum NoUrdf {
     /// The root metadata is unusable, so the source is unknown.
     #[error("{ROOT_METADATA} does not match its schema, so the source is unknown")]
@@ -29,23 +30,14 @@ pub enum NoUrdf {
     /// Only selected modules were read.
     #[error("the URDF was not read")]
     NotRead,
-    /// The root metadata does not name a source.
     #[error("the root metadata names no source")]
     NoSource,
-    /// No root metadata, and no `.urdf` file in the root.
     #[error("no URDF file is carried")]
     NoneCarried,
-    /// No root metadata, and several `.urdf` files, none named after the folder.
     #[error("several URDF files are carried, and none has the folder's name")]
     Several,
-    /// The file cannot be read.
     #[error("{path}: {error}")]
-    Unreadable {
-        /// Its path, relative to the root.
-        path: String,
-        /// Why.
-        error: ReadError,
-    },
+    Unreadable { path: String, error: ReadError },
 }
 
 impl NoUrdf {
@@ -124,10 +116,7 @@ fn lone_urdf(root: &Root, listing: &Listing) -> Result<String, NoUrdf> {
         (Some(only), None) => Ok(only),
         (Some(_), Some(_)) => {
             let named = format!("{}.urdf", root.folder_name());
-            match listing.has_file(&named) {
-                true => Ok(named),
-                false => Err(NoUrdf::Several),
-            }
+            if listing.has_file(&named) { Ok(named) } else { Err(NoUrdf::Several) }
         }
     }
 }

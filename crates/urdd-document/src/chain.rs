@@ -19,37 +19,27 @@ pub struct Chain<'a> {
     pub v1: Option<&'a ChainModule>,
 }
 
-/// An element of `links_in_chain`.
+/// An element of `links_in_chain`, with its keys.
 #[derive(Debug, Clone, Copy)]
+#[expect(missing_docs, reason = "the format's type says it")]
 pub struct ChainLink<'a> {
-    /// `name`
     pub name: &'a str,
-    /// `link_idx`
     pub link_idx: LinkIdx,
-    /// `parent_joint_idx`
     pub parent_joint_idx: Option<JointIdx>,
-    /// `parent_link_idx`
     pub parent_link_idx: Option<LinkIdx>,
-    /// `children_joint_idxs`
     pub children_joint_idxs: &'a [JointIdx],
-    /// `children_link_idxs`
     pub children_link_idxs: &'a [LinkIdx],
 }
 
-/// An element of `joints_in_chain`.
+/// An element of `joints_in_chain`, with its keys.
 #[derive(Debug, Clone, Copy)]
+#[expect(missing_docs, reason = "the format's type says it")]
 pub struct ChainJoint<'a> {
-    /// `joint_name`
     pub joint_name: &'a str,
-    /// `joint_idx`
     pub joint_idx: JointIdx,
-    /// `parent_link_name`
     pub parent_link_name: &'a str,
-    /// `parent_link_idx`
     pub parent_link_idx: LinkIdx,
-    /// `child_link_name`
     pub child_link_name: &'a str,
-    /// `child_link_idx`
     pub child_link_idx: LinkIdx,
 }
 

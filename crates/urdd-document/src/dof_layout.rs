@@ -25,10 +25,7 @@ impl DofLayout {
         };
         for (index, joint) in robot.joints.iter().enumerate() {
             let start = layout.joint_of_dof.len();
-            let dofs = match mimics_too {
-                true => joint.num_dofs(),
-                false => own_dofs(joint),
-            };
+            let dofs = if mimics_too { joint.num_dofs() } else { own_dofs(joint) };
             layout.joint_of_dof.extend((0..dofs).map(|_| index));
             layout.dofs_of_joint.push(start..start + dofs);
         }

@@ -14,11 +14,10 @@ use urdd_format::registry::Profile;
 
 /// Why a mesh file is not available.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Absence {
-    /// The file does not exist.
     #[error("there is no such file")]
     Missing,
-    /// The path leads into a sibling URDD of this name, which does not exist.
     #[error("it is in the URDD `{}`, which is not beside this one", .0.escape_debug())]
     NoSibling(String),
     /// The path is invalid, or the file cannot be read. Other rules report this.

@@ -104,6 +104,19 @@ impl<'a> Meshes<'a> {
     }
 }
 
+/// One list per format, as in legacy modules.
+macro_rules! by_format {
+    ($module:ident, $of_pieces:literal) => {
+        by_format!($module, $of_pieces; stl_link_mesh_relative_paths Stl,
+            obj_link_mesh_relative_paths Obj, glb_link_mesh_relative_paths Glb)
+    };
+    ($module:ident, $of_pieces:literal; $($field:ident $format:ident),*) => {
+        vec![$(list(stringify!($field), $of_pieces, &$module.$field, |path, at| {
+            one(path, at, Some(Format::$format))
+        })),*]
+    };
+}
+
 /// The view of a mesh module. `None` for `original_meshes_module` of version 1, which is not organised by link.
 pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
     use ModuleDocument as Document;
@@ -126,29 +139,13 @@ pub fn view(document: &ModuleDocument) -> Option<Meshes<'_>> {
             (ConvexDecompositionMeshes, Profile::V1, vec![list])
         }
         Document::LegacyPlainMeshes(module) => {
-            let lists = [
-                &module.stl_link_mesh_relative_paths,
-                &module.obj_link_mesh_relative_paths,
-                &module.glb_link_mesh_relative_paths,
-            ];
-            (PlainMeshes, Profile::Legacy, by_format(false, lists))
+            (PlainMeshes, Profile::Legacy, by_format!(module, false))
         }
         Document::LegacyConvexHullMeshes(module) => {
-            let lists = [
-                &module.stl_link_mesh_relative_paths,
-                &module.obj_link_mesh_relative_paths,
-                &module.glb_link_mesh_relative_paths,
-            ];
-            (ConvexHullMeshes, Profile::Legacy, by_format(false, lists))
+            (ConvexHullMeshes, Profile::Legacy, by_format!(module, false))
         }
         Document::LegacyConvexDecompositionMeshes(module) => {
-            let lists = [
-                &module.stl_link_mesh_relative_paths,
-                &module.obj_link_mesh_relative_paths,
-                &module.glb_link_mesh_relative_paths,
-            ];
-            let lists = by_format(true, lists);
-            (ConvexDecompositionMeshes, Profile::Legacy, lists)
+            (ConvexDecompositionMeshes, Profile::Legacy, by_format!(module, true))
         }
         Document::LegacyOriginalMeshes(module) => {
             let paths = &module.link_mesh_relative_paths;
@@ -178,30 +175,12 @@ where
 {
     let of_link = |(link, own): (usize, &'a L)| {
         let own = own.into_iter().enumerate();
-        let pointer = |piece| match of_pieces {
-            true => format!("/{key}/{link}/{piece}"),
-            false => format!("/{key}/{link}"),
+        let pointer = |piece| {
+            if of_pieces { format!("/{key}/{link}/{piece}") } else { format!("/{key}/{link}") }
         };
         own.map(|(piece, entry)| mesh(entry, pointer(piece))).collect()
     };
     MeshList { key, links: entries.iter().enumerate().map(of_link).collect() }
-}
-
-/// One list per format, as in legacy modules.
-fn by_format<'a, L>(of_pieces: bool, lists: [&'a Vec<L>; 3]) -> Vec<MeshList<'a>>
-where
-    &'a L: IntoIterator<Item = &'a String>,
-{
-    let keys = [
-        "stl_link_mesh_relative_paths",
-        "obj_link_mesh_relative_paths",
-        "glb_link_mesh_relative_paths",
-    ];
-    let each = Format::ALL.into_iter().zip(keys).zip(lists);
-    each.map(|((format, key), paths)| {
-        list(key, of_pieces, paths, |path, at| one(path, at, Some(format)))
-    })
-    .collect()
 }
 
 fn three(files: &MeshFiles, at: String) -> Mesh<'_> {

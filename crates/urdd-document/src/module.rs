@@ -169,9 +169,7 @@ impl Module {
         };
         Some(Unusable { folder: self.folder.clone(), why })
     }
-}
 
-impl Module {
     /// The first fault of its document with its position: `file:line:column: message`.
     pub fn first_fault(&self) -> Option<String> {
         let file = self.file("module.json");

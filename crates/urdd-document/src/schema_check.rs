@@ -15,7 +15,7 @@ use urdd_directory::json_scan;
 use urdd_format::registry::{ModuleDocument, ModuleSpec};
 
 /// A schema violation.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct SchemaViolation {
     /// JSON Pointer of the value.
     pub pointer: String,
@@ -86,13 +86,7 @@ pub fn read_newer<T>(
 /// Every schema violation of a document. If the schema reports none, returns `refusal`, serde's error, so that an
 /// unreadable document never passes.
 pub fn violations(schema: &Schema, document: &Value, refusal: &dyn Error) -> Vec<SchemaViolation> {
-    let whole = |message: String| SchemaViolation {
-        pointer: String::new(),
-        message,
-        expected: None,
-        actual: None,
-        unknown_keys: Vec::new(),
-    };
+    let whole = |message: String| SchemaViolation { message, ..SchemaViolation::default() };
     let mut found = Vec::new();
     match jsonschema::draft202012::new(schema.as_value()) {
         Ok(validator) => {
@@ -120,28 +114,25 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
         }
         return;
     }
-    let mut violation = SchemaViolation {
-        pointer: error.instance_path().to_string(),
-        message: String::new(),
-        expected: None,
-        actual: None,
-        unknown_keys: Vec::new(),
-    };
-    match error.kind() {
+    let actual = || Some(excerpt(instance));
+    let elements = || instance.as_array().map(|list| format!("{} elements", list.len()));
+    let mut unknown_keys = Vec::new();
+    let (message, expected, actual) = match error.kind() {
         Kind::Required { property } => {
             let key = property.as_str().unwrap_or_default();
-            violation.message = format!(
+            let message = format!(
                 "the key `{key}` is missing; every key is required: write null for an absent value"
             );
-            violation.expected = Some(format!("key {key}"));
+            (message, Some(format!("key {key}")), None)
         }
         Kind::AdditionalProperties { unexpected } => {
-            violation.message = format!(
+            unknown_keys.clone_from(unexpected);
+            let message = format!(
                 "unknown {}: {}; keys of your own begin with `x_`",
                 if unexpected.len() == 1 { "key" } else { "keys" },
                 unexpected.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", "),
             );
-            violation.unknown_keys.clone_from(unexpected);
+            (message, None, None)
         }
         Kind::Type { kind } => {
             let expected = match kind {
@@ -150,47 +141,40 @@ fn describe(error: &ValidationError<'_>, found: &mut Vec<SchemaViolation>) {
                     kinds.iter().map(|k| k.to_string()).collect::<Vec<_>>().join(" or ")
                 }
             };
-            violation.message = format!("the value has the wrong type: expected {expected}");
-            violation.expected = Some(expected);
-            violation.actual = Some(excerpt(instance));
+            let message = format!("the value has the wrong type: expected {expected}");
+            (message, Some(expected), actual())
         }
-        Kind::Enum { options } => {
-            violation.message = "the word is not one of the defined ones".to_owned();
-            violation.expected = Some(format!("one of {}", excerpt(options)));
-            violation.actual = Some(excerpt(instance));
+        Kind::Enum { options } => (
+            "the word is not one of the defined ones".to_owned(),
+            Some(format!("one of {}", excerpt(options))),
+            actual(),
+        ),
+        Kind::MinItems { limit } => {
+            let expected = format!("at least {limit} elements");
+            ("the list has the wrong length".to_owned(), Some(expected), elements())
         }
-        Kind::MinItems { limit } => items(&mut violation, "at least", *limit, instance),
-        Kind::MaxItems { limit } => items(&mut violation, "at most", *limit, instance),
+        Kind::MaxItems { limit } => {
+            let expected = format!("at most {limit} elements");
+            ("the list has the wrong length".to_owned(), Some(expected), elements())
+        }
         Kind::Minimum { limit } => {
-            violation.message = "the number is too small".to_owned();
-            violation.expected = Some(format!("at least {limit}"));
-            violation.actual = Some(excerpt(instance));
+            ("the number is too small".to_owned(), Some(format!("at least {limit}")), actual())
         }
         Kind::Maximum { limit } => {
-            violation.message = "the number is too large".to_owned();
-            violation.expected = Some(format!("at most {limit}"));
-            violation.actual = Some(excerpt(instance));
+            ("the number is too large".to_owned(), Some(format!("at most {limit}")), actual())
         }
-        Kind::Pattern { pattern } => {
-            violation.message = "the text does not have the required form".to_owned();
-            violation.expected = Some(format!("text matching {pattern}"));
-            violation.actual = Some(excerpt(instance));
-        }
+        Kind::Pattern { pattern } => (
+            "the text does not have the required form".to_owned(),
+            Some(format!("text matching {pattern}")),
+            actual(),
+        ),
         _ => {
-            violation.message = format!(
-                "the value does not match the schema: {}",
-                shorten(&error.masked().to_string())
-            );
-            violation.actual = Some(excerpt(instance));
+            let masked = shorten(&error.masked().to_string());
+            (format!("the value does not match the schema: {masked}"), None, actual())
         }
-    }
-    found.push(violation);
-}
-
-fn items(violation: &mut SchemaViolation, bound: &str, limit: u64, instance: &Value) {
-    violation.message = "the list has the wrong length".to_owned();
-    violation.expected = Some(format!("{bound} {limit} elements"));
-    violation.actual = instance.as_array().map(|list| format!("{} elements", list.len()));
+    };
+    let pointer = error.instance_path().to_string();
+    found.push(SchemaViolation { pointer, message, expected, actual, unknown_keys });
 }
 
 /// The alternative of a choice at `path` that the instance means: the other one of a nullable value, or the one-key

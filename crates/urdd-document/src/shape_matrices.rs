@@ -1,7 +1,5 @@
 //! Version-independent view of matrices over link shapes: distances, skips, reasons, error models.
 
-use std::fmt::Debug;
-
 use urdd_format::index::LinkIdx;
 use urdd_format::legacy::link_shapes_lie_alg_error_models::ErrorBounds;
 use urdd_format::link_shapes_simple_skips::{LinkShapesSimpleSkipsModule, SkipReason};
@@ -171,41 +169,32 @@ pub enum Elements<'a> {
     Models(&'a [Vec<ErrorBounds>]),
 }
 
+/// What is true of rows of any elements.
+macro_rules! of_rows {
+    ($elements:expr, $rows:ident => $value:expr) => {
+        match $elements {
+            Elements::Distances($rows) => $value,
+            Elements::Skips($rows) => $value,
+            Elements::Reasons($rows) => $value,
+            Elements::Models($rows) => $value,
+        }
+    };
+}
+
 impl Elements<'_> {
     /// Number of rows.
     pub fn rows(&self) -> usize {
-        match self {
-            Elements::Distances(rows) => rows.len(),
-            Elements::Skips(rows) => rows.len(),
-            Elements::Reasons(rows) => rows.len(),
-            Elements::Models(rows) => rows.len(),
-        }
+        of_rows!(self, rows => rows.len())
     }
 
     /// Number of elements of each row.
     pub fn row_lengths(&self) -> Vec<usize> {
-        fn lengths<T>(rows: &[Vec<T>]) -> Vec<usize> {
-            rows.iter().map(Vec::len).collect()
-        }
-        match self {
-            Elements::Distances(rows) => lengths(rows),
-            Elements::Skips(rows) => lengths(rows),
-            Elements::Reasons(rows) => lengths(rows),
-            Elements::Models(rows) => lengths(rows),
-        }
+        of_rows!(self, rows => rows.iter().map(Vec::len).collect())
     }
 
     /// An element as text.
     pub fn text(&self, i: usize, j: usize) -> String {
-        fn shown<T: Copy + Debug>(rows: &[Vec<T>], i: usize, j: usize) -> String {
-            at(rows, i, j).map_or_else(String::new, |element| format!("{element:?}"))
-        }
-        match self {
-            Elements::Distances(rows) => shown(rows, i, j),
-            Elements::Skips(rows) => shown(rows, i, j),
-            Elements::Reasons(rows) => shown(rows, i, j),
-            Elements::Models(rows) => shown(rows, i, j),
-        }
+        of_rows!(self, rows => at(rows, i, j).map_or_else(String::new, |one| format!("{one:?}")))
     }
 }
 

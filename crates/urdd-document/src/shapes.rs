@@ -36,18 +36,12 @@ impl Shapes {
 
     /// Number of shapes of a kind.
     pub fn count(&self, kind: ShapeKind) -> usize {
-        match kind.is_of_links() {
-            true => self.full.len(),
-            false => self.pieces.len(),
-        }
+        if kind.is_of_links() { self.full.len() } else { self.pieces.len() }
     }
 
     /// The link of a shape.
     pub fn link(&self, kind: ShapeKind, shape: usize) -> Option<usize> {
-        match kind.is_of_links() {
-            true => self.full.get(shape).copied(),
-            false => self.pieces.get(shape).map(|(link, _)| *link),
-        }
+        self.place(kind, shape).map(|(link, _)| link)
     }
 
     /// The link and the piece of a shape; the piece of a full shape is 0.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use schemars::Schema;
+use schemars::transform::Transform;
 use serde_json::{Map, Value};
 
 use super::escape;
@@ -229,13 +230,34 @@ fn known(keyword: &str) -> String {
     }
 }
 
-/// A transform of a field's schema: `x-length` of a list, of the lists in it, and so on, with `, ` between.
-pub(crate) fn lengths(words: &'static str) -> impl FnMut(&mut Schema) {
-    move |schema| {
+/// The annotations of a field, as a transform of its schema. An empty text says nothing.
+#[derive(Clone)]
+pub(crate) struct Annotations {
+    pub unit: &'static str,
+    pub frame: &'static str,
+    pub index: &'static str,
+    /// Of a list, of the lists in it, and so on, with `, ` between.
+    pub length: &'static str,
+    /// The length of a list, and of each list in it.
+    pub square: &'static str,
+}
+
+impl Annotations {
+    pub const NONE: Self = Annotations { unit: "", frame: "", index: "", length: "", square: "" };
+}
+
+impl Transform for Annotations {
+    fn transform(&mut self, schema: &mut Schema) {
+        for (keyword, says) in [(UNIT, self.unit), (FRAME, self.frame), (INDEX, self.index)] {
+            if !says.is_empty() {
+                schema.insert(keyword.to_owned(), Value::from(says));
+            }
+        }
         let mut at = schema.as_object_mut();
-        for word in words.split(", ") {
+        let lengths = self.length.split(", ").chain([self.square; 2]);
+        for length in lengths.filter(|length| !length.is_empty()) {
             let Some(list) = at else { return };
-            list.insert(LENGTH.to_owned(), Value::from(word));
+            list.insert(LENGTH.to_owned(), Value::from(length));
             at = list.get_mut("items").and_then(Value::as_object_mut);
         }
     }

@@ -49,10 +49,7 @@ fn add(mut schema: Value, name: &str, definitions: &mut Map<String, Value>) -> S
     let clash =
         |(key, value): (&String, &Value)| definitions.get(key).is_some_and(|other| other != value);
     // On a name clash, prefix all definitions of this module.
-    let prefix = match own.iter().any(clash) {
-        true => title.as_str(),
-        false => "",
-    };
+    let prefix = if own.iter().any(clash) { title.as_str() } else { "" };
     for (key, mut value) in own {
         refer(&mut value, prefix);
         if !prefix.is_empty() {

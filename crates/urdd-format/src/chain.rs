@@ -1,9 +1,8 @@
 //! `chain_module`: the kinematic tree, with all data for forward kinematics.
 
-use super::annotations::lengths;
 use super::index::{JointIdx, LinkIdx};
-use super::object::{module, object};
 use super::pose::Pose;
+use super::types::module;
 use super::urdf::JointType;
 
 module! {
@@ -11,19 +10,15 @@ module! {
     /// `dof_module`, this is all that forward kinematics needs.
     pub struct ChainModule {
         /// Every link, in link order.
-        #[schemars(transform = lengths("links"))]
-        pub links_in_chain: Vec<LinkInChain>,
+        pub links_in_chain: Vec<LinkInChain> where { length: "links" },
         /// Every joint, in joint order.
-        #[schemars(transform = lengths("joints"))]
-        pub joints_in_chain: Vec<JointInChain>,
+        pub joints_in_chain: Vec<JointInChain> where { length: "joints" },
         /// Links by their depth below the root: level 0 is the root alone; each level ascending.
         pub kinematic_hierarchy: Vec<Vec<LinkIdx>>,
         /// The one link without a parent.
         pub root_idx: LinkIdx,
     }
-}
 
-object! {
     /// A link, with its neighbours.
     pub struct LinkInChain {
         /// Name of the link.
@@ -39,9 +34,7 @@ object! {
         /// The links that these joints move, ascending.
         pub children_link_idxs: Vec<LinkIdx>,
     }
-}
 
-object! {
     /// A joint, with its two links and its motion.
     pub struct JointInChain {
         /// Name of the joint.
@@ -60,11 +53,9 @@ object! {
         pub joint_type: JointType,
         /// Pose of the joint's frame in the parent link's frame. At the zero position the child
         /// link's frame is the joint's frame.
-        #[schemars(extend("x-frame" = "parent_link"))]
-        pub origin: Pose,
+        pub origin: Pose where { frame: "parent_link" },
         /// Unit axis in the joint's frame; for a planar joint the plane's normal. Null for fixed,
         /// floating and spherical joints, which have none.
-        #[schemars(extend("x-unit" = "1", "x-frame" = "joint"))]
-        pub axis: Option<[f64; 3]>,
+        pub axis: Option<[f64; 3]> where { unit: "1", frame: "joint" },
     }
 }

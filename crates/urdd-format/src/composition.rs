@@ -1,10 +1,8 @@
 //! `composition_module`: how a robot was composed of others.
 
-use super::annotations::lengths;
 use super::index::{JointIdx, LinkIdx, RobotIdx};
-use super::object::{module, object};
 use super::root_metadata::Sha256;
-use super::tagged::tagged;
+use super::types::module;
 
 module! {
     /// How this robot was combined from others, its parts. The robot itself is defined by the URDF
@@ -14,21 +12,15 @@ module! {
         pub base: Option<CompositionBase>,
         /// The parts, in the order in which they stand in the URDF. The place in this list is the part's
         /// index.
-        #[schemars(transform = lengths("parts"))]
-        pub parts: Vec<CompositionPart>,
+        pub parts: Vec<CompositionPart> where { length: "parts" },
     }
-}
 
-object! {
     /// A link that carries all parts and belongs to none of them.
     pub struct CompositionBase {
         /// The link.
-        #[schemars(extend("x-index" = "link or other"))]
-        pub link_idx: LinkIdx,
+        pub link_idx: LinkIdx where { index: "link or other" },
     }
-}
 
-object! {
     /// A robot that became a part of another.
     pub struct CompositionPart {
         /// By what name the recipe knows it; unique among the parts.
@@ -54,9 +46,7 @@ object! {
         /// How the part itself was combined; null where it was not combined, or where this is not known.
         pub composition: Option<PartComposition>,
     }
-}
 
-tagged! {
     /// The source of a part: the SHA-256 of the file that identifies it.
     pub enum PartSource {
         /// A URDD: of its `urdd.json`, which has the hashes of all its files.
@@ -64,58 +54,41 @@ tagged! {
         /// A URDF, or a file that makes one: of the file.
         Urdf(Sha256),
     }
-}
 
-object! {
     /// A link of a part.
     pub struct PartLink {
         /// Its name in the part.
         pub name: String,
         /// The link of this robot.
-        #[schemars(extend("x-index" = "link or other"))]
-        pub link_idx: LinkIdx,
+        pub link_idx: LinkIdx where { index: "link or other" },
     }
-}
 
-object! {
     /// A joint of a part.
     pub struct PartJoint {
         /// Its name in the part.
         pub name: String,
         /// The joint of this robot.
-        #[schemars(extend("x-index" = "joint or other"))]
-        pub joint_idx: JointIdx,
+        pub joint_idx: JointIdx where { index: "joint or other" },
     }
-}
 
-object! {
     /// A joint that moved in the part, and is fixed in this robot.
     pub struct FrozenJoint {
         /// The joint.
-        #[schemars(extend("x-index" = "joint or other"))]
-        pub joint_idx: JointIdx,
+        pub joint_idx: JointIdx where { index: "joint or other" },
         /// Where it was made fixed: a value for each DOF that it had, rad or m.
-        #[schemars(extend("x-unit" = "rad or m"))]
-        pub position: Vec<f64>,
+        pub position: Vec<f64> where { unit: "rad or m" },
     }
-}
 
-object! {
     /// What a part hangs on.
     pub struct PartAttachment {
         /// The part that carries it; null for the base.
-        #[schemars(extend("x-index" = "part or other"))]
-        pub part_idx: Option<RobotIdx>,
+        pub part_idx: Option<RobotIdx> where { index: "part or other" },
         /// The link that carries it.
-        #[schemars(extend("x-index" = "link or other"))]
-        pub link_idx: LinkIdx,
+        pub link_idx: LinkIdx where { index: "link or other" },
         /// The joint between that link and the part's root link.
-        #[schemars(extend("x-index" = "joint or other"))]
-        pub joint_idx: JointIdx,
+        pub joint_idx: JointIdx where { index: "joint or other" },
     }
-}
 
-object! {
     /// How a part itself was combined, as the part's own `composition_module` says. Its indices are
     /// those of the part's own modules.
     pub struct PartComposition {

@@ -1,9 +1,9 @@
 //! JSON output of `urdd conformance producer` and `urdd conformance validator`.
 
 use super::index::Count;
-use super::object::{module, object, string_enum};
 use super::report::Tool;
 use super::root_metadata::ConformanceClass;
+use super::types::module;
 
 /// Version of the format of both results.
 pub const RESULT_VERSION: &str = "1.0.0";
@@ -32,9 +32,7 @@ module! {
         /// Entries of the skip list that passed now, or name nothing that was run.
         pub stale_skips: Vec<String>,
     }
-}
 
-object! {
     /// One robot.
     pub struct RobotScore {
         /// Its name: the URDF's, without `.urdf`.
@@ -56,9 +54,7 @@ object! {
         /// Its modules.
         pub modules: Vec<RobotModule>,
     }
-}
 
-object! {
     /// A URDF that has no URDD as it is: a producer refuses it, or repairs it and carries the repaired text.
     pub struct RefusedScore {
         /// Its name: the rule that every URDD of it would break, a slash and a name.
@@ -80,9 +76,7 @@ object! {
         /// Codes of the errors in the URDD that it wrote, sorted.
         pub codes: Vec<String>,
     }
-}
 
-string_enum! {
     /// What a producer did with a URDF that has no URDD as it is.
     pub enum RefusedOutcome {
         /// It ended with another exit status than 0, said why, and left nothing at the output.
@@ -99,9 +93,7 @@ string_enum! {
         /// exception.
         Crashed = "crashed",
     }
-}
 
-object! {
     /// A module of one robot.
     pub struct RobotModule {
         /// Its name.
@@ -115,9 +107,7 @@ object! {
         /// The first error, with its place; null where there is none.
         pub first: Option<String>,
     }
-}
 
-string_enum! {
     /// What came of something.
     pub enum ScoreStatus {
         /// As it should be.
@@ -127,9 +117,7 @@ string_enum! {
         /// Not as it should be, and on the skip list.
         Skipped = "skipped",
     }
-}
 
-string_enum! {
     /// What came of a module.
     pub enum ModuleStatus {
         /// It is there, without errors.
@@ -139,9 +127,7 @@ string_enum! {
         /// It is not there, and the class asks for it.
         Missing = "missing",
     }
-}
 
-object! {
     /// A conformance class.
     pub struct ClassScore {
         /// Which.
@@ -151,9 +137,7 @@ object! {
         /// Robots that were run.
         pub of: Count,
     }
-}
 
-object! {
     /// A module, over all robots.
     pub struct ModuleScore {
         /// Its name.
@@ -204,9 +188,7 @@ module! {
         /// Entries of the skip list whose cases are now judged correctly, or that name no case that was run.
         pub stale_skips: Vec<String>,
     }
-}
 
-object! {
     /// How many cases were judged how.
     pub struct CaseScore {
         /// All that were run.
@@ -220,9 +202,7 @@ object! {
         /// Neither accepted nor rejected.
         pub undecided: Count,
     }
-}
 
-object! {
     /// The score of a family or a code.
     pub struct GroupScore {
         /// The family's three letters, or the code.
@@ -230,9 +210,7 @@ object! {
         /// The score.
         pub score: CaseScore,
     }
-}
 
-object! {
     /// How many cases have the right code among those that the command printed: the case's own where it is to be
     /// rejected, and not that one where it is a near miss. Other codes count nothing. Legacy cases are left out.
     pub struct PrintedCodes {
@@ -245,9 +223,7 @@ object! {
         /// Ids of near misses, whose code was printed.
         pub extra: Vec<String>,
     }
-}
 
-object! {
     /// A case that was judged incorrectly.
     pub struct WrongCase {
         /// Its id.
@@ -263,9 +239,7 @@ object! {
         /// Why it is skipped; else null.
         pub skipped_since: Option<String>,
     }
-}
 
-string_enum! {
     /// How a case was judged incorrectly.
     pub enum CaseFault {
         /// Accepted, and to be rejected.

@@ -1,8 +1,7 @@
 //! `convex_decomposition_meshes_module`: each link as a union of convex pieces.
 
-use super::annotations::lengths;
 use super::meshes::MeshFiles;
-use super::object::{module, object};
+use super::types::module;
 
 module! {
     /// Each link's plain mesh as a union of convex pieces.
@@ -11,19 +10,15 @@ module! {
         pub method: DecompositionMethod,
         /// For each link its pieces; empty for a link without a plain mesh. The place in the list is
         /// the piece index.
-        #[schemars(transform = lengths("links, pieces"))]
-        pub link_pieces: Vec<Vec<MeshFiles>>,
+        pub link_pieces: Vec<Vec<MeshFiles>> where { length: "links, pieces" },
     }
-}
 
-object! {
     /// How convex pieces were made.
     pub struct DecompositionMethod {
         /// Name of the algorithm.
         pub name: String,
         /// How far a point of the link's surface may lie outside the pieces, metres, where the
         /// algorithm promises that; else null.
-        #[schemars(extend("x-unit" = "m"))]
-        pub surface_tolerance: Option<f64>,
+        pub surface_tolerance: Option<f64> where { unit: "m" },
     }
 }

@@ -2,8 +2,8 @@
 
 use super::index::Count;
 use super::meshes::GeometryKind;
-use super::object::{module, object, string_enum};
 use super::report::{Kind, Severity, Tool, Verdict};
+use super::types::module;
 
 /// Version of the format.
 pub const DIFF_REPORT_VERSION: &str = "1.1.0";
@@ -48,9 +48,7 @@ module! {
         /// What was not compared, and what differs without a difference in meaning.
         pub notes: Vec<String>,
     }
-}
 
-object! {
     /// One of the two robots.
     pub struct DiffSide {
         /// Its path as given.
@@ -68,9 +66,7 @@ object! {
         /// What came of validating it; null where findings were not asked for.
         pub verdict: Option<Verdict>,
     }
-}
 
-string_enum! {
     /// What became of a part.
     pub enum Presence {
         /// Only the second robot has it.
@@ -80,9 +76,7 @@ string_enum! {
         /// Both have it, and it differs.
         Changed = "changed",
     }
-}
 
-object! {
     /// A value that differs.
     pub struct ValueChange {
         /// Which value: `limit.lower`, `origin.xyz`, `visual[0].scale`. An index is that of the first
@@ -95,9 +89,7 @@ object! {
         /// Unit of both; empty for texts and ratios.
         pub unit: String,
     }
-}
 
-object! {
     /// A joint, a material or another element that differs.
     pub struct PartDifference {
         /// Its name.
@@ -107,9 +99,7 @@ object! {
         /// The values that differ, if both robots have it.
         pub changes: Vec<ValueChange>,
     }
-}
 
-object! {
     /// A link that differs.
     pub struct LinkDifference {
         /// Its name.
@@ -121,9 +111,7 @@ object! {
         /// Its visual geometry and its collision geometry, if they differ.
         pub geometry: Vec<GeometryDifference>,
     }
-}
 
-object! {
     /// The visual or the collision geometry of a link that differs.
     pub struct GeometryDifference {
         /// Which of the two.
@@ -135,9 +123,7 @@ object! {
         /// Bounding box in the second robot.
         pub bounds_after: Option<DiffBox>,
     }
-}
 
-object! {
     /// A box along the axes of the link's frame, metres.
     pub struct DiffBox {
         /// Smallest x, y, z.
@@ -145,9 +131,7 @@ object! {
         /// Largest x, y, z.
         pub max: [f64; 3],
     }
-}
 
-object! {
     /// Links that are elsewhere, relative to the root link, with all joints at zero.
     pub struct PoseDifference {
         /// Names of the links that are in both robots and are elsewhere or turned, in the order of the first.
@@ -159,9 +143,7 @@ object! {
         /// The largest angle by which a link is turned, radians.
         pub angle: f64,
     }
-}
 
-object! {
     /// A DOF that differs.
     pub struct DofDifference {
         /// Its name: that of its joint, with a suffix where the joint has several.
@@ -175,9 +157,7 @@ object! {
         /// What differs without following from the URDF.
         pub changes: Vec<ValueChange>,
     }
-}
 
-string_enum! {
     /// What becomes of a pair of links in collision checks.
     pub enum PairChange {
         /// It was skipped and is checked now.
@@ -187,9 +167,7 @@ string_enum! {
         /// Other pieces of the two links are checked.
         Pieces = "pieces",
     }
-}
 
-object! {
     /// A pair of links whose collision checks differ.
     pub struct PairDifference {
         /// Names of the two links, in the order of the first robot.
@@ -200,9 +178,7 @@ object! {
         /// `piece-spheres`.
         pub shapes: Vec<String>,
     }
-}
 
-object! {
     /// A module that differs.
     pub struct ModuleDifference {
         /// Its name.
@@ -218,9 +194,7 @@ object! {
         /// Whether its files differ, by the hashes in `urdd.json`.
         pub files: bool,
     }
-}
 
-object! {
     /// A finding that is new or gone.
     pub struct FindingDifference {
         /// `added` or `removed`.

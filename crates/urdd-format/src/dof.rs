@@ -1,8 +1,7 @@
 //! `dof_module`: the degrees of freedom, and how they determine the joint values.
 
-use super::annotations::lengths;
 use super::index::{Count, DofIdx, JointIdx};
-use super::object::{module, object, string_enum};
+use super::types::module;
 
 module! {
     /// The robot's degrees of freedom (DOFs), in joint order, and the position of every joint as a
@@ -11,37 +10,27 @@ module! {
         /// Number of DOFs: the length of a configuration vector.
         pub num_dofs: Count,
         /// For each DOF, its joint.
-        #[schemars(transform = lengths("dofs"))]
-        pub dof_idx_to_joint_idx_mapping: Vec<JointIdx>,
+        pub dof_idx_to_joint_idx_mapping: Vec<JointIdx> where { length: "dofs" },
         /// For each joint, its DOFs, ascending; empty for fixed and for mimic joints.
-        #[schemars(transform = lengths("joints"))]
-        pub joint_idx_to_dof_idxs_mapping: Vec<Vec<DofIdx>>,
+        pub joint_idx_to_dof_idxs_mapping: Vec<Vec<DofIdx>> where { length: "joints" },
         /// For each joint, how it follows a DOF if it is a mimic joint, else null. Chains of mimics
         /// are resolved.
-        #[schemars(transform = lengths("joints"))]
-        pub joint_idx_to_mimic_mapping: Vec<Option<ResolvedMimic>>,
+        pub joint_idx_to_mimic_mapping: Vec<Option<ResolvedMimic>> where { length: "joints" },
         /// What each DOF is.
-        #[schemars(transform = lengths("dofs"))]
-        pub dofs: Vec<Dof>,
+        pub dofs: Vec<Dof> where { length: "dofs" },
     }
-}
 
-object! {
     /// What a mimic joint's position is: `multiplier * q[dof_idx] + offset`.
     pub struct ResolvedMimic {
         /// The DOF that drives the joint; null where the chain of mimics ends in a fixed joint,
         /// and the position is `offset` at all times.
         pub dof_idx: Option<DofIdx>,
         /// Factor: the product of the factors along the chain of mimics.
-        #[schemars(extend("x-unit" = "1 or rad/m or m/rad"))]
-        pub multiplier: f64,
+        pub multiplier: f64 where { unit: "1 or rad/m or m/rad" },
         /// Offset, rad or m, accumulated along the chain of mimics.
-        #[schemars(extend("x-unit" = "rad or m"))]
-        pub offset: f64,
+        pub offset: f64 where { unit: "rad or m" },
     }
-}
 
-object! {
     /// A degree of freedom.
     pub struct Dof {
         /// Name: the joint's name where the joint has one DOF; else that name, a slash, and
@@ -54,9 +43,7 @@ object! {
         /// What it measures.
         pub quantity: Quantity,
     }
-}
 
-string_enum! {
     /// What a DOF measures.
     pub enum Quantity {
         /// An angle, or a component of a rotation vector: radians.

@@ -98,10 +98,7 @@ fn replaced(
     let mut out = String::with_capacity(text.len() + 16);
     out.push_str(&text[..first]);
     for c in text[first..].chars() {
-        match wanted(c) {
-            true => escape(c, &mut out),
-            false => out.push(c),
-        }
+        if wanted(c) { escape(c, &mut out) } else { out.push(c) }
     }
     Cow::Owned(out)
 }

@@ -1,9 +1,8 @@
 //! `kinematics_samples_module`: reference values for forward kinematics.
 
-use super::annotations::lengths;
 use super::index::SampleIdx;
-use super::object::{module, object, string_enum};
 use super::pose::Pose;
+use super::types::module;
 
 module! {
     /// Configurations, and the pose of every link in each: values by which a consumer in any language
@@ -12,9 +11,7 @@ module! {
         /// The samples: zero, middle, lower, upper, then sampled ones in order.
         pub samples: Vec<KinematicsSample>,
     }
-}
 
-object! {
     /// A configuration, and where every link is then.
     pub struct KinematicsSample {
         /// Which configuration it is.
@@ -22,15 +19,11 @@ object! {
         /// The number of a sampled configuration; null for the other kinds.
         pub sample_idx: Option<SampleIdx>,
         /// One value per DOF, rad or m.
-        #[schemars(transform = lengths("dofs"), extend("x-unit" = "rad or m"))]
-        pub configuration: Vec<f64>,
+        pub configuration: Vec<f64> where { unit: "rad or m", length: "dofs" },
         /// For each link, its frame's pose in the root link's frame.
-        #[schemars(transform = lengths("links"), extend("x-frame" = "root"))]
-        pub link_poses: Vec<Pose>,
+        pub link_poses: Vec<Pose> where { frame: "root", length: "links" },
     }
-}
 
-string_enum! {
     /// A configuration that the specification defines.
     pub enum ConfigurationKind {
         /// Every DOF 0, even where 0 is out of bounds.

@@ -66,4 +66,5 @@ pub mod shapes;
 #[doc(hidden)]
 pub mod skips;
 pub mod tagged;
+mod types;
 pub mod urdf;

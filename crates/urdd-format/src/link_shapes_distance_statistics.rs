@@ -1,9 +1,8 @@
 //! `link_shapes_distance_statistics_module`: sampled distances between pairs of shapes.
 
-use super::annotations::lengths;
 use super::index::{Count, LinkIdx};
-use super::object::{module, object};
 use super::shapes::PieceShape;
+use super::types::module;
 
 module! {
     /// Mean, smallest and largest distance of each pair of shapes over the specification's sampled
@@ -12,11 +11,9 @@ module! {
         /// Number of sampled configurations, from the first of the specification's sequence.
         pub num_samples: Count,
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        #[schemars(transform = lengths("full_shapes"))]
-        pub full_shapes: Vec<LinkIdx>,
+        pub full_shapes: Vec<LinkIdx> where { length: "full_shapes" },
         /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        #[schemars(transform = lengths("decomposition_shapes"))]
-        pub decomposition_shapes: Vec<PieceShape>,
+        pub decomposition_shapes: Vec<PieceShape> where { length: "decomposition_shapes" },
         /// Between the links' convex hulls.
         pub full_convex_hulls: DistanceStatistics,
         /// Between the links' boxes.
@@ -30,19 +27,14 @@ module! {
         /// Between the spheres of convex pieces; null above 500 pieces, unless asked for.
         pub decomposition_bounding_spheres: Option<DistanceStatistics>,
     }
-}
 
-object! {
     /// Square symmetric matrices over one list of shapes, metres.
     pub struct DistanceStatistics {
         /// Mean distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
-        pub mean_distances: Vec<Vec<f64>>,
+        pub mean_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
         /// Smallest distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
-        pub min_distances: Vec<Vec<f64>>,
+        pub min_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
         /// Largest distance of each pair.
-        #[schemars(transform = lengths("full_shapes or decomposition_shapes, full_shapes or decomposition_shapes"), extend("x-unit" = "m"))]
-        pub max_distances: Vec<Vec<f64>>,
+        pub max_distances: Vec<Vec<f64>> where { unit: "m", square: "full_shapes or decomposition_shapes" },
     }
 }

@@ -1,69 +1,50 @@
 //! `link_shapes_simple_skips_module`: pairs that need no collision check, found by sampling.
 
-use super::annotations::lengths;
 use super::index::LinkIdx;
-use super::object::{module, object, string_enum};
 use super::shapes::PieceShape;
+use super::types::module;
 
 module! {
     /// For each pair of shapes, whether the two are always in contact, so that checking them for
     /// collision says nothing, and the reason of the pair.
     pub struct LinkShapesSimpleSkipsModule {
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        #[schemars(transform = lengths("full_shapes"))]
-        pub full_shapes: Vec<LinkIdx>,
+        pub full_shapes: Vec<LinkIdx> where { length: "full_shapes" },
         /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        #[schemars(transform = lengths("decomposition_shapes"))]
-        pub decomposition_shapes: Vec<PieceShape>,
+        pub decomposition_shapes: Vec<PieceShape> where { length: "decomposition_shapes" },
         /// Skips between the links' convex hulls: true where both shapes are on one link, or where
         /// the largest sampled distance is at most 0.001 m.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_convex_hulls_simple_skips: Vec<Vec<bool>>,
+        pub full_convex_hulls_simple_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between the links' boxes.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_obbs_simple_skips: Vec<Vec<bool>>,
+        pub full_obbs_simple_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between the links' spheres.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_bounding_spheres_simple_skips: Vec<Vec<bool>>,
+        pub full_bounding_spheres_simple_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_convex_hulls_simple_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_convex_hulls_simple_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
         /// Skips between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_obbs_simple_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_obbs_simple_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
         /// Skips between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_bounding_spheres_simple_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_bounding_spheres_simple_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
         /// The reason of each pair, for each of the matrices above.
         pub reasons: SkipReasons,
     }
-}
 
-object! {
     /// The reason of each pair, for each kind of shape.
     pub struct SkipReasons {
         /// Between the links' convex hulls.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_convex_hulls: Vec<Vec<SkipReason>>,
+        pub full_convex_hulls: Vec<Vec<SkipReason>> where { square: "full_shapes" },
         /// Between the links' boxes.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_obbs: Vec<Vec<SkipReason>>,
+        pub full_obbs: Vec<Vec<SkipReason>> where { square: "full_shapes" },
         /// Between the links' spheres.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_bounding_spheres: Vec<Vec<SkipReason>>,
+        pub full_bounding_spheres: Vec<Vec<SkipReason>> where { square: "full_shapes" },
         /// Between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_convex_hulls: Option<Vec<Vec<SkipReason>>>,
+        pub decomposition_convex_hulls: Option<Vec<Vec<SkipReason>>> where { square: "decomposition_shapes" },
         /// Between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_obbs: Option<Vec<Vec<SkipReason>>>,
+        pub decomposition_obbs: Option<Vec<Vec<SkipReason>>> where { square: "decomposition_shapes" },
         /// Between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_bounding_spheres: Option<Vec<Vec<SkipReason>>>,
+        pub decomposition_bounding_spheres: Option<Vec<Vec<SkipReason>>> where { square: "decomposition_shapes" },
     }
-}
 
-string_enum! {
     /// The reason of a pair of shapes: the first of these that applies.
     pub enum SkipReason {
         /// Both shapes are on one link. A simple skip.

@@ -1,10 +1,9 @@
 //! `link_shapes_skips_module`: the pairs to skip, by reason and by manual edits.
 
-use super::annotations::lengths;
 use super::index::LinkIdx;
 use super::link_shapes_simple_skips::SkipReason;
-use super::object::{module, object, string_enum};
 use super::shapes::PieceShape;
+use super::types::module;
 
 module! {
     /// The pairs of shapes that a collision check skips: those with one of the skipped reasons, and
@@ -16,33 +15,23 @@ module! {
         /// The edits, applied in order. What a person decides is free; the names must exist.
         pub edits: Vec<SkipEdit>,
         /// What index i of a `full_…` matrix stands for: the links that have a shape, ascending.
-        #[schemars(transform = lengths("full_shapes"))]
-        pub full_shapes: Vec<LinkIdx>,
+        pub full_shapes: Vec<LinkIdx> where { length: "full_shapes" },
         /// What index i of a `decomposition_…` matrix stands for: links ascending, pieces in order.
-        #[schemars(transform = lengths("decomposition_shapes"))]
-        pub decomposition_shapes: Vec<PieceShape>,
+        pub decomposition_shapes: Vec<PieceShape> where { length: "decomposition_shapes" },
         /// Skips between the links' convex hulls.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_convex_hulls_skips: Vec<Vec<bool>>,
+        pub full_convex_hulls_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between the links' boxes.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_obbs_skips: Vec<Vec<bool>>,
+        pub full_obbs_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between the links' spheres.
-        #[schemars(transform = lengths("full_shapes, full_shapes"))]
-        pub full_bounding_spheres_skips: Vec<Vec<bool>>,
+        pub full_bounding_spheres_skips: Vec<Vec<bool>> where { square: "full_shapes" },
         /// Skips between convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_convex_hulls_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_convex_hulls_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
         /// Skips between the boxes of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_obbs_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_obbs_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
         /// Skips between the spheres of convex pieces; null where the statistics are.
-        #[schemars(transform = lengths("decomposition_shapes, decomposition_shapes"))]
-        pub decomposition_bounding_spheres_skips: Option<Vec<Vec<bool>>>,
+        pub decomposition_bounding_spheres_skips: Option<Vec<Vec<bool>>> where { square: "decomposition_shapes" },
     }
-}
 
-object! {
     /// A person's decision on a pair of links, for all their shapes of every kind.
     pub struct SkipEdit {
         /// Name of one link.
@@ -54,9 +43,7 @@ object! {
         /// Why.
         pub reason: String,
     }
-}
 
-string_enum! {
     /// A reason of `link_shapes_simple_skips_module` for which pairs can be skipped: all but `None`.
     pub enum SkippedReason {
         /// Both shapes are on one link.

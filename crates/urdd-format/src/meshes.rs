@@ -1,8 +1,8 @@
 //! Types shared by the mesh modules.
 
-use super::object::{object, string_enum};
+use super::types::types;
 
-string_enum! {
+types! {
     /// Which of a link's two geometries a mesh was made from.
     pub enum GeometryKind {
         /// The `visual` elements.
@@ -10,9 +10,7 @@ string_enum! {
         /// The `collision` elements.
         Collision,
     }
-}
 
-object! {
     /// One mesh in up to three formats, the same triangles in each: vertices in metres, in the link's
     /// frame, binary32. Paths are relative to the URDD's root, with forward slashes.
     pub struct MeshFiles {

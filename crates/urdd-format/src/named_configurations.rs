@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::annotations::lengths;
 use super::bounds::BoundsModule;
 use super::dof::DofModule;
-use super::object::{module, object, pattern};
+use super::object::pattern;
+use super::types::{module, types};
 
 module! {
     /// Configurations that a person named: `home`, `ready`, `retract`.
@@ -20,7 +20,7 @@ pattern! {
     pub struct ConfigurationName matches r"^[\s\S]+$" by |text| !text.is_empty();
 }
 
-object! {
+types! {
     /// A configuration that a person named.
     pub struct NamedConfiguration {
         /// Its name; unique in the module, and not empty.
@@ -29,19 +29,15 @@ object! {
         pub positions: Vec<DofPosition>,
         /// What follows: one value per DOF, rad or m. A DOF without an entry in `positions` has its value in the
         /// default configuration.
-        #[schemars(transform = lengths("dofs"), extend("x-unit" = "rad or m"))]
-        pub configuration: Vec<f64>,
+        pub configuration: Vec<f64> where { unit: "rad or m", length: "dofs" },
     }
-}
 
-object! {
     /// The position of a DOF.
     pub struct DofPosition {
         /// Name of the DOF, as in `dofs` of `dof_module`.
         pub dof_name: String,
         /// Its position, rad or m.
-        #[schemars(extend("x-unit" = "rad or m"))]
-        pub position: f64,
+        pub position: f64 where { unit: "rad or m" },
     }
 }
 

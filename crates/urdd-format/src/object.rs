@@ -1,5 +1,5 @@
-//! Macros that declare the format's types so that serde accepts exactly what the published
-//! schema accepts.
+//! The macros behind those of `types.rs`, which declare the format's types so that serde accepts exactly what the
+//! published schema accepts.
 //!
 //! serde's own derive is laxer than a JSON Schema in some places (it reads a struct from an array,
 //! a missing `Option` as `None`, a unit variant from an object) and stricter in others (`1.0` is
@@ -16,20 +16,22 @@ use serde_json::{Value, json};
 /// Prefix of extension keys, allowed in every object of the format.
 pub const EXTENSION_PREFIX: &str = "x_";
 
-/// Declares a JSON object: every key required (an absent value is `null`), no unknown keys.
-///
-/// `module!` declares a whole document, where `$schema` is allowed too.
+/// Declares a JSON object: every key required (an absent value is `null`), no unknown keys. `$document` says whether it
+/// is a whole document, where `$schema` is allowed too, and `$close` makes its schema say so.
 macro_rules! object {
-    ($(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
-        $crate::object::object!(@ false, $crate::object::close,
-            $(#[$meta])* pub struct $name { $($(#[$fmeta])* pub $field: $ty,)* });
-    };
-    (@ $document:literal, $close:path,
-     $(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
+    ($document:literal, $close:path, $(#[$meta:meta])* pub struct $name:ident {
+        $($(#[$fmeta:meta])* pub $field:ident: $ty:ty $(where { $($keyword:ident: $says:literal),* })?,)*
+    }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
         #[schemars(transform = $close)]
-        pub struct $name { $($(#[$fmeta])* pub $field: $ty,)* }
+        pub struct $name {$(
+            $(#[$fmeta])*
+            $(#[schemars(transform = $crate::annotations::Annotations {
+                $($keyword: $says,)* ..$crate::annotations::Annotations::NONE
+            })])?
+            pub $field: $ty,
+        )*}
 
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -64,14 +66,6 @@ macro_rules! object {
                 deserializer.deserialize_map(ObjectVisitor)
             }
         }
-    };
-}
-
-/// Declares a JSON object that is a whole document. See [`object!`].
-macro_rules! module {
-    ($(#[$meta:meta])* pub struct $name:ident { $($(#[$fmeta:meta])* pub $field:ident: $ty:ty,)* }) => {
-        $crate::object::object!(@ true, $crate::object::close_document,
-            $(#[$meta])* pub struct $name { $($(#[$fmeta])* pub $field: $ty,)* });
     };
 }
 
@@ -133,9 +127,9 @@ macro_rules! string_enum {
     };
 }
 
-/// Declares a non-negative integer type, an index space or a count, with its annotation (SPEC 11.3).
+/// Declares non-negative integer types, index spaces and counts, with their annotations (SPEC 11.3).
 macro_rules! integer {
-    ($(#[doc = $doc:literal])* pub struct $name:ident says $keyword:literal = $says:literal;) => {
+    ($($(#[doc = $doc:literal])* pub struct $name:ident says $keyword:literal = $says:literal;)*) => {$(
         $(#[doc = $doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, serde::Serialize)]
         #[serde(transparent)]
@@ -179,12 +173,12 @@ macro_rules! integer {
                 $crate::object::integer_schema(&[$($doc),*], $keyword, $says)
             }
         }
-    };
+    )*};
 }
 
-/// Declares a string that must match a regular expression.
+/// Declares strings that must match a regular expression.
 macro_rules! pattern {
-    ($(#[doc = $doc:literal])* pub struct $name:ident matches $regex:literal by $accepts:expr;) => {
+    ($($(#[doc = $doc:literal])* pub struct $name:ident matches $regex:literal by $accepts:expr;)*) => {$(
         $(#[doc = $doc])*
         #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
         #[serde(transparent)]
@@ -231,10 +225,10 @@ macro_rules! pattern {
                 $crate::object::pattern_schema(&[$($doc),*], $regex)
             }
         }
-    };
+    )*};
 }
 
-pub(crate) use {integer, module, object, pattern, string_enum, word};
+pub(crate) use {integer, object, pattern, string_enum, word};
 
 /// The position in `fields` of the object's next known key. Skips extension keys; any other key is
 /// an error.

@@ -2,7 +2,7 @@
 
 use super::index::{ElementIdx, LinkIdx};
 use super::meshes::GeometryKind;
-use super::object::{module, object};
+use super::types::module;
 
 module! {
     /// Every mesh that the URDF names, carried unchanged.
@@ -12,9 +12,7 @@ module! {
         /// Every carried mesh file once, sorted by path (byte order).
         pub files: Vec<OriginalMesh>,
     }
-}
 
-object! {
     /// A place in the URDF that names a mesh.
     pub struct MeshReference {
         /// The link.
@@ -28,9 +26,7 @@ object! {
         /// The carried file, relative to the URDD's root; null where the mesh could not be found.
         pub path: Option<String>,
     }
-}
 
-object! {
     /// A carried mesh file.
     pub struct OriginalMesh {
         /// Path relative to the URDD's root, with forward slashes.

@@ -1,8 +1,7 @@
 //! `plain_meshes_module`: one mesh per link, in the link's frame.
 
-use super::annotations::lengths;
 use super::meshes::{GeometryKind, MeshFiles};
-use super::object::{module, object};
+use super::types::module;
 
 module! {
     /// One mesh per link: all its geometry of one kind, with origin, rotation and scale applied and
@@ -11,12 +10,9 @@ module! {
         /// Which geometry is preferred; the other is used for a link that has none of it.
         pub preferred_geometry: GeometryKind,
         /// For each link its mesh, or null for a link without geometry.
-        #[schemars(transform = lengths("links"))]
-        pub link_meshes: Vec<Option<PlainMesh>>,
+        pub link_meshes: Vec<Option<PlainMesh>> where { length: "links" },
     }
-}
 
-object! {
     /// The mesh of a link.
     pub struct PlainMesh {
         /// Which geometry it was made from.

@@ -224,6 +224,7 @@ impl ModuleSpec {
     /// the square of the number of links and the text fits the schema. Ignores faults of the text alone, such as
     /// duplicate extension keys.
     pub fn read_text(&self, text: &str) -> Option<ModuleDocument> {
+        use {ModuleDocument as Document, ModuleKind as Kind};
         fn read<T: serde::de::DeserializeOwned>(text: &str) -> Option<Box<T>> {
             serde_json::from_str(text).ok().map(Box::new)
         }
@@ -231,14 +232,12 @@ impl ModuleSpec {
             return None;
         }
         match self.kind {
-            ModuleKind::Connections => read(text).map(ModuleDocument::Connections),
-            ModuleKind::LinkShapesDistanceStatistics => {
-                read(text).map(ModuleDocument::LinkShapesDistanceStatistics)
+            Kind::Connections => read(text).map(Document::Connections),
+            Kind::LinkShapesDistanceStatistics => {
+                read(text).map(Document::LinkShapesDistanceStatistics)
             }
-            ModuleKind::LinkShapesSimpleSkips => {
-                read(text).map(ModuleDocument::LinkShapesSimpleSkips)
-            }
-            ModuleKind::LinkShapesSkips => read(text).map(ModuleDocument::LinkShapesSkips),
+            Kind::LinkShapesSimpleSkips => read(text).map(Document::LinkShapesSimpleSkips),
+            Kind::LinkShapesSkips => read(text).map(Document::LinkShapesSkips),
             _ => None,
         }
     }

@@ -1,8 +1,8 @@
 //! The validator's report, the output of `--format json`.
 
 use super::index::Count;
-use super::object::{module, object, string_enum};
 use super::registry::PROGRAM_VERSION;
+use super::types::{module, types};
 
 /// Version of the report's own format.
 pub const REPORT_VERSION: &str = "1.0.0";
@@ -30,7 +30,7 @@ impl Report {
     }
 }
 
-object! {
+types! {
     /// The program that wrote a report.
     pub struct Tool {
         /// Its name.
@@ -47,7 +47,7 @@ impl Tool {
     }
 }
 
-object! {
+types! {
     /// One URDD, or a URDF by itself.
     pub struct Urdd {
         /// Which of them it is.
@@ -77,9 +77,7 @@ object! {
         /// such module.
         pub model_not_verified: Option<ModelNotVerified>,
     }
-}
 
-string_enum! {
     /// What was examined.
     pub enum Kind {
         /// A URDD.
@@ -87,9 +85,7 @@ string_enum! {
         /// A URDF by itself, judged by the rules that need nothing else.
         Urdf = "urdf",
     }
-}
 
-object! {
     /// How large a robot is; null where no module says it.
     #[derive(Default)]
     pub struct Size {
@@ -100,9 +96,7 @@ object! {
         /// Number of degrees of freedom.
         pub dofs: Option<Count>,
     }
-}
 
-string_enum! {
     /// What came of examining a URDD.
     pub enum Verdict {
         /// Nothing found at or above the severity at which a run fails.
@@ -114,9 +108,7 @@ string_enum! {
         /// A rule crashed: a bug in this program. The URDD is not fully examined.
         Incomplete = "incomplete",
     }
-}
 
-object! {
     /// A module of a URDD.
     pub struct Module {
         /// Its name.
@@ -128,9 +120,7 @@ object! {
         /// `1.0` or `legacy`; null for extensions and unknown modules.
         pub profile: Option<String>,
     }
-}
 
-object! {
     /// What became of a rule.
     pub struct CheckStatus {
         /// Its code.
@@ -142,9 +132,7 @@ object! {
         /// What kind of reason a skip has; null where it was not skipped.
         pub skipped: Option<Skipped>,
     }
-}
 
-string_enum! {
     /// Why a rule did not run.
     pub enum Skipped {
         /// What it is about is not there.
@@ -156,9 +144,7 @@ string_enum! {
         /// Something that it needs is wrong or missing: what it checks is not verified.
         NotVerified = "not-verified",
     }
-}
 
-object! {
     /// What was not verified.
     pub struct NotChecked {
         /// Codes of the rules that were to verify it.
@@ -166,9 +152,7 @@ object! {
         /// Why they could not.
         pub reason: String,
     }
-}
 
-object! {
     /// Why the rates of the self-collision model were not verified.
     pub struct ModelNotVerified {
         /// The rules that did not verify them.
@@ -176,9 +160,7 @@ object! {
         /// Why not.
         pub reasons: Vec<String>,
     }
-}
 
-object! {
     /// A link of which some mesh or shape was not verified.
     pub struct LinkNotVerified {
         /// Index of the link.
@@ -188,9 +170,7 @@ object! {
         /// Why they could not.
         pub reasons: Vec<String>,
     }
-}
 
-string_enum! {
     /// What became of a rule.
     pub enum Status {
         /// It found nothing.
@@ -202,9 +182,7 @@ string_enum! {
         /// It ran into a fault of its own.
         Crashed = "crashed",
     }
-}
 
-string_enum! {
     /// How bad a finding is; the worst is the greatest.
     pub enum Severity {
         /// A convention of old, or something worth knowing.
@@ -214,9 +192,7 @@ string_enum! {
         /// A violated MUST of the specification.
         Error = "error",
     }
-}
 
-string_enum! {
     /// What a fault does to users of the URDD, in ascending order of harm.
     pub enum Consequence {
         /// Nothing is wrong, but it could be tighter, or the robot itself is unusual.
@@ -234,9 +210,7 @@ string_enum! {
         /// The robot moves otherwise than it says.
         WrongMotion = "wrong-motion",
     }
-}
 
-object! {
     /// By how much something is off.
     pub struct Magnitude {
         /// How much; null where it is no finite number.
@@ -244,9 +218,7 @@ object! {
         /// Its unit; empty for a ratio.
         pub unit: String,
     }
-}
 
-object! {
     /// Something that was found, or several of the same.
     pub struct Finding {
         /// Code of the rule.
@@ -290,9 +262,7 @@ object! {
         /// How many of the counted places are not listed here, because there are too many.
         pub places_cut: Count,
     }
-}
 
-object! {
     /// A place of a finding.
     #[derive(Default)]
     pub struct Place {
@@ -322,9 +292,7 @@ object! {
         /// Changes that mend it, each by itself, the best first.
         pub fixes: Vec<Fix>,
     }
-}
 
-object! {
     /// The place in a .xacro file that a part of a URDF was made from.
     pub struct WrittenAt {
         /// The file, as seen from the URDF's folder, with forward slashes.
@@ -336,9 +304,7 @@ object! {
         /// The macro that holds it; null outside of macros.
         pub macro_name: Option<String>,
     }
-}
 
-object! {
     /// A change of files that mends a place of a finding.
     pub struct Fix {
         /// What it does, as a command: "remove the second `<axis>`".
@@ -348,9 +314,7 @@ object! {
         /// What to change. No two of them overlap.
         pub edits: Vec<TextEdit>,
     }
-}
 
-object! {
     /// A text in place of another.
     pub struct TextEdit {
         /// The file, relative to the URDD's root or the URDF's folder, with forward slashes.
@@ -366,9 +330,7 @@ object! {
         /// What is put there; empty to remove only.
         pub text: String,
     }
-}
 
-object! {
     /// An ignore of the settings that matched nothing.
     pub struct StaleIgnore {
         /// Code of the rule; null where it is for all.
@@ -376,9 +338,7 @@ object! {
         /// The pattern.
         pub path: String,
     }
-}
 
-object! {
     /// Sums over all URDDs.
     pub struct Totals {
         /// Number of URDDs.

@@ -1,15 +1,13 @@
 //! `urdd.json`: identity, origin and contents of a URDD.
 
 use super::index::Count;
-use super::object::{module, object, pattern, string_enum};
-use super::tagged::tagged;
+use super::object::pattern;
+use super::types::{module, types};
 
 pattern! {
     /// A semantic version (semver.org, 2.0.0) of three numbers and nothing after them.
     pub struct Version matches r"^(0|[1-9][0-9]{0,8})\.(0|[1-9][0-9]{0,8})\.(0|[1-9][0-9]{0,8})$" by is_version;
-}
 
-pattern! {
     /// SHA-256 of a file's bytes, as 64 lower-case hexadecimal digits.
     pub struct Sha256 matches r"^[0-9a-f]{64}$" by |text| {
         text.len() == 64 && text.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'))
@@ -27,7 +25,7 @@ fn is_version(text: &str) -> bool {
     all_numbers && parts == 3
 }
 
-string_enum! {
+types! {
     /// How much of the specification a URDD carries and fulfils; each class holds those before it.
     pub enum ConformanceClass {
         /// Kinematics: urdf, dof, chain, connections, bounds (and kinematics samples, recommended).
@@ -56,9 +54,7 @@ module! {
         /// Every module, in the order of the specification's table of modules, extensions last.
         pub modules: Vec<ModuleEntry>,
     }
-}
 
-object! {
     /// The program that wrote a URDD.
     pub struct Generator {
         /// Name of the program.
@@ -66,17 +62,13 @@ object! {
         /// Its version, in its own numbering.
         pub version: String,
     }
-}
 
-tagged! {
     /// What a URDD was made from: one key, which says of what kind the source is.
     pub enum Source {
         /// A URDF, carried verbatim in the URDD's root.
         Urdf(FileEntry),
     }
-}
 
-object! {
     /// One module of the directory.
     pub struct ModuleEntry {
         /// Name of the module, such as `dof_module`: the last part of its path.
@@ -90,16 +82,13 @@ object! {
         /// Every file of the module, sorted by path (byte order).
         pub files: Vec<FileEntry>,
     }
-}
 
-object! {
     /// A file of the directory, with what is needed to see that it is unchanged.
     pub struct FileEntry {
         /// Path relative to the URDD's root, with forward slashes.
         pub path: String,
         /// Size in bytes.
-        #[schemars(extend("x-unit" = "byte"))]
-        pub size: Count,
+        pub size: Count where { unit: "byte" },
         /// SHA-256 of the bytes.
         pub sha256: Sha256,
     }

@@ -191,11 +191,7 @@ impl Subject {
         match self {
             Subject::RootMetadata => true,
             Subject::Module(spec) => spec.profile == Profile::V1,
-            Subject::Report
-            | Subject::DiffReport
-            | Subject::FirstDiffReport
-            | Subject::ProducerResult
-            | Subject::ValidatorResult => false,
+            _ => false,
         }
     }
 

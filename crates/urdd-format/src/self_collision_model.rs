@@ -1,11 +1,9 @@
 //! `self_collision_model_module`: a network that estimates the distances between a robot's links.
 
-use super::annotations::lengths;
 use super::index::{Count, DofIdx, LinkIdx, SampleIdx};
-use super::object::{module, object};
 use super::rate::Rate;
 use super::root_metadata::Sha256;
-use super::tagged::tagged;
+use super::types::{module, types};
 
 /// First sampled configuration that `evaluation` counts (SPEC 8.8.9). Models are made from earlier ones only.
 pub const EVALUATION_FIRST: u32 = 1 << 31;
@@ -30,16 +28,14 @@ module! {
         /// Of the shapes and the kinematics that it was trained on: SHA-256 of the text that SPEC 8.8.7 defines.
         pub trained_on: Sha256,
         /// Distances from here on were all the same to it, metres.
-        #[schemars(extend("x-unit" = "m"))]
-        pub clip_distance: f64,
+        pub clip_distance: f64 where { unit: "m" },
         /// What the network is told of a configuration, in the order of its first layer's columns.
         pub inputs: Vec<ModelInput>,
         /// The layers of the network, the first one first. After each but the last, every value is replaced by
         /// its hyperbolic tangent.
         pub layers: Vec<ModelLayer>,
         /// The pairs of links that the network has an output for, in that order.
-        #[schemars(transform = lengths("pairs"))]
-        pub pairs: Vec<ModelPair>,
+        pub pairs: Vec<ModelPair> where { length: "pairs" },
         /// The pairs of links that are not skipped and have no output: they were never near in training.
         pub other_pairs: Vec<LinkPair>,
         /// The sampled configurations (SPEC 9.3) that it was trained on.
@@ -51,9 +47,7 @@ module! {
         /// What it gives in some configurations.
         pub test_vectors: Vec<ModelTestVector>,
     }
-}
 
-tagged! {
     /// Something that the network is told of a configuration.
     pub enum ModelInput {
         /// Four numbers of an angle q: sin q, cos q, sin 2q, cos 2q.
@@ -63,51 +57,37 @@ tagged! {
         /// Nine numbers of a rotation vector: its rotation matrix, row by row.
         RotationVector(RotationVectorInput),
     }
-}
 
-object! {
     /// An angle.
     pub struct AngleInput {
         /// The DOF, which is an angle.
         pub dof_idx: DofIdx,
     }
-}
 
-object! {
     /// A length.
     pub struct LengthInput {
         /// The DOF, which is a length.
         pub dof_idx: DofIdx,
         /// What becomes 0, metres.
-        #[schemars(extend("x-unit" = "m"))]
-        pub middle: f64,
+        pub middle: f64 where { unit: "m" },
         /// How far from that is 1, metres; positive.
-        #[schemars(extend("x-unit" = "m"))]
-        pub half_range: f64,
+        pub half_range: f64 where { unit: "m" },
     }
-}
 
-object! {
     /// A rotation vector.
     pub struct RotationVectorInput {
         /// Its three DOFs.
         pub dof_idxs: [DofIdx; 3],
     }
-}
 
-object! {
     /// A layer of a network: its values are `weights` times the values before, plus `biases`.
     pub struct ModelLayer {
         /// One row for each value of the layer, with one number for each value before it.
-        #[schemars(extend("x-unit" = "1 or m"))]
-        pub weights: Vec<Vec<f64>>,
+        pub weights: Vec<Vec<f64>> where { unit: "1 or m" },
         /// One number for each value of the layer.
-        #[schemars(extend("x-unit" = "1 or m"))]
-        pub biases: Vec<f64>,
+        pub biases: Vec<f64> where { unit: "1 or m" },
     }
-}
 
-object! {
     /// A pair of links that the network has an output for.
     pub struct ModelPair {
         /// One link.
@@ -116,12 +96,9 @@ object! {
         pub link_b_idx: LinkIdx,
         /// The clearance of the pair is the network's output less this, metres. A clearance of 0 or less means that the
         /// pair may be in contact.
-        #[schemars(extend("x-unit" = "m"))]
-        pub margin: f64,
+        pub margin: f64 where { unit: "m" },
     }
-}
 
-object! {
     /// A pair of links.
     pub struct LinkPair {
         /// One link.
@@ -129,9 +106,7 @@ object! {
         /// The other, of a higher index.
         pub link_b_idx: LinkIdx,
     }
-}
 
-object! {
     /// Sampled configurations (SPEC 9.3) that follow each other.
     pub struct SampleRange {
         /// The first.
@@ -139,9 +114,7 @@ object! {
         /// How many.
         pub num_configurations: Count,
     }
-}
 
-object! {
     /// How often the model is right on the sampled configurations 2^31 to 2^31 + 49,999, which have no part in making
     /// any model. A configuration is in collision where a pair of links in `pairs` or `other_pairs` is in contact, and
     /// free otherwise. The model clears a configuration where every clearance is above 0.
@@ -189,14 +162,12 @@ impl ModelEvaluation {
     }
 }
 
-object! {
+types! {
     /// What the model gives in a configuration.
     pub struct ModelTestVector {
         /// One value for each DOF, rad or m.
-        #[schemars(transform = lengths("dofs"), extend("x-unit" = "rad or m"))]
-        pub configuration: Vec<f64>,
+        pub configuration: Vec<f64> where { unit: "rad or m", length: "dofs" },
         /// One clearance for each entry of `pairs`, metres.
-        #[schemars(transform = lengths("pairs"), extend("x-unit" = "m"))]
-        pub clearances: Vec<f64>,
+        pub clearances: Vec<f64> where { unit: "m", length: "pairs" },
     }
 }

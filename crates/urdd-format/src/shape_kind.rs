@@ -73,10 +73,7 @@ impl ShapeKind {
 
     /// The module that has the shapes.
     pub fn module(self) -> ModuleKind {
-        match self.is_convex_mesh() {
-            true => self.meshes(),
-            false => ModuleKind::LinkShapesApproximations,
-        }
+        if self.is_convex_mesh() { self.meshes() } else { ModuleKind::LinkShapesApproximations }
     }
 
     /// The module with the meshes that the shapes are or bound.

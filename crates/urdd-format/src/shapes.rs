@@ -1,9 +1,9 @@
 //! Shape indices, shared by the link shape modules.
 
 use super::index::{LinkIdx, PieceIdx};
-use super::object::object;
+use super::types::types;
 
-object! {
+types! {
     /// A convex piece of a link.
     pub struct PieceShape {
         /// The link.

@@ -14,52 +14,29 @@ const MOST_SHOWN: usize = 5;
 /// Why a description could not be read. `file` is the file as the user named it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum SourceError {
-    /// It cannot be read.
     #[error("{file}: cannot be read: {reason}")]
-    Read {
-        /// The file.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-    /// It is not a valid robot description.
+    Read { file: String, reason: String },
     #[error("{}", FaultLines(file, faults))]
-    Refused {
-        /// The file.
-        file: String,
-        /// What is wrong with it, in the order of the file; never empty.
-        faults: Vec<PlacedFault>,
-    },
-    /// A xacro file, but no xacro program on the PATH.
+    Refused { file: String, faults: Vec<PlacedFault> },
     #[error(
         "{file}: expanding this file needs the program `xacro`, which is not on the PATH; install it (`pip install xacro`, or ROS), or expand the file elsewhere: `xacro {file} > robot.urdf`"
     )]
-    NoXacro {
-        /// The file.
-        file: String,
-    },
-    /// The xacro program failed.
+    NoXacro { file: String },
     #[error("{file}: `xacro` could not expand it: {reason}")]
     Xacro {
-        /// The file.
         file: String,
         /// The last lines of the program's output.
         reason: String,
     },
-    /// Reading was cancelled.
     #[error("stopped before it was finished; nothing was changed")]
     Cancelled,
     /// A bug in this program.
     #[error(
         "{file}: the reader failed: {reason}; this is a bug in the program, please report it with the file"
     )]
-    Internal {
-        /// The file.
-        file: String,
-        /// What happened.
-        reason: String,
-    },
+    Internal { file: String, reason: String },
 }
 
 impl From<Cancelled> for SourceError {

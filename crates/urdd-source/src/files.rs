@@ -12,6 +12,8 @@ use thiserror::Error;
 use urdd_directory::read_error::ReadError;
 use urdd_directory::regular;
 
+/// Maximum size of a URDF in bytes. The validator has the same limit.
+pub const MAX_SOURCE_BYTES: u64 = 64 << 20;
 /// Maximum number of files in memory.
 const MOST_FILES: usize = 20_000;
 /// Maximum size of all files in memory, bytes.
@@ -30,14 +32,12 @@ pub enum Files {
 /// Why files cannot be a set in memory.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum MemoryFault {
-    /// A path that leads out of the set, or is empty.
     #[error("`{0}` is not the relative path of a file")]
     Path(String),
-    /// Too many files.
     #[error("there are more than {MOST_FILES} files")]
     TooMany,
-    /// Too much data.
     #[error("the files are larger than {} MiB together", MOST_BYTES >> 20)]
     TooLarge,
 }
@@ -52,9 +52,8 @@ impl Files {
     ) -> Result<Files, MemoryFault> {
         let (mut all, mut bytes) = (BTreeMap::new(), 0_usize);
         for (path, content) in files {
-            let Some(plain) =
-                plain(Path::new("/"), Path::new(&path)).filter(|path| path.parent().is_some())
-            else {
+            let plain = plain(Path::new(&path)).filter(|path| path.parent().is_some());
+            let Some(plain) = plain else {
                 return Err(MemoryFault::Path(path));
             };
             bytes = bytes.saturating_add(content.len());
@@ -93,7 +92,7 @@ impl Files {
         if matches!(self, Files::Disk) {
             return path.canonicalize();
         }
-        let plain = plain(Path::new("/"), path);
+        let plain = plain(path);
         plain.filter(|path| self.exists(path)).ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
@@ -101,9 +100,7 @@ impl Files {
     pub fn is_file(&self, path: &Path) -> bool {
         match self {
             Files::Disk => path.is_file(),
-            Files::Memory(files) => {
-                plain(Path::new("/"), path).is_some_and(|path| files.contains_key(&path))
-            }
+            Files::Memory(files) => plain(path).is_some_and(|path| files.contains_key(&path)),
         }
     }
 
@@ -111,7 +108,7 @@ impl Files {
     pub fn is_dir(&self, path: &Path) -> bool {
         match self {
             Files::Disk => path.is_dir(),
-            Files::Memory(files) => plain(Path::new("/"), path).is_some_and(|path| {
+            Files::Memory(files) => plain(path).is_some_and(|path| {
                 let mut below = files.range(path.clone()..);
                 below
                     .find(|(file, _)| **file != path)
@@ -139,7 +136,7 @@ impl Files {
             let entries = fs::read_dir(folder).into_iter().flatten().flatten();
             return entries.map(|entry| entry.file_name()).collect();
         };
-        let Some(folder) = plain(Path::new("/"), folder) else {
+        let Some(folder) = plain(folder) else {
             return Vec::new();
         };
         let first = |file: &PathBuf| {
@@ -151,10 +148,10 @@ impl Files {
     }
 }
 
-/// A path seen from a folder, without `.` and `..`; `None` if it leads above the root.
-fn plain(folder: &Path, path: &Path) -> Option<PathBuf> {
+/// A path seen from the root, without `.` and `..`; `None` if it leads above the root.
+fn plain(path: &Path) -> Option<PathBuf> {
     let mut plain = PathBuf::from("/");
-    for part in folder.join(path).components() {
+    for part in path.components() {
         match part {
             Component::Normal(name) => plain.push(name),
             Component::ParentDir => {

@@ -40,6 +40,20 @@ const SIDE_FILES: &[&str] = &[
     "exr", "ktx2", "ppm", "pgm",
 ];
 
+/// Notes that are not remarks. `NoTriangles` is the reason why the mesh is unusable, `SideFileMissing` is reported for each
+/// file, and the others are normal for such files.
+const NOT_SAID: &[NoteCode] = &[
+    NoteCode::NoTriangles,
+    NoteCode::NodeTransform,
+    NoteCode::SideFileMissing,
+    NoteCode::TurnedToZUp,
+    NoteCode::UnitApplied,
+    NoteCode::UnusedVertices,
+    NoteCode::UpAxisIgnored,
+    NoteCode::WrongBounds,
+    NoteCode::WrongNormals,
+];
+
 /// Inspects a mesh file.
 pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
     let unusable = |bytes: Option<Vec<u8>>, why: String| Inspected {
@@ -82,27 +96,7 @@ pub fn inspect(mesh: &Path, place: &Place, roots: &Roots) -> Inspected {
             Err(why) => left_out.push((side.clone(), why)),
         }
     }
-    let is_said = |code| {
-        use NoteCode::{
-            NoTriangles, NodeTransform, SideFileMissing, TurnedToZUp, UnitApplied, UnusedVertices,
-            UpAxisIgnored, WrongBounds, WrongNormals,
-        };
-        // NoTriangles is reported as the reason why the mesh is unusable, SideFileMissing for each file. The others are
-        // normal for such files, and reporting them for every mesh would not help.
-        !matches!(
-            code,
-            NoTriangles
-                | NodeTransform
-                | SideFileMissing
-                | TurnedToZUp
-                | UnitApplied
-                | UnusedVertices
-                | UpAxisIgnored
-                | WrongBounds
-                | WrongNormals
-        )
-    };
-    let notes = scene.notes.iter().filter(|note| is_said(note.code));
+    let notes = scene.notes.iter().filter(|note| !NOT_SAID.contains(&note.code));
     let remarks = notes.map(ToString::to_string).collect();
     let has_area = scene.parts.iter().any(|part| part.mesh.area() > 0.0);
     let scene = match has_area {

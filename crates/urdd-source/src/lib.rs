@@ -4,7 +4,6 @@
 //! [`load`] reads one, [`SourceMeshes`] also finds and reads its meshes, [`robots`] finds descriptions below folders. Files
 //! are on the disk or in memory ([`Files`]). Nothing is judged, and nothing is derived.
 
-mod bounded;
 mod cycles;
 mod decode;
 mod error;
@@ -30,10 +29,9 @@ mod tests;
 pub mod urdf;
 mod xacro;
 
-pub use bounded::MAX_SOURCE_BYTES;
 pub use cycles::cycles;
 pub use error::SourceError;
-pub use files::{Files, MemoryFault};
+pub use files::{Files, MAX_SOURCE_BYTES, MemoryFault};
 pub use includes::included;
 pub use load::{
     Source, SourceRobot, SourceText, file_name, load, load_text, read_source, read_urdf,

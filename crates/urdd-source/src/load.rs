@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::bounded::MAX_SOURCE_BYTES;
 use super::decode;
 use super::error::SourceError;
 use super::fault::{Fault, PlacedFault};
-use super::files::Files;
+use super::files::{Files, MAX_SOURCE_BYTES};
 use super::note::{Note, Remark};
 use super::repair;
 use super::settings::Settings;
@@ -64,9 +63,7 @@ pub fn load(
 ) -> Result<Source, SourceError> {
     let mut notes = Vec::new();
     let read = read(path, settings, cancellation, &mut notes)?;
-    let names = names(&read.canonical);
-    let text = (read.text, read.is_verbatim);
-    source(read.shown, read.folder, names, read.bytes, text, notes)
+    mend(read, notes)
 }
 
 /// The text of a description as an author sees it.
@@ -93,13 +90,14 @@ pub fn read_source(
     Ok(SourceText { text: read.text, is_expanded: read.is_expanded, folder: read.folder })
 }
 
-/// A file before it is repaired.
+/// A description before it is repaired.
 struct Read {
     shown: String,
     /// Its bytes.
     bytes: Vec<u8>,
-    /// Its path, and that of its folder, with symbolic links resolved.
-    canonical: PathBuf,
+    /// The file's name without its extensions: the name of a robot without one.
+    stem: String,
+    /// The path of its folder, with symbolic links resolved.
     folder: PathBuf,
     text: String,
     /// Whether the text is an exact decoding of the bytes.
@@ -138,7 +136,7 @@ fn read(
         is_expanded,
         shown,
         bytes,
-        canonical,
+        stem: stem(&canonical),
         folder,
     })
 }
@@ -173,38 +171,18 @@ pub fn load_text_in(bytes: Vec<u8>, shown: &str, folder: PathBuf) -> Result<Sour
             reason: format!("it is longer than {limit} MiB"),
         });
     }
-    let mut notes = Vec::new();
-    let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
-    let names = names(Path::new("robot.urdf"));
-    source(shown, folder, names, bytes, (text, is_verbatim), notes)
+    in_memory(bytes, shown, folder, "robot".to_owned())
 }
 
-/// `names` are the file name without its extensions, and the file name in the URDD. `is_verbatim` is true if the text is an
-/// exact decoding of the bytes.
-fn source(
+fn in_memory(
+    bytes: Vec<u8>,
     shown: String,
     folder: PathBuf,
-    names: (String, String),
-    bytes: Vec<u8>,
-    (text, mut is_verbatim): (String, bool),
-    mut notes: Vec<Note>,
+    stem: String,
 ) -> Result<Source, SourceError> {
-    let (name, file_name) = names;
-    let mended = mend(text, &name, &shown, &mut notes)?;
-    is_verbatim &= mended.is_verbatim;
-    Ok(Source {
-        folder,
-        file_name,
-        carried: match is_verbatim {
-            true => bytes.clone(),
-            false => mended.text.into_bytes(),
-        },
-        found: (!is_verbatim).then_some(bytes),
-        reading: mended.reading,
-        notes,
-        mesh_places: mended.mesh_places,
-        shown,
-    })
+    let mut notes = Vec::new();
+    let (text, is_verbatim) = decode::decode(&bytes, &shown, &mut notes)?;
+    mend(Read { shown, bytes, stem, folder, text, is_verbatim, is_expanded: false }, notes)
 }
 
 /// A robot, read from memory.
@@ -225,38 +203,16 @@ pub struct SourceRobot {
 /// # Errors
 /// If it cannot be read or is not a valid robot.
 pub fn read_urdf(bytes: &[u8], name: &str) -> Result<SourceRobot, SourceError> {
-    let mut notes = Vec::new();
-    let (text, is_verbatim) = decode::decode(bytes, name, &mut notes)?;
-    let mended = mend(text, name, name, &mut notes)?;
-    Ok(SourceRobot {
-        robot: mended.reading.robot,
-        carried: match is_verbatim && mended.is_verbatim {
-            true => bytes.to_owned(),
-            false => mended.text.into_bytes(),
-        },
-        notes,
-    })
-}
-
-/// A text that matches its reading.
-struct Mended {
-    text: String,
-    /// Whether no repair was necessary.
-    is_verbatim: bool,
-    reading: Reading,
-    mesh_places: Vec<(u32, u32)>,
+    let source = in_memory(bytes.to_owned(), name.to_owned(), PathBuf::new(), name.to_owned())?;
+    Ok(SourceRobot { robot: source.reading.robot, carried: source.carried, notes: source.notes })
 }
 
 /// Reads a robot, and repairs its text until both match.
-fn mend(
-    text: String,
-    name: &str,
-    shown: &str,
-    notes: &mut Vec<Note>,
-) -> Result<Mended, SourceError> {
+fn mend(read: Read, mut notes: Vec<Note>) -> Result<Source, SourceError> {
+    let Read { shown, bytes, stem, folder, text, mut is_verbatim, .. } = read;
     let (mut text, remarks, first_line) = repair::mend_xml(text);
-    let mut is_verbatim = remarks.is_empty();
-    place(&remarks, &text, shown, first_line, notes);
+    is_verbatim &= remarks.is_empty();
+    place(&remarks, &text, &shown, first_line, &mut notes);
 
     let mut mesh_places = None;
     for _ in 0..MOST_ROUNDS {
@@ -264,32 +220,37 @@ fn mend(
             for placed in &mut faults {
                 placed.line += first_line;
             }
-            SourceError::Refused { file: shown.to_owned(), faults }
+            SourceError::Refused { file: shown.clone(), faults }
         };
-        let reading = urdf::read(&text, name).map_err(refused)?;
-        if mesh_places.is_none() {
-            // Later texts are repaired; positions in them mean nothing to the user.
-            place(&reading.remarks, &text, shown, first_line, notes);
+        let mut reading = urdf::read(&text, &stem).map_err(refused)?;
+        // Later texts are repaired; positions in them mean nothing to the user.
+        let places = mesh_places.get_or_insert_with(|| {
+            place(&reading.remarks, &text, &shown, first_line, &mut notes);
             let lines = LineIndex::new(&text);
             let places = reading.mesh_offsets.iter().map(|offset| {
                 let at = lines.position(*offset);
                 (at.line + first_line, at.column)
             });
-            mesh_places = Some(places.collect());
+            places.collect()
+        });
+        if !reading.edits.is_empty() {
+            is_verbatim = false;
+            text = apply(&text, std::mem::take(&mut reading.edits));
+            continue;
         }
-        if reading.edits.is_empty() {
-            return Ok(Mended {
-                text,
-                is_verbatim,
-                reading,
-                mesh_places: mesh_places.unwrap_or_default(),
-            });
-        }
-        is_verbatim = false;
-        text = apply(&text, reading.edits);
+        return Ok(Source {
+            folder,
+            file_name: file_name(&stem),
+            carried: if is_verbatim { bytes.clone() } else { text.into_bytes() },
+            found: (!is_verbatim).then_some(bytes),
+            reading,
+            notes,
+            mesh_places: std::mem::take(places),
+            shown,
+        });
     }
-    let reason = "the repaired URDF needs repairs again";
-    Err(SourceError::Internal { file: shown.to_owned(), reason: reason.to_owned() })
+    let reason = "the repaired URDF needs repairs again".to_owned();
+    Err(SourceError::Internal { file: shown, reason })
 }
 
 fn place(remarks: &[Remark], text: &str, file: &str, first_line: u32, notes: &mut Vec<Note>) {
@@ -314,15 +275,14 @@ pub fn well_formed(text: &str) -> (String, u32) {
     (text, lines)
 }
 
-/// The file name without its extensions, and the file name in the URDD.
-fn names(path: &Path) -> (String, String) {
+/// The file name without its extensions.
+fn stem(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut stem: &str = &name;
     for extension in [".xacro", ".xml", ".urdf"] {
         stem = stem.strip_suffix(extension).unwrap_or(stem);
     }
-    let stem = if stem.is_empty() { "robot" } else { stem };
-    (stem.to_owned(), file_name(stem))
+    if stem.is_empty() { "robot" } else { stem }.to_owned()
 }
 
 /// The name of a robot's file in its URDD.

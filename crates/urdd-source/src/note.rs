@@ -4,51 +4,64 @@ use std::fmt;
 
 use urdd_format::escape;
 
-/// The kind of deviation that a note reports.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum NoteKind {
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident = $word:literal,)*) => {
+        /// The kind of deviation that a note reports.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum NoteKind { $($(#[$doc])* $kind,)* }
+
+        impl NoteKind {
+            /// The machine-readable name.
+            pub fn as_str(self) -> &'static str {
+                match self { $(NoteKind::$kind => $word,)* }
+            }
+        }
+    };
+}
+
+kinds! {
     /// The file is not UTF-8.
-    Encoding,
+    Encoding = "encoding",
     /// XML that readers reject but that has only one possible meaning.
-    Xml,
+    Xml = "xml",
     /// A name in a different case.
-    Case,
+    Case = "case",
     /// Xacro macros that are not expanded.
-    XacroLeftOver,
+    XacroLeftOver = "xacro-left-over",
     /// The robot has no name.
-    RobotName,
+    RobotName = "robot-name",
     /// An attribute without the expected numbers.
-    Numbers,
+    Numbers = "numbers",
     /// A number that is infinite or NaN.
-    NotFinite,
+    NotFinite = "not-finite",
     /// A shape without its size, or a mesh without its file name.
-    Shape,
+    Shape = "shape",
     /// A joint type in a nonstandard spelling.
-    JointType,
+    JointType = "joint-type",
     /// A mimic element that cannot be resolved.
-    Mimic,
+    Mimic = "mimic",
     /// A revolute or prismatic joint without limits.
-    NoLimits,
+    NoLimits = "no-limits",
     /// A repeated element that is ignored.
-    Repeated,
+    Repeated = "repeated",
     /// Two declarations of a material that differ.
-    Material,
+    Material = "material",
     /// A mesh file that was not found, or is not a mesh.
-    MeshNotFound,
+    MeshNotFound = "mesh-not-found",
     /// A mesh that is stored but cannot be read.
-    MeshNotUsable,
+    MeshNotUsable = "mesh-not-usable",
     /// A mesh that was repaired, or lacks a file that it references.
-    Mesh,
+    Mesh = "mesh",
     /// A stored file from outside the URDF's folder and package.
-    Outside,
+    Outside = "outside",
     /// A part of a module that is left out for this robot.
-    LeftOut,
+    LeftOut = "left-out",
     /// A table that is left out because the robot is large, as the specification allows.
-    TooLarge,
+    TooLarge = "too-large",
     /// A selected module that would be of no use.
-    OfNoUse,
+    OfNoUse = "of-no-use",
     /// Files of the user's in the folder of a module that is not made any more.
-    LeftBehind,
+    LeftBehind = "left-behind",
 }
 
 impl NoteKind {
@@ -56,33 +69,6 @@ impl NoteKind {
     pub fn changes_robot(self) -> bool {
         use NoteKind::{Encoding, LeftBehind, OfNoUse, Outside, TooLarge, Xml};
         !matches!(self, Encoding | Xml | Outside | TooLarge | OfNoUse | LeftBehind)
-    }
-
-    /// The machine-readable name.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            NoteKind::Encoding => "encoding",
-            NoteKind::Xml => "xml",
-            NoteKind::Case => "case",
-            NoteKind::XacroLeftOver => "xacro-left-over",
-            NoteKind::RobotName => "robot-name",
-            NoteKind::Numbers => "numbers",
-            NoteKind::NotFinite => "not-finite",
-            NoteKind::Shape => "shape",
-            NoteKind::JointType => "joint-type",
-            NoteKind::Mimic => "mimic",
-            NoteKind::NoLimits => "no-limits",
-            NoteKind::Repeated => "repeated",
-            NoteKind::Material => "material",
-            NoteKind::MeshNotFound => "mesh-not-found",
-            NoteKind::MeshNotUsable => "mesh-not-usable",
-            NoteKind::Mesh => "mesh",
-            NoteKind::Outside => "outside",
-            NoteKind::LeftOut => "left-out",
-            NoteKind::TooLarge => "too-large",
-            NoteKind::OfNoUse => "of-no-use",
-            NoteKind::LeftBehind => "left-behind",
-        }
     }
 }
 

@@ -17,18 +17,12 @@ const MAX_PACKAGE_XML: u64 = 1 << 20;
 
 /// A `--package` that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum PackagePathError {
-    /// The `=` is missing.
     #[error("`{0}`: write NAME=PATH, the name of the package and its folder")]
     NoEquals(String),
-    /// The folder does not exist.
     #[error("package `{name}`: {} is not a folder", path.display())]
-    NoFolder {
-        /// The package.
-        name: String,
-        /// The path.
-        path: PathBuf,
-    },
+    NoFolder { name: String, path: PathBuf },
 }
 
 /// Where to search for packages.
@@ -86,8 +80,7 @@ impl Packages {
 
     /// The packages named by the user, and their folders.
     pub fn given(&self) -> impl Iterator<Item = (&str, &Path)> {
-        let given = self.given.iter();
-        given.map(|(name, path)| (name.as_str(), path.as_path()))
+        self.given.iter().map(|(name, path)| (name.as_str(), path.as_path()))
     }
 
     /// Candidate folders for a package, the likeliest first. A folder given by the user is the only candidate.
@@ -103,15 +96,10 @@ impl Packages {
         }
         let mut folders = Vec::new();
         // The URDF's own package, found by its package.xml or its folder name, or a package next to it.
-        for above in urdf_folder.ancestors() {
-            if package_name(above, files).as_deref() == Some(name) || is_named(above, name) {
-                folders.push(above.to_owned());
-            }
-            folders.push(above.join(name));
-        }
-        for folder in &self.ros_package_path {
+        let listed = self.ros_package_path.iter().map(PathBuf::as_path);
+        for folder in urdf_folder.ancestors().chain(listed) {
             if package_name(folder, files).as_deref() == Some(name) || is_named(folder, name) {
-                folders.push(folder.clone());
+                folders.push(folder.to_owned());
             }
             folders.push(folder.join(name));
         }

@@ -20,35 +20,18 @@ pub struct Job {
 
 /// Why a batch could not be set up.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum BatchError {
-    /// No such path.
     #[error("{path}: no such file or folder")]
-    Missing {
-        /// The path as given.
-        path: String,
-    },
-    /// A folder that cannot be searched.
+    Missing { path: String },
     #[error("{path}: the folder cannot be searched: {reason}")]
-    Unreadable {
-        /// The path.
-        path: String,
-        /// The operating system's error message.
-        reason: String,
-    },
-    /// A folder below the maximum search depth.
+    Unreadable { path: String, reason: String },
     #[error(
         "{path}: folders more than {MAX_FOLDER_DEPTH} levels deep are not searched; give this folder itself"
     )]
-    TooDeep {
-        /// The folder.
-        path: String,
-    },
-    /// A folder without URDFs.
+    TooDeep { path: String },
     #[error("{path}: there is no .urdf or .urdf.xacro file at any depth")]
-    Empty {
-        /// The path as given.
-        path: String,
-    },
+    Empty { path: String },
 }
 
 /// Whether these paths form a batch: several paths, or a folder.

@@ -13,11 +13,13 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::bounded::{MAX_SOURCE_BYTES, read_up_to};
 use crate::error::SourceError;
+use crate::files::MAX_SOURCE_BYTES;
 use crate::packages::Packages;
 use crate::process::{Ended, Running};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
+use urdd_directory::read_error::ReadError;
+use urdd_directory::regular;
 
 /// Maximum number of bytes to read from its standard error.
 const MAX_WORDS: u64 = 1 << 20;
@@ -92,9 +94,8 @@ pub(super) fn expand(
             return Err(failed(format!("it took more than {limit} s and was stopped")));
         }
     };
-    let unread = || Err("it did not end".to_owned());
-    let written =
-        written.unwrap_or_else(|| output.recv_timeout(LAST_WORDS).unwrap_or_else(|_| unread()));
+    let written = written.or_else(|| output.recv_timeout(LAST_WORDS).ok());
+    let written = written.ok_or_else(|| failed("its output: it did not end".to_owned()))?;
     let written = written.map_err(|why| failed(format!("its output: {why}")))?;
     if let Some(status) = status.filter(|status: &ExitStatus| !status.success()) {
         let words = words.recv_timeout(LAST_WORDS).ok().and_then(Result::ok);
@@ -108,9 +109,9 @@ pub(super) fn expand(
 fn read_beside(
     stream: impl Read + Send + 'static,
     limit: u64,
-) -> Receiver<Result<Vec<u8>, String>> {
+) -> Receiver<Result<Vec<u8>, ReadError>> {
     let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || sender.send(read_up_to(stream, limit)));
+    thread::spawn(move || sender.send(regular::read_up_to(stream, limit)));
     receiver
 }
 
@@ -118,8 +119,7 @@ fn read_beside(
 /// traceback.
 fn last_lines(words: &[u8]) -> Option<String> {
     let words = String::from_utf8_lossy(words);
-    let lines = words.lines().filter(|line| !line.trim().is_empty());
-    let lines: Vec<&str> = lines.collect();
+    let lines: Vec<&str> = words.lines().filter(|line| !line.trim().is_empty()).collect();
     if let Some(own) = lines.iter().rposition(|line| line.starts_with("error: ")) {
         let own = lines[own..].iter().take(MOST_LINES + 1).map(|line| line.trim());
         let own = own.collect::<Vec<_>>().join("; ");

@@ -81,8 +81,7 @@ impl Archive {
     /// If it cannot be read, or is not an archive of one URDD.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let file = regular::open(path)?;
-        let metadata = file.metadata();
-        let size = metadata.map_err(|error| ReadError::from_io(&error))?.len();
+        let size = file.metadata()?.len();
         let bytes = regular::read_sized(file, size, MAX_ARCHIVE_BYTES)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self::new(&name, bytes)?)

@@ -29,7 +29,7 @@ impl Disk {
     /// # Errors
     /// If it does not exist, is not a folder, or cannot be accessed.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
-        let canonical = fs::canonicalize(path).map_err(|error| ReadError::from_io(&error))?;
+        let canonical = fs::canonicalize(path)?;
         if !canonical.is_dir() {
             return Err(ReadError::NotAUrdd);
         }
@@ -51,13 +51,13 @@ impl Disk {
     pub(super) fn walk(&self) -> Result<(Listing, Vec<Seen>), ReadError> {
         let mut listing = Listing::default();
         let mut found = Vec::new();
-        fs::read_dir(&self.canonical).map_err(|error| ReadError::from_io(&error))?;
+        fs::read_dir(&self.canonical)?;
         let mut folders = vec![(self.canonical.clone(), String::new(), 0)];
         while let Some((folder, prefix, depth)) = folders.pop() {
             let entries = match fs::read_dir(&folder) {
                 Ok(entries) => entries,
                 Err(error) => {
-                    listing.unreadable.push((prefix, ReadError::from_io(&error)));
+                    listing.unreadable.push((prefix, error.into()));
                     continue;
                 }
             };

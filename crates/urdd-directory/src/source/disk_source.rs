@@ -23,14 +23,12 @@ impl Source for Disk {
     }
 
     fn open(&self, relative: &str) -> Result<(OpenFile, u64), ReadError> {
-        let target = fs::canonicalize(self.canonical.join(relative))
-            .map_err(|error| ReadError::from_io(&error))?;
+        let target = fs::canonicalize(self.canonical.join(relative))?;
         if !target.starts_with(&self.canonical) {
             return Err(ReadError::LeavesRoot);
         }
         let file = regular::open(&target)?;
-        let metadata = file.metadata();
-        let size = metadata.map_err(|error| ReadError::from_io(&error))?.len();
+        let size = file.metadata()?.len();
         Ok((Box::new(file), size))
     }
 

@@ -44,7 +44,7 @@ struct Look {
 
 impl Look {
     fn at_root(disk: &Disk) -> Result<Self, ReadError> {
-        let root = fs::metadata(&disk.canonical).map_err(|error| ReadError::from_io(&error))?;
+        let root = fs::metadata(&disk.canonical)?;
         let (listing, seen) = disk.walk()?;
         Ok(Look { root: Stamp::of(&root), listing, seen })
     }

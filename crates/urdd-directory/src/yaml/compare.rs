@@ -84,8 +84,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                     Slot::Key => {
                         self.target(tag.as_deref(), anchor, None, Node::Scalar, at);
                         self.key(text, style, at);
-                        if self.open.last().is_some_and(|open| open.flow) && self.keys.is_torn(span)
-                        {
+                        if self.is_flow() && self.keys.is_torn(span) {
                             self.report(at, TextFaultKind::YamlSyntax, TORN);
                         }
                     }
@@ -126,37 +125,40 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
         }
     }
 
+    /// The open mapping, if the next node is in one.
+    fn mapping(&mut self) -> Option<&mut Mapping<'j, 'y>> {
+        match &mut self.open.last_mut()?.shape {
+            Shape::Mapping(mapping) => Some(mapping),
+            Shape::List { .. } => None,
+        }
+    }
+
+    fn is_flow(&self) -> bool {
+        self.open.last().is_some_and(|open| open.flow)
+    }
+
     fn alias(&mut self, at: Position) {
-        if let Slot::Key = self.slot()
-            && let Some(Shape::Mapping(mapping)) = self.open.last_mut().map(|open| &mut open.shape)
-        {
-            mapping.key = None;
-            mapping.due = Some(None);
-            mapping.incomplete = true;
-        } else if let Some(Shape::Mapping(Mapping { merging: true, .. })) =
-            self.open.last().map(|open| &open.shape)
-        {
+        let is_key = matches!(self.slot(), Slot::Key);
+        match self.mapping() {
+            Some(mapping) if is_key => mapping.skip_key(),
             // The merge key is already reported.
-            return;
+            Some(Mapping { merging: true, .. }) => return,
+            _ => {}
         }
         let text = "an alias refers to a value written elsewhere: write the value itself";
         self.report(at, TextFaultKind::YamlAnchorOrAlias, text);
     }
 
     fn key(&mut self, text: Cow<'y, str>, style: ScalarStyle, at: Position) {
-        let Some(open) = self.open.last_mut() else {
-            return;
-        };
-        let flow = open.flow;
-        let Shape::Mapping(mapping) = &mut open.shape else {
+        let flow = self.is_flow();
+        let Some(mapping) = self.mapping() else {
             return;
         };
         let plain = style == ScalarStyle::Plain;
         mapping.merging = plain && text == "<<";
         if mapping.merging {
+            mapping.skip_key();
             mapping.key = Some(text);
-            mapping.due = Some(None);
-            mapping.incomplete = true;
             let text =
                 "a merge key takes members from elsewhere: write them here (or quote the key)";
             return self.report(at, TextFaultKind::YamlMergeKey, text);
@@ -215,11 +217,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
                 readings.yaml12
             }
         };
-        if plain
-            && reading == Reading::Text
-            && self.open.last().is_some_and(|open| open.flow)
-            && text.contains('?')
-        {
+        if plain && reading == Reading::Text && self.is_flow() && text.contains('?') {
             self.add(at, TextFaultKind::YamlAmbiguousScalar, || message::question_mark(text));
         }
         if let Some(json) = target.json
@@ -242,9 +240,7 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             Slot::Key => {
                 let text = "a list or mapping as a key: keys are strings";
                 self.report(at, TextFaultKind::YamlNonStringKey, text);
-                if let Some(Shape::Mapping(mapping)) =
-                    self.open.last_mut().map(|open| &mut open.shape)
-                {
+                if let Some(mapping) = self.mapping() {
                     mapping.key = None;
                     mapping.due = Some(None);
                 }
@@ -256,23 +252,18 @@ impl<'j, 'y> Comparison<'j, 'y, '_> {
             self.too_deep(at);
             return ControlFlow::Break(());
         }
-        let fits = |json: &Value| match node {
-            Node::List => json.is_array(),
-            _ => json.is_object(),
+        let (list, object) = (json.and_then(Value::as_array), json.and_then(Value::as_object));
+        let (found, fits, shape) = if node == Node::List {
+            let shape = Shape::List { json: list.map(Vec::as_slice), begun: 0 };
+            ("a list", list.is_some(), shape)
+        } else {
+            ("a mapping", object.is_some(), Shape::Mapping(Mapping::new(object)))
         };
-        if let Some(json) = json.filter(|json| !fits(json)) {
-            let found = if node == Node::List { "a list" } else { "a mapping" };
+        if let Some(json) = json.filter(|_| !fits) {
             self.differs(at, || message::differs(found, json));
         }
-        let shape = match node {
-            Node::List => {
-                Shape::List { json: json.and_then(Value::as_array).map(Vec::as_slice), begun: 0 }
-            }
-            _ => Shape::Mapping(Mapping::new(json.and_then(Value::as_object))),
-        };
         // In block style, the start event of a list or mapping has an empty span.
-        let flow = self.open.last().is_some_and(|open| open.flow)
-            || (tag.is_none() && anchor == 0 && !span.is_empty());
+        let flow = self.is_flow() || (tag.is_none() && anchor == 0 && !span.is_empty());
         self.open.push(Open { start: at, flow, variant, shape });
         ControlFlow::Continue(())
     }

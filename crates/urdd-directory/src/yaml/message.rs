@@ -33,11 +33,7 @@ pub fn excerpt(text: &str) -> String {
 pub fn differs(found: &str, json: &Value) -> TextFault {
     let expected = describe(json);
     let message = format!("the YAML has {found} where the JSON has {expected}");
-    TextFault {
-        expected: Some(expected),
-        found: Some(found.to_owned()),
-        ..TextFault::new(TextFaultKind::YamlDiffers, message)
-    }
+    TextFault::new(TextFaultKind::YamlDiffers, message).expecting(expected).finding(found)
 }
 
 /// A plain scalar for messages: strings quoted, anything else as written.
@@ -62,14 +58,9 @@ pub fn ambiguous(text: &str, readings: Readings, json: Option<&Value>) -> TextFa
     } else {
         format!("{new} to YAML 1.2 and {old} to YAML 1.1 readers such as PyYAML")
     };
-    TextFault {
-        expected: json.map(describe),
-        found: Some(shown.clone()),
-        ..TextFault::new(
-            TextFaultKind::YamlAmbiguousScalar,
-            format!("`{shown}` is {how}: write `{instead}`"),
-        )
-    }
+    let message = format!("`{shown}` is {how}: write `{instead}`");
+    let fault = TextFault::new(TextFaultKind::YamlAmbiguousScalar, message).finding(shown);
+    TextFault { expected: json.map(describe), ..fault }
 }
 
 /// A plain scalar that PyYAML cannot read inside brackets.
@@ -110,16 +101,13 @@ pub fn not_a_string(text: &str, reading: Reading) -> TextFault {
 pub fn extra_key(key: &str) -> TextFault {
     let key = excerpt(key);
     let message = format!("the YAML has a key `{key}` that the JSON lacks");
-    TextFault { found: Some(key), ..TextFault::new(TextFaultKind::YamlDiffers, message) }
+    TextFault::new(TextFaultKind::YamlDiffers, message).finding(key)
 }
 
 /// A key that is missing in the YAML.
 pub fn missing_key(key: &str, value: &Value) -> TextFault {
     let message = format!("the YAML lacks the key `{}`", excerpt(key));
-    TextFault {
-        expected: Some(describe(value)),
-        ..TextFault::new(TextFaultKind::YamlDiffers, message)
-    }
+    TextFault::new(TextFaultKind::YamlDiffers, message).expecting(describe(value))
 }
 
 /// A duplicate key.
@@ -134,11 +122,8 @@ pub fn repeated_key(key: &str) -> TextFault {
 /// A list of a different length.
 pub fn length(found: usize, expected: usize) -> TextFault {
     let message = format!("the YAML has a list of {found} where the JSON has a list of {expected}");
-    TextFault {
-        expected: Some(expected.to_string()),
-        found: Some(found.to_string()),
-        ..TextFault::new(TextFaultKind::YamlDiffers, message)
-    }
+    let fault = TextFault::new(TextFaultKind::YamlDiffers, message);
+    fault.expecting(expected.to_string()).finding(found.to_string())
 }
 
 /// Why the parser stopped.

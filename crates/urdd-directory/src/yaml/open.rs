@@ -60,6 +60,13 @@ impl<'j, 'y> Mapping<'j, 'y> {
         }
     }
 
+    /// Goes on behind a key whose members come from elsewhere.
+    pub fn skip_key(&mut self) {
+        self.key = None;
+        self.due = Some(None);
+        self.incomplete = true;
+    }
+
     pub fn find(&mut self, name: &str) -> Member<'j> {
         if self.names.is_none()
             && let Some(rest) = &mut self.rest

@@ -83,11 +83,6 @@ pub fn fault(tag: &Tag, instead: Instead) -> TextFault {
         Instead::Nothing => "remove it".to_owned(),
     };
     let written = excerpt(&written);
-    TextFault {
-        found: Some(written.clone()),
-        ..TextFault::new(
-            TextFaultKind::YamlTag,
-            format!("`{written}` is a tag, which plain readers refuse: {instead}"),
-        )
-    }
+    let message = format!("`{written}` is a tag, which plain readers refuse: {instead}");
+    TextFault::new(TextFaultKind::YamlTag, message).finding(written)
 }

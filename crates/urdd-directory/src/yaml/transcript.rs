@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::fmt::{self, Write};
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
-use serde_json::{Map, Number, Value};
+use serde_json::{Map, Value};
 
 use super::Expected;
 use crate::canonical;
@@ -51,6 +51,15 @@ impl<'de, W: Write> DeserializeSeed<'de> for Follow<'_, '_, W> {
     }
 }
 
+macro_rules! scalars {
+    ($($visit:ident: $type:ty),*) => {$(
+        fn $visit<E: Error>(self, value: $type) -> Result<(), E> {
+            let value = self.value.$visit(value)?;
+            self.write(&value)
+        }
+    )*};
+}
+
 impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
     type Value = ();
 
@@ -62,26 +71,7 @@ impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
         self.write(&Value::Null)
     }
 
-    fn visit_bool<E: Error>(self, value: bool) -> Result<(), E> {
-        self.write(&Value::Bool(value))
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<(), E> {
-        self.write(&Value::Number(value.into()))
-    }
-
-    fn visit_u64<E: Error>(self, value: u64) -> Result<(), E> {
-        self.write(&Value::Number(value.into()))
-    }
-
-    fn visit_f64<E: Error>(self, value: f64) -> Result<(), E> {
-        let number = Number::from_f64(value).ok_or_else(|| E::custom("number out of range"))?;
-        self.write(&Value::Number(number))
-    }
-
-    fn visit_str<E: Error>(self, value: &str) -> Result<(), E> {
-        self.write(&Value::String(value.to_owned()))
-    }
+    scalars!(visit_bool: bool, visit_i64: i64, visit_u64: u64, visit_f64: f64, visit_str: &str);
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<(), A::Error> {
         let inner = self.value.inner()?;
@@ -129,9 +119,6 @@ impl<'de, W: Write> Visitor<'de> for Follow<'_, '_, W> {
                 return Err(A::Error::custom("a key occurs twice"));
             }
         }
-        match keys.is_empty() {
-            true => self.write(&Value::Object(Map::new())),
-            false => Ok(()),
-        }
+        if keys.is_empty() { self.write(&Value::Object(Map::new())) } else { Ok(()) }
     }
 }

@@ -1,7 +1,7 @@
 //! `adjusted_robot_module`, without a version: how a robot was trimmed from another.
 
 use crate::index::{JointIdx, LinkIdx};
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// How this robot was made from another (the base robot) by cutting branches off and fixing joints.

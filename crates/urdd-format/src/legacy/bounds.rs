@@ -1,6 +1,6 @@
 //! `bounds_module` 0.0.1: lower and upper bound of each DOF.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Bounds of the configuration space, per DOF: rad or m. Taken from the joint's limit; where its

@@ -1,7 +1,7 @@
 //! `chain_module` 0.0.1: the kinematic tree.
 
 use crate::index::{JointIdx, LinkIdx};
-use crate::object::{module, object};
+use crate::types::module;
 
 module! {
     /// The kinematic tree: who is whose parent.
@@ -15,9 +15,7 @@ module! {
         /// The link without a parent.
         pub root_idx: LinkIdx,
     }
-}
 
-object! {
     /// A link, with its neighbours.
     pub struct LinkInChain {
         /// Name of the link.
@@ -33,9 +31,7 @@ object! {
         /// The links that these joints move.
         pub children_link_idxs: Vec<LinkIdx>,
     }
-}
 
-object! {
     /// A joint, with its two links.
     pub struct JointInChain {
         /// Name of the joint.

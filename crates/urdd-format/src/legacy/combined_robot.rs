@@ -2,8 +2,7 @@
 
 use super::urdf::{Axis, Dynamics, JointType, Limit, Origin, SafetyController};
 use crate::index::RobotIdx;
-use crate::object::{module, object};
-use crate::tagged::tagged;
+use crate::types::module;
 
 module! {
     /// How this robot was put together: robots that are attached in order, each by a joint. Link and
@@ -15,9 +14,7 @@ module! {
         /// index.
         pub attached_robots: Vec<AttachedRobot>,
     }
-}
 
-object! {
     /// A robot, and the joint that attaches its root link.
     pub struct AttachedRobot {
         /// Name of the robot: its folder, beside this one's.
@@ -37,9 +34,7 @@ object! {
         /// The joint's soft limits.
         pub safety_controller: Option<SafetyController>,
     }
-}
 
-tagged! {
     /// What a robot is attached to.
     pub enum AttachmentPoint {
         /// The link that stands for the world.
@@ -47,9 +42,7 @@ tagged! {
         /// A link of a robot that was attached before.
         Link(RobotLink),
     }
-}
 
-object! {
     /// A link of an attached robot.
     pub struct RobotLink {
         /// The robot.

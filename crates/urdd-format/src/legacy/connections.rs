@@ -1,7 +1,7 @@
 //! `connections_module` 0.0.1: paths down the kinematic tree.
 
 use crate::index::LinkIdx;
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Paths from links down to their descendants.

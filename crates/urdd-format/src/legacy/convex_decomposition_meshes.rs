@@ -1,6 +1,6 @@
 //! `convex_decomposition_meshes_module` 0.0.1: each link as a union of convex pieces.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Each link's plain mesh as convex pieces, in three formats, in the link's frame.

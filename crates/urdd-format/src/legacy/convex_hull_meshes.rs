@@ -1,6 +1,6 @@
 //! `convex_hull_meshes_module` 0.0.1: the convex hull of each link.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// The convex hull of each link's plain mesh, in three formats, in the link's frame.

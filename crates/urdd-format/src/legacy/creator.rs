@@ -5,8 +5,7 @@
 //! first four actions that were replaced later; both forms are accepted.
 
 use super::urdf::{Axis, JointType, Limit};
-use crate::object::{module, object, string_enum};
-use crate::tagged::tagged;
+use crate::types::module;
 
 module! {
     /// How a chain (a robot, or an environment) was put together: actions, in order.
@@ -16,9 +15,7 @@ module! {
         /// The actions.
         pub actions: Vec<Action>,
     }
-}
 
-tagged! {
     /// A step in putting a chain together.
     pub enum Action {
         /// Adds a chain that exists.
@@ -54,9 +51,7 @@ tagged! {
         /// Sets the inertia tensor of a link.
         SetObjectInertia(SetInertia),
     }
-}
 
-object! {
     /// A pose.
     pub struct Isometry {
         /// Rotation as a unit quaternion: x, y, z, w.
@@ -64,9 +59,7 @@ object! {
         /// Position, metres: x, y, z.
         pub translation: [f64; 3],
     }
-}
 
-object! {
     /// A chain to add.
     pub struct AddChain {
         /// Its name: its folder, beside this one's.
@@ -76,9 +69,7 @@ object! {
         /// Factors along x, y, z.
         pub scale: [f64; 3],
     }
-}
 
-object! {
     /// A link to add, from a mesh file.
     pub struct AddLink {
         /// Path of the mesh file on the machine where the chain was made.
@@ -92,9 +83,7 @@ object! {
         /// Factors along x, y, z.
         pub scale: [f64; 3],
     }
-}
 
-object! {
     /// Links to add, from a glTF file.
     pub struct AddScene {
         /// Name of the scene.
@@ -108,9 +97,7 @@ object! {
         /// Factors along x, y, z.
         pub scale: [f64; 3],
     }
-}
 
-object! {
     /// How a joint moves; the joint is named by its two links.
     pub struct SetJointType {
         /// Name of the parent link; null for the world.
@@ -120,9 +107,7 @@ object! {
         /// How it moves.
         pub joint_type: JointType,
     }
-}
 
-object! {
     /// The axis of a joint; the joint is named by its two links.
     pub struct SetJointAxis {
         /// Name of the parent link; null for the world.
@@ -132,9 +117,7 @@ object! {
         /// Its axis.
         pub axis: Axis,
     }
-}
 
-object! {
     /// The limits of a joint; the joint is named by its two links.
     pub struct SetJointLimit {
         /// Name of the parent link; null for the world.
@@ -144,9 +127,7 @@ object! {
         /// Its limits.
         pub joint_limit: Limit,
     }
-}
 
-string_enum! {
     /// Whether a simulation moves a link.
     pub enum SimulationMode {
         /// It does.
@@ -154,9 +135,7 @@ string_enum! {
         /// It does not.
         Passive,
     }
-}
 
-object! {
     /// Whether a simulation moves a link.
     pub struct SetSimulationMode {
         /// Name of the link.
@@ -164,9 +143,7 @@ object! {
         /// Whether it moves.
         pub mode: SimulationMode,
     }
-}
 
-object! {
     /// The mass of a link.
     pub struct SetMass {
         /// Name of the link.
@@ -174,9 +151,7 @@ object! {
         /// Kilograms.
         pub mass: f64,
     }
-}
 
-object! {
     /// The centre of mass of a link.
     pub struct SetInertialOrigin {
         /// Name of the link.
@@ -184,9 +159,7 @@ object! {
         /// Centre of mass, and the axes of the inertia tensor, in the link's frame.
         pub pose: Isometry,
     }
-}
 
-object! {
     /// The inertia tensor of a link, kg m².
     pub struct SetInertia {
         /// Name of the link.

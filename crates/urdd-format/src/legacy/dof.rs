@@ -1,7 +1,7 @@
 //! `dof_module` 0.0.1 and 0.0.2: the degrees of freedom. Both versions have the same structure.
 
 use crate::index::{Count, DofIdx, JointIdx};
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// The robot's degrees of freedom (DOFs), in joint order. Revolute, continuous and prismatic

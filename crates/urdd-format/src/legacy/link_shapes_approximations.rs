@@ -2,7 +2,7 @@
 
 // Boxes are as in version 1.
 pub use crate::link_shapes_approximations::Obb;
-use crate::object::{module, object};
+use crate::types::module;
 
 module! {
     /// Oriented bounding boxes (OBBs) and bounding spheres of each link and of each convex piece, in
@@ -17,9 +17,7 @@ module! {
         /// For each link, a sphere for each convex piece.
         pub decomposition_bounding_spheres: Vec<Vec<BoundingSphere>>,
     }
-}
 
-object! {
     /// A bounding sphere.
     pub struct BoundingSphere {
         /// Radius, metres.

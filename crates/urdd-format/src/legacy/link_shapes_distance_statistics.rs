@@ -1,6 +1,6 @@
 //! `link_shapes_distance_statistics_module` 0.0.3: sampled distances between pairs of shapes.
 
-use crate::object::{module, object};
+use crate::types::module;
 
 module! {
     /// Mean, largest and smallest distance of each pair of shapes over sampled configurations, metres.
@@ -20,9 +20,7 @@ module! {
         /// Between the spheres of convex pieces.
         pub decomposition_bounding_spheres: DistanceStatistics,
     }
-}
 
-object! {
     /// Square matrices over shape indices, metres.
     pub struct DistanceStatistics {
         /// Mean distance of each pair.

@@ -1,7 +1,7 @@
 //! `link_shapes_lie_alg_error_models_module` 0.0.1 and 0.0.2: error of linearised distances. Both
 //! versions have the same structure.
 
-use crate::object::module;
+use crate::types::module;
 
 /// Coefficients of the lower bound, then of the upper bound.
 pub type ErrorBounds = [[f64; 3]; 2];

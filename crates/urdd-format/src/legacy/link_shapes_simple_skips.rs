@@ -1,6 +1,6 @@
 //! `link_shapes_simple_skips_module` 0.0.5: pairs that need no collision check, found by sampling.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Square matrices over shape indices: true where both shapes are on one link, or where the largest

@@ -1,7 +1,7 @@
 //! `link_shapes_skips_module` 0.0.1 and 0.0.2: the simple skips, with manual edits applied. Both versions
 //! have the same structure.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Square matrices over shape indices: true where a collision check may skip the pair. The simple

@@ -1,6 +1,6 @@
 //! `original_meshes_module` 0.0.1 and 0.0.2: copies of the mesh files that the URDF names.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// Version 0.0.1: a visual mesh of each link, copied.

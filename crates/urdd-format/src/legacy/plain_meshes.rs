@@ -1,6 +1,6 @@
 //! `plain_meshes_module` 0.0.1 and 0.0.2: one mesh per link. Both versions have the same structure.
 
-use crate::object::module;
+use crate::types::module;
 
 module! {
     /// One mesh per link, in three formats, in the link's frame: the visual's origin is applied, its

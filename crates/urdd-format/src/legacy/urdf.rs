@@ -1,7 +1,6 @@
 //! `urdf_module` 0.0.1 and 0.0.3: the URDF as data. Both versions have the same structure.
 
-use crate::object::{module, object, string_enum};
-use crate::tagged::tagged;
+use crate::types::module;
 // These are as in version 1.
 pub use crate::urdf::{Color, Cuboid, Cylinder, LinkName, Mass, Mimic, Sphere, Texture};
 
@@ -19,9 +18,7 @@ module! {
         /// Materials declared at the top of the file, in its order.
         pub materials: Vec<Material>,
     }
-}
 
-object! {
     /// A link: a rigid body.
     pub struct Link {
         /// Name.
@@ -33,9 +30,7 @@ object! {
         /// Collision elements in the order of the file.
         pub collision: Vec<Collision>,
     }
-}
 
-object! {
     /// Mass properties of a link.
     pub struct Inertial {
         /// Centre of mass, and the axes of `inertia`, in the link's frame.
@@ -45,9 +40,7 @@ object! {
         /// Inertia tensor about the centre of mass, in the axes of `origin`.
         pub inertia: Inertia,
     }
-}
 
-object! {
     /// A pose as the URDF writes it.
     pub struct Origin {
         /// Position, metres: x, y, z.
@@ -55,9 +48,7 @@ object! {
         /// Fixed-axis roll, pitch, yaw, radians: turn about x, then y, then z of the outer frame.
         pub rpy: [f64; 3],
     }
-}
 
-object! {
     /// The six independent elements of a symmetric inertia tensor, kg m².
     pub struct Inertia {
         /// Element xx.
@@ -73,9 +64,7 @@ object! {
         /// Element zz.
         pub izz: f64,
     }
-}
 
-object! {
     /// What a link looks like, or a part of it.
     pub struct Visual {
         /// Name of the element.
@@ -87,9 +76,7 @@ object! {
         /// Its material.
         pub material: Option<Material>,
     }
-}
 
-object! {
     /// What a link collides with, or a part of it.
     pub struct Collision {
         /// Name of the element.
@@ -99,9 +86,7 @@ object! {
         /// Its shape.
         pub geometry: Geometry,
     }
-}
 
-tagged! {
     /// A shape: an object of one key, which says of what kind it is.
     pub enum Geometry {
         /// A mesh file.
@@ -115,9 +100,7 @@ tagged! {
         /// A sphere about the origin.
         Sphere(Sphere),
     }
-}
 
-object! {
     /// A mesh file.
     pub struct Mesh {
         /// File name as the URDF has it.
@@ -125,9 +108,7 @@ object! {
         /// Factors along x, y, z; null where the URDF has none. The other modules ignore it.
         pub scale: Option<[f64; 3]>,
     }
-}
 
-object! {
     /// A capsule about the origin, along z.
     pub struct Capsule {
         /// Radius, metres.
@@ -135,9 +116,7 @@ object! {
         /// Length, metres.
         pub length: f64,
     }
-}
 
-object! {
     /// A material, or a reference to one by its name.
     pub struct Material {
         /// Name.
@@ -147,9 +126,7 @@ object! {
         /// Texture.
         pub texture: Option<Texture>,
     }
-}
 
-string_enum! {
     /// How a joint moves.
     pub enum JointType {
         /// Turns about its axis, within limits. One DOF, rad.
@@ -168,9 +145,7 @@ string_enum! {
         /// Turns freely. Three DOFs: a rotation vector (rad).
         Spherical,
     }
-}
 
-object! {
     /// A joint: how one link moves on another.
     pub struct Joint {
         /// Name.
@@ -194,17 +169,13 @@ object! {
         /// Soft limits.
         pub safety_controller: Option<SafetyController>,
     }
-}
 
-object! {
     /// The axis of a joint.
     pub struct Axis {
         /// Direction in the joint's frame.
         pub xyz: [f64; 3],
     }
-}
 
-object! {
     /// Limits of a joint: rad, rad/s, N m for turning joints; m, m/s, N for sliding ones.
     pub struct Limit {
         /// Smallest position.
@@ -216,9 +187,7 @@ object! {
         /// Largest speed.
         pub velocity: f64,
     }
-}
 
-object! {
     /// Dynamics of a joint.
     pub struct Dynamics {
         /// Damping: N m s/rad, or N s/m.
@@ -226,9 +195,7 @@ object! {
         /// Static friction: N m, or N.
         pub friction: f64,
     }
-}
 
-object! {
     /// Soft limits of a joint.
     pub struct SafetyController {
         /// Where the controller begins to limit the position, below.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::reader::{Reader, shortened};
-use super::tree::written_axis;
+use super::reading::written_axis;
 use crate::cycles::cycles;
 use crate::fault::Fault;
 use crate::note::NoteKind;
@@ -71,16 +71,15 @@ fn ends(reader: &mut Reader) {
         let found = sides.map(|(end, link, offset)| {
             let found = links.get(link.as_str()).copied();
             if found.is_none() {
+                let plain_names = plain_names.get_or_insert_with(|| plain_names_of(robot));
+                let meant = plain_names.get(&plain(link));
                 let fault = Fault::UnknownLink {
                     joint: shortened(&joint.name),
                     end,
                     link: shortened(link),
-                    hint: plain_names
-                        .get_or_insert_with(|| plain_names_of(robot))
-                        .get(&plain(link))
-                        .map_or_else(String::new, |meant| {
-                            format!(" (there is `{}`)", shortened(meant))
-                        }),
+                    hint: meant.map_or_else(String::new, |name| {
+                        format!(" (there is `{}`)", shortened(name))
+                    }),
                 };
                 faults.push((offset, fault));
             }
@@ -120,10 +119,7 @@ fn one_root(reader: &mut Reader, robot_at: usize) {
     let robot = &reader.reading.robot;
     let ends = &reader.reading.tree.ends;
     if robot.links.is_empty() {
-        let fault = match reader.reading.has_xacro {
-            true => Fault::OnlyMacros,
-            false => Fault::NoLinks,
-        };
+        let fault = if reader.reading.has_xacro { Fault::OnlyMacros } else { Fault::NoLinks };
         reader.fault(robot_at, fault);
         return;
     }
@@ -249,11 +245,8 @@ fn missing_limits(reader: &mut Reader) {
         if joint.mimic.is_none() && !is_limited(joint) {
             let kind = joint.joint_type.as_str().to_ascii_lowercase();
             let problem = format!("joint `{}` is {kind} and has no limits", shortened(&joint.name));
-            found.push((
-                place.joint,
-                problem,
-                format!("treated as unlimited; its bounds are {bounds}"),
-            ));
+            let assumed = format!("treated as unlimited; its bounds are {bounds}");
+            found.push((place.joint, problem, assumed));
         }
     }
     for (offset, problem, assumed) in found {

@@ -1,5 +1,6 @@
 //! Joints.
 
+use super::numbers::element_of_numbers;
 use super::reader::{JointPlace, Reader, shortened};
 use super::xml::Element;
 use crate::fault::Fault;
@@ -33,34 +34,25 @@ impl Reader {
             place.axis = axis.range().start;
             v1::Axis { xyz: self.vector(axis, "xyz") }
         });
-        let limit = self.only(joint, "limit").map(|limit| v1::Limit {
-            lower: self.number(limit, "lower"),
-            upper: self.number(limit, "upper"),
-            effort: self.number(limit, "effort"),
-            velocity: self.number(limit, "velocity"),
-            acceleration: self.number(limit, "acceleration"),
-            deceleration: self.number(limit, "deceleration"),
-            jerk: self.number(limit, "jerk"),
-        });
-        let dynamics = self.only(joint, "dynamics").map(|dynamics| v1::Dynamics {
-            damping: self.number(dynamics, "damping"),
-            friction: self.number(dynamics, "friction"),
-        });
+        let limit = element_of_numbers!(
+            self,
+            joint,
+            "limit",
+            Limit { lower, upper, effort, velocity, acceleration, deceleration, jerk }
+        );
+        let dynamics = element_of_numbers!(self, joint, "dynamics", Dynamics { damping, friction });
         let mimic = self.only(joint, "mimic").and_then(|mimic| {
             place.mimic = mimic.range();
             self.mimic(mimic, shown)
         });
-        let safety_controller =
-            self.only(joint, "safety_controller").map(|soft| v1::SafetyController {
-                soft_lower_limit: self.number(soft, "soft_lower_limit"),
-                soft_upper_limit: self.number(soft, "soft_upper_limit"),
-                k_position: self.number(soft, "k_position"),
-                k_velocity: self.number(soft, "k_velocity"),
-            });
-        let calibration = self.only(joint, "calibration").map(|calibration| v1::Calibration {
-            rising: self.number(calibration, "rising"),
-            falling: self.number(calibration, "falling"),
-        });
+        let safety_controller = element_of_numbers!(
+            self,
+            joint,
+            "safety_controller",
+            SafetyController { soft_lower_limit, soft_upper_limit, k_position, k_velocity }
+        );
+        let calibration =
+            element_of_numbers!(self, joint, "calibration", Calibration { rising, falling });
         let unknown_elements = self.unknown(joint, JOINT_ELEMENTS);
         let (Some(name), Some(joint_type), Some(parent), Some(child)) =
             (name, joint_type, parent, child)
@@ -87,8 +79,8 @@ impl Reader {
     fn joint_type(&mut self, joint: Element<'_>, name: &str) -> Option<v1::JointType> {
         let word = self.needed(joint, "joint", "type")?;
         let plain = word.trim().to_ascii_lowercase();
-        let kinds = v1::JointType::ALL.iter().copied();
-        let found = kinds.into_iter().find(|kind| kind.as_str().to_ascii_lowercase() == plain);
+        let mut kinds = v1::JointType::ALL.iter().copied();
+        let found = kinds.find(|kind| kind.as_str().to_ascii_lowercase() == plain);
         let attribute = self.attribute(joint, "type")?;
         match found {
             None => {

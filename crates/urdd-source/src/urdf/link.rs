@@ -1,5 +1,6 @@
 //! Links, their geometry and materials.
 
+use super::numbers::element_of_numbers;
 use super::reader::Reader;
 use super::xml::{self, Element};
 use crate::note::NoteKind;
@@ -39,14 +40,12 @@ impl Reader {
                 .only(inertial, "mass")
                 .and_then(|mass| self.number(mass, "value"))
                 .map(|value| v1::Mass { value }),
-            inertia: self.only(inertial, "inertia").map(|inertia| v1::Inertia {
-                ixx: self.number(inertia, "ixx"),
-                ixy: self.number(inertia, "ixy"),
-                ixz: self.number(inertia, "ixz"),
-                iyy: self.number(inertia, "iyy"),
-                iyz: self.number(inertia, "iyz"),
-                izz: self.number(inertia, "izz"),
-            }),
+            inertia: element_of_numbers!(
+                self,
+                inertial,
+                "inertia",
+                Inertia { ixx, ixy, ixz, iyy, iyz, izz }
+            ),
         }
     }
 
@@ -79,19 +78,15 @@ impl Reader {
                 let scale = self.vector(shape, "scale");
                 Some(v1::Geometry::Mesh(v1::Mesh { filename, scale }))
             }
-            "box" => {
-                let size = self.size(shape, "size")?;
-                Some(v1::Geometry::Box(v1::Cuboid { size }))
-            }
-            "cylinder" => {
+            "box" => Some(v1::Geometry::Box(v1::Cuboid { size: self.size(shape, "size")? })),
+            "cylinder" | "capsule" => {
                 let ([radius], [length]) =
                     (self.size(shape, "radius")?, self.size(shape, "length")?);
-                Some(v1::Geometry::Cylinder(v1::Cylinder { radius, length }))
-            }
-            "capsule" => {
-                let ([radius], [length]) =
-                    (self.size(shape, "radius")?, self.size(shape, "length")?);
-                Some(v1::Geometry::Capsule(v1::Capsule { radius, length }))
+                Some(if name == "cylinder" {
+                    v1::Geometry::Cylinder(v1::Cylinder { radius, length })
+                } else {
+                    v1::Geometry::Capsule(v1::Capsule { radius, length })
+                })
             }
             _ => {
                 let [radius] = self.size(shape, "radius")?;

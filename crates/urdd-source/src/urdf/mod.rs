@@ -9,16 +9,14 @@ mod link;
 mod materials;
 mod numbers;
 mod reader;
-pub use reader::shortened;
 mod reading;
-mod tree;
 mod xml;
 
 use super::fault::{Fault, PlacedFault};
 use urdd_directory::position;
 
-pub use reading::Reading;
-pub use tree::{Tree, written_axis};
+pub use reader::shortened;
+pub use reading::{Reading, Tree, written_axis};
 
 /// Reads a URDF. A robot without a name is named `file_stem`.
 ///
@@ -32,18 +30,16 @@ pub fn read(text: &str, file_stem: &str) -> Result<Reading, Vec<PlacedFault>> {
         check::check(&mut reader, document.root_element().range().start);
     }
     materials::check(&mut reader);
-    let (reading, faults) = reader.finish();
+    let (reading, mut faults) = reader.finish();
     if faults.is_empty() {
         return Ok(reading);
     }
     let lines = position::LineIndex::new(text);
-    let line_of = |offset: &mut u32| *offset = lines.position(*offset as usize).line;
-    let mut faults = faults;
     faults.sort_by_key(|(offset, _)| *offset);
     let faults = faults.into_iter().map(|(offset, mut fault)| {
         let at = lines.position(offset);
         if let Fault::TwoLinks { first, .. } | Fault::TwoJoints { first, .. } = &mut fault {
-            line_of(first);
+            *first = lines.position(*first as usize).line;
         }
         PlacedFault { line: at.line, column: at.column, fault }
     });

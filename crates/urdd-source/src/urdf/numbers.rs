@@ -31,3 +31,14 @@ pub(super) fn what(count: usize) -> String {
         _ => format!("{count} numbers with white space between them"),
     }
 }
+
+/// The numbers of a parent's only element of a name, each in the attribute of its field's name.
+macro_rules! element_of_numbers {
+    ($reader:ident, $parent:expr, $element:literal, $type:ident { $($field:ident),* }) => {
+        $reader.only($parent, $element).map(|element| v1::$type {
+            $($field: $reader.number(element, stringify!($field)),)*
+        })
+    };
+}
+
+pub(super) use element_of_numbers;

@@ -1,12 +1,11 @@
-//! The result of reading a URDF.
+//! The result of reading a URDF: the robot, and its kinematic tree.
 
-use super::tree::Tree;
 use crate::note::Remark;
-use urdd_format::urdf::UrdfModule;
+use urdd_format::urdf::{Joint, UrdfModule};
 use urdd_xml::element::Edit;
 
 /// The result of reading a URDF.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Reading {
     /// The robot.
     pub robot: UrdfModule,
@@ -22,22 +21,19 @@ pub struct Reading {
     pub has_xacro: bool,
 }
 
-impl Default for Reading {
-    fn default() -> Self {
-        Reading {
-            robot: UrdfModule {
-                name: String::new(),
-                version: None,
-                links: Vec::new(),
-                joints: Vec::new(),
-                materials: Vec::new(),
-                unknown_elements: Vec::new(),
-            },
-            tree: Tree::default(),
-            remarks: Vec::new(),
-            edits: Vec::new(),
-            mesh_offsets: Vec::new(),
-            has_xacro: false,
-        }
-    }
+/// The kinematic tree, by link and joint indices.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Tree {
+    /// The root link.
+    pub root: usize,
+    /// For each joint, its parent link and child link.
+    pub ends: Vec<[usize; 2]>,
+    /// For each joint, the joint that it mimics.
+    pub drivers: Vec<Option<usize>>,
+}
+
+/// The axis of SPEC 5.7, not normalised.
+pub fn written_axis(joint: &Joint) -> [f64; 3] {
+    let axis = joint.axis.as_ref().and_then(|axis| axis.xyz);
+    axis.unwrap_or([1.0, 0.0, 0.0])
 }
