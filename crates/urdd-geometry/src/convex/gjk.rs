@@ -105,7 +105,7 @@ impl<'a, S: Simd, T: Support> Pair<'a, S, T> {
         while unsure != 0 {
             let lane = unsure.trailing_zeros() as usize & (LANES - 1);
             unsure &= unsure - 1;
-            distances[lane] = self.single(lane).from_other_sides(distances[lane]);
+            distances[lane] = self.single(lane).distance_from_octants(distances[lane]);
         }
         distances
     }
@@ -113,11 +113,11 @@ impl<'a, S: Simd, T: Support> Pair<'a, S, T> {
     /// The distance of two shapes in one pose, descending from all eight octants. Returns the first converged result,
     /// otherwise the least upper bound, including `upper`.
     #[inline(never)]
-    fn from_other_sides(&self, upper: f64) -> f64 {
+    fn distance_from_octants(&self, upper: f64) -> f64 {
         self.simd.vectorize(
             #[inline(always)]
             || {
-                let bounds = self.from_octants(&mut Alone(EXACT));
+                let bounds = self.descend_from_octants(&mut Alone(EXACT));
                 let unsure = bounds.unsure.to_bitmask() & ALL;
                 if unsure != ALL {
                     return bounds.upper[(!unsure).trailing_zeros() as usize & (LANES - 1)];
@@ -133,7 +133,7 @@ impl<'a, S: Simd, T: Support> Pair<'a, S, T> {
 
     /// Descends in one pose from a direction into each octant.
     #[inline(always)]
-    pub fn from_octants(&self, record: &mut impl Record<S>) -> Bounds<S> {
+    pub fn descend_from_octants(&self, record: &mut impl Record<S>) -> Bounds<S> {
         let mut octants = [[0.0; LANES]; 3];
         for lane in 0..LANES {
             for (axis, octant) in octants.iter_mut().enumerate() {
@@ -219,7 +219,7 @@ impl<'a, S: Simd, T: Support> Pair<'a, S, T> {
         while unsure != 0 {
             let lane = unsure.trailing_zeros() as usize & (LANES - 1);
             unsure &= unsure - 1;
-            if self.single(lane).from_other_sides(f64::INFINITY) == 0.0 {
+            if self.single(lane).distance_from_octants(f64::INFINITY) == 0.0 {
                 found |= 1 << lane;
             }
         }

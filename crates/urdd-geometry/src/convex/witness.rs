@@ -118,7 +118,7 @@ impl<S: Simd, T: Support> Pair<'_, S, T> {
             if off <= TOLERANCE || lanes >> lane & 1 == 0 {
                 return found;
             }
-            let again = self.single(lane).witness_from_other_sides(distances[lane]);
+            let again = self.single(lane).witness_from_octants(distances[lane]);
             if again.1 < off { again.0 } else { found }
         })
     }
@@ -126,12 +126,12 @@ impl<S: Simd, T: Support> Pair<'_, S, T> {
     /// The closest points of two shapes in one pose, and their error: the best of eight descents, one from each octant.
     /// Used when rounding stopped the first descent.
     #[inline(never)]
-    fn witness_from_other_sides(&self, distance: f64) -> (Witness, f64) {
+    fn witness_from_octants(&self, distance: f64) -> (Witness, f64) {
         self.simd.vectorize(
             #[inline(always)]
             || {
                 let mut way = Way::new(self.simd);
-                self.from_octants(&mut way);
+                self.descend_from_octants(&mut way);
                 let mut best = way.witness(0, distance);
                 for lane in 1..LANES {
                     let other = way.witness(lane, distance);
