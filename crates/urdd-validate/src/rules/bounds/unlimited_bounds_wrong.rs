@@ -44,7 +44,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                     ),
                 };
                 finding_in(Kind::Bounds, format!("/bounds/{dof}"), message)
-                    .literals(&ends, &pair)
+                    .literals(ends, pair)
                     .report(findings);
             }
             continue;

@@ -26,7 +26,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         if link.name != right.name {
             let message = format!("this is not the name of link {index} of urdf_module");
             finding_in(Kind::Chain, format!("/links_in_chain/{index}/name"), message)
-                .literals(&right.name, &link.name)
+                .literals(&right.name, link.name)
                 .report(findings);
         }
         if link.link_idx.get() != index {

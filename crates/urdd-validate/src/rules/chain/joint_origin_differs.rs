@@ -32,7 +32,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 number(offset, 4)
             );
             finding_in(Kind::Chain, pointer, message)
-                .literals(&right.origin.xyz, &origin.position)
+                .literals(right.origin.xyz, origin.position)
                 .tolerance(position_tolerance)
                 .off_by(offset, "m")
                 .report(findings);

@@ -21,9 +21,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     });
     if stated != name && carried.as_ref() != Some(stated) {
         let message = "this is not the name in urdf_module: write that one here";
-        Finding::at(ROOT_METADATA, "/robot_name", message)
-            .literals(&name, &stated)
-            .report(findings);
+        Finding::at(ROOT_METADATA, "/robot_name", message).literals(name, stated).report(findings);
     }
     Some(())
 }

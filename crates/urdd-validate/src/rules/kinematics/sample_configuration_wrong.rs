@@ -71,7 +71,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 sample.kind
             );
             finding_in(Kind::KinematicsSamples, pointer, message)
-                .literals(&expected, &found)
+                .literals(expected, found)
                 .tolerance(ROTATION)
                 .report(findings);
         }

@@ -23,7 +23,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 limited.joint.name
             );
             finding_in(Kind::Bounds, format!("/bounds/{}/1", limited.dof), message)
-                .literals(&upper, &written)
+                .literals(upper, written)
                 .report(findings);
         }
     }

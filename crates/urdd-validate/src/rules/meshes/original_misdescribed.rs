@@ -46,7 +46,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 None => format!("`{path}` also names other files"),
             };
             finding_in(Kind::OriginalMeshes, pointer, message)
-                .literals(&named, &listed.side_files)
+                .literals(named, &listed.side_files)
                 .report(findings);
         }
     }

@@ -49,7 +49,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 context.link_label(link)
             );
             finding_in(Kind::PlainMeshes, format!("/link_meshes/{link}/geometry"), message)
-                .literals(&expected, &mesh.geometry)
+                .literals(expected, mesh.geometry)
                 .report(findings);
         }
     }

@@ -69,8 +69,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 let pointer = format!("/reasons/{}/{i}/{j}", kind.key());
                 let message =
                     format!("for shapes {a} and {b} this is not the first reason that applies");
-                finding_in(Kind::LinkShapesSimpleSkips, pointer, message)
-                    .literals(&expected, &reason)
+                finding_in(Kind::LinkShapesSimpleSkips, pointer, message).literals(expected, reason)
             });
         }
     }
