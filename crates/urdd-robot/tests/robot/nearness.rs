@@ -1,7 +1,7 @@
 use testkit::trials::sample;
 use urdd_robot::{PairDistance, Queries, Robot, ShapeKind};
 
-use crate::robot::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// A cube of 1 m, and one of 0.2 m that slides along x, 2 m away; a ball of 0.1 m that slides along y.
 const SLIDERS: &str = r#"<robot name="sliders">

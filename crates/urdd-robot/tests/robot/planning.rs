@@ -11,7 +11,7 @@ use urdd_robot::{
 
 use testkit::robots::{made, made_of, our_robots};
 
-#[path = "../../../examples/rrt_connect.rs"]
+#[path = "../../../../examples/rrt_connect.rs"]
 #[allow(dead_code)]
 mod rrt_connect;
 

@@ -1,7 +1,7 @@
 use nalgebra::{Isometry3, Vector3};
 use urdd_robot::{Robot, RobotError};
 
-use crate::robot::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// A planar arm with two links of 0.5 m and 0.3 m, and a mimic finger.
 const PLANAR: &str = r#"<robot name="planar">

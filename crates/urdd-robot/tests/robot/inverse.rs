@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use urdd_robot::{Inverse, InverseSettings, Robot, RobotError, Target, Verdict};
 
-use crate::robot::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// A planar arm with two links of 0.5 m and 0.3 m whose elbow bends one way, and a finger that follows the elbow.
 const PLANAR: &str = r#"<robot name="planar">

@@ -16,7 +16,7 @@ use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, Do
 use urdd_generate::{Settings, generate};
 use urdd_robot::{InverseSettings, Queries, Robot, RobotError, ShapeKind, Target};
 
-use crate::robot::made_of;
+use testkit::robots::made_of;
 
 type Question = (&'static str, Box<dyn Fn(&Robot) -> Result<String, RobotError> + Sync + Send>);
 

@@ -7,7 +7,7 @@ use parry3d_f64::shape::{Capsule, ConvexPolyhedron, Cuboid, Shape};
 use urdd_geometry::Mesh;
 use urdd_robot::{Obstacle, ObstacleDistance, Queries, Robot, RobotError, ShapeKind, World};
 
-use crate::robot::{made, made_of, our_robots};
+use testkit::robots::{made, made_of, our_robots};
 
 /// A block of 0.2 m that slides along x, and one that turns about z a metre away from the axis.
 const MOVERS: &str = r#"<robot name="movers">

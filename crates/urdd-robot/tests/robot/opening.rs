@@ -8,7 +8,7 @@ use urdd_directory::read_error::ReadError;
 use urdd_directory::source::{Disk, Memory, OpenFile, Source};
 use urdd_robot::{Queries, Robot, RobotError, ShapeKind};
 
-use crate::robot::{made, our_robots};
+use testkit::robots::{made, our_robots};
 
 /// The files of a URDD, as a source in memory takes them.
 fn files(root: &Path) -> BTreeMap<String, Arc<[u8]>> {
