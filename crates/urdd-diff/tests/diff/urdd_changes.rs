@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::Command;
 
 use serde_json::{Value, json};
 
@@ -10,7 +9,10 @@ use super::{few, open, places};
 use testkit::fixture::Fixture;
 use testkit::repository;
 use urdd_diff::{Side, compare};
+use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};
 use urdd_format::shape_kind::ShapeKind;
+use urdd_generate::{Selection, Settings, generate};
+use urdd_robot::Robot;
 
 struct Bench {
     fixture: Fixture,
@@ -235,28 +237,30 @@ fn a_module_that_is_gone_is_named() {
 #[test]
 fn each_named_configuration_is_named_with_the_dofs_that_moved() {
     let folder = testkit::temporary::folder();
-    let write = |name: &str, named: &[(&str, &str)]| {
+    let write = |name: &str, named: &[(&str, f64)]| {
         let path = folder.path().join(name);
         let urdf = repository().join("conformance/robots/gripper.urdf");
-        let run = |words: &[&str], more: &[&str]| {
-            let output = Command::new(env!("CARGO_BIN_EXE_urdd"))
-                .args(words)
-                .arg(&path)
-                .args(more)
-                .output()
-                .unwrap();
-            assert!(output.status.success(), "{output:?}");
-        };
-        let urdf = urdf.to_str().unwrap();
-        run(&["generate", "--modules", "core", urdf, "-o"], &[]);
-        for (name, position) in named {
-            run(&["configurations", "set"], &[name, position]);
+        let selection = Selection::parse(["core"]).unwrap();
+        let settings = Settings { selection, ..Settings::default() };
+        generate(&urdf, &path, &settings, &()).unwrap();
+        let edits = named.iter().map(|(name, position)| ConfigurationEdit {
+            name: ConfigurationName::new(*name).unwrap(),
+            positions: vec![DofPosition { dof_name: "motor".to_owned(), position: *position }],
+        });
+        let edits: Vec<_> = edits.collect();
+        if !edits.is_empty() {
+            let robot = Robot::open(&path).unwrap();
+            for (file, bytes) in robot.with_named_configurations(&edits).unwrap().files {
+                let file = path.join(file);
+                fs::create_dir_all(file.parent().unwrap()).unwrap();
+                fs::write(file, bytes).unwrap();
+            }
         }
         open(&path)
     };
     let none = write("none", &[]);
-    let two = write("two", &[("home", "motor=0.1"), ("away", "motor=0")]);
-    let other = write("other", &[("home", "motor=0.2"), ("ready", "motor=0")]);
+    let two = write("two", &[("home", 0.1), ("away", 0.0)]);
+    let other = write("other", &[("home", 0.2), ("ready", 0.0)]);
     let report = compare(&two, &other, 0.0);
     let expected =
         ["configurations/home/motor", "configurations/away/removed", "configurations/ready/added"];

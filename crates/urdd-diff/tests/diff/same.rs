@@ -5,10 +5,11 @@ use std::fmt::Write;
 use roxmltree::{Document, Node};
 
 use super::by_rules::place;
-use super::{Workshop, differences, open, places};
+use super::{differences, open, places};
 use testkit::repository;
 use testkit::robots::{made, our_robots};
 use testkit::trials::sample;
+use testkit::workshop::Workshop;
 use urdd_diff::compare;
 use urdd_geometry::read::read;
 use urdd_geometry::write;

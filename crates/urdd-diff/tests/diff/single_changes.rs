@@ -5,8 +5,9 @@ use std::ops::Range;
 use roxmltree::{Document, Node};
 
 use super::by_rules::{is_default, place};
-use super::{Workshop, few, open, places};
+use super::{few, open, places};
 use testkit::robots::our_robots;
+use testkit::workshop::Workshop;
 use urdd_diff::{Side, compare};
 
 /// The text with a range replaced.

@@ -1,7 +1,7 @@
 //! Findings that are new or gone.
 
-use super::Workshop;
 use testkit::fixture::Fixture;
+use testkit::workshop::Workshop;
 use urdd_diff::{Options, Side, compare};
 
 #[test]
