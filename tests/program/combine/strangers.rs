@@ -8,9 +8,9 @@ use serde_json::json;
 use urdd_generate::combine::{CombineError, PartFault, Recipe, RecipeFault, check_parts};
 
 use crate::combine::support::{core, findings, ours, put_together};
-use crate::export::names::parsed;
 use crate::export::texts::texts;
 use crate::program::urdd;
+use testkit::xml::parsed;
 
 const CORE: [&str; 2] = ["--modules", "core"];
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::export;
+use crate::made::export;
 use roxmltree::{Document, Node};
 use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format};
 use urdd_format::named_configurations::{ConfigurationEdit, ConfigurationName, DofPosition};

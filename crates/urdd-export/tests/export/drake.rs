@@ -1,8 +1,6 @@
 //! The URDF for Drake, by the rules of its parser: `tests/figures/exports/peers.py` loads it in Drake itself.
 
-use std::path::Path;
-
-use super::export;
+use crate::made::export;
 use roxmltree::{Document, Node};
 use urdd_export::{Choices, ExportError, Format, Note};
 use urdd_robot::Robot;
@@ -59,7 +57,7 @@ fn refused(document: &Document) -> Vec<String> {
 
 #[test]
 fn our_robots_hold_nothing_that_drake_refuses() {
-    let awkward = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures/exports/awkward.urdf");
+    let awkward = testkit::repository().join("tests/figures/exports/awkward.urdf");
     let robots = our_robots().into_iter().map(|(_, urdf)| urdf);
     for urdf in robots.chain([awkward]) {
         let (_folder, path) = made(&urdf);

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::export;
+use crate::made::export;
 use nalgebra::Vector3;
 use urdd_export::{Choices, Format, SphereBudget};
 use urdd_robot::{Robot, ShapeKind, Solid};

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use super::export;
+use crate::made::export;
 use urdd_export::{Choices, Export, Format, Note};
 use urdd_format::urdf::{Joint, JointType};
 use urdd_generate::{Selection, Settings, generate};
@@ -81,7 +81,7 @@ fn assert_same_motion(again: &[Joint], source: &[Joint], name: &str) {
 /// Chains of mimics, mimics on and of fixed joints, quaternions: the URDD of the export moves as the robot does.
 #[test]
 fn an_awkward_robot_moves_as_before() {
-    let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/figures/exports/awkward.urdf");
+    let urdf = testkit::repository().join("tests/figures/exports/awkward.urdf");
     let (_folder, path) = made(&urdf);
     let robot = Robot::open(path).expect("a robot");
     let exported = export(&robot, Format::Urdf, &Choices::default()).expect("an export");

@@ -1,4 +1,4 @@
-use super::export;
+use crate::made::export;
 use urdd_export::{Choices, Format, merge_srdf};
 use urdd_robot::Robot;
 

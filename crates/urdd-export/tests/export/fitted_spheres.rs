@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use super::export;
+use crate::made::export;
 use nalgebra::Isometry3;
 use urdd_export::{Choices, Export, Format, Note, SphereBudget};
 use urdd_format::rate::interval;

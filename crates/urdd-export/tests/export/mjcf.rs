@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use super::export;
+use crate::made::export;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node};
 use urdd_export::{Choices, Format, Note};

@@ -4,13 +4,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::export;
-use roxmltree::Document;
+use crate::made::export;
 use urdd_export::{Choices, Export, ExportError, Format, Note, SphereBudget, merge_srdf};
 use urdd_robot::Robot;
 
 use testkit::robots::made_of;
 use testkit::trials::sample;
+use testkit::xml::parsed;
 
 /// Placeholders that a test replaces by its own names.
 const STANDINS: [&str; 5] = ["ROBOT_", "LINK_0", "LINK_1", "JOINT_0", "MATERIAL_"];
@@ -83,20 +83,6 @@ fn read(format: Format, text: &str) -> Names {
         Format::Curobo => keys(serde_yaml::from_str(text).expect("YAML"), "collision_spheres"),
         Format::Foam => keys(serde_json::from_str(text).expect("JSON"), "links"),
     }
-}
-
-/// By two parsers: either alone would miss some faults.
-pub(crate) fn parsed(text: &str) -> Document<'_> {
-    let mut reader = quick_xml::Reader::from_str(text);
-    reader.config_mut().check_comments = true;
-    loop {
-        match reader.read_event().expect("well-formed for quick-xml") {
-            quick_xml::events::Event::Eof => break,
-            quick_xml::events::Event::DocType(_) => panic!("a document type"),
-            _ => {}
-        }
-    }
-    Document::parse(text).expect("well-formed for roxmltree")
 }
 
 fn of_tag(text: &str, tag: &str, key: &str) -> BTreeSet<String> {
@@ -447,16 +433,4 @@ fn unknown_elements_add_nothing_that_urdf_defines() {
         assert_eq!(gazebo.count(), kept.len());
         assert!(made.notes.contains(&Note::Elements(lost.len())), "{:?}", made.notes);
     }
-}
-
-/// The command line knows the same formats.
-#[test]
-fn every_format_of_the_command_line_is_tried() {
-    let folder = testkit::temporary::folder();
-    let (_, help, _) = crate::program::urdd(&["export", "--help"], folder.path());
-    let listed = help.split("Possible values:").nth(1).expect("formats");
-    let listed = listed.lines().take_while(|line| !line.trim_start().starts_with("<"));
-    let count = listed.filter(|line| line.trim_start().starts_with("- ")).count();
-    // `init` is no format.
-    assert_eq!(count, Format::ALL.len() + 1, "{help}");
 }

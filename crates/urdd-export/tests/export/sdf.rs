@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::export;
+use crate::made::export;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use roxmltree::{Document, Node};
 use urdd_export::{Choices, Export, Format, Note};

@@ -1,7 +1,7 @@
 //! cuRobo's whole robot file: the keys of its template, and spheres that are run through our own kinematics. cuRobo needs
 //! a GPU and is not to be had here.
 
-use super::export;
+use crate::made::export;
 use nalgebra::Point3;
 use serde_json::{Value, json};
 use urdd_export::{Choices, Export, Format, Note, Setup, SphereBudget};

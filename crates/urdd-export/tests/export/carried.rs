@@ -1,11 +1,10 @@
 //! The table of docs/export.md is the program's, and what it says is so: a robot that has everything goes through every
 //! format.
 
-use super::export;
+use crate::made::export;
 use urdd_export::{Choices, Format, carried_table};
 use urdd_robot::Robot;
 
-use crate::program::urdd;
 use testkit::robots::made_of;
 
 const BEGIN: &str = "<!-- table: what each format carries -->\n";
@@ -13,8 +12,8 @@ const END: &str = "<!-- end of table -->";
 
 #[test]
 fn the_page_has_the_table() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/export.md");
-    let page = std::fs::read_to_string(file).expect("a page");
+    let file = testkit::repository().join("docs/export.md");
+    let page = std::fs::read_to_string(&file).expect("a page");
     let start = page.find(BEGIN).expect("the beginning") + BEGIN.len();
     let end = page[start..].find(END).expect("the end") + start;
     if std::env::var_os("URDD_UPDATE").is_some() {
@@ -106,7 +105,7 @@ const PROBES: [(&str, &[&str; 9]); 9] = [
 
 #[test]
 fn what_the_table_says_is_so() {
-    let (folder, path) = made_of(URDF);
+    let (_folder, path) = made_of(URDF);
     let robot = Robot::open(&path).expect("a robot");
     let options = Choices { samples: 100, ..Choices::default() };
     let table = carried_table();
@@ -158,21 +157,6 @@ fn what_the_table_says_is_so() {
             made.notes.iter().any(|note| note.to_string().contains("left out, since the format"));
         assert_eq!(said, !lost.is_empty(), "{format:?}");
     }
-    let name = path.file_name().expect("a name").to_str().expect("a name");
-    let folder = folder.path();
-    let (status, _, said) =
-        urdd(&["export", "mjcf", name, "-o", "m.xml", "--report", "m.json"], folder);
-    assert!(status == 0 && said.contains("textures that the URDF itself names (1)"), "{said}");
-    // A file of a person's is no report.
-    std::fs::write(folder.join("mine.json"), "mine").expect("written");
-    let again = ["export", "mjcf", name, "-o", "n.xml", "--report", "mine.json"];
-    let (status, _, said) = urdd(&again, folder);
-    assert!(status == 2 && said.contains("mine.json already exists"), "{said}");
-    assert_eq!(std::fs::read_to_string(folder.join("mine.json")).expect("a file"), "mine");
-    assert!(!folder.join("n.xml").exists());
-    let report = std::fs::read_to_string(folder.join("m.json")).expect("a report");
-    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
-    assert_eq!((&report["robot"], &report["format"]), (&"r".into(), &"MJCF".into()));
 }
 
 /// Fewer triangles for simulators, with the deviation said; no option, no change.
