@@ -4,11 +4,12 @@ use std::fs;
 
 use urdd_validate::settings::Settings;
 
-use super::asking::{Running, made};
+use super::asking::Running;
+use testkit::robots::made_named;
 
 #[test]
 fn the_page_has_a_strict_policy_and_no_robot_in_it() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let answer = server.raw("GET /", &[("Host", &*server.host())], b"");
     assert_eq!(answer.status, 200);
@@ -34,7 +35,7 @@ fn the_page_has_a_strict_policy_and_no_robot_in_it() {
 
 #[test]
 fn files_and_the_report_are_those_on_disk() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let server = Running::on(&path);
     let robots = server.json("/robots.json");
     assert_eq!(robots[0]["id"], "welding_arm");
@@ -57,7 +58,7 @@ fn files_and_the_report_are_those_on_disk() {
 
 #[test]
 fn the_revision_follows_the_files() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let revision = || server.json("/robots/gripper/revision.json")["revision"].clone();
     let first = revision();
@@ -75,7 +76,7 @@ fn the_revision_follows_the_files() {
 
 #[test]
 fn others_are_refused() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let (host, token) = (server.host(), server.token.clone());
     let own = format!("http://{host}");
@@ -128,7 +129,7 @@ fn others_are_refused() {
 
 #[test]
 fn nothing_outside_of_the_urdd_is_read() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     fs::write(folder.path().join("secret"), "secret").expect("written");
     #[cfg(unix)]
     std::os::unix::fs::symlink(folder.path().join("secret"), path.join("link")).expect("a link");

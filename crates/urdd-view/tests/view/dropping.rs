@@ -9,8 +9,9 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use urdd_view::Collection;
 
-use super::asking::{Answer, Running};
-use super::living::{is_whole, living, until};
+use super::asking::Running;
+use super::living::living;
+use testkit::requests::{Answer, is_whole};
 
 const MESH: &str = "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 const URDF: &str = r#"<robot name="arm"><link name="a"><visual><geometry>
@@ -59,14 +60,14 @@ fn meshes_are_found_in_what_was_dropped() {
             assert_eq!(answer.status, 200, "{}", answer.text());
             let made: Value = serde_json::from_slice(&answer.body).expect("JSON");
             let id = made["robots"][0].as_str().expect("an id").to_owned();
-            let answer = until(server, &id, is_whole);
+            let answer = server.until(&id, is_whole);
             assert_eq!(answer["entry"]["notes"], json!([]), "{files:?}");
             assert_eq!(answer["entry"]["temporary"], true);
         }
         let alone = drop_on(server, &[("arm.urdf", URDF)]);
         let made: Value = serde_json::from_slice(&alone.body).expect("JSON");
         let id = made["robots"][0].as_str().expect("an id").to_owned();
-        let notes = until(server, &id, is_whole)["entry"]["notes"].to_string();
+        let notes = server.until(&id, is_whole)["entry"]["notes"].to_string();
         assert!(notes.contains("was not found"), "{notes}");
     });
 }
@@ -186,7 +187,7 @@ fn a_zip_stands_for_the_files_in_it() {
         ]);
         let answer = drop_zip(server, &zip);
         assert_eq!(answer.text(), r#"{"robots":["arm"]}"#);
-        let made = until(server, "arm", is_whole);
+        let made = server.until("arm", is_whole);
         assert_eq!(made["entry"]["notes"], json!([]), "{made}");
     });
 }

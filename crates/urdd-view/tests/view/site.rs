@@ -1,19 +1,16 @@
 //! The static site, and what a user adds to it.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::Duration;
 
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use testkit::trials::trials;
+use testkit::files::below;
+use testkit::robots::made_named;
+use testkit::site::{OF_A_PERSON, json, listed, named, put, robot_files};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::hexadecimal::hexadecimal;
 use urdd_view::{Collection, ExportError, export};
-
-use super::asking::made;
 
 pub fn collection(path: &Path) -> Collection {
     let collection = Collection::default();
@@ -25,92 +22,9 @@ fn exported(path: &Path, site: &Path) -> Result<Vec<PathBuf>, ExportError> {
     export(&collection(path), site, &Cancellation::default(), &mut |_| {})
 }
 
-fn json(path: &Path) -> Value {
-    let text = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    serde_json::from_slice(&text).expect("JSON")
-}
-
-/// The files that the page names.
-fn named(site: &Path) -> BTreeMap<String, String> {
-    let page = fs::read_to_string(site.join("index.html")).expect("a page");
-    let rest = page.split_once(r#"name="urdd-files" content=""#).expect("names").1;
-    let words: Vec<&str> = rest.split_once('"').expect("an end").0.split(' ').collect();
-    let pairs = words.chunks(2).map(|pair| (pair[0].to_owned(), pair[1].to_owned()));
-    pairs.collect()
-}
-
-/// The files of the first robot of a site, by path. Each has the content that its name implies.
-fn robot_files(site: &Path) -> BTreeMap<String, Vec<u8>> {
-    let robots = json(&site.join(&named(site)["robots.json"]));
-    let files = json(&site.join(robots[0]["files"].as_str().expect("a list")));
-    let mut found = BTreeMap::new();
-    for file in files["files"].as_array().expect("a list") {
-        let at = file["at"].as_str().expect("a place");
-        let bytes = fs::read(site.join(at)).expect(at);
-        let hash = hexadecimal(&Sha256::digest(&bytes));
-        assert_eq!(at, format!("urdd-site/{hash}.bin"));
-        assert_eq!(file["size"], bytes.len());
-        found.insert(file["path"].as_str().expect("a path").to_owned(), bytes);
-    }
-    found
-}
-
-/// Every file below a folder, by path.
-fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    let mut waiting = vec![folder.to_owned()];
-    while let Some(at) = waiting.pop() {
-        for entry in fs::read_dir(at).expect("a folder").flatten() {
-            let path = entry.path();
-            match path.is_dir() {
-                true => waiting.push(path),
-                false => {
-                    let name = path.strip_prefix(folder).expect("below");
-                    let name = name.to_str().expect("UTF-8").replace('\\', "/");
-                    found.insert(name, fs::read(&path).expect("a file"));
-                }
-            }
-        }
-    }
-    found
-}
-
-/// The paths that urdd.json lists, its own path and that of the source.
-fn listed(urdd: &Path) -> BTreeMap<String, Vec<u8>> {
-    let metadata = json(&urdd.join("urdd.json"));
-    let mut paths = vec!["urdd.json".to_owned()];
-    let text = |value: &Value| value["path"].as_str().expect("a path").to_owned();
-    paths.push(text(&metadata["source"]["Urdf"]));
-    for module in metadata["modules"].as_array().expect("modules") {
-        paths.extend(module["files"].as_array().expect("files").iter().map(text));
-    }
-    let read = |path: String| {
-        let bytes = fs::read(urdd.join(&path)).expect("a file");
-        (path, bytes)
-    };
-    paths.into_iter().map(read).collect()
-}
-
-/// Puts a user's own files into a folder.
-fn put(folder: &Path, files: &[(&str, &str)]) {
-    for (name, text) in files {
-        let path = folder.join(name);
-        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        fs::write(path, text).expect("written");
-    }
-}
-
-const OF_A_PERSON: &[(&str, &str)] = &[
-    ("CNAME", "robots.example"),
-    (".git/HEAD", "ref: refs/heads/main\n"),
-    ("robots/notes.txt", "mine"),
-    ("urdd-site/notes.txt", "mine too"),
-    ("news/index.html", "<p>mine</p>"),
-];
-
 #[test]
 fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
-    let (folder, path) = made("welding_arm");
+    let (folder, path) = made_named("welding_arm");
     let secrets = [
         (".env", "SECRET"),
         (".git/config", "SECRET"),
@@ -124,7 +38,7 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
     let site = folder.path().join("site");
     assert_eq!(exported(&path, &site).expect("written"), Vec::<PathBuf>::new());
     assert_eq!(robot_files(&site), before);
-    for (name, bytes) in all(&site) {
+    for (name, bytes) in below(&site) {
         let is_page = ["html", "js", "css", "wasm"].iter().any(|end| name.ends_with(end));
         if is_page {
             continue;
@@ -153,7 +67,7 @@ fn a_site_holds_what_urdd_json_lists_and_nothing_else() {
 /// anything that runs.
 #[test]
 fn a_listed_file_that_browsers_run_is_inert() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let evil = "<svg xmlns='http://www.w3.org/2000/svg'><script>alert(1)</script></svg>";
     put(&path, &[("dof_module/evil.svg", evil), ("dof_module/evil.html", evil)]);
     let mut metadata = json(&path.join("urdd.json"));
@@ -169,7 +83,7 @@ fn a_listed_file_that_browsers_run_is_inert() {
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
     assert_eq!(robot_files(&site)["dof_module/evil.svg"], evil.as_bytes());
-    for (name, bytes) in all(&site) {
+    for (name, bytes) in below(&site) {
         if String::from_utf8_lossy(&bytes).contains("alert(1)") {
             assert!(name.ends_with(".bin"), "{name}");
         }
@@ -179,7 +93,7 @@ fn a_listed_file_that_browsers_run_is_inert() {
 /// `urdd.json` is untrusted: naming a user's private file in it does not publish the file.
 #[test]
 fn urdd_json_cannot_name_files_outside_of_modules() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     put(&path, &[(".env", "SECRET"), (".git/config", "SECRET")]);
     #[cfg(unix)]
     std::os::unix::fs::symlink("../.env", path.join("dof_module/link")).expect("a link");
@@ -192,7 +106,7 @@ fn urdd_json_cannot_name_files_outside_of_modules() {
     fs::write(path.join("urdd.json"), metadata.to_string()).expect("written");
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
-    for (name, bytes) in all(&site) {
+    for (name, bytes) in below(&site) {
         assert!(!String::from_utf8_lossy(&bytes).contains("SECRET"), "{name}");
     }
     let server = super::asking::Running::on(&path);
@@ -205,7 +119,7 @@ fn urdd_json_cannot_name_files_outside_of_modules() {
 /// For a URDD from before urdd.json: documents, the files that they name, and the URDF.
 #[test]
 fn a_urdd_without_urdd_json_has_the_files_that_its_modules_name() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let mut expected = listed(&path);
     expected.remove("urdd.json");
     fs::remove_file(path.join("urdd.json")).expect("removed");
@@ -217,10 +131,10 @@ fn a_urdd_without_urdd_json_has_the_files_that_its_modules_name() {
 
 #[test]
 fn a_second_export_replaces_its_own_files_alone() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
-    let first = all(&site);
+    let first = below(&site);
     put(&site, OF_A_PERSON);
     // The same robot again: nothing changes.
     exported(&path, &site).expect("written");
@@ -228,36 +142,36 @@ fn a_second_export_replaces_its_own_files_alone() {
     expected.extend(
         OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
-    assert_eq!(all(&site), expected);
+    assert_eq!(below(&site), expected);
     // Another robot: its files replace the old ones, and a user's files are unchanged.
-    let (_other, other) = made("welding_arm");
+    let (_other, other) = made_named("welding_arm");
     exported(&other, &site).expect("written");
     assert_eq!(robot_files(&site), listed(&other));
     let (_fresh, fresh) = (testkit::temporary::folder(), folder.path().join("fresh"));
     exported(&other, &fresh).expect("written");
-    let mut expected = all(&fresh);
+    let mut expected = below(&fresh);
     expected.extend(
         OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
     );
-    assert_eq!(all(&site), expected);
+    assert_eq!(below(&site), expected);
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 3, "nothing beside it");
 }
 
 #[test]
 fn a_file_of_a_persons_in_the_way_stops_the_export() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
-    let (_other, other) = made("welding_arm");
+    let (_other, other) = made_named("welding_arm");
     let page = site.join("index.html");
     let text = fs::read_to_string(&page).expect("a page");
     fs::write(&page, format!("{text}<p>mine</p>")).expect("written");
-    let before = all(&site);
+    let before = below(&site);
     match exported(&other, &site) {
         Err(ExportError::InTheWay { files }) => assert_eq!(files.len(), 1, "{files:?}"),
         other => panic!("{other:?}"),
     }
-    assert_eq!(all(&site), before, "nothing was changed");
+    assert_eq!(below(&site), before, "nothing was changed");
     fs::write(&page, text).expect("written");
     // A file that is no longer needed, but was changed: it is kept, and a message names it.
     let is_own =
@@ -275,7 +189,7 @@ fn a_file_of_a_persons_in_the_way_stops_the_export() {
 #[cfg(unix)]
 #[test]
 fn a_list_of_somebody_elses_removes_nothing() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let site = folder.path().join("site");
     exported(&path, &site).expect("written");
     put(&site, OF_A_PERSON);
@@ -296,28 +210,28 @@ fn a_list_of_somebody_elses_removes_nothing() {
     let elsewhere = folder.path().join("elsewhere");
     fs::rename(site.join("urdd-site"), &elsewhere).expect("moved");
     std::os::unix::fs::symlink(&elsewhere, site.join("urdd-site")).expect("a link");
-    let before = all(&elsewhere);
+    let before = below(&elsewhere);
     let result = exported(&path, &site);
     assert!(matches!(result, Err(ExportError::InTheWay { .. })), "{result:?}");
-    assert_eq!(all(&elsewhere), before);
+    assert_eq!(below(&elsewhere), before);
 }
 
 /// 0.2.0 kept no list, so the user's files cannot be told apart.
 #[test]
 fn a_site_of_0_2_0_is_left_alone_until_its_files_are_gone() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let site = folder.path().join("site");
     let mark = r#"{"made by":"urdd view --export","version":"0.2.0"}"#;
     put(&site, &[("urdd-site.json", mark), ("index.html", "old"), ("robots.json", "[]")]);
     put(&site, &[("robots/gripper/files/.env", "old"), ("CNAME", "mine")]);
-    let before = all(&site);
+    let before = below(&site);
     let error = exported(&path, &site).expect_err("refused");
     assert!(matches!(error, ExportError::Unlisted { .. }), "{error}");
     let words = error.to_string();
     for name in ["index.html", "robots.json", "robots"] {
         assert!(words.contains(&site.join(name).display().to_string()), "{words}");
     }
-    assert_eq!(all(&site), before);
+    assert_eq!(below(&site), before);
     for name in ["index.html", "robots.json"] {
         fs::remove_file(site.join(name)).expect("removed");
     }
@@ -329,54 +243,13 @@ fn a_site_of_0_2_0_is_left_alone_until_its_files_are_gone() {
 
 #[test]
 fn a_folder_with_something_else_is_left_alone() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let site = folder.path().join("site");
     for files in [&[("mine", "mine")][..], &[("urdd-site.json", "{}")]] {
         put(&site, files);
-        let before = all(&site);
+        let before = below(&site);
         let result = exported(&path, &site);
         assert!(matches!(result, Err(ExportError::Occupied(_))), "{result:?}");
-        assert_eq!(all(&site), before);
+        assert_eq!(below(&site), before);
     }
-}
-
-/// Whenever an export is killed, the site is the old one or the new one, and the next export completes it.
-#[test]
-fn a_killed_export_leaves_a_whole_site() {
-    let (folder, path) = made("gripper");
-    let (_other, other) = made("welding_arm");
-    let site = folder.path().join("site");
-    exported(&path, &site).expect("written");
-    put(&site, OF_A_PERSON);
-    let robots = [listed(&path), listed(&other)];
-    let export_it = |urdd: &Path| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
-        command.arg("view").arg(urdd).arg("--export").arg(&site);
-        command.stdout(Stdio::null()).stderr(Stdio::null());
-        command.spawn().expect("the program runs")
-    };
-    let begun = std::time::Instant::now();
-    assert!(export_it(&other).wait().expect("it ends").success());
-    let usual = begun.elapsed();
-    let kills = trials(6);
-    for k in 0..kills {
-        let mut child = export_it(if k % 2 == 0 { &path } else { &other });
-        // Most of the time passes before the first file is moved into place.
-        let share = usual.mul_f64(0.5 + 0.6 * f64::from(k) / f64::from(kills));
-        std::thread::sleep(share.max(Duration::from_millis(1)));
-        let _ = child.kill();
-        let _ = child.wait();
-        assert!(robots.contains(&robot_files(&site)), "killed after {share:?}");
-        for (name, text) in OF_A_PERSON {
-            assert_eq!(fs::read_to_string(site.join(name)).expect(name), *text);
-        }
-    }
-    exported(&path, &site).expect("written");
-    let fresh = folder.path().join("fresh");
-    exported(&path, &fresh).expect("written");
-    let mut expected = all(&fresh);
-    expected.extend(
-        OF_A_PERSON.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())),
-    );
-    assert_eq!(all(&site).keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
 }

@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 use urdd_validate::settings::Settings;
 use urdd_view::{Collection, Making, Shown, Source};
 
-use super::asking::{Running, made};
+use super::asking::Running;
+use testkit::robots::made_named;
 
 /// A server that shows a generated URDD.
 fn generated(path: &Path) -> (Running, Arc<Shown>) {
@@ -20,7 +21,7 @@ fn generated(path: &Path) -> (Running, Arc<Shown>) {
 
 #[test]
 fn the_page_hears_how_far_it_is() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let (server, shown) = generated(&path);
     shown.set_making(Making::Running { what: "dof_module".to_owned(), done: 3, of: 15 });
     let entry = || server.json("/robots.json")[0].clone();
@@ -37,7 +38,7 @@ fn the_page_hears_how_far_it_is() {
 
 #[test]
 fn a_generated_urdd_is_saved_once_and_passes() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let (server, shown) = generated(&path);
     let running = Making::Running { what: "dof_module".to_owned(), done: 3, of: 15 };
     shown.show(path.clone(), Vec::new(), running);
@@ -70,7 +71,7 @@ fn a_generated_urdd_is_saved_once_and_passes() {
 
 #[test]
 fn nothing_is_overwritten() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     let (server, shown) = generated(&path);
     shown.show(path.clone(), Vec::new(), Making::Done);
     let (full, file) = (folder.path().join("full"), folder.path().join("file"));
@@ -103,7 +104,7 @@ fn nothing_is_overwritten() {
 
 #[test]
 fn a_picture_and_what_the_gallery_says() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let server = Running::on(&path);
     let picture = server.get("/robots/welding_arm/picture.png");
     assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));

@@ -5,7 +5,8 @@ use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use super::asking::{Running, made};
+use super::asking::Running;
+use testkit::robots::made_named;
 
 /// The first line of the response to a request of which only the head is sent.
 fn answer_to_head(server: &Running, head: &str) -> String {
@@ -21,7 +22,7 @@ fn answer_to_head(server: &Running, head: &str) -> String {
 /// An unauthorised client gets its response before it sends any of the body.
 #[test]
 fn who_may_not_ask_is_refused_before_a_body_is_read() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let (host, token) = (server.host(), server.token.clone());
     let skips = "POST /robots/gripper/skips HTTP/1.1\r\n";
@@ -53,7 +54,7 @@ fn who_may_not_ask_is_refused_before_a_body_is_read() {
 /// The response arrives although the request was not read to its end.
 #[test]
 fn a_refusal_arrives_whole() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let headers = [("Host", "evil.example")];
     for _ in 0..20 {
@@ -65,7 +66,7 @@ fn a_refusal_arrives_whole() {
 /// Connections that send slowly, and some that are silent, while a page makes requests.
 #[test]
 fn who_says_nothing_does_not_shut_the_page_out() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let mut dripping: Vec<TcpStream> = (0..64)
         .map(|_| TcpStream::connect(("127.0.0.1", server.port)).expect("a connection"))
@@ -87,7 +88,7 @@ fn who_says_nothing_does_not_shut_the_page_out() {
 /// Pages that stay open, and programs with the token that do not end what they begin.
 #[test]
 fn who_has_the_token_does_not_shut_others_out_either() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let known = format!("Host: {}\r\nX-Urdd-Token: {}\r\n", server.host(), server.token);
     for request in [
@@ -113,7 +114,7 @@ fn who_has_the_token_does_not_shut_others_out_either() {
 /// A connection that sends a byte now and then is closed, like a silent one.
 #[test]
 fn a_dripping_connection_ends() {
-    let (_folder, path) = made("gripper");
+    let (_folder, path) = made_named("gripper");
     let server = Running::on(&path);
     let mut stream = TcpStream::connect(("127.0.0.1", server.port)).expect("a connection");
     stream.set_read_timeout(Some(Duration::from_millis(200))).expect("set");
@@ -136,7 +137,7 @@ fn a_dripping_connection_ends() {
 /// An archive is read once for all requests, and its files are sent as they are inflated.
 #[test]
 fn an_archive_is_served_as_its_folder() {
-    let (folder, path) = made("gripper");
+    let (folder, path) = made_named("gripper");
     fs::write(path.join(".env"), "SECRET").expect("written");
     let zip = folder.path().join("gripper.zip");
     let mut writer = zip::ZipWriter::new(fs::File::create(&zip).expect("a file"));

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use urdd_validate::settings::Settings;
 
-use super::asking::{Running, made};
+use super::asking::Running;
+use testkit::robots::made_named;
 
 const FOLDER: &str = "link_shapes_modules/link_shapes_skips_module";
 
@@ -41,7 +42,7 @@ fn edits() -> Value {
 
 #[test]
 fn a_saved_urdd_passes_and_undo_restores_its_bytes() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     fs::write(path.join("notes.txt"), "mine").expect("written");
     let server = Running::on(&path);
     let before = content(&path);
@@ -78,7 +79,7 @@ fn a_saved_urdd_passes_and_undo_restores_its_bytes() {
 
 #[test]
 fn what_changed_on_disk_is_not_overwritten() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let server = Running::on(&path);
     let revision = server.json("/robots/welding_arm/files.json")["revision"].clone();
     fs::write(path.join("notes.txt"), "written meanwhile").expect("written");
@@ -93,7 +94,7 @@ fn what_changed_on_disk_is_not_overwritten() {
 #[cfg(unix)]
 #[test]
 fn a_change_that_keeps_size_and_time_is_not_overwritten() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let file = path.join(FOLDER).join("module.json");
     let text = fs::read_to_string(&file).expect("a file");
     let time = fs::metadata(&file).and_then(|metadata| metadata.modified()).expect("a time");
@@ -112,7 +113,7 @@ fn a_change_that_keeps_size_and_time_is_not_overwritten() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let server = Running::on(&path);
     let before = content(&path);
     let revision = server.json("/robots/welding_arm/files.json")["revision"].clone();
@@ -136,7 +137,7 @@ fn what_makes_no_sense_is_refused() {
 /// The pose of the page becomes a named configuration, which the validator takes; nothing of a person's is replaced unasked.
 #[test]
 fn a_pose_is_saved_under_a_name() {
-    let (_folder, path) = made("welding_arm");
+    let (_folder, path) = made_named("welding_arm");
     let server = Running::on(&path);
     let post = |wish: &Value| server.post("/robots/welding_arm/configurations", wish);
     let revision = || server.json("/robots/welding_arm/files.json")["revision"].clone();
