@@ -1,7 +1,6 @@
 //! C++ types of all documents, written from the published schemas: `cpp/include/urdd_types.hpp`.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use serde_json::{Map, Value};
 use urdd_format::bundle::bundle;
@@ -14,7 +13,7 @@ const FILE: &str = "cpp/include/urdd_types.hpp";
 
 const HEAD: &str = "\
 // Types of the documents of a URDD of version 1, over nlohmann-json. Written from `schema/` by
-// tests/program/cpp_types.rs. Do not edit.
+// crates/urdd-format/tests/format/cpp_types.rs. Do not edit.
 //
 // Members are called as the keys are; those of objects of one key, and the values of enumerations, in lower case. What
 // may be null or absent is a std::optional. Keys of extensions and of later minor versions are in `extra`, and are
@@ -38,10 +37,10 @@ const TAIL: &str = "
 /// Words that C++ keeps for itself, of those that are keys or values.
 const KEPT: [&str; 1] = ["default"];
 
-/// `URDD_UPDATE=1 cargo test --test program cpp_types` writes the file.
+/// `URDD_UPDATE=1 cargo test --workspace --test format cpp_types` writes the file.
 #[test]
 fn the_cpp_types_are_what_the_schemas_say() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(FILE);
+    let file = testkit::repository().join(FILE);
     let expected = types();
     if std::env::var_os("URDD_UPDATE").is_some() {
         std::fs::write(&file, &expected).expect("written");
@@ -49,7 +48,7 @@ fn the_cpp_types_are_what_the_schemas_say() {
     let found = std::fs::read_to_string(&file).unwrap_or_default();
     assert!(
         found.replace("\r\n", "\n") == expected,
-        "{FILE} is not what the schemas say: run URDD_UPDATE=1 cargo test --test program cpp_types"
+        "{FILE} is not what the schemas say: run URDD_UPDATE=1 cargo test --workspace --test format cpp_types"
     );
 }
 

@@ -9,14 +9,14 @@ use urdd_conformance::valid;
 use urdd_validate::settings::Settings;
 use urdd_validate::validate;
 
-use crate::conformance::in_repository;
+use crate::suite;
 
-/// `URDD_UPDATE=1 cargo test --test program conformance` writes them. Elsewhere the last digits of numbers
+/// `URDD_UPDATE=1 cargo test --workspace --test conformance` writes them. Elsewhere the last digits of numbers
 /// may differ (SPEC 9.4 and 13.3).
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[test]
 fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
-    let suite = urdd::suite::carried().expect("the suite reads");
+    let suite = suite();
     let folder = testkit::temporary::folder();
     let robots = folder.path().join("robots");
     valid::write_robots(&suite.data, &robots).expect("the robots");
@@ -28,7 +28,7 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     for robot in valid::robots(&suite.data) {
         let made = urdds.join(&robot);
         let made = valid::kept(&Tree::read(&made, &made).expect("a URDD"));
-        let place = in_repository("conformance/valid").join(&robot);
+        let place = testkit::repository().join("conformance/valid").join(&robot);
         let kept = match place.is_dir() {
             true => Tree::read(&place, &place).expect("a folder of the suite"),
             false => Tree::default(),
@@ -45,7 +45,7 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
     assert!(
         stale.is_empty(),
         "urdd generate does not make these of our robots any more; if that is meant, run URDD_UPDATE=1 cargo test \
-         --test program conformance and read what changed: {stale:#?}"
+         --workspace --test conformance and read what changed: {stale:#?}"
     );
 
     let run = validate(&[&urdds], &Settings::default()).expect("URDDs");
@@ -58,7 +58,7 @@ fn generating_gives_what_is_kept_and_nothing_is_found_in_it() {
 
 #[test]
 fn what_is_not_kept_is_in_the_hashes() {
-    let suite = urdd::suite::carried().expect("the suite reads");
+    let suite = suite();
     for robot in valid::robots(&suite.data) {
         let kept = valid::carried(&suite.data, &robot);
         let root = kept.file("urdd.json").expect("urdd.json");

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use testkit::repository;
 use testkit::trials::sample;
 use urdd_conformance::case::{Case, Kind, Verdict};
 use urdd_conformance::judge;
@@ -16,11 +17,7 @@ use urdd_format::report::Report;
 use urdd_validate::settings::Settings;
 use urdd_validate::{rules, validate, validate_source};
 
-use crate::conformance::in_repository;
-
-fn suite() -> Suite {
-    urdd::suite::carried().expect("the suite reads")
-}
+use crate::suite;
 
 /// A case as files in memory, which takes a third of the time. `None` if it has what only a disk holds: links, empty
 /// folders, files beside the URDD, odd names.
@@ -74,10 +71,10 @@ fn the_pages_say_how_much_there_is() {
         others => panic!("{others} robots; the pages say nine"),
     };
     for page in ["README.md", "conformance/README.md"] {
-        let mut text = std::fs::read_to_string(in_repository(page)).expect(page);
+        let mut text = std::fs::read_to_string(repository().join(page)).expect(page);
         if std::env::var_os("URDD_UPDATE").is_some() && text.contains(&before) {
             text = text.replace(&before, &cases);
-            std::fs::write(in_repository(page), &text).expect(page);
+            std::fs::write(repository().join(page), &text).expect(page);
         }
         for words in [cases.as_str(), robots] {
             assert!(text.contains(words), "{page} does not say `{words}`; URDD_UPDATE=1 writes it");

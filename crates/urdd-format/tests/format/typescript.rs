@@ -1,7 +1,6 @@
 //! TypeScript types of all documents, written from the published schemas: `wasm/npm/modules.d.ts`.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use serde_json::Value;
 use urdd_format::bundle::bundle;
@@ -15,7 +14,8 @@ const FILE: &str = "wasm/npm/modules.d.ts";
 const WIDTH: usize = 100;
 
 const HEAD: &str = "\
-// Types of the documents of a URDD of version 1. Written from `schema/` by tests/program/typescript.rs. Do not edit.
+// Types of the documents of a URDD of version 1. Written from `schema/` by
+// crates/urdd-format/tests/format/typescript.rs. Do not edit.
 
 /** Keys of extensions, which any object may have. */
 export interface Extensible {
@@ -23,10 +23,10 @@ export interface Extensible {
 }
 ";
 
-/// `URDD_UPDATE=1 cargo test --test program typescript` writes the file.
+/// `URDD_UPDATE=1 cargo test --workspace --test format typescript` writes the file.
 #[test]
 fn the_types_are_what_the_schemas_say() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(FILE);
+    let file = testkit::repository().join(FILE);
     let expected = types();
     if std::env::var_os("URDD_UPDATE").is_some() {
         std::fs::write(&file, &expected).expect("written");
@@ -34,7 +34,7 @@ fn the_types_are_what_the_schemas_say() {
     let found = std::fs::read_to_string(&file).unwrap_or_default();
     assert!(
         found.replace("\r\n", "\n") == expected,
-        "{FILE} is not what the schemas say: run URDD_UPDATE=1 cargo test --test program typescript"
+        "{FILE} is not what the schemas say: run URDD_UPDATE=1 cargo test --workspace --test format typescript"
     );
 }
 
