@@ -4,7 +4,7 @@
 
 For each robot a URDD is made, and `urdd export foam` with different numbers of spheres. The rates are those that the file
 states: of 10,000 sampled configurations that had no part in the fit, judged by the spheres and the ignored pairs that are
-written. `tests/program/export/fitted_spheres.rs` counts them again with code of its own. Where hardly any configuration is free, rates
+written. `crates/urdd-export/tests/export/fitted_spheres.rs` counts them again with code of its own. Where hardly any configuration is free, rates
 are those near the default configuration (docs/export.md). `--cover` is the option that covers every link.
 """
 

@@ -1,5 +1,5 @@
 // Types of the documents of a URDD of version 1, over nlohmann-json. Written from `schema/` by
-// tests/program/cpp_types.rs. Do not edit.
+// crates/urdd-format/tests/format/cpp_types.rs. Do not edit.
 //
 // Members are called as the keys are; those of objects of one key, and the values of enumerations, in lower case. What
 // may be null or absent is a std::optional. Keys of extensions and of later minor versions are in `extra`, and are

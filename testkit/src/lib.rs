@@ -17,6 +17,10 @@
 //! - [`temporary`]: folders for tests
 //! - [`transform`]: rotations and rigid transforms as matrices
 //! - [`core_modules`], [`urdf_to_core`]: joints and robots -> core modules of a URDD
+//! - [`urdfs`]: URDFs that tests of crates and of the program share
+//! - [`workshop`]: a folder with our robots, to change them
+//! - [`requests`], [`site`]: the server and the exported site of `urdd view`, as a browser reads them
+//! - [`xml`]: XML, read by two parsers
 //!
 //! [`robots`] generates URDDs of the project's robots.
 
@@ -31,13 +35,18 @@ pub mod fixture;
 pub mod folder;
 pub mod meshes;
 pub mod model;
+pub mod requests;
 pub mod robot;
 pub mod robots;
 pub mod shapes;
+pub mod site;
 pub mod temporary;
 pub mod transform;
 pub mod trials;
 pub mod urdf_to_core;
+pub mod urdfs;
+pub mod workshop;
+pub mod xml;
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;

@@ -54,6 +54,15 @@ pub fn made_with_notes(urdf: &Path) -> (tempfile::TempDir, PathBuf, Vec<Note>) {
     (folder, target, notes.clone())
 }
 
+/// A URDD of one of our robots, in a folder of its name.
+pub fn made_named(robot: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = crate::temporary::folder();
+    let target = folder.path().join(robot);
+    let urdf = crate::repository().join(format!("conformance/robots/{robot}.urdf"));
+    generate(&urdf, &target, &Settings::default(), &()).expect("a URDD");
+    (folder, target)
+}
+
 /// A URDD generated from the text of a URDF.
 pub fn made_of(urdf: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = crate::temporary::folder();

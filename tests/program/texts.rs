@@ -6,11 +6,11 @@ use serde_json::Value;
 use urdd_directory::cancellation::Cancellation;
 use urdd_view::{Collection, export, page_with};
 
-use crate::export::names::parsed;
 use crate::export::texts::{Table, texts};
 use crate::printing::acts;
 use crate::program::urdd;
 use testkit::trials::sample;
+use testkit::xml::parsed;
 
 /// What is outside of code spans, by CommonMark's rule: a span ends at a run of as many backticks as begin it.
 fn outside_of_code(line: &str) -> String {

@@ -1,4 +1,5 @@
-// Types of the documents of a URDD of version 1. Written from `schema/` by tests/program/typescript.rs. Do not edit.
+// Types of the documents of a URDD of version 1. Written from `schema/` by
+// crates/urdd-format/tests/format/typescript.rs. Do not edit.
 
 /** Keys of extensions, which any object may have. */
 export interface Extensible {

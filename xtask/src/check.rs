@@ -22,16 +22,16 @@ const TESTS: &[(&str, &str)] = &[
     ),
     ("architecture::", "see the message; CONTRIBUTING.md says how a rule is written"),
     ("snapshots::", UPDATE),
-    ("conformance::cases::the_pages_say", UPDATE),
+    ("cases::the_pages_say", UPDATE),
     (
-        "conformance::cases::cases_are_judged",
+        "cases::cases_are_judged",
         "look which is right, the case or the validator; `cargo xtask update` writes what the validator finds now",
     ),
     (
-        "conformance::cases::every_rule_has",
+        "cases::every_rule_has",
         "write the case in conformance/cases: each rule has one that it catches, and one that comes near and passes",
     ),
-    ("conformance::cases::", "see the message; conformance/README.md says what a case has"),
+    ("cases::", "see the message; conformance/README.md says what a case has"),
     (
         "computed::the_suite_has",
         "cargo xtask update, or URDD_UPDATE=1 URDD_CASE=CODE cargo test --test rules computed for one rule; read what it wrote",
@@ -70,6 +70,9 @@ const TESTS: &[(&str, &str)] = &[
     ("results::", "python3 benches/results.py: figures on the pages come from benches/results"),
 ];
 
+/// The programs that have these tests.
+const PROGRAMS: [&str; 5] = ["conformance", "format", "lint", "program", "rules"];
+
 const UPDATE: &str = "cargo xtask update, and read what it wrote";
 
 /// Folders and files in which a scaffold leaves a TODO.
@@ -100,26 +103,16 @@ pub fn run(root: &Path) -> Result<bool, String> {
         Some(true) => {}
         None => println!("left out: types for Python (python3 is not installed)"),
     }
-    let tests = [
-        "test",
-        "--locked",
-        "--no-fail-fast",
-        "--workspace",
-        "--test",
-        "program",
-        "--test",
-        "rules",
-        "--test",
-        "lint",
-    ];
+    let mut tests = vec!["test", "--locked", "--workspace", "--no-fail-fast"];
+    tests.extend(PROGRAMS.iter().flat_map(|program| ["--test", program]));
     let failed = |error| format!("cargo cannot be run: {error}");
     // In view: it takes long. What cargo prints after tests that failed is left out.
-    let built = cargo(root).args(tests).arg("--no-run").status();
+    let built = cargo(root).args(&tests).arg("--no-run").status();
     if !built.map_err(failed)?.success() {
         fault("build", "", "see what cargo printed above");
     } else {
         let output = cargo(root)
-            .args(tests)
+            .args(&tests)
             .arg("--")
             .args(TESTS.iter().map(|(test, _)| test))
             // All cases of the suite, not a sample.

@@ -9,9 +9,9 @@ use urdd_format::escape;
 use urdd_generate::combine::{CombineError, PartFault, Recipe, check_parts};
 
 use crate::combine::support::{core, findings, ours, put_together};
-use crate::export::names::parsed;
 use crate::export::texts::texts;
 use crate::program::urdd;
+use testkit::xml::parsed;
 
 const CORE: [&str; 2] = ["--modules", "core"];
 

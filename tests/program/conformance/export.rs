@@ -1,69 +1,15 @@
-//! `urdd conformance export`: a suite for programs in any language.
+//! `urdd conformance export`.
 
 use std::fs;
-
-use serde_json::Value;
-use testkit::trials::sample;
-use urdd_conformance::case::Case;
-use urdd_conformance::export::export;
 
 use crate::conformance::{conformance, stderr};
 
 #[test]
-fn everything_that_is_listed_is_there() {
+fn files_of_others_are_never_overwritten() {
     let folder = testkit::temporary::folder();
-    let out = folder.path().join("suite");
-    let shown = out.to_str().expect("UTF-8");
-    let mut suite = urdd::suite::carried().expect("the suite reads");
-    let all = suite.cases.len();
-    // The cases that are named below or to be refused, and a few of the others.
-    let (named, others): (Vec<Case>, Vec<Case>) = suite.cases.into_iter().partition(|case| {
-        ["DOF001/joint-missing", "DIR001/packed-in-a-folder"].contains(&case.id().as_str())
-            || ("URD002"..="URD012").contains(&case.code.as_str())
-    });
-    suite.cases = sample(others, 60).chain(named).collect();
-    let written = suite.cases.len();
-    let exported = export(&suite, &out).expect("an export");
-    assert!(written > all / 60 && exported.cases + exported.left_out.len() == written);
-    let text = fs::read(out.join("suite.json")).expect("suite.json");
-    let list: Value = serde_json::from_slice(&text).expect("JSON");
-    let cases = list["cases"].as_array().expect("a list");
-    assert_eq!(cases.len(), exported.valid + exported.cases);
-    assert_eq!(exported.valid, 9);
-    for case in cases {
-        let place = out.join(case["folder"].as_str().expect("a folder"));
-        assert!(place.is_dir() || place.extension().is_some_and(|end| end == "zip"), "{case}");
-        assert!(place.exists(), "{case}");
-    }
-    let named = |id: &str| {
-        let found = cases.iter().find(|case| case["id"] == id);
-        found.unwrap_or_else(|| panic!("no {id}"))
-    };
-    let valid = named("valid/gripper");
-    assert_eq!(valid["verdict"], "accept");
-    let meshes = "valid/gripper/mesh_modules/plain_meshes_module/meshes/stl";
-    assert!(out.join(meshes).is_dir());
-    let wrong = named("DOF001/joint-missing");
-    assert_eq!((&wrong["kind"], &wrong["verdict"]), (&"invalid".into(), &"reject".into()));
-    assert_eq!(wrong["findings"][0]["code"], "DOF001");
-    let packed = named("DIR001/packed-in-a-folder");
-    assert_eq!(packed["folder"], "invalid/DIR001/packed-in-a-folder/robot.zip");
-    let bytes = fs::read(out.join("invalid/DIR001/packed-in-a-folder/robot.zip"));
-    let mut archive = zip::ZipArchive::new(std::io::Cursor::new(bytes.expect("an archive")));
-    let archive = archive.as_mut().expect("another reader of zip archives opens it");
-    for at in 0..archive.len() {
-        let mut entry = archive.by_index(at).expect("an entry");
-        std::io::copy(&mut entry, &mut std::io::sink()).expect("its content");
-    }
-    assert!(archive.by_name("robot/urdd.json").is_ok());
-    assert!(out.join("robots/gripper.urdf").is_file());
-    assert!(out.join("README.md").is_file());
-    for refused in ["KIN001/poses-beyond-numbers", "URD005/link-held-by-two-joints"] {
-        assert!(out.join("refused").join(format!("{refused}.urdf")).is_file());
-    }
-
-    // Other people's files are never overwritten.
-    let again = conformance(&["export", shown]);
-    assert_eq!(again.status.code(), Some(2));
-    assert!(stderr(&again).contains("not empty"), "{}", stderr(&again));
+    fs::write(folder.path().join("mine"), "mine").expect("written");
+    let refused = conformance(&["export", folder.path().to_str().expect("UTF-8")]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("not empty"), "{}", stderr(&refused));
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
 }

@@ -1,13 +1,10 @@
-//! The conformance suite: its data, and the commands that run it.
+//! The commands that run the conformance suite. Its crate's tests judge the cases.
 
-mod cases;
 mod export;
 mod producer;
-mod valid;
 #[cfg(unix)]
 mod validator;
 
-use std::path::Path;
 use std::process::Output;
 
 use serde_json::Value;
@@ -27,8 +24,4 @@ fn result(arguments: &[&str]) -> (i32, Value) {
 
 fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn in_repository(path: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::Workshop;
 use testkit::repository;
+use testkit::workshop::Workshop;
 use urdd_format::schema::{Subject, Variant};
 
 /// Exit status, standard output, standard error of `urdd diff` in a folder.
@@ -57,7 +57,7 @@ fn a_tolerance_that_is_none_is_refused() {
 fn each_format_says_the_same() {
     let shop = two_versions();
     let run = |format: &str| {
-        let folder = shop.folder.path();
+        let folder = shop.folder();
         diff(folder, &["welding_arm.urdf", "after.urdf", "--format", format])
     };
     for (format, end) in [("text", "txt"), ("markdown", "md"), ("json", "json")] {
@@ -76,7 +76,7 @@ fn each_format_says_the_same() {
 #[test]
 fn the_exit_status_says_whether_there_is_a_difference() {
     let shop = two_versions();
-    let folder = shop.folder.path();
+    let folder = shop.folder();
     let (status, out, err) = diff(folder, &["after.urdf", "after.urdf"]);
     assert_eq!((status, err.as_str()), (0, ""));
     assert!(out.ends_with("\nno difference in meaning\n"), "{out}");

@@ -1,5 +1,6 @@
 use crate::program::urdd;
-use testkit::robots::{made, our_robots};
+use testkit::robots::{made, made_of, our_robots};
+use urdd_export::Format;
 
 #[test]
 fn nothing_is_written_over_unless_asked() {
@@ -197,4 +198,40 @@ fn update_keeps_what_a_person_wrote_and_says_so() {
     let (status, _, said) = urdd(&["export", "srdf", path, "--update", "-o", "new.srdf"], folder);
     assert_eq!(status, 0, "{said}");
     assert_eq!(std::fs::read(folder.join("new.srdf")).expect("a file"), new);
+}
+
+/// A report names what is lost, and takes the place of no other file.
+#[test]
+fn a_report_is_written_beside_and_replaces_no_file() {
+    let (folder, path) = made_of(
+        r#"<robot name="r"><link name="arm"><visual><geometry><box size="0.3 0.1 0.1"/></geometry>
+<material name="t"><texture filename="t.png"/></material></visual></link></robot>"#,
+    );
+    let name = path.file_name().expect("a name").to_str().expect("a name");
+    let folder = folder.path();
+    let (status, _, said) =
+        urdd(&["export", "mjcf", name, "-o", "m.xml", "--report", "m.json"], folder);
+    assert!(status == 0 && said.contains("textures that the URDF itself names (1)"), "{said}");
+    // A file of a person's is no report.
+    std::fs::write(folder.join("mine.json"), "mine").expect("written");
+    let again = ["export", "mjcf", name, "-o", "n.xml", "--report", "mine.json"];
+    let (status, _, said) = urdd(&again, folder);
+    assert!(status == 2 && said.contains("mine.json already exists"), "{said}");
+    assert_eq!(std::fs::read_to_string(folder.join("mine.json")).expect("a file"), "mine");
+    assert!(!folder.join("n.xml").exists());
+    let report = std::fs::read_to_string(folder.join("m.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!((&report["robot"], &report["format"]), (&"r".into(), &"MJCF".into()));
+}
+
+/// The command line knows the same formats.
+#[test]
+fn every_format_of_the_command_line_is_tried() {
+    let folder = testkit::temporary::folder();
+    let (_, help, _) = urdd(&["export", "--help"], folder.path());
+    let listed = help.split("Possible values:").nth(1).expect("formats");
+    let listed = listed.lines().take_while(|line| !line.trim_start().starts_with("<"));
+    let count = listed.filter(|line| line.trim_start().starts_with("- ")).count();
+    // `init` is no format.
+    assert_eq!(count, Format::ALL.len() + 1, "{help}");
 }

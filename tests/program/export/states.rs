@@ -1,8 +1,8 @@
-//! Import of an SRDF's group states as named configurations.
+//! `urdd configurations import`: an SRDF's group states become named configurations.
 
-use urdd_export::{SrdfError, import_states};
 use urdd_robot::Robot;
 
+use crate::program::urdd;
 use testkit::robots::made_of;
 
 const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
@@ -33,10 +33,7 @@ fn states_of_groups_are_configurations() {
     );
     std::fs::write(folder.join("r.srdf"), &srdf).expect("written");
     let import = |more: &[&str]| {
-        crate::program::urdd(
-            &[&["configurations", "import", "r.srdf", name], more].concat(),
-            folder,
-        )
+        urdd(&[&["configurations", "import", "r.srdf", name], more].concat(), folder)
     };
     let (status, told, _) = import(&[]);
     assert_eq!(status, 0);
@@ -53,8 +50,7 @@ fn states_of_groups_are_configurations() {
     assert!(import(&[]).1.contains("0 configurations imported; 1 of the SRDF unchanged"));
 
     // A person's configuration stays, unless --force.
-    let (status, ..) =
-        crate::program::urdd(&["configurations", "set", name, "home", "j=0.25"], folder);
+    let (status, ..) = urdd(&["configurations", "set", name, "home", "j=0.25"], folder);
     assert_eq!(status, 0);
     let (status, _, said) = import(&[]);
     assert!(status == 2 && said.contains("another configuration `home`; --force"), "{said}");
@@ -67,47 +63,4 @@ fn states_of_groups_are_configurations() {
         Robot::open(&path).expect("a robot").named_configuration("home"),
         Ok(&[0.5, -0.5][..])
     );
-}
-
-#[test]
-fn wrong_states_are_refused_with_their_line() {
-    let (_folder, path) = made_of(URDF);
-    let robot = Robot::open(path).expect("a robot");
-    let cases = [
-        (state("s", "g", &[("jj", "0")]), "there is no joint `jj`; did you mean `j`?"),
-        (state("s", "g", &[("j", "x")]), "`x` is not a position, rad or m"),
-        (state("s", "g", &[("j", "NaN")]), "`NaN` is not a position, rad or m"),
-        (state("s", "g", &[("j", "0 1")]), "`0 1` is not a position, rad or m"),
-        (state("s", "g", &[("j", "")]), "`<joint>` has no `value`"),
-        (state("", "g", &[("j", "0")]), "`<group_state>` has no `name`"),
-        (
-            state("s", "g", &[("j", "0"), ("j", "1")]),
-            "another state `s` sets the joint `j` to another position",
-        ),
-    ];
-    for (inner, expected) in cases {
-        let text = format!("<robot name=\"r\">\n{inner}</robot>");
-        match import_states(&robot, &text, false) {
-            Err(SrdfError::Element { line: 2, reason }) => assert_eq!(reason, expected),
-            other => panic!("{inner}: {other:?}"),
-        }
-    }
-    let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
-    assert!(matches!(other, SrdfError::OtherRobot { .. }), "{other}");
-}
-
-/// An SRDF of 16 MB holds a quarter of a million states.
-#[test]
-fn very_many_states_take_a_moment() {
-    let (_folder, path) = made_of(URDF);
-    let robot = Robot::open(path).expect("a robot");
-    let mut text = String::from("<robot name=\"r\">");
-    for k in 0..100_000 {
-        text += &state(&format!("s{k}"), "g", &[("j", "0.5")]);
-    }
-    text += "</robot>";
-    let started = std::time::Instant::now();
-    let imported = import_states(&robot, &text, false).expect("states");
-    assert_eq!(imported.changed, 100_000);
-    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
 }

@@ -6,15 +6,19 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use super::export;
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use urdd_export::{ActuatorKind, Choices, Export, ExportError, Format, Note, Setup, SphereBudget};
 use urdd_robot::Robot;
 
-use super::names::parsed;
 use crate::program::urdd;
 use testkit::trials::sample;
+use testkit::xml::parsed;
+
+/// Exports a robot with what a person chose, which fits the format.
+fn export(robot: &Robot, format: Format, choices: &Choices) -> Result<Export, ExportError> {
+    urdd_export::export(robot, &choices.options(format).expect("options of the format"))
+}
 
 /// Each text that a URDF may hold is a place, which begins with `Place`.
 const URDF: &str = include_str!("texts.urdf");

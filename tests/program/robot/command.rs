@@ -2,7 +2,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::robot::{made, our_robots};
+use testkit::robots::{made, our_robots};
 
 /// The result of `urdd check-collisions`: exit status, standard output, standard error.
 fn check(urdd: &Path, arguments: &[&str], input: &str) -> (i32, String, String) {

@@ -1,14 +1,3 @@
-//! `urdd_robot`: queries of a robot, compared with closed forms, finite differences and other methods.
+//! `urdd check-collisions` as a process. Its crate's tests say what a robot answers.
 
-mod cancelled;
-mod carrying;
-mod changing;
 mod command;
-mod inverse;
-mod motion;
-mod nearness;
-mod opening;
-mod planning;
-mod world;
-
-use testkit::robots::{made, made_of, our_robots};

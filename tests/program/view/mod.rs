@@ -1,12 +1,4 @@
-//! `urdd view` as its page and others use it: who is refused, what is served, what saving skips does.
+//! `urdd view` as a process.
 
-mod asking;
-mod dropping;
 mod exporting;
-mod following;
-mod keeping;
-mod living;
-mod refusing;
-mod saving;
-mod served;
-mod site;
+mod serving;

@@ -3,24 +3,41 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod carried;
+mod choices;
+mod drake;
 mod element;
+mod fitted_spheres;
 mod gazebo;
+mod hostile_names;
 mod inertia;
 mod invented_names;
 mod locked;
 mod made;
+mod mjcf;
+mod mjcf_actuators;
 mod mjcf_inertia;
 mod mjcf_surface;
+mod moveit;
 mod names;
 mod other_attributes;
 mod pairs;
+mod pairs_of_formats;
+mod robot_file;
+mod sdf;
+mod setup;
 mod setup_words;
 mod simplify;
+mod spheres;
 mod spheres_cover_cell;
 mod spheres_cover_filled;
 mod spheres_judge;
 mod spheres_surface;
+mod srdf;
+mod srdf_import;
 mod srdf_merge;
+mod states;
 mod textured_box;
 mod textures;
+mod urdf;
 mod yaml;

@@ -5,11 +5,15 @@
 #![allow(clippy::restriction)]
 
 mod annotations;
+mod cpp_types;
 mod escape;
 mod mutate;
+mod published_schemas;
 mod rate;
 mod readable;
+mod schema_comment;
 mod skips;
+mod typescript;
 
 use std::cell::Cell;
 

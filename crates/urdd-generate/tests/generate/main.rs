@@ -3,6 +3,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod cancelled;
 mod connections;
 mod distinct;
 mod in_memory;

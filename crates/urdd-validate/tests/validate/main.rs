@@ -4,6 +4,7 @@
 // A test may stop anywhere.
 #![allow(clippy::restriction)]
 
+mod cancelled;
 mod core_rules_random;
 mod corpus;
 mod distances;

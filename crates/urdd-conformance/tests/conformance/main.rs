@@ -1,0 +1,16 @@
+//! The conformance suite as data, judged by our validator.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod cases;
+mod export;
+mod valid;
+
+use urdd_conformance::suite::Suite;
+
+/// The suite in the repository.
+fn suite() -> Suite {
+    let files = testkit::files::below(&testkit::repository().join("conformance"));
+    Suite::of(files).expect("the suite reads")
+}

@@ -1,0 +1,243 @@
+//! What exports need and a URDD does not say: guesses, the file, and what is wrong in it.
+
+use crate::made::export;
+use urdd_export::{ActuatorKind, Choices, Format, Setup};
+use urdd_robot::Robot;
+
+use testkit::robots::{made, made_of, our_robots};
+use testkit::urdfs::mobile;
+
+/// Lines of a file without comments.
+fn said(text: &str) -> Vec<&str> {
+    let lines = text.lines().map(str::trim);
+    lines.filter(|line| !line.is_empty() && !line.starts_with('#')).collect()
+}
+
+fn guessed(name: &str) -> (Robot, String) {
+    let robots = our_robots();
+    let (_, urdf) = robots.iter().find(|(found, _)| found == name).expect(name);
+    let (folder, path) = made(urdf);
+    let robot = Robot::open(path).expect("a robot");
+    let text = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
+    drop(folder);
+    (robot, text)
+}
+
+fn names(text: &str) -> Vec<&str> {
+    let lines = said(text).into_iter();
+    lines.filter_map(|line| line.strip_prefix("name = \"")?.strip_suffix('"')).collect()
+}
+
+/// What a person who looks at the robots sees.
+#[test]
+fn structure_says_what_a_robot_is() {
+    let expected: [(&str, &[&str], bool); 6] = [
+        ("six_axis_arm", &["arm"], false),
+        ("hand", &["hand", "thumb", "index", "middle", "ring", "little"], false),
+        (
+            "quadruped",
+            &["base", "front_left_leg", "front_right_leg", "rear_left_leg", "rear_right_leg"],
+            true,
+        ),
+        ("gripper", &["hand"], false),
+        ("welding_arm", &["arm"], false),
+        ("single_link", &[], false),
+    ];
+    for (robot, groups, floats) in expected {
+        let (_, text) = guessed(robot);
+        assert_eq!(names(&text), groups, "{robot}");
+        let floating = format!("floating = {floats}");
+        assert!(said(&text).contains(&floating.as_str()), "{text}");
+    }
+    let (_, text) = guessed("six_axis_arm");
+    assert!(said(&text).contains(&"tools = [\"tool0\"]"), "{text}");
+    // Each guess has its reason.
+    let reasons = text.lines().filter(|line| line.starts_with("# Guess: "));
+    assert_eq!(reasons.count(), 4, "{text}");
+}
+
+#[test]
+fn an_arm_on_wheels_with_a_gripper() {
+    let (_folder, path) = made_of(&mobile());
+    let robot = Robot::open(path).expect("a robot");
+    let guess = Setup::guess(&robot).expect("guesses");
+    let text = guess.to_toml(&robot).expect("text");
+    let expected = [
+        "robot = \"m\"",
+        "[base]",
+        "floating = true",
+        "[[group]]",
+        "name = \"wheels\"",
+        "joints = [\"w1\", \"w2\"]",
+        "[[group]]",
+        "name = \"arm\"",
+        "base = \"chassis\"",
+        "tip = \"mount_link\"",
+        "[[group]]",
+        "name = \"hand\"",
+        "joints = [\"f1\", \"f2\"]",
+        "[[end_effector]]",
+        "name = \"hand\"",
+        "group = \"hand\"",
+        "parent_group = \"arm\"",
+        "parent_link = \"mount_link\"",
+        "[frames]",
+        "tools = [\"palm_link\"]",
+        "imus = []",
+        "[actuators]",
+        "bandwidth = 10.0",
+        "[limits]",
+        "[contact]",
+        "[curobo]",
+    ];
+    assert_eq!(said(&text), expected);
+    // What is written is read, and means the same.
+    let read = Setup::from_toml(&text, "m.export.toml", &robot).expect("read");
+    assert_eq!(said(&read.to_toml(&robot).expect("text")), expected);
+}
+
+/// All that a person set is in the text again.
+#[test]
+fn what_a_person_set_is_written_again() {
+    let (_folder, path) = made_of(&mobile());
+    let robot = Robot::open(path).expect("a robot");
+    let guess = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
+    let mine = guess
+        .replace(
+            "bandwidth = 10.0\n",
+            "bandwidth = 7.5\n[actuators.joint.\"j1\"]\nkp = 500.0\narmature = 0.1\n",
+        )
+        .replace("# acceleration = 5.0", "acceleration = 3.0")
+        .replace("# jerk = 100.0", "jerk = 30.0")
+        .replace("# friction = 0.8", "friction = 0.6")
+        .replace("# ee_link = \"NAME\"", "ee_link = \"j4_link\"")
+        .replace("# locked = { finger = 0.04 }", "locked = { \"f1\" = 0.01 }");
+    let read = Setup::from_toml(&mine, "x", &robot).expect("read");
+    assert_eq!(said(&read.to_toml(&robot).expect("text")), said(&mine));
+    assert_eq!(said(&mine).len(), said(&guess).len() + 8);
+}
+
+#[test]
+fn what_is_wrong_in_the_file_is_said_with_its_place() {
+    let (_folder, path) = made_of(&mobile());
+    let robot = Robot::open(path).expect("a robot");
+    let group = |inner: &str| format!("robot = \"m\"\n[[group]]\nname = \"g\"\n{inner}\n");
+    let cases = [
+        ("robot = \"n\"", ":1:9: this file is for robot `n`, not for `m`"),
+        ("robot = \"m\"\n[[group", ":2:"),
+        ("robot = \"m\"\ngrup = 1", ":2:1: unknown field `grup`"),
+        ("[base]\nfloating = true", "missing field `robot`"),
+        (
+            &group("base = \"chasis\"\ntip = \"j4_link\""),
+            ":4:8: there is no link `chasis`; did you mean `chassis`?",
+        ),
+        (
+            &group("base = \"j4_link\"\ntip = \"chassis\""),
+            ":2:1: the link `j4_link` is not an ancestor of `chassis`",
+        ),
+        (&group("base = \"j4_link\"\ntip = \"palm_link\""), "no joint between them moves"),
+        (&group("joints = [\"f3\"]"), ":4:11: there is no joint `f3`"),
+        (&group("joints = [\"mount\"]"), ":4:11: the joint `mount` is fixed"),
+        (&group("joints = []"), ":2:1: the group `g` needs `base` and `tip`"),
+        (&group("joints = [\"f1\"]\ntip = \"chassis\""), "only one of these"),
+        (&group("groups = [\"g\"]"), ":2:1: the group `g` contains itself"),
+        (&group("groups = [\"h\"]"), ":4:11: there is no group `h`"),
+        (
+            &group("groups = [\"h\"]\n[[group]]\nname = \"h\"\ngroups = [\"g\"]"),
+            ":2:1: the group `g` contains itself",
+        ),
+        (
+            &group("joints = [\"f1\"]\n[[group]]\nname = \"g\"\njoints = [\"f2\"]"),
+            ":6:8: another group is called `g`",
+        ),
+        (
+            &group(
+                "joints = [\"f1\"]\n[[end_effector]]\nname = \"e\"\ngroup = \"x\"\nparent_link = \"chassis\"",
+            ),
+            ":7:9: there is no group `x`",
+        ),
+        ("robot = \"m\"\n[actuators]\nbandwidth = 0.0", ":3:13: `bandwidth` is a number above 0"),
+        ("robot = \"m\"\n[actuators]\nbandwidth = nan", "`bandwidth` is a number above 0"),
+        ("robot = \"m\"\n[actuators.joint.j1]\nkp = -1.0", "`kp` is a number that is not below 0"),
+        ("robot = \"m\"\n[actuators.joint.j1]\nki = 1.0", ":3:1: unknown field `ki`"),
+        (
+            "robot = \"m\"\n[curobo]\nretract = \"home\"",
+            ":3:11: there is no named configuration `home`",
+        ),
+        ("robot = \"m\"\n[curobo]\nlocked = { f1 = inf }", "`locked` is a position, rad or m"),
+        ("robot = \"m\"\n[frames]\ntools = [\"\\u001b[2J\"]", ":3:10: "),
+    ];
+    for (text, expected) in cases {
+        let error = Setup::from_toml(text, "m.export.toml", &robot).expect_err(text);
+        let said = error.to_string();
+        assert!(said.contains(expected), "{text}\n{said}");
+        assert!(said.starts_with("m.export.toml:") && !said.contains('\u{1b}'), "{said}");
+    }
+    assert!(Setup::from_toml("robot = \"m\"", "x", &robot).is_ok());
+}
+
+/// Names of any kind are written so that TOML's reader has them back.
+#[test]
+fn hostile_names_are_read_as_they_were_written() {
+    for name in [
+        "\"\"\"",
+        "a\nb",
+        "\\",
+        "\u{1b}[2J",
+        "\u{202e}x",
+        "'",
+        "é 🤖",
+        "[x]",
+        "x = 1",
+        "\u{10ffff}",
+    ] {
+        let urdf = mobile().replace("palm_link", "STAND").replace("\"m\"", "\"ROBOT\"");
+        let (_folder, path) = made_of(&urdf);
+        let robot = Robot::open(&path).expect("a robot");
+        let text = Setup::guess(&robot).expect("guesses").to_toml(&robot).expect("text");
+        assert!(text.contains("tools = [\"STAND\"]"));
+        let json = serde_json::to_string(name).expect("JSON");
+        let module = path.join("urdf_module/module.json");
+        for file in [module, path.join("kinematics_module/module.json")] {
+            if let Ok(document) = std::fs::read_to_string(&file) {
+                std::fs::write(&file, document.replace("\"STAND\"", &json)).expect("written");
+            }
+        }
+        let robot = Robot::open(&path).expect("a robot");
+        let Ok(setup) = Setup::guess(&robot) else {
+            continue;
+        };
+        let text = setup.to_toml(&robot).expect("text");
+        let read = Setup::from_toml(&text, "x", &robot)
+            .unwrap_or_else(|error| panic!("{name:?}: {error}\n{text}"));
+        assert_eq!(
+            read.to_toml(&robot)
+                .expect("text")
+                .lines()
+                .filter(|l| !l.starts_with("# Guess"))
+                .collect::<Vec<_>>(),
+            text.lines().filter(|l| !l.starts_with("# Guess")).collect::<Vec<_>>()
+        );
+        assert!(text.contains("tools = ["), "{text}");
+    }
+}
+
+/// Gains stay the person's in the library too, and the bandwidth that is asked for stands over the file's.
+#[test]
+fn options_stand_over_the_file() {
+    let (_folder, path) = made_of(&mobile());
+    let robot = Robot::open(path).expect("a robot");
+    let text = "robot = \"m\"\n[actuators]\nbandwidth = 5.0";
+    let setup = Setup::from_toml(text, "x", &robot).expect("read");
+    let text = |bandwidth: Option<f64>| {
+        let options = Choices {
+            setup: Some(setup.clone()),
+            actuators: Some(ActuatorKind::Position),
+            bandwidth,
+            ..Choices::default()
+        };
+        export(&robot, Format::Mjcf, &options).expect("an export").text
+    };
+    assert!(text(None).contains("a bandwidth of 5 Hz"));
+    assert!(text(Some(20.0)).contains("a bandwidth of 20 Hz"));
+}

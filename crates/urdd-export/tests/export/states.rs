@@ -1,0 +1,63 @@
+//! Import of an SRDF's group states as named configurations.
+
+use urdd_export::{SrdfError, import_states};
+use urdd_robot::Robot;
+
+use testkit::robots::made_of;
+
+const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
+
+fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
+    let joints =
+        joints.iter().map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
+    format!(
+        "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
+        joints.collect::<String>()
+    )
+}
+
+#[test]
+fn wrong_states_are_refused_with_their_line() {
+    let (_folder, path) = made_of(URDF);
+    let robot = Robot::open(path).expect("a robot");
+    let cases = [
+        (state("s", "g", &[("jj", "0")]), "there is no joint `jj`; did you mean `j`?"),
+        (state("s", "g", &[("j", "x")]), "`x` is not a position, rad or m"),
+        (state("s", "g", &[("j", "NaN")]), "`NaN` is not a position, rad or m"),
+        (state("s", "g", &[("j", "0 1")]), "`0 1` is not a position, rad or m"),
+        (state("s", "g", &[("j", "")]), "`<joint>` has no `value`"),
+        (state("", "g", &[("j", "0")]), "`<group_state>` has no `name`"),
+        (
+            state("s", "g", &[("j", "0"), ("j", "1")]),
+            "another state `s` sets the joint `j` to another position",
+        ),
+    ];
+    for (inner, expected) in cases {
+        let text = format!("<robot name=\"r\">\n{inner}</robot>");
+        match import_states(&robot, &text, false) {
+            Err(SrdfError::Element { line: 2, reason }) => assert_eq!(reason, expected),
+            other => panic!("{inner}: {other:?}"),
+        }
+    }
+    let other = import_states(&robot, "<robot name=\"q\"/>", false).expect_err("another robot");
+    assert!(matches!(other, SrdfError::OtherRobot { .. }), "{other}");
+}
+
+/// An SRDF of 16 MB holds a quarter of a million states.
+#[test]
+fn very_many_states_take_a_moment() {
+    let (_folder, path) = made_of(URDF);
+    let robot = Robot::open(path).expect("a robot");
+    let mut text = String::from("<robot name=\"r\">");
+    for k in 0..100_000 {
+        text += &state(&format!("s{k}"), "g", &[("j", "0.5")]);
+    }
+    text += "</robot>";
+    let started = std::time::Instant::now();
+    let imported = import_states(&robot, &text, false).expect("states");
+    assert_eq!(imported.changed, 100_000);
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+}

@@ -1,0 +1,48 @@
+//! Cancelled generation returns a cancellation error, and leaves nothing behind.
+
+use std::collections::BTreeMap;
+
+use testkit::files::below;
+use testkit::robots::{made, our_robots};
+use urdd_directory::cancellation::Cancellation;
+use urdd_format::registry::ModuleKind;
+use urdd_generate::{GenerateError, Progress, Settings, generate};
+
+/// Cancels when the module with this number begins.
+struct StopsAt(usize, Cancellation);
+
+impl Progress for StopsAt {
+    fn module(&self, _: ModuleKind, done: usize, _: usize) {
+        if done == self.0 {
+            self.1.cancel();
+        }
+    }
+}
+
+#[test]
+fn generate_leaves_what_was_there() {
+    let (_, urdf) = our_robots().swap_remove(8);
+    let modules = 15;
+    for stop in [0, 1, 7, 8, 9, 10, 12, modules - 1] {
+        let folder = testkit::temporary::folder();
+        let target = folder.path().join("robot");
+        let cancellation = Cancellation::default();
+        let settings =
+            Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
+        let progress = StopsAt(stop, cancellation);
+        let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
+        assert!(matches!(stopped, GenerateError::Cancelled), "{stop}: {stopped}");
+        assert_eq!(stopped.code(), "cancelled");
+        assert_eq!(below(folder.path()), BTreeMap::new(), "{stop}");
+    }
+    // Over an existing URDD.
+    let (folder, target) = made(&urdf);
+    let before = below(folder.path());
+    let cancellation = Cancellation::default();
+    let settings =
+        Settings { cancellation: cancellation.clone(), num_samples: 10, ..Settings::default() };
+    let progress = StopsAt(12, cancellation);
+    let stopped = generate(&urdf, &target, &settings, &progress).unwrap_err();
+    assert!(matches!(stopped, GenerateError::Cancelled), "{stopped}");
+    assert_eq!(below(folder.path()), before);
+}

@@ -1,0 +1,14 @@
+//! Queries of a robot, compared with closed forms, finite differences and other methods.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod cancelled;
+mod carrying;
+mod changing;
+mod inverse;
+mod motion;
+mod nearness;
+mod opening;
+mod planning;
+mod world;

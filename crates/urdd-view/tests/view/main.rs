@@ -1,0 +1,16 @@
+//! The server of `urdd view` as its page and others use it: who is refused, what is served, what saving skips does. And
+//! what is exported.
+
+// A test may stop anywhere.
+#![allow(clippy::restriction)]
+
+mod asking;
+mod dropping;
+mod exporting;
+mod following;
+mod keeping;
+mod living;
+mod refusing;
+mod saving;
+mod served;
+mod site;
