@@ -21,7 +21,9 @@ impl<K: Eq + Hash, V: Copy> Memo<K, V> {
     /// The result of a key, computed if it is not known.
     pub fn get(&self, key: K, compute: impl FnOnce() -> V) -> V {
         let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        known().get(&key).copied().unwrap_or_else(|| {
+        // Unlocked before it is computed.
+        let found = known().get(&key).copied();
+        found.unwrap_or_else(|| {
             let value = compute();
             known().insert(key, value);
             value

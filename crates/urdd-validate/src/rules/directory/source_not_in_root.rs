@@ -1,4 +1,5 @@
 use crate::rules::prelude::*;
+use urdd_format::root_metadata::Source;
 
 declare_rule! {
     /// The source URDF is in a folder below the root.
@@ -13,7 +14,7 @@ declare_rule! {
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
     // DIR015 reports an invalid path.
-    if let Some(file) = source(context)
+    if let Some(Source::Urdf(file)) = &context.metadata()?.source
         && path::check(&file.path).is_ok()
         && file.path.contains('/')
     {

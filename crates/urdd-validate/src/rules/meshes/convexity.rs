@@ -10,6 +10,7 @@ use urdd_geometry::surface::extent;
 
 /// Reports every mesh of a module that is not the closed surface of a convex body.
 pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<()> {
+    let module = context.module(kind)?;
     let judge = |mesh: &'_ Derived| {
         let solid = mesh.sound()?;
         let key = context.solids().content(kind, mesh.link, mesh.piece)?;
@@ -46,7 +47,7 @@ pub fn report(context: &Context, kind: Kind, findings: &mut Findings) -> Option<
             _ => format!("the {} of {label}", noun(kind)),
         };
         let message = format!("{which} is not a convex body: {what}");
-        let mut finding = finding_in(kind, mesh.pointer(), message)
+        let mut finding = finding_in(module, mesh.pointer(), message)
             .values("a closed convex surface, faces counter-clockwise seen from outside", what)
             .tolerance(resolution)
             .part(part);

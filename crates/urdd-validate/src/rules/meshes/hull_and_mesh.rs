@@ -15,6 +15,7 @@ pub fn report(
     words: impl Fn(&str, &str, &str) -> (String, &'static str, String),
 ) -> Option<()> {
     let kind = Kind::ConvexHullMeshes;
+    let module = context.module(kind)?;
     // Computed before the threads start, so that the computation itself can use all of them.
     context.placed();
     let solids = context.solids();
@@ -37,7 +38,7 @@ pub fn report(
         };
         let label = context.link_label(hull.link);
         let (message, expected, actual) = words(&label, &point(off.place), &metres(off.distance));
-        finding_in(kind, hull.pointer(), message)
+        finding_in(module, hull.pointer(), message)
             .values(expected, actual)
             .tolerance(off.tolerance)
             .off_by(off.distance, "m")

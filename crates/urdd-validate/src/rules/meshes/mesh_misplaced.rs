@@ -19,6 +19,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(Kind::PlainMeshes)?;
     for (link, why) in &context.placed().unknown {
         findings.not_verified(Part::Plain(*link), *why);
     }
@@ -32,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
             "the mesh of {label} is not its geometry in the URDF, at its place: {}{hint}",
             wrong.what
         );
-        finding_in(Kind::PlainMeshes, &wrong.pointer, message)
+        finding_in(module, &wrong.pointer, message)
             .values(&wrong.expected, &wrong.actual)
             .tolerance(wrong.tolerance)
             .part(Part::Plain(wrong.link))

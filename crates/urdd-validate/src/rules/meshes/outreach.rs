@@ -22,6 +22,7 @@ pub enum How {
 /// Reports the pieces that reach out of the hulls of their links.
 pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()> {
     let kind = Kind::ConvexDecompositionMeshes;
+    let module = context.module(kind)?;
     let part = |piece: &Derived| Part::Piece { link: piece.link, piece: piece.piece };
     let pieces: Vec<&Derived> = context
         .solids()
@@ -59,7 +60,7 @@ pub fn report(context: &Context, how: How, findings: &mut Findings) -> Option<()
             context.link_label(piece.link),
             point(out.place),
         );
-        finding_in(Kind::ConvexDecompositionMeshes, piece.pointer(), message)
+        finding_in(module, piece.pointer(), message)
             .values("every vertex inside the hull", distance)
             .tolerance(tolerance)
             .off_by(out.distance, "m")

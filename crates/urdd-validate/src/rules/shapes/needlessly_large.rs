@@ -16,6 +16,7 @@ pub fn report(
     [shape, size]: [&str; 2],
     ratio: impl Fn(&Enclosure) -> Option<f64> + Sync,
 ) -> Option<()> {
+    let module = context.module(Kind::LinkShapesApproximations)?;
     let tight = context.profile() == Profile::V1;
     // SHP017 and SHP018 report those that do not fit.
     let fits = |e: &Enclosure| e.noun() == shape && e.holds() && (e.touches() || !tight);
@@ -41,7 +42,7 @@ pub fn report(
         let of_what = enclosure.of_what(context);
         let message =
             format!("the {shape} of {of_what} has {ratio:.2} times the {size} of the smallest one");
-        finding_in(Kind::LinkShapesApproximations, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .values(format!("at most {most} times"), format!("{ratio:.2} times"))
             .report(findings);
     }

@@ -17,6 +17,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(Kind::LinkShapesApproximations)?;
     for enclosure in enclosures(context, findings) {
         // A shape that leaves a part out is off on the other side: SHP017 reports it.
         if !enclosure.holds() || enclosure.touches() {
@@ -32,7 +33,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
                 format!("the box's side at its own {sign}{axis} is {distance} away from {what}")
             }
         };
-        finding_in(Kind::LinkShapesApproximations, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .values("a vertex on every side", format!("{distance} away"))
             .tolerance(enclosure.tolerance)
             .off_by(off, "m")

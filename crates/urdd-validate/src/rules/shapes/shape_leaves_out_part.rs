@@ -14,6 +14,7 @@ declare_rule! {
 }
 
 fn check(context: &Context, findings: &mut Findings) -> Option<()> {
+    let module = context.module(Kind::LinkShapesApproximations)?;
     for enclosure in enclosures(context, findings) {
         if enclosure.holds() {
             continue;
@@ -24,7 +25,7 @@ fn check(context: &Context, findings: &mut Findings) -> Option<()> {
         let message = format!(
             "the {noun} leaves out a part of {what}: the vertex at {place} is {distance} outside"
         );
-        finding_in(Kind::LinkShapesApproximations, &enclosure.pointer, message)
+        finding_in(module, &enclosure.pointer, message)
             .values("every vertex inside", format!("{distance} outside"))
             .tolerance(enclosure.tolerance)
             .off_by(away, "m")
