@@ -1,5 +1,5 @@
 //! The rules and their cases in `conformance/`: one case alone ([`one_case`]), and the cases and bases that are computed
-//! here ([`computed`]). `tests/program/conformance` judges the whole suite.
+//! here ([`computed`]). `crates/urdd-conformance/tests` judges the whole suite.
 //!
 //! A case that a person can write is data: `conformance/cases`. The cases here have meshes, other robots, or numbers that
 //! follow from a number of SPEC.md. Each is a valid URDD with one change. The valid URDD comes from `testkit`, a producer

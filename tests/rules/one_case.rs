@@ -144,7 +144,7 @@ fn beginning_with(start: &str) -> Suite {
 
 #[test]
 fn a_case_that_is_asked_for_is_judged() {
-    // Without a selection, a few: tests/program/conformance checks the cases of all rules.
+    // Without a selection, a few: crates/urdd-conformance/tests checks the cases of all rules.
     let (start, stand) = match asked_for() {
         Some(start) => (start, stand()),
         None => ("DOF001".to_owned(), Stand::Itself),
