@@ -178,8 +178,8 @@ impl Findings {
         self
     }
 
-    /// Whether to judge a part against other parts: not if one of them failed a needed rule
-    /// ([`super::rule::Need::Each`]). Records a part that is not judged as not verified.
+    /// Whether to judge a part against other parts: not if one of them failed a needed rule.
+    /// Records a part that is not judged as not verified.
     pub fn judges(&mut self, part: Part, by: &[Part]) -> bool {
         self.scope.judges(part, by)
     }
