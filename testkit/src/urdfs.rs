@@ -61,3 +61,19 @@ pub fn arm(upper: f64, geometry: &str) -> String {
         <limit lower="-1" upper="{upper}" effort="1" velocity="1"/></joint></robot>"#
     )
 }
+
+/// A chain of three joints, of which the last follows the second.
+pub const FOLLOWER: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
+<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+<joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
+
+/// A group's state, as an SRDF has it.
+pub fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
+    let joints =
+        joints.iter().map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
+    format!(
+        "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
+        joints.collect::<String>()
+    )
+}

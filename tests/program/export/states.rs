@@ -4,24 +4,11 @@ use urdd_robot::Robot;
 
 use crate::program::urdd;
 use testkit::robots::made_of;
-
-const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
-<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
-<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
-<joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
-
-fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
-    let joints =
-        joints.iter().map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
-    format!(
-        "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
-        joints.collect::<String>()
-    )
-}
+use testkit::urdfs::{FOLLOWER, state};
 
 #[test]
 fn states_of_groups_are_configurations() {
-    let (folder, path) = made_of(URDF);
+    let (folder, path) = made_of(FOLLOWER);
     let folder = folder.path();
     let name = path.file_name().expect("a name").to_str().expect("a name");
     let srdf = format!(

@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -17,6 +17,14 @@ fn view(words: &[&Path]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_urdd"));
     command.arg("view").args(words);
     command
+}
+
+/// The address that a process says in its first line.
+fn address_of(child: &mut Child) -> String {
+    let mut line = String::new();
+    let output = child.stdout.take().expect("a pipe");
+    BufReader::new(output).read_line(&mut line).expect("a line");
+    line.trim().rsplit(' ').next().expect("an address").to_owned()
 }
 
 #[test]
@@ -70,11 +78,7 @@ fn what_xacro_includes_is_followed() {
         .stderr(Stdio::null())
         .spawn()
         .expect("it runs");
-    let mut line = String::new();
-    let output = child.stdout.take().expect("a pipe");
-    BufReader::new(output).read_line(&mut line).expect("a line");
-    let address = line.trim().rsplit(' ').next().expect("an address");
-    let server = Requests::to(address);
+    let server = Requests::to(&address_of(&mut child));
     let _ends = Interrupts(child);
     let first = server.until("arm", is_whole);
     fs::write(&part, arm(2.0, sphere)).expect("written");
@@ -106,11 +110,8 @@ fn the_token_is_in_no_argument() {
         .stderr(Stdio::null())
         .spawn()
         .expect("it runs");
-    let mut line = String::new();
-    let output = child.stdout.take().expect("a pipe");
-    BufReader::new(output).read_line(&mut line).expect("a line");
-    let address = line.trim().rsplit(' ').next().expect("an address");
-    let token = Requests::to(address).token.clone();
+    let address = address_of(&mut child);
+    let token = Requests::to(&address).token.clone();
     let ends = Interrupts(child);
     let begun = Instant::now();
     while !at("seen").exists() {

@@ -4,24 +4,11 @@ use urdd_export::{SrdfError, import_states};
 use urdd_robot::Robot;
 
 use testkit::robots::made_of;
-
-const URDF: &str = r#"<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
-<joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
-<joint name="k" type="revolute"><parent link="b"/><child link="c"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
-<joint name="m" type="revolute"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/><mimic joint="k"/></joint></robot>"#;
-
-fn state(name: &str, group: &str, joints: &[(&str, &str)]) -> String {
-    let joints =
-        joints.iter().map(|(joint, value)| format!("<joint name=\"{joint}\" value=\"{value}\"/>"));
-    format!(
-        "<group_state name=\"{name}\" group=\"{group}\">{}</group_state>\n",
-        joints.collect::<String>()
-    )
-}
+use testkit::urdfs::{FOLLOWER, state};
 
 #[test]
 fn wrong_states_are_refused_with_their_line() {
-    let (_folder, path) = made_of(URDF);
+    let (_folder, path) = made_of(FOLLOWER);
     let robot = Robot::open(path).expect("a robot");
     let cases = [
         (state("s", "g", &[("jj", "0")]), "there is no joint `jj`; did you mean `j`?"),
@@ -49,7 +36,7 @@ fn wrong_states_are_refused_with_their_line() {
 /// An SRDF of 16 MB holds a quarter of a million states.
 #[test]
 fn very_many_states_take_a_moment() {
-    let (_folder, path) = made_of(URDF);
+    let (_folder, path) = made_of(FOLLOWER);
     let robot = Robot::open(path).expect("a robot");
     let mut text = String::from("<robot name=\"r\">");
     for k in 0..100_000 {

@@ -67,6 +67,19 @@ fn read(subject: Subject, value: &Value) -> Result<Document, serde_json::Error> 
     }
 }
 
+/// A file of the repository is what a test of this name writes with `URDD_UPDATE=1`.
+fn is_written(file: &str, test: &str, expected: &str) {
+    let path = testkit::repository().join(file);
+    if std::env::var_os("URDD_UPDATE").is_some() {
+        std::fs::write(&path, expected).expect("written");
+    }
+    let found = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        found.replace("\r\n", "\n") == expected,
+        "{file} is not what the schemas say: run URDD_UPDATE=1 cargo test --workspace --test format {test}"
+    );
+}
+
 /// Every document that has a type: all but earlier versions of a report.
 fn subjects() -> impl Iterator<Item = Subject> {
     Subject::all().filter(|subject| !matches!(subject, Subject::FirstDiffReport))

@@ -26,16 +26,7 @@ export interface Extensible {
 /// `URDD_UPDATE=1 cargo test --workspace --test format typescript` writes the file.
 #[test]
 fn the_types_are_what_the_schemas_say() {
-    let file = testkit::repository().join(FILE);
-    let expected = types();
-    if std::env::var_os("URDD_UPDATE").is_some() {
-        std::fs::write(&file, &expected).expect("written");
-    }
-    let found = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(
-        found.replace("\r\n", "\n") == expected,
-        "{FILE} is not what the schemas say: run URDD_UPDATE=1 cargo test --workspace --test format typescript"
-    );
+    crate::is_written(FILE, "typescript", &types());
 }
 
 fn types() -> String {
