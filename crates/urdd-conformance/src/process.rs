@@ -4,9 +4,11 @@ use std::collections::{BTreeSet, VecDeque};
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, ExitStatus};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+use parking_lot::Mutex;
 
 use crate::printed_codes::Scan;
 use urdd_directory::cancellation::{Cancellation, Cancelled};
@@ -198,7 +200,7 @@ impl Tail {
         let reader = thread::spawn(move || {
             let mut piece = [0; 4096];
             while let Ok(read @ 1..) = stream.read(&mut piece) {
-                let mut kept = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut kept = shared.lock();
                 let (tail, scan) = &mut *kept;
                 scan.read(&piece[..read]);
                 tail.extend(&piece[..read]);
@@ -214,7 +216,7 @@ impl Tail {
         while !self.reader.is_finished() && start.elapsed() < LAST_WORDS {
             thread::sleep(PAUSE);
         }
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.kept.lock();
         let (tail, scan) = &mut *kept;
         let text = String::from_utf8_lossy(tail.make_contiguous()).into_owned();
         (text, std::mem::take(scan).finish())
