@@ -277,8 +277,7 @@ fn written(collection: &Collection, folder: &Path, signals: &Signals) -> Result<
             )));
         };
         if !may_hold_page(folder) {
-            let files = vec![folder.to_owned()];
-            return Err(usage(ExportError::InTheWay { files }));
+            return Err(usage(ExportError::InTheWay(vec![folder.to_owned()])));
         }
         let page = page_with(robot).map_err(usage)?;
         output::write_file(folder, &page).map_err(usage)?;

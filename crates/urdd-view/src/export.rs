@@ -116,7 +116,7 @@ pub(super) fn published(robot: &Shown) -> Result<Published, ExportError> {
 }
 
 pub(super) fn unread(robot: &Shown, error: ReadError) -> ExportError {
-    ExportError::Robot { robot: robot.name.clone(), error }
+    ExportError::Robot(robot.name.clone(), error)
 }
 
 /// Writes a robot: its files, their list, and its report.
