@@ -183,10 +183,7 @@ impl ReportArguments {
             _ => output::print(&text),
         };
         failures.extend(printed.err());
-        match failures.is_empty() {
-            true => Ok(status),
-            false => Err(failures.join("\nurdd: ").into()),
-        }
+        if failures.is_empty() { Ok(status) } else { Err(failures.join("\nurdd: ").into()) }
     }
 }
 

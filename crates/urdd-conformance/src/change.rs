@@ -193,8 +193,7 @@ impl Change {
     }
 
     fn replaced(&self, from: &str, by: &str, most: usize, tree: &Tree) -> Result<Vec<u8>, Misfit> {
-        let text = std::str::from_utf8(self.bytes(tree)?).ok();
-        let text = text.filter(|text| text.contains(from));
+        let text = std::str::from_utf8(self.bytes(tree)?).ok().filter(|text| text.contains(from));
         let text = text.ok_or_else(|| Misfit::NotThere(from.to_owned()))?;
         Ok(text.replacen(from, by, most).into_bytes())
     }
@@ -203,10 +202,7 @@ impl Change {
     fn clear(&self, tree: &mut Tree) -> Result<(), Misfit> {
         let before = tree.nodes.len();
         tree.nodes.retain(|path, _| !path.is_within(&self.file));
-        match tree.nodes.len() == before {
-            true => Err(Misfit::Missing),
-            false => Ok(()),
-        }
+        if tree.nodes.len() == before { Err(Misfit::Missing) } else { Ok(()) }
     }
 
     fn become_node(&self, node: Node, tree: &mut Tree) -> Result<(), Misfit> {

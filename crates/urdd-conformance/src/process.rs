@@ -121,8 +121,7 @@ impl Template {
                 return Err(TemplateError::Missing(name));
             }
         }
-        let words = words.to_vec();
-        Ok(Template { words })
+        Ok(Template { words: words.to_vec() })
     }
 
     /// A command that gets its folders one by one, and so has no placeholder.

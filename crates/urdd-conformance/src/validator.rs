@@ -293,9 +293,10 @@ fn scored(plan: &Plan, items: &[Item], ran: Vec<Option<Ran>>) -> ValidatorResult
             continue;
         };
         let fault = fault(plan, item.verdict, &ran.end);
-        match is_legacy(item) {
-            true => legacy.push(fault),
-            false => totals.push(fault),
+        if is_legacy(item) {
+            legacy.push(fault)
+        } else {
+            totals.push(fault)
         }
         if item.kind != Kind::Invalid && !is_legacy(item) {
             sound.push(fault);

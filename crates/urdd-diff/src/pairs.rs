@@ -43,8 +43,7 @@ pub(super) fn differences(
         index.entry(name).or_insert(link);
     }
     let of = |side: &Side| -> Vec<Option<usize>> {
-        let names = side.link_names().into_iter();
-        names.map(|name| index.get(name).copied()).collect()
+        side.link_names().into_iter().map(|name| index.get(name).copied()).collect()
     };
     let (of_before, of_after) = (of(before), of(after));
     let mut both = vec![false; names.len()];

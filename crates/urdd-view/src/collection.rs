@@ -311,10 +311,7 @@ impl Collection {
                 is_ready: is_made,
                 notes: Vec::new(),
                 kind,
-                making: match is_made {
-                    true => Making::Done,
-                    false => Making::Waiting,
-                },
+                making: if is_made { Making::Done } else { Making::Waiting },
             }),
             opened: Mutex::default(),
             seen: Mutex::default(),

@@ -272,9 +272,8 @@ pub fn picture_of(robot: &Shown) -> Option<Vec<u8>> {
 /// # Errors
 /// If they cannot be listed.
 fn files(root: &Root) -> Result<Value, ReadError> {
-    let entries = root.list()?.entries;
-    let files = entries.iter().filter(|entry| entry.kind == EntryKind::File);
-    Ok(files.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())
+    let entries = root.list()?.entries.into_iter().filter(|entry| entry.kind == EntryKind::File);
+    Ok(entries.map(|entry| json!({ "path": entry.path, "size": entry.size })).collect())
 }
 
 #[cfg(test)]

@@ -81,8 +81,8 @@ fn save_skips(robot: &Shown, wish: Wish) -> Result<Value, Failure> {
     let (now, before) = write(robot, &wish.revision, || match wish.undo {
         true => {
             let last = undo.last().filter(|(after, _)| *after == wish.revision);
-            let last = last.map(|(_, files)| files.clone());
-            last.ok_or_else(|| (409, "there is nothing to undo".to_owned()))
+            let nothing = || (409, "there is nothing to undo".to_owned());
+            last.map(|(_, files)| files.clone()).ok_or_else(nothing)
         }
         false => made(robot, wish.edits.unwrap_or_default(), wish.skipped_reasons),
     })?;
