@@ -42,15 +42,14 @@ pub(super) fn of_robot(robot: &Robot) -> Vec<DofState> {
 /// The DOFs of a URDD, as `dof_module` and `bounds_module` state them.
 pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Vec<DofState> {
     let Some(dofs) = urdd.dofs() else {
-        notes
-            .push("dof_module is missing or unusable; the DOFs are those of the joints".to_owned());
+        let why = "dof_module is missing or unusable; the DOFs are those of the joints";
+        notes.push(why.to_owned());
         return of_robot(robot);
     };
     let bounds = urdd.bounds();
     if bounds.is_none() {
-        notes.push(
-            "bounds_module is missing or unusable; bounds are those of the joints".to_owned(),
-        );
+        let why = "bounds_module is missing or unusable; bounds are those of the joints";
+        notes.push(why.to_owned());
     }
     let mut places = vec![0; robot.joints.len()];
     let mut found = Vec::with_capacity(dofs.joint_of_dof.len());
@@ -87,29 +86,20 @@ pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Ve
                 };
                 let limited = bounds.v1.and_then(|v1| v1.dof_limited.get(index).copied());
                 let limited = limited.or(derived.shown("limited").map(|word| word == "true"));
-                let speed = |list: &[Option<f64>]| list.get(index).copied().flatten();
-                match bounds.v1 {
-                    Some(v1) => values(
-                        quantity,
-                        [lower, upper],
-                        limited,
-                        speed(&v1.dof_velocity_limits),
-                        speed(&v1.dof_effort_limits),
-                    ),
+                let of_joint = joint.and_then(|joint| joint.limit);
+                let [velocity, effort] = match bounds.v1 {
+                    Some(v1) => [&v1.dof_velocity_limits, &v1.dof_effort_limits]
+                        .map(|limits| limits.get(index).copied().flatten()),
                     None => {
-                        let of_joint = joint.and_then(|joint| joint.limit);
-                        let velocity = of_joint.and_then(|limit| limit.velocity);
                         let effort = of_joint.and_then(|limit| limit.effort);
-                        values(quantity, [lower, upper], limited, velocity, effort)
+                        [of_joint.and_then(|limit| limit.velocity), effort]
                     }
-                }
+                };
+                values(quantity, [lower, upper], limited, velocity, effort)
             }
         };
-        found.push(DofState {
-            name: name.unwrap_or_else(|| format!("DOF {index}")),
-            stated,
-            derived,
-        });
+        let name = name.unwrap_or_else(|| format!("DOF {index}"));
+        found.push(DofState { name, stated, derived });
     }
     found
 }
