@@ -86,7 +86,7 @@ pub fn mark_misspelt(
                 cause: (Code::LNT040, cause(&misspellings, place, &message)),
                 message,
             };
-            let effects = gone(check, other, &moved).into_iter().map(effect);
+            let effects = gone(check, other, moved).into_iter().map(effect);
             check.effects.extend(effects.collect::<Vec<_>>());
         }
     }
