@@ -141,7 +141,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             context.urdf().err().map(|why| SkipReason::LeftOut(why.to_string().into()))
         }
         Need::All(needs) => needs.iter().find_map(|need| unmet(context, *need, outcomes)),
-        Need::NotFailedInV1(_) | Need::NoPartInV1(..) | Need::EachInV1(_)
+        Need::NotFailedInV1(_) | Need::NoPieceInV1(_) | Need::EachInV1(_)
             if context.profile() != Profile::V1 =>
         {
             None
@@ -149,7 +149,7 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
         Need::Each(codes) | Need::EachInV1(codes) => {
             codes.iter().find_map(|code| obstacle(outcomes, *code, Faulted::elsewhere))
         }
-        Need::NoPartInV1(code, kind) => obstacle(outcomes, code, |faulted| faulted.any(kind)),
+        Need::NoPieceInV1(code) => obstacle(outcomes, code, Faulted::has_pieces),
         Need::Passed(code) => match outcomes.get(&code).map(|ran| &ran.outcome) {
             Some(Outcome::Passed) => None,
             Some(Outcome::Failed) => Some(SkipReason::Failed(code)),
