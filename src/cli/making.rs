@@ -9,8 +9,7 @@ use super::xacro::XacroArguments;
 use urdd_format::escape;
 use urdd_format::link_shapes_skips::SkippedReason;
 use urdd_format::meshes::GeometryKind;
-use urdd_generate::train::Effort;
-use urdd_generate::{MeshFormats, Pieces, Selection, Settings};
+use urdd_generate::{Effort, MeshFormats, Pieces, Selection, Settings};
 
 /// How a URDD is made.
 #[derive(Args)]
