@@ -8,8 +8,7 @@ use super::packages::PackageArguments;
 use super::signals::Signals;
 use super::words::{Preferred, Skip};
 use super::xacro::XacroArguments;
-use urdd_generate::train::Effort;
-use urdd_generate::{MeshFormats, Pieces, Selection, Settings};
+use urdd_generate::{Effort, MeshFormats, Pieces, Selection, Settings};
 
 /// How a URDD is made.
 #[derive(Args)]
