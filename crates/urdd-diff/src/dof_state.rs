@@ -5,6 +5,7 @@ use urdd_document::dof_layout::{DofLayout, bounds_without_limits, describe};
 use urdd_document::robot::{Joint, Robot};
 use urdd_document::urdd::Urdd;
 use urdd_format::dof::Quantity;
+use urdd_format::registry::ModuleKind;
 use urdd_format::urdf::JointType;
 
 /// A degree of freedom.
@@ -52,15 +53,15 @@ pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Ve
         notes.push(why.to_owned());
     }
     let mut places = vec![0; robot.joints.len()];
-    let mut found = Vec::with_capacity(dofs.joint_of_dof.len());
-    for (index, joint_idx) in dofs.joint_of_dof.iter().enumerate() {
+    let mut found = Vec::with_capacity(dofs.dof_idx_to_joint_idx_mapping.len());
+    for (index, joint_idx) in dofs.dof_idx_to_joint_idx_mapping.iter().enumerate() {
         let joint = robot.joints.get(joint_idx.get());
         let place = places.get_mut(joint_idx.get()).map_or(0, |place| {
             *place += 1;
             *place - 1
         });
         let derived = joint.and_then(|joint| derived(joint, place));
-        let stated_dof = dofs.v1.and_then(|module| module.dofs.get(index));
+        let stated_dof = dofs.dofs.get(index);
         let name = match stated_dof {
             Some(dof) => Some(dof.name.clone()),
             None => joint.and_then(|joint| name(joint, place)),
@@ -79,21 +80,20 @@ pub(super) fn of_urdd(urdd: &Urdd, robot: &Robot, notes: &mut Vec<String>) -> Ve
                     let first = stated.clone().next();
                     stated.find(|value| Some(*value) != expected).or(first)
                 };
-                let (lower, upper) = (one(0, bounds.lower), one(1, bounds.upper));
+                let (lower, upper) =
+                    (one(0, &bounds.dof_lower_bounds), one(1, &bounds.dof_upper_bounds));
                 let quantity = match stated_dof {
                     Some(dof) => Some(dof.quantity),
                     None => joint.and_then(|joint| Some(describe(joint.joint_type, place)?.1)),
                 };
-                let limited = bounds.v1.and_then(|v1| v1.dof_limited.get(index).copied());
+                let limited = bounds.dof_limited.get(index).copied();
                 let limited = limited.or(derived.shown("limited").map(|word| word == "true"));
-                let of_joint = joint.and_then(|joint| joint.limit);
-                let [velocity, effort] = match bounds.v1 {
-                    Some(v1) => [&v1.dof_velocity_limits, &v1.dof_effort_limits]
-                        .map(|limits| limits.get(index).copied().flatten()),
-                    None => {
-                        let effort = of_joint.and_then(|limit| limit.effort);
-                        [of_joint.and_then(|limit| limit.velocity), effort]
-                    }
+                let speed = |list: &[Option<f64>]| list.get(index).copied().flatten();
+                let (velocity, effort) = if urdd.is_legacy(ModuleKind::Bounds) {
+                    let limit = joint.and_then(|joint| joint.limit);
+                    (limit.and_then(|limit| limit.velocity), limit.and_then(|limit| limit.effort))
+                } else {
+                    (speed(&bounds.dof_velocity_limits), speed(&bounds.dof_effort_limits))
                 };
                 values(quantity, [lower, upper], limited, velocity, effort)
             }

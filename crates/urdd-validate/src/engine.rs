@@ -123,11 +123,8 @@ fn unmet(context: &Context, need: Need, outcomes: &Outcomes) -> Option<SkipReaso
             None => Some(SkipReason::absent(kind)),
             Some(module) => module.unusable().map(SkipReason::obstacle),
         },
-        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes).or_else(|| {
-            let spec = context.module(kind)?.spec;
-            let of_v1 = spec.is_some_and(|spec| spec.profile == Profile::V1);
-            (!of_v1).then_some(skip::not_in_this_version(kind))
-        }),
+        Need::ModuleV1(kind) => unmet(context, Need::Module(kind), outcomes)
+            .or_else(|| context.is_legacy(kind).then_some(skip::not_in_this_version(kind))),
         Need::AnyModule(kinds) => {
             let usable = |kind: &ModuleKind| context.document(*kind).is_some();
             (!kinds.iter().any(usable)).then_some(skip::none_usable(kinds))

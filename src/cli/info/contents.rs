@@ -179,17 +179,13 @@ fn dofs(urdd: &Urdd) -> Vec<DofInfo> {
         return Vec::new();
     };
     let bounds = urdd.bounds();
-    let described = match urdd.document(ModuleKind::Dof) {
-        Some(ModuleDocument::Dof(module)) => Some(&module.dofs),
-        _ => None,
-    };
     let name_of_joint = |dof: usize| {
-        let joint = dofs.joint_of_dof.get(dof)?;
+        let joint = dofs.dof_idx_to_joint_idx_mapping.get(dof)?;
         Some(urdd.robot()?.joints.get(joint.get())?.name.clone())
     };
-    (0..dofs.joint_of_dof.len())
+    (0..dofs.dof_idx_to_joint_idx_mapping.len())
         .map(|dof| {
-            let description = described.and_then(|list| list.get(dof));
+            let description = dofs.dofs.get(dof);
             DofInfo {
                 name: description
                     .map(|description| description.name.clone())
