@@ -224,7 +224,6 @@ impl ModuleSpec {
     /// the square of the number of links and the text fits the schema. Ignores faults of the text alone, such as
     /// duplicate extension keys.
     pub fn read_text(&self, text: &str) -> Option<ModuleDocument> {
-        use {ModuleDocument as Document, ModuleKind as Kind};
         fn read<T: serde::de::DeserializeOwned>(text: &str) -> Option<Box<T>> {
             serde_json::from_str(text).ok().map(Box::new)
         }
@@ -232,12 +231,14 @@ impl ModuleSpec {
             return None;
         }
         match self.kind {
-            Kind::Connections => read(text).map(Document::Connections),
-            Kind::LinkShapesDistanceStatistics => {
-                read(text).map(Document::LinkShapesDistanceStatistics)
+            ModuleKind::Connections => read(text).map(ModuleDocument::Connections),
+            ModuleKind::LinkShapesDistanceStatistics => {
+                read(text).map(ModuleDocument::LinkShapesDistanceStatistics)
             }
-            Kind::LinkShapesSimpleSkips => read(text).map(Document::LinkShapesSimpleSkips),
-            Kind::LinkShapesSkips => read(text).map(Document::LinkShapesSkips),
+            ModuleKind::LinkShapesSimpleSkips => {
+                read(text).map(ModuleDocument::LinkShapesSimpleSkips)
+            }
+            ModuleKind::LinkShapesSkips => read(text).map(ModuleDocument::LinkShapesSkips),
             _ => None,
         }
     }

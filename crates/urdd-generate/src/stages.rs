@@ -18,35 +18,35 @@ use super::shapes::statistics::Shapes;
 use super::{inputs, learned, mesh_stages as meshes, product, shape_stages as shapes};
 use urdd_directory::document::{Document, Member, Rows};
 use urdd_format::named_configurations::NamedConfigurationsModule;
-use urdd_format::registry::ModuleKind as Kind;
+use urdd_format::registry::ModuleKind;
 use urdd_source::note::NoteKind;
 
 /// Runs every stage, in the order of the specification. Returns how the mesh references were resolved.
 pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount, GenerateError> {
     let donors = &DonorLinks::of(&context.settings.donors, &|kind| inputs::text(kind, context));
 
-    modules.add(Kind::Urdf, |_| made(&context.source.reading.robot))?;
-    modules.add(Kind::Dof, |_| made(&context.dof))?;
-    modules.add(Kind::Chain, |_| made(&context.chain))?;
-    modules.add(Kind::Connections, |_| connections(context))?;
-    modules.add(Kind::Bounds, |_| made(&context.bounds))?;
-    modules.add(Kind::KinematicsSamples, |_| made(&context.samples))?;
-    modules.add(Kind::Composition, |_| made(&context.composition))?;
-    modules.add(Kind::NamedConfigurations, |_| named_configurations(context))?;
+    modules.add(ModuleKind::Urdf, |_| made(&context.source.reading.robot))?;
+    modules.add(ModuleKind::Dof, |_| made(&context.dof))?;
+    modules.add(ModuleKind::Chain, |_| made(&context.chain))?;
+    modules.add(ModuleKind::Connections, |_| connections(context))?;
+    modules.add(ModuleKind::Bounds, |_| made(&context.bounds))?;
+    modules.add(ModuleKind::KinematicsSamples, |_| made(&context.samples))?;
+    modules.add(ModuleKind::Composition, |_| made(&context.composition))?;
+    modules.add(ModuleKind::NamedConfigurations, |_| named_configurations(context))?;
 
-    let original = modules.add(Kind::OriginalMeshes, |_| original_meshes(context))?;
+    let original = modules.add(ModuleKind::OriginalMeshes, |_| original_meshes(context))?;
     let count = original.as_ref().map(|original| original.count);
     // Moved: the contents of mesh files are dropped with this stage.
-    let plain = modules.product(Kind::PlainMeshes, product::plain, move |digests| {
+    let plain = modules.product(ModuleKind::PlainMeshes, product::plain, move |digests| {
         let taken = donors.plain(context, original.as_ref(), digests);
         meshes::plain(context, original.as_ref(), &taken)
     })?;
-    let kind = Kind::ConvexHullMeshes;
+    let kind = ModuleKind::ConvexHullMeshes;
     let hulls = modules.product(kind, product::hulls, |digests| {
         let plain = plain.get()?;
         meshes::hulls(context, plain, donors.solids(context, kind, plain, digests))
     })?;
-    let kind = Kind::ConvexDecompositionMeshes;
+    let kind = ModuleKind::ConvexDecompositionMeshes;
     let pieces = modules.product(kind, product::pieces, |digests| {
         let plain = plain.get()?;
         meshes::pieces(context, plain, donors.solids(context, kind, plain, digests))
@@ -56,12 +56,12 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
         let (hulls, pieces) = (hulls.get()?, pieces.get()?);
         Ok(ConvexMeshes { hulls, pieces })
     };
-    let kind = Kind::LinkShapesApproximations;
+    let kind = ModuleKind::LinkShapesApproximations;
     let approximations = modules.product(kind, product::document, |digests| {
         let solids = solids()?;
         shapes::boxes_and_spheres(context, &solids, donors.shapes(context, &solids, digests))
     })?;
-    modules.add(Kind::LinkShapesMaxDistanceFromOrigin, |_| {
+    modules.add(ModuleKind::LinkShapesMaxDistanceFromOrigin, |_| {
         made(&max_distances(&solids()?, approximations.get()?))
     })?;
     // Preparing the shapes takes long. The next two stages use them.
@@ -71,19 +71,19 @@ pub(super) fn run(context: &Context, modules: &mut Modules) -> Result<MeshCount,
         None => Shapes::new(context, &solids()?, approximations.get()?)
             .map(|shapes| known.get_or_init(|| shapes)),
     };
-    let kind = Kind::LinkShapesDistanceStatistics;
+    let kind = ModuleKind::LinkShapesDistanceStatistics;
     let statistics = modules.product(kind, product::document, |_| {
         shapes::distance_statistics(context, &solids()?, prepared()?)
     })?;
-    let kind = Kind::LinkShapesSimpleSkips;
+    let kind = ModuleKind::LinkShapesSimpleSkips;
     let simple_skips = modules.product(kind, product::document, |_| {
         shapes::skips_by_distance(context, prepared()?, statistics.get()?)
     })?;
     drop(known);
-    let skips = modules.product(Kind::LinkShapesSkips, product::document, |_| {
+    let skips = modules.product(ModuleKind::LinkShapesSkips, product::document, |_| {
         shapes::edited_skips(context, simple_skips.get()?)
     })?;
-    modules.add(Kind::SelfCollisionModel, |digests| {
+    modules.add(ModuleKind::SelfCollisionModel, |digests| {
         let (pieces, skips) = (pieces.get()?, skips.get()?);
         learned::self_collision_model(context, pieces, skips, statistics.get()?, digests)
     })?;

@@ -2,41 +2,44 @@
 
 use super::rule::Need::{self, *};
 use urdd_findings::code::Code::*;
-use urdd_format::registry::ModuleKind as Kind;
+use urdd_format::registry::ModuleKind;
 
 /// At least one module of meshes per link.
-pub const DERIVED_MESHES: Need =
-    AnyModule(&[Kind::PlainMeshes, Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]);
+pub const DERIVED_MESHES: Need = AnyModule(&[
+    ModuleKind::PlainMeshes,
+    ModuleKind::ConvexHullMeshes,
+    ModuleKind::ConvexDecompositionMeshes,
+]);
 
 /// At least one module of meshes, original ones included.
 pub const MESHES: Need = AnyModule(&[
-    Kind::OriginalMeshes,
-    Kind::PlainMeshes,
-    Kind::ConvexHullMeshes,
-    Kind::ConvexDecompositionMeshes,
+    ModuleKind::OriginalMeshes,
+    ModuleKind::PlainMeshes,
+    ModuleKind::ConvexHullMeshes,
+    ModuleKind::ConvexDecompositionMeshes,
 ]);
 
 /// The hulls or the pieces.
 pub const HULLS_OR_PIECES: Need =
-    AnyModule(&[Kind::ConvexHullMeshes, Kind::ConvexDecompositionMeshes]);
+    AnyModule(&[ModuleKind::ConvexHullMeshes, ModuleKind::ConvexDecompositionMeshes]);
 
 /// At least one module with lists of shapes per link.
 pub const SHAPE_LISTS: Need =
-    AnyModule(&[Kind::LinkShapesApproximations, Kind::LinkShapesMaxDistanceFromOrigin]);
+    AnyModule(&[ModuleKind::LinkShapesApproximations, ModuleKind::LinkShapesMaxDistanceFromOrigin]);
 
 /// At least one module with matrices over shapes.
 pub const SHAPE_MATRICES: Need = AnyModule(&[
-    Kind::LinkShapesDistanceStatistics,
-    Kind::LinkShapesSimpleSkips,
-    Kind::LinkShapesSkips,
+    ModuleKind::LinkShapesDistanceStatistics,
+    ModuleKind::LinkShapesSimpleSkips,
+    ModuleKind::LinkShapesSkips,
 ]);
 
 /// The same, including the legacy error models.
 pub const SHAPE_MATRICES_OR_MODELS: Need = AnyModule(&[
-    Kind::LinkShapesDistanceStatistics,
-    Kind::LinkShapesSimpleSkips,
-    Kind::LinkShapesSkips,
-    Kind::LinkShapesLieAlgErrorModels,
+    ModuleKind::LinkShapesDistanceStatistics,
+    ModuleKind::LinkShapesSimpleSkips,
+    ModuleKind::LinkShapesSkips,
+    ModuleKind::LinkShapesLieAlgErrorModels,
 ]);
 
 /// No file of the part belongs to another part too.
@@ -97,7 +100,7 @@ pub const NO_PIECE_TWICE: Need = NoPieceInV1(MSH005);
 
 /// Boxes, spheres, and the hulls and pieces that they contain.
 pub const ENCLOSURES: Need = All(&[
-    Module(Kind::LinkShapesApproximations),
+    Module(ModuleKind::LinkShapesApproximations),
     HULLS_OR_PIECES,
     PIECES_LISTED,
     OWN_FILES,
@@ -108,14 +111,14 @@ pub const ENCLOSURES: Need = All(&[
 
 /// The distance statistics, and everything that is needed to recompute them.
 pub const STATISTICS: Need = All(&[
-    Module(Kind::Urdf),
-    Module(Kind::Dof),
-    Module(Kind::Chain),
-    Module(Kind::Bounds),
-    Module(Kind::ConvexHullMeshes),
-    Module(Kind::ConvexDecompositionMeshes),
-    Module(Kind::LinkShapesApproximations),
-    Module(Kind::LinkShapesDistanceStatistics),
+    Module(ModuleKind::Urdf),
+    Module(ModuleKind::Dof),
+    Module(ModuleKind::Chain),
+    Module(ModuleKind::Bounds),
+    Module(ModuleKind::ConvexHullMeshes),
+    Module(ModuleKind::ConvexDecompositionMeshes),
+    Module(ModuleKind::LinkShapesApproximations),
+    Module(ModuleKind::LinkShapesDistanceStatistics),
     POSES_KNOWN,
     BOUNDS_SOUND,
     PIECES_LISTED,

@@ -98,17 +98,16 @@ impl DonorLinks {
     }
 
     fn add(&mut self, root: &Root, text: &dyn Fn(ModuleKind) -> Option<String>) -> Option<()> {
-        use ModuleKind as Kind;
         let donor = Donor::open(root.clone())?;
-        let plain: PlainMeshesModule = donor.same_document(Kind::PlainMeshes, text)?;
-        let robot: UrdfModule = donor.current_document(Kind::Urdf)?;
-        let original: OriginalMeshesModule = donor.current_document(Kind::OriginalMeshes)?;
+        let plain: PlainMeshesModule = donor.same_document(ModuleKind::PlainMeshes, text)?;
+        let robot: UrdfModule = donor.current_document(ModuleKind::Urdf)?;
+        let original: OriginalMeshesModule = donor.current_document(ModuleKind::OriginalMeshes)?;
         let hulls: Option<ConvexHullMeshesModule> =
-            donor.same_document(Kind::ConvexHullMeshes, text);
+            donor.same_document(ModuleKind::ConvexHullMeshes, text);
         let pieces: Option<ConvexDecompositionMeshesModule> =
-            donor.same_document(Kind::ConvexDecompositionMeshes, text);
+            donor.same_document(ModuleKind::ConvexDecompositionMeshes, text);
         let shapes: Option<LinkShapesApproximationsModule> =
-            donor.same_document(Kind::LinkShapesApproximations, text);
+            donor.same_document(ModuleKind::LinkShapesApproximations, text);
         let hulls = hulls.map_or_else(Vec::new, |module| module.link_hulls);
         let pieces = pieces.map_or_else(Vec::new, |module| module.link_pieces);
 

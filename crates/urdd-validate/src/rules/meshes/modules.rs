@@ -1,11 +1,11 @@
 //! The mesh modules.
 
-use urdd_format::registry::ModuleKind as Kind;
+use urdd_format::registry::ModuleKind;
 
 /// Every mesh module.
-pub(super) const MODULES: &[Kind] = &[
-    Kind::OriginalMeshes,
-    Kind::PlainMeshes,
-    Kind::ConvexHullMeshes,
-    Kind::ConvexDecompositionMeshes,
+pub(super) const MODULES: &[ModuleKind] = &[
+    ModuleKind::OriginalMeshes,
+    ModuleKind::PlainMeshes,
+    ModuleKind::ConvexHullMeshes,
+    ModuleKind::ConvexDecompositionMeshes,
 ];
