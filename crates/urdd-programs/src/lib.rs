@@ -1,0 +1,22 @@
+//! Internal to urdd; no stability promise.
+//!
+//! What programs do with a URDF: what they refuse whole, what they leave out, and what they read otherwise than it says.
+//! A *reader* is a model of one program's way to read, one file a program, and is held to that program by
+//! `tests/figures/programs`. A reader takes any bytes.
+
+mod effect;
+mod fault;
+mod file;
+mod mesh;
+mod number;
+mod program;
+mod pybullet;
+mod tinyxml;
+mod tree;
+mod urdfdom;
+
+pub use effect::{Deed, Effect, Effects};
+pub use fault::Fault;
+pub use file::File;
+pub use mesh::{Mesh, MeshFacts};
+pub use program::Program;

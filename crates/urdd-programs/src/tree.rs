@@ -1,0 +1,91 @@
+//! An XML document as a program's own parser made it, with places in the text.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// A document.
+#[derive(Default)]
+pub(crate) struct Tree<'a> {
+    pub elements: Vec<Element<'a>>,
+    /// The elements that are in no other; one in a document that is well-formed.
+    pub tops: Vec<usize>,
+}
+
+/// An element.
+pub(crate) struct Element<'a> {
+    /// With its prefix, if the parser knows no namespaces.
+    pub name: Cow<'a, str>,
+    pub attributes: Vec<Attribute<'a>>,
+    /// Indices of the elements inside, in order.
+    pub children: Vec<usize>,
+    /// The text before the first child of another kind; none if there is an element or a comment first.
+    pub text: Option<Cow<'a, str>>,
+    /// From `<` to the end of the start tag, bytes of the file.
+    pub tag: Range<usize>,
+}
+
+/// An attribute.
+pub(crate) struct Attribute<'a> {
+    pub name: Cow<'a, str>,
+    pub value: Cow<'a, str>,
+    /// From its name to the closing quote, bytes of the file.
+    pub range: Range<usize>,
+}
+
+/// An element of a tree.
+#[derive(Clone, Copy)]
+pub(crate) struct Node<'t> {
+    tree: &'t Tree<'t>,
+    pub index: usize,
+}
+
+impl<'t> Tree<'t> {
+    /// The elements that are in no other.
+    pub fn tops(&'t self) -> impl Iterator<Item = Node<'t>> {
+        self.tops.iter().map(move |&index| Node { tree: self, index })
+    }
+}
+
+impl<'t> Node<'t> {
+    fn element(self) -> &'t Element<'t> {
+        &self.tree.elements[self.index]
+    }
+
+    pub fn name(self) -> &'t str {
+        &self.element().name
+    }
+
+    pub fn text(self) -> Option<&'t str> {
+        self.element().text.as_deref()
+    }
+
+    /// Where the element begins in the file.
+    pub fn start(self) -> usize {
+        self.element().tag.start
+    }
+
+    pub fn attributes(self) -> &'t [Attribute<'t>] {
+        &self.element().attributes
+    }
+
+    pub fn attribute(self, name: &str) -> Option<&'t Attribute<'t>> {
+        self.element().attributes.iter().find(|one| one.name == name)
+    }
+
+    pub fn value(self, name: &str) -> Option<&'t str> {
+        self.attribute(name).map(|one| &*one.value)
+    }
+
+    pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
+        let tree = self.tree;
+        self.element().children.iter().map(move |&index| Node { tree, index })
+    }
+
+    pub fn named(self, name: &str) -> impl Iterator<Item = Node<'t>> + Clone {
+        self.children().filter(move |child| child.name() == name)
+    }
+
+    pub fn child(self, name: &str) -> Option<Node<'t>> {
+        self.named(name).next()
+    }
+}
