@@ -11,8 +11,10 @@ mod mesh;
 mod number;
 mod program;
 mod pybullet;
+mod rustyxml;
 mod tinyxml;
 mod tree;
+mod urdf_rs;
 mod urdfdom;
 
 pub use effect::{Deed, Effect, Effects};

@@ -2,7 +2,7 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::{pybullet, urdfdom};
+use crate::{pybullet, urdf_rs, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,6 +10,7 @@ pub enum Program {
     Urdfdom6,
     Urdfdom4,
     PyBullet,
+    UrdfRs,
 }
 
 /// What is known of a program.
@@ -25,7 +26,8 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 3] = [Program::Urdfdom6, Program::Urdfdom4, Program::PyBullet];
+    pub const ALL: [Program; 4] =
+        [Program::Urdfdom6, Program::Urdfdom4, Program::PyBullet, Program::UrdfRs];
 
     const fn facts(self) -> Facts {
         match self {
@@ -43,6 +45,9 @@ impl Program {
             },
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
+            }
+            Program::UrdfRs => {
+                Facts { id: "urdf_rs", name: "urdf-rs", version: "0.10.0", read: urdf_rs::read }
             }
         }
     }
