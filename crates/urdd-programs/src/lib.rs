@@ -9,11 +9,15 @@ mod fault;
 mod file;
 mod mesh;
 mod number;
+mod pinocchio;
 mod program;
 mod pybullet;
+mod rapidxml;
 mod rustyxml;
 mod tinyxml;
+mod tinyxml1;
 mod tree;
+mod unknown;
 mod urdf_rs;
 mod urdfdom;
 
