@@ -165,7 +165,7 @@ impl<'a> Parser<'a> {
         let (prefix, name) = split(&rest[..end]);
         let mut found = Vec::new();
         while self.attribute(here, &mut found)? {}
-        let declares = self.declare(&found)?;
+        let declares = self.declare(&found);
         let namespace = self.namespace(prefix, here)?;
         let attributes = self.attributes(found)?;
         let is_empty = self.rest().starts_with('/');
@@ -239,13 +239,10 @@ impl<'a> Parser<'a> {
     }
 
     /// Makes the namespaces of a tag known. Returns their prefixes.
-    fn declare(&mut self, attributes: &[Raw<'a>]) -> Parsed<Vec<&'a str>> {
+    fn declare(&mut self, attributes: &[Raw<'a>]) -> Vec<&'a str> {
         let mut prefixes = Vec::new();
         for one in attributes {
             let prefix = match (one.prefix, one.name) {
-                (Some("xmlns"), _) if one.value.is_empty() => {
-                    return Self::refuse(one.range.start, "a prefix has an empty namespace");
-                }
                 (Some("xmlns"), prefix) => prefix,
                 (None, "xmlns") => "",
                 _ => continue,
@@ -253,7 +250,7 @@ impl<'a> Parser<'a> {
             self.namespaces.entry(prefix).or_default().push(one.value.clone());
             prefixes.push(prefix);
         }
-        Ok(prefixes)
+        prefixes
     }
 
     /// Forgets the namespaces of an element.
@@ -282,16 +279,17 @@ impl<'a> Parser<'a> {
                 Some(_) => self.namespace(one.prefix, one.range.start)?,
                 None => None,
             };
-            let declares =
-                one.prefix == Some("xmlns") || one.prefix.is_none() && one.name == "xmlns";
             if !names.insert((one.name, namespace)) {
                 let why = "an attribute stands twice in one element";
                 return Self::refuse(one.range.start, why);
             }
-            if !declares {
-                let Raw { name, value, range, .. } = one;
-                attributes.push(Attribute { name: name.into(), value, range });
-            }
+            let name = match (one.prefix, one.name) {
+                // Refused where it is read again.
+                (Some("xmlns"), _) if one.value.is_empty() => "xmlns:".into(),
+                (Some("xmlns"), _) | (None, "xmlns") => continue,
+                (_, name) => name.into(),
+            };
+            attributes.push(Attribute { name, value: one.value, range: one.range });
         }
         Ok(attributes)
     }

@@ -13,7 +13,7 @@ pub(crate) enum Names {
     Exact,
     /// In any letter case.
     AnyCase,
-    /// With any prefix.
+    /// With any prefix; elements stand for attributes too.
     AnyPrefix,
 }
 
@@ -181,7 +181,11 @@ impl Finder<'_> {
     /// An element that does not stand in its parent.
     fn unknown(&mut self, parent: Node<'_>, node: Node<'_>, known: &Known, part: &str) {
         let name = node.name();
-        if is_extension(name) {
+        if name == "group" {
+            return self.wrapped(parent, node, known, part);
+        }
+        let is_value = self.names == Names::AnyPrefix && known.attributes.contains(&name);
+        if is_extension(name) || is_value && !matches!(known.name, "robot" | "link") {
             return;
         }
         let like = meant_element(parent, name, known).or_else(|| {
@@ -241,6 +245,13 @@ impl Finder<'_> {
     }
 
     fn add(&mut self, node: Node<'_>, part: &str, fault: Fault) {
+        // A link or joint is a part itself.
+        if let (Fault::UnknownElement { like: like @ ("link" | "joint"), .. }, Some(name)) =
+            (&fault, node.value("name"))
+        {
+            let part = format!("{like}/{name}");
+            return self.effects.drop(node, part, fault);
+        }
         self.effects.drop(node, format!("{part}/?"), fault);
     }
 }

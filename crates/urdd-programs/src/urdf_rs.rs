@@ -4,8 +4,8 @@
 use crate::effect::{At, Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::rustyxml;
 use crate::tree::{Attribute, Node};
+use crate::{rustyxml, tinyxml};
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = std::str::from_utf8(file.bytes)
@@ -18,8 +18,13 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let mut reader = Reader { version, effects };
     reader.versioned(robot)?;
     reader.well_formed(robot)?;
-    reader.robot(robot)
+    reader.robot(robot)?;
+    reader.other_root(robot, file.bytes);
+    Ok(())
 }
+
+/// Elements in each other, from which no other root is looked for.
+const MAX_DEPTH: usize = 1000;
 
 /// Two whole numbers with a point between them.
 fn version(text: &str) -> Option<(u32, u32)> {
@@ -182,6 +187,22 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// The robot may be in another element than the first one.
+    fn other_root(&mut self, root: Node<'_>, bytes: &[u8]) {
+        let all = tinyxml::parse(bytes, MAX_DEPTH).unwrap_or_default();
+        let mut others = all.tops().filter(|top| top.name() == "robot");
+        let other = others.find(|other| other.start() > root.start()).map(Node::start);
+        let is_empty = root.name() != "robot" && root.child("link").is_none();
+        let (at, fault) = match other {
+            Some(at) => (at, Fault::Other("the file has another root before")),
+            None if is_empty => (root.start(), Fault::NotRobot),
+            None => return,
+        };
+        for part in ["link", "joint"] {
+            self.effects.drop(at, part, fault.clone());
+        }
+    }
+
     fn link(&mut self, link: Node<'_>) -> Reading<()> {
         let Some(name) = self.attribute(link, "name")? else {
             return self.effects.refuse(link, Fault::Missing("name"));
@@ -238,7 +259,12 @@ impl Reader<'_> {
             && let Some(material) = self.element(shape, "material")?
         {
             self.needed(material, "name")?;
-            self.material(material, &format!("{part}/material"))?;
+            let part = format!("{part}/material");
+            self.material(material, &part)?;
+            if material.children().all(|node| !matches!(node.name(), "color" | "texture")) {
+                let fault = Fault::Other("the material is named only, and nothing looks it up");
+                self.effects.drop(material, part, fault);
+            }
         }
         Ok(())
     }
@@ -301,16 +327,7 @@ impl Reader<'_> {
         }
         let Some(quaternion) = origin.attribute("quat_xyzw") else { return Ok(()) };
         if self.version < (1, 1) {
-            let fault = Fault::NeverRead("quat_xyzw".into());
-            self.effects.drop(quaternion, part, fault);
-            return Ok(());
-        }
-        let numbers = quaternion.value.split_whitespace().filter_map(|one| one.parse().ok());
-        let square: f64 = numbers.map(|number: f64| number * number).sum();
-        if square.is_nan() || square <= 0.0 {
-            let rule = "a quaternion has no length 0";
-            let fault = Fault::range("quat_xyzw", &quaternion.value, rule);
-            self.effects.read_as(quaternion, part, fault, "0 0 0 1");
+            self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
         }
         Ok(())
     }
