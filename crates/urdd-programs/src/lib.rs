@@ -14,6 +14,7 @@ mod program;
 mod pybullet;
 mod rapidxml;
 mod rustyxml;
+mod sdformat;
 mod tinyxml;
 mod tinyxml1;
 mod tree;

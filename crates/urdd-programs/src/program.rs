@@ -3,7 +3,7 @@
 use crate::effect::{Effects, Reading};
 use crate::file::File;
 use crate::unknown::{self, Names};
-use crate::{pinocchio, pybullet, urdf_rs, urdfdom};
+use crate::{pinocchio, pybullet, sdformat, urdf_rs, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,6 +18,8 @@ pub enum Program {
     Pinocchio,
     /// `PyBullet`.
     PyBullet,
+    /// Gazebo, by libsdformat 12.
+    Sdformat,
     /// urdf-rs, of openrr.
     UrdfRs,
 }
@@ -55,12 +57,13 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 6] = [
+    pub const ALL: [Program; 7] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
         Program::Pinocchio,
         Program::PyBullet,
+        Program::Sdformat,
         Program::UrdfRs,
     ];
 
@@ -93,6 +96,12 @@ impl Program {
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
+            Program::Sdformat => Facts {
+                id: "sdformat",
+                name: "Gazebo (libsdformat 12)",
+                version: "12.3.0",
+                read: sdformat::read,
+            },
             Program::UrdfRs => {
                 Facts { id: "urdf_rs", name: "urdf-rs", version: "0.10.0", read: urdf_rs::read }
             }

@@ -118,6 +118,9 @@ impl<'a> Parser<'a> {
                 self.at = start;
                 let text = self.until(b"<", "text follows the last element")?;
                 self.at -= 1;
+                if self.open.is_empty() {
+                    self.tree.stray.get_or_insert(here);
+                }
                 self.inside(Some(decoded(text)));
             }
         }

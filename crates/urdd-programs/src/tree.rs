@@ -9,6 +9,8 @@ pub(crate) struct Tree<'a> {
     pub elements: Vec<Element<'a>>,
     /// The elements that are in no other; one in a document that is well-formed.
     pub tops: Vec<usize>,
+    /// Where text begins that is in no element, if the parser lets it pass.
+    pub stray: Option<usize>,
 }
 
 /// An element.
