@@ -13,7 +13,6 @@ mod pinocchio;
 mod program;
 mod pybullet;
 mod rapidxml;
-mod rustyxml;
 mod sdformat;
 mod tinyxml;
 mod tinyxml1;

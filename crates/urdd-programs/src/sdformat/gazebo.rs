@@ -68,8 +68,12 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
                     found.kept_joints.insert(reference);
                     None
                 }
-                ("plugin", _) => incomplete(element, ["name", "filename"]),
-                ("sensor", _) => incomplete(element, ["name", "type"]),
+                ("plugin", _) => incomplete(element, &["name", "filename"]),
+                ("sensor", _) => incomplete(element, &["name", "type"]).or_else(|| {
+                    let kind = element.value("type").unwrap_or_default();
+                    (!is_sensor(kind)).then(|| Fault::value("type", kind))
+                }),
+                ("joint", _) => joint(element),
                 _ => None,
             };
             let of_collisions = number.is_some();
@@ -81,13 +85,28 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
     Ok(found)
 }
 
-/// What is missing of a plugin or sensor.
-fn incomplete(element: Node<'_>, [name, second]: [&'static str; 2]) -> Option<Fault> {
-    match element.value(name) {
-        None => Some(Fault::Missing(name)),
-        Some("") => Some(Fault::Empty(name)),
-        Some(_) => element.attribute(second).is_none().then_some(Fault::Missing(second)),
-    }
+/// Which of the needed attributes is missing, of which the first must not be empty.
+fn incomplete(element: Node<'_>, names: &[&'static str]) -> Option<Fault> {
+    let first = names.first().copied().unwrap_or_default();
+    let missing = names.iter().find(|name| element.attribute(name).is_none());
+    let is_empty = element.value(first) == Some("");
+    missing.map(|name| Fault::Missing(name)).or(is_empty.then_some(Fault::Empty(first)))
+}
+
+/// What is missing of a joint of SDF, which names its links in text.
+fn joint(joint: Node<'_>) -> Option<Fault> {
+    let is_named = |end: &str| joint.child(end).is_some_and(|end| end.text().is_some());
+    let missing = ["parent", "child"].into_iter().find(|end| !is_named(end));
+    incomplete(joint, &["name", "type"]).or(missing.map(Fault::MissingElement))
+}
+
+fn is_sensor(kind: &str) -> bool {
+    const KINDS: &str = "altimeter camera contact depth_camera depth force_torque gps gpu_lidar gpu_ray imu \
+        logical_camera magnetometer multicamera lidar ray rfid rfidtag sonar wireless_receiver \
+        wireless_transmitter air_pressure rgbd_camera rgbd thermal_camera thermal navsat \
+        segmentation_camera segmentation boundingbox_camera boundingbox custom wideanglecamera \
+        wide_angle_camera";
+    KINDS.split(' ').any(|one| one == kind)
 }
 
 /// `std::stod`: the number that a text begins with; none also if it is too large or too small for one.
