@@ -68,12 +68,15 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
                     found.kept_joints.insert(reference);
                     None
                 }
-                ("plugin", _) => incomplete(element, &["name", "filename"]),
-                ("sensor", _) => incomplete(element, &["name", "type"]).or_else(|| {
-                    let kind = element.value("type").unwrap_or_default();
-                    (!is_sensor(kind)).then(|| Fault::value("type", kind))
-                }),
-                ("joint", _) => joint(element),
+                ("plugin", _) if reference.is_empty() => incomplete(element, &["name", "filename"]),
+                ("link", _) if reference.is_empty() => incomplete(element, &["name"]),
+                ("joint", _) if reference.is_empty() => joint(element),
+                ("sensor", _) if !reference.is_empty() => {
+                    incomplete(element, &["name"]).or_else(|| {
+                        let kind = element.value("type").unwrap_or_default();
+                        (!is_sensor(kind)).then(|| Fault::value("type", kind))
+                    })
+                }
                 _ => None,
             };
             let of_collisions = number.is_some();
@@ -85,12 +88,12 @@ pub(super) fn read<'t>(robot: Node<'t>, effects: &mut Effects) -> Reading<Extens
     Ok(found)
 }
 
-/// Which of the needed attributes is missing, of which the first must not be empty.
+/// Which of the needed attributes is missing or empty.
 fn incomplete(element: Node<'_>, names: &[&'static str]) -> Option<Fault> {
-    let first = names.first().copied().unwrap_or_default();
-    let missing = names.iter().find(|name| element.attribute(name).is_none());
-    let is_empty = element.value(first) == Some("");
-    missing.map(|name| Fault::Missing(name)).or(is_empty.then_some(Fault::Empty(first)))
+    names.iter().find_map(|name| match element.value(name) {
+        None => Some(Fault::Missing(name)),
+        Some(value) => value.is_empty().then_some(Fault::Empty(name)),
+    })
 }
 
 /// What is missing of a joint of SDF, which names its links in text.

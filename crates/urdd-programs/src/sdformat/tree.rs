@@ -177,17 +177,21 @@ impl<'t> Tree<'t> {
             }
             open.extend(self.bodies[body].children.iter().rev());
         }
-        match self.bodies.iter().any(|body| body.is_made) {
-            true => Ok(()),
-            false => {
-                let node = self.bodies[root].node;
-                let fault = match node.child("inertial") {
-                    None => Fault::MissingElement("inertial"),
-                    Some(_) => Fault::Other("the root has no mass, and is left out with all below"),
-                };
-                effects.refuse(node.child("inertial").unwrap_or(node), fault)
+        if !self.bodies.iter().any(|body| body.is_made) {
+            let node = self.bodies[root].node;
+            return effects.refuse(node.child("inertial").unwrap_or(node), without_mass(node));
+        }
+        // The last joint of a link may be one in a loop that the root does not reach.
+        for joint in
+            self.bodies.iter().filter(|body| body.is_made).filter_map(|body| body.joint.as_ref())
+        {
+            let parent = &self.bodies[joint.parent];
+            if parent.name != "world" && !self.bodies[parent.owner].is_made {
+                let at = joint.node.child("parent").unwrap_or(joint.node);
+                return effects.refuse(at, Fault::Tree("the link above is left out"));
             }
         }
+        Ok(())
     }
 
     /// Says which links and joints are gone, and why.
@@ -210,11 +214,7 @@ impl<'t> Tree<'t> {
                 let fault = Fault::Tree("a link above it has no mass, and is left out");
                 self.drop_link(index, &fault, effects);
             } else if is_gone[index] {
-                let fault = match body.node.child("inertial") {
-                    None => Fault::MissingElement("inertial"),
-                    Some(_) => Fault::Other("a link without mass is left out, with all below"),
-                };
-                self.drop_link(index, &fault, effects);
+                self.drop_link(index, &without_mass(body.node), effects);
             }
         }
         for index in (0..self.bodies.len()).filter(|index| !is_reached[*index]) {
@@ -239,5 +239,13 @@ impl<'t> Tree<'t> {
         let owner = shortened(self.bodies[body.owner].name);
         let makes = format!("a part of `{owner}`");
         effects.read_as(body.node, format!("link/{}", body.name), fault, makes);
+    }
+}
+
+/// Why a link has no mass.
+fn without_mass(link: Node<'_>) -> Fault {
+    match link.child("inertial") {
+        None => Fault::MissingElement("inertial"),
+        Some(_) => Fault::Other("a link without mass is left out, with all below"),
     }
 }

@@ -11,10 +11,15 @@ pub(super) fn check(bytes: &[u8], tree: &Tree<'_>, effects: &mut Effects) -> Rea
     if let Some(text) = tree.stray.filter(|text| *text < robot) {
         return effects.refuse(text, Fault::Xml("text stands before the root"));
     }
+    if declaration(bytes).is_some_and(|inside| inside.contains(&b'>')) {
+        return effects.refuse(0, Fault::Xml("the declaration has `>` inside"));
+    }
     let is_checked = is_utf8(bytes) && std::str::from_utf8(bytes).is_err();
     for element in &tree.elements {
         let begins_well = |name: &str| !name.starts_with(':');
-        if !begins_well(&element.name) {
+        // One that is empty is passed over.
+        let is_filled = !element.children.is_empty() || element.text.is_some();
+        if is_filled && !begins_well(&element.name) {
             let fault = Fault::Xml("the name of an element begins with `:`");
             return effects.refuse(element.tag.start, fault);
         }
@@ -36,18 +41,21 @@ pub(super) fn check(bytes: &[u8], tree: &Tree<'_>, effects: &mut Effects) -> Rea
     Ok(())
 }
 
+/// What is in the declaration at the beginning of a file.
+fn declaration(bytes: &[u8]) -> Option<&[u8]> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let inside = text.strip_prefix(b"<?xml")?;
+    inside.get(..inside.windows(2).position(|two| two == b"?>")?)
+}
+
 /// Whether characters are of more than one byte, as they are if there is a declaration that names no other encoding.
 fn is_utf8(bytes: &[u8]) -> bool {
-    let (has_mark, rest) = match bytes.strip_prefix(b"\xef\xbb\xbf") {
-        Some(rest) => (true, rest),
-        None => (false, bytes),
-    };
-    let text = String::from_utf8_lossy(rest.trim_ascii_start().get(..200).unwrap_or(rest));
-    let declaration = text.strip_prefix("<?xml").and_then(|text| text.split("?>").next());
-    let Some(declaration) = declaration else { return has_mark };
+    let has_mark = bytes.starts_with(b"\xef\xbb\xbf");
+    let Some(declaration) = declaration(bytes) else { return has_mark };
+    let declaration = String::from_utf8_lossy(declaration).to_ascii_lowercase();
     let encoding = declaration.split_once("encoding").map_or("", |(_, rest)| rest);
-    let encoding = encoding.split(['"', '\'']).nth(1).unwrap_or_default().to_ascii_lowercase();
-    has_mark || encoding.is_empty() || encoding.starts_with("utf-8") || encoding.starts_with("utf8")
+    let name = encoding.split(['"', '\'']).nth(1).unwrap_or_default();
+    has_mark || name.is_empty() || name.starts_with("utf-8") || name.starts_with("utf8")
 }
 
 /// The bytes of a value as they are written.

@@ -47,7 +47,9 @@ fn tag(node: Node<'_>, effects: &mut Effects) -> Reading<()> {
 
 /// A name without a prefix, as XML has it.
 fn is_name(name: &str) -> bool {
-    let is_start = |one: char| one.is_ascii_alphabetic() || one == '_' || !one.is_ascii();
+    let is_start = |one: char| {
+        one.is_ascii_alphabetic() || one == '_' || !one.is_ascii() && !one.is_whitespace()
+    };
     let is_inside = |one: char| is_start(one) || one.is_ascii_digit() || matches!(one, '-' | '.');
     name.starts_with(is_start) && name.chars().all(is_inside)
 }
