@@ -22,12 +22,9 @@ pub(super) struct Inertia {
 }
 
 impl Inertia {
-    /// Adds that of a link which is at a pose.
+    /// Adds that of a link which is at a pose. If both have no mass, the centre of mass is not a number.
     pub fn add(&mut self, other: &Inertia, at: &Pose) {
         let mass = self.mass + other.mass;
-        if mass == 0.0 {
-            return;
-        }
         let (own, joint) = (rotation(self.pose.rpy), rotation(at.rpy));
         let turned = apply(&joint, other.pose.xyz);
         let center: Vector = std::array::from_fn(|axis| turned[axis] + at.xyz[axis]);

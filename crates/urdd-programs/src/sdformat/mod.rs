@@ -37,7 +37,10 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     names::check(model.robot, &links, effects)?;
     for body in &links.bodies {
         match body.is_made {
-            true => made(body, effects)?,
+            true => {
+                centre(body, links.without_mass, effects)?;
+                made(body, effects)?;
+            }
             false if links.bodies[body.owner].is_made => shapes(body, effects)?,
             false => {}
         }
@@ -130,6 +133,19 @@ fn made(body: &Body<'_>, effects: &mut Effects) -> Reading<()> {
         return effects.refuse(inertia, Fault::Other("no body can have this inertia"));
     }
     Ok(())
+}
+
+/// The centre of mass, which links without mass can take away.
+fn centre(body: &Body<'_>, without_mass: Option<usize>, effects: &mut Effects) -> Reading<()> {
+    let center = body.inertia.unwrap_or_default().pose.xyz;
+    match without_mass {
+        Some(at) if !center.into_iter().all(f64::is_finite) => {
+            let fault =
+                Fault::Other("fixed joints join links of mass 0, which have no centre of mass");
+            effects.refuse(at, fault)
+        }
+        _ => Ok(()),
+    }
 }
 
 fn made_joint(joint: &Joint<'_>, effects: &mut Effects) -> Reading<()> {

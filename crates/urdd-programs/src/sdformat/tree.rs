@@ -41,11 +41,13 @@ pub(super) struct Joint<'t> {
 pub(super) struct Tree<'t> {
     pub bodies: Vec<Body<'t>>,
     pub of_name: HashMap<&'t str, usize>,
+    /// Where two links without mass become one, if any do.
+    pub without_mass: Option<usize>,
 }
 
 impl<'t> Tree<'t> {
     pub fn new(model: &Model<'t>, kept_joints: &HashSet<&str>) -> Tree<'t> {
-        let mut tree = Tree { bodies: Vec::new(), of_name: HashMap::new() };
+        let mut tree = Tree { bodies: Vec::new(), of_name: HashMap::new(), without_mass: None };
         for (&name, link) in &model.links {
             tree.of_name.insert(name, tree.bodies.len());
             tree.bodies.push(Body {
@@ -130,9 +132,13 @@ impl<'t> Tree<'t> {
             else {
                 continue;
             };
+            let inertial = one.node.child("inertial").unwrap_or(one.node).start();
             let sum = self.bodies[parent].inertia.get_or_insert_default();
             for _ in 0..times[body].min(2) {
                 sum.add(&inertia, &origin);
+                if sum.mass == 0.0 {
+                    self.without_mass.get_or_insert(inertial);
+                }
             }
         }
         for &body in order.iter().rev() {
