@@ -24,13 +24,19 @@ impl Effort {
     }
 }
 
+/// Version of the training; changed whenever the trained model changes.
+pub const VERSION: &str = "2";
+
+/// Distances are clipped at this fraction of the largest distance between two hulls.
+pub(super) const CLIP: f64 = 1.0 / 16.0;
+
 /// Calibration configurations used for the loss.
 pub(super) const VALIDATION: usize = 5_000;
 
 /// Maximum number of pairs of links: labels take 4 bytes per pair and configuration.
-pub const MOST_PAIRS: usize = 512;
+pub const MAX_PAIRS: usize = 512;
 /// Maximum number of DOFs: a configuration takes 8 bytes per DOF, and its network inputs 32.
-pub const MOST_DOFS: usize = 100;
+pub(super) const MAX_DOFS: usize = 100;
 /// Minimum number of collisions, and of free configurations, in the training set.
 pub(super) const LEAST: usize = 50;
 /// A pair gets an output if it comes nearer than this, as a fraction of the clip distance.

@@ -1,4 +1,7 @@
-//! The learned self-collision model (SPEC 8.8): evaluation.
+//! Internal to urdd; no stability promise.
+//!
+//! The learned self-collision model (SPEC 8.8): its evaluation, for whoever uses a URDD, and its [training](train), for
+//! whoever makes one. The validator uses neither: it evaluates models by an implementation of its own.
 //!
 //! A [`CollisionModel`] estimates the clearance of link pairs. It is meant to skip configurations that are far from
 //! contact. It is an estimate, not a guarantee: its module states its error rates.
@@ -7,10 +10,12 @@
 //! without fused operations, and functions are those of `libm` or our own.
 
 mod error;
-pub mod inputs;
+mod inputs;
+#[doc(hidden)]
 pub mod kernel;
-pub mod model;
-pub mod network;
+mod model;
+mod network;
+pub mod train;
 
 pub use error::ModelError;
 pub use model::{Clearance, CollisionModel};

@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::error::ModelError;
-use super::kernel::{self, LANES, Lanes};
+use super::kernel;
 use urdd_format::self_collision_model::ModelLayer;
 
 /// A layer.
@@ -72,73 +72,47 @@ impl Network {
         Ok(Self { layers: read })
     }
 
-    /// Computes the values after each layer for several configurations. Layer k writes to index k + 1; index 0 contains
-    /// the inputs.
-    pub fn values(&self, level: Level, values: &mut [Vec<Lanes>]) {
+    /// Number of weights and biases.
+    pub fn num_parameters(&self) -> usize {
+        self.layers.iter().map(|layer| layer.weights.len() + layer.biases.len()).sum()
+    }
+
+    /// Buffers for [`Network::values`]: of the inputs, then of the outputs of each layer.
+    pub fn buffers<const N: usize>(&self) -> Vec<Vec<[f64; N]>> {
+        let first = self.layers.first().map_or(0, Layer::num_inputs);
+        let widths = self.layers.iter().map(|layer| layer.biases.len());
+        std::iter::once(first).chain(widths).map(|width| vec![[0.0; N]; width]).collect()
+    }
+
+    /// Computes the values after each layer for `N` configurations; those of one do not depend on `N`. Index 0 contains the
+    /// inputs.
+    pub fn values<const N: usize>(&self, level: Level, values: &mut [Vec<[f64; N]>]) {
         dispatch!(level, simd => self.values_with(simd, values));
     }
 
     #[inline(always)]
-    fn values_with<S: Simd>(&self, _: S, values: &mut [Vec<Lanes>]) {
-        let last = self.layers.len().saturating_sub(1);
+    fn values_with<S: Simd, const N: usize>(&self, _: S, values: &mut [Vec<[f64; N]>]) {
         for (place, layer) in self.layers.iter().enumerate() {
             let (before, after) = values.split_at_mut(place + 1);
-            let (inputs, outputs) = (&before[place], &mut after[0]);
-            kernel::dense(&layer.weights, &layer.biases, inputs, outputs);
-            if place != last {
-                kernel::tanh_all(outputs);
+            kernel::dense(&layer.weights, &layer.biases, &before[place], &mut after[0]);
+            if place + 1 < self.layers.len() {
+                kernel::tanh_all(&mut after[0]);
             }
         }
-    }
-
-    /// Buffers for [`Network::values`].
-    pub fn buffers(&self) -> Vec<Vec<Lanes>> {
-        let zeros = |count: usize| vec![[0.0; LANES]; count];
-        let first = self.layers.first().map_or(0, Layer::num_inputs);
-        let rest = self.layers.iter().map(|layer| zeros(layer.biases.len()));
-        std::iter::once(zeros(first)).chain(rest).collect()
-    }
-
-    /// The values after each layer for one configuration, bit-identical to [`Network::values`].
-    pub fn values_of_one(&self, inputs: Vec<f64>) -> Vec<Vec<f64>> {
-        let last = self.layers.len().saturating_sub(1);
-        let mut values = vec![inputs];
-        for (place, layer) in self.layers.iter().enumerate() {
-            let inputs = &values[place];
-            let rows = layer.weights.chunks_exact(inputs.len().max(1));
-            let sum = |(row, bias): (&[f64], &f64)| {
-                let products = row.iter().zip(inputs).map(|(weight, x)| weight * x);
-                products.fold(*bias, |sum, product| sum + product)
-            };
-            let mut outputs: Vec<f64> = rows.zip(&layer.biases).map(sum).collect();
-            if place != last {
-                outputs.iter_mut().for_each(|value| *value = kernel::tanh(*value));
-            }
-            values.push(outputs);
-        }
-        values
     }
 
     /// The gradient of an output with respect to the inputs, from the values after each layer.
-    pub fn derivative(&self, values: &[Vec<f64>], output: usize) -> Vec<f64> {
-        let last = self.layers.len().saturating_sub(1);
-        let mut by_values: Vec<f64> = Vec::new();
+    pub fn derivative(&self, values: &[Vec<[f64; 1]>], output: usize) -> Vec<f64> {
+        let mut by_values = vec![[0.0]; values[self.layers.len()].len()];
+        by_values[output] = [1.0];
         for (place, layer) in self.layers.iter().enumerate().rev() {
-            let rows = layer.weights.chunks_exact(layer.num_inputs().max(1));
-            if place == last {
-                by_values = rows.skip(output).take(1).flatten().copied().collect();
-                continue;
+            let mut by_inputs = vec![[0.0]; values[place].len()];
+            kernel::dense_back(&layer.weights, &by_values, &mut by_inputs);
+            if place > 0 {
+                kernel::tanh_back(&values[place], &mut by_inputs);
             }
-            let outputs = values[place + 1].iter();
-            let slopes = by_values.iter().zip(outputs).map(|(d, t)| d * (1.0 - t * t));
-            let mut sums = vec![0.0; layer.num_inputs()];
-            for (row, slope) in rows.zip(slopes) {
-                for (sum, weight) in sums.iter_mut().zip(row) {
-                    *sum += weight * slope;
-                }
-            }
-            by_values = sums;
+            by_values = by_inputs;
         }
-        by_values
+        by_values.into_flattened()
     }
 }

@@ -7,10 +7,10 @@ use super::error::ModelError;
 use super::inputs::{self, Input};
 use super::kernel::LANES;
 use super::network::Network;
-use crate::ConfigurationError;
 use urdd_format::self_collision_model::{
     LinkPair, ModelEvaluation, ModelPair, SelfCollisionModelModule,
 };
+use urdd_kinematics::ConfigurationError;
 
 /// An estimator of the clearance between a robot's links.
 ///
@@ -84,8 +84,7 @@ impl CollisionModel {
 
     /// Number of weights and biases.
     pub fn num_parameters(&self) -> usize {
-        let layers = self.network.layers.iter();
-        layers.map(|of| of.weights.len() + of.biases.len()).sum()
+        self.network.num_parameters()
     }
 
     /// Its accuracy on configurations that were not used to make it, as its module states. The validator verifies it.
@@ -99,8 +98,8 @@ impl CollisionModel {
     /// # Errors
     /// If the configuration has the wrong length or a value that is not finite.
     pub fn clearances(&self, configuration: &[f64]) -> Result<Vec<f64>, ConfigurationError> {
-        let values = self.values(configuration)?;
-        Ok(self.less_margins(&values).collect())
+        let values = self.values_of_one(configuration)?;
+        Ok(self.clearances_of(&values, 0).collect())
     }
 
     /// Whether any pair may be in contact: whether a clearance is 0 or less, or NaN.
@@ -119,12 +118,12 @@ impl CollisionModel {
         &self,
         configuration: &[f64],
     ) -> Result<Option<Clearance>, ConfigurationError> {
-        let values = self.values(configuration)?;
-        let clearances = self.less_margins(&values).enumerate();
+        let values = self.values_of_one(configuration)?;
+        let clearances = self.clearances_of(&values, 0).enumerate();
         let least = clearances.min_by(|a, b| a.1.total_cmp(&b.1));
         Ok(least.map(|(pair, value)| {
-            let by_inputs = self.network.derivative(&values, pair);
-            Clearance { pair, value, gradient: self.by_dofs(configuration, &by_inputs) }
+            let gradient = self.gradient_of(configuration, &values, pair);
+            Clearance { pair, value, gradient }
         }))
     }
 
@@ -137,13 +136,9 @@ impl CollisionModel {
         configuration: &[f64],
         pair: usize,
     ) -> Result<Option<Vec<f64>>, ConfigurationError> {
-        if pair >= self.pairs.len() {
-            self.check(configuration)?;
-            return Ok(None);
-        }
-        let values = self.values(configuration)?;
-        let by_inputs = self.network.derivative(&values, pair);
-        Ok(Some(self.by_dofs(configuration, &by_inputs)))
+        let values = self.values_of_one(configuration)?;
+        let exists = pair < self.pairs.len();
+        Ok(exists.then(|| self.gradient_of(configuration, &values, pair)))
     }
 
     /// The clearances in many configurations, which are concatenated: value `k * pairs + pair` is that of `pair` in
@@ -195,26 +190,15 @@ impl CollisionModel {
         take: impl Fn(&mut dyn Iterator<Item = f64>, &mut Vec<T>) + Sync,
     ) -> Result<Vec<T>, ConfigurationError> {
         let blocks: Vec<Result<Vec<T>, ConfigurationError>> = configurations
-            .par_chunks(LANES * self.num_dofs.max(1))
+            .par_chunks(LANES * self.num_dofs)
             .map_init(
-                || self.network.buffers(),
+                || self.network.buffers::<LANES>(),
                 |values, block| {
-                    let mut inputs = vec![0.0; values[0].len()];
-                    let block = block.chunks_exact(self.num_dofs.max(1));
-                    let count = block.len();
-                    for (lane, configuration) in block.enumerate() {
-                        self.check(configuration)?;
-                        inputs::write(&self.inputs, configuration, &mut inputs);
-                        for (lanes, input) in values[0].iter_mut().zip(&inputs) {
-                            lanes[lane] = *input;
-                        }
-                    }
-                    self.network.values(self.level, values);
+                    self.write_values(block, values)?;
+                    let count = block.len() / self.num_dofs;
                     let mut results = Vec::with_capacity(count);
                     for lane in 0..count {
-                        let outputs = values.last().into_iter().flatten().zip(&self.pairs);
-                        let mut clearances = outputs.map(|(value, pair)| value[lane] - pair.margin);
-                        take(&mut clearances, &mut results);
+                        take(&mut self.clearances_of(values, lane), &mut results);
                     }
                     Ok(results)
                 },
@@ -223,31 +207,51 @@ impl CollisionModel {
         Ok(blocks.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 
-    fn check(&self, configuration: &[f64]) -> Result<(), ConfigurationError> {
-        ConfigurationError::check(configuration, self.num_dofs)
+    /// Writes the network's inputs for at most `N` configurations, and the values after each layer. Ignores values after
+    /// the last complete configuration.
+    fn write_values<const N: usize>(
+        &self,
+        configurations: &[f64],
+        values: &mut [Vec<[f64; N]>],
+    ) -> Result<(), ConfigurationError> {
+        let mut inputs = vec![0.0; values[0].len()];
+        for (lane, configuration) in configurations.chunks_exact(self.num_dofs).enumerate() {
+            ConfigurationError::check(configuration, self.num_dofs)?;
+            inputs::write(&self.inputs, configuration, &mut inputs);
+            for (lanes, input) in values[0].iter_mut().zip(&inputs) {
+                lanes[lane] = *input;
+            }
+        }
+        self.network.values(self.level, values);
+        Ok(())
     }
 
-    /// The network's inputs for a configuration, and the values after each layer.
-    fn values(&self, configuration: &[f64]) -> Result<Vec<Vec<f64>>, ConfigurationError> {
-        self.check(configuration)?;
-        let mut inputs = vec![0.0; self.inputs.iter().map(Input::width).sum()];
-        inputs::write(&self.inputs, configuration, &mut inputs);
-        Ok(self.network.values_of_one(inputs))
+    fn values_of_one(&self, q: &[f64]) -> Result<Vec<Vec<[f64; 1]>>, ConfigurationError> {
+        ConfigurationError::check(q, self.num_dofs)?;
+        let mut values = self.network.buffers();
+        self.write_values(q, &mut values)?;
+        Ok(values)
     }
 
-    fn by_dofs(&self, configuration: &[f64], mut by_inputs: &[f64]) -> Vec<f64> {
+    /// The clearances of one of `N` configurations, from the values after each layer.
+    fn clearances_of<const N: usize>(
+        &self,
+        values: &[Vec<[f64; N]>],
+        lane: usize,
+    ) -> impl Iterator<Item = f64> {
+        let outputs = values.last().into_iter().flatten().zip(&self.pairs);
+        outputs.map(move |(value, pair)| value[lane] - pair.margin)
+    }
+
+    fn gradient_of(&self, q: &[f64], values: &[Vec<[f64; 1]>], pair: usize) -> Vec<f64> {
+        let by_inputs = self.network.derivative(values, pair);
+        let mut rest = by_inputs.as_slice();
         let mut by_dofs = vec![0.0; self.num_dofs];
         for input in &self.inputs {
-            let (own, rest) = by_inputs.split_at(input.width());
-            input.pull_back(configuration, own, &mut by_dofs);
-            by_inputs = rest;
+            let own = rest.split_off(..input.width()).unwrap_or_default();
+            input.pull_back(q, own, &mut by_dofs);
         }
         by_dofs
-    }
-
-    fn less_margins(&self, values: &[Vec<f64>]) -> impl Iterator<Item = f64> {
-        let both = values.last().into_iter().flatten().zip(&self.pairs);
-        both.map(|(output, pair)| output - pair.margin)
     }
 }
 

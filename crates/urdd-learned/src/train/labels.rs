@@ -4,9 +4,10 @@ use nalgebra::Isometry3;
 use rayon::prelude::*;
 
 use super::settings;
-use super::subject::{NoModel, Subject};
+use super::subject::{BLOCK, NoModel, Subject};
+use crate::inputs::{self, Input};
 use urdd_directory::cancellation::Cancellation;
-use urdd_kinematics::learn::inputs::{self, Input};
+use urdd_kinematics::fill;
 
 /// Sampled configurations and the distances of all pairs.
 pub struct Labels {
@@ -19,9 +20,6 @@ pub struct Labels {
     pub collides: Vec<bool>,
 }
 
-/// Number of configurations per parallel task.
-const BLOCK: usize = 64;
-
 impl Labels {
     /// Labels of `count` sampled configurations from `first` on.
     pub fn new(
@@ -31,43 +29,25 @@ impl Labels {
     ) -> Result<Self, NoModel> {
         let num_pairs = subject.pairs.bodies().len();
         let num_dofs = subject.space.num_dofs();
-        let clip = subject.clip_distance;
-        let mut configurations = vec![0.0; count as usize * num_dofs];
+        let clip = subject.clip_distance();
+        let configurations = subject.configurations([first, count]);
         let mut distances = vec![0.0_f32; count as usize * num_pairs];
-        let blocks = configurations
-            .par_chunks_mut(BLOCK * num_dofs.max(1))
-            .zip(distances.par_chunks_mut(BLOCK * num_pairs.max(1)))
-            .enumerate();
-        let faults: Vec<NoModel> = blocks
-            .filter_map(|(block, (configurations, distances))| {
-                if let Err(cancelled) = cancellation.check() {
-                    return Some(cancelled.into());
-                }
-                let mut poses: Vec<Isometry3<f64>> = Vec::new();
-                let mut of_pairs = vec![0.0; num_pairs];
-                let rows = configurations.chunks_mut(num_dofs).zip(distances.chunks_mut(num_pairs));
-                for (k, (configuration, distances)) in rows.enumerate() {
-                    let sample = u64::from(first) + (block * BLOCK + k) as u64;
-                    configuration.copy_from_slice(&subject.space.sampled(sample));
-                    let kinematics = subject.kinematics;
-                    if let Err(error) = kinematics.link_poses_into(configuration, &mut poses) {
-                        return Some(error.into());
-                    }
-                    subject.pairs.distances(&poses, clip, &mut of_pairs);
-                    for (to, from) in distances.iter_mut().zip(&of_pairs) {
-                        // A distance without contact stays above 0.
-                        *to = match *from > 0.0 {
-                            true => ((from / clip) as f32).max(f32::MIN_POSITIVE),
-                            false => 0.0,
-                        };
-                    }
-                }
-                None
-            })
-            .collect();
-        if let Some(fault) = faults.into_iter().next() {
-            return Err(fault);
-        }
+        type Memory = (Vec<Isometry3<f64>>, Vec<f64>);
+        fill(&mut distances, num_pairs, BLOCK, |(poses, metres): &mut Memory, k, row| {
+            cancellation.check()?;
+            let configuration = &configurations[k * num_dofs..][..num_dofs];
+            subject.kinematics.link_poses_into(configuration, poses)?;
+            metres.resize(num_pairs, 0.0);
+            subject.pairs.distances(poses, clip, metres);
+            for (to, from) in row.iter_mut().zip(metres) {
+                // A distance without contact stays above 0.
+                *to = match *from > 0.0 {
+                    true => ((*from / clip) as f32).max(f32::MIN_POSITIVE),
+                    false => 0.0,
+                };
+            }
+            Ok::<(), NoModel>(())
+        })?;
         let collides = distances.chunks(num_pairs).map(|row| row.contains(&0.0)).collect();
         Ok(Self { configurations, num_dofs, distances, num_pairs, collides })
     }

@@ -1,11 +1,13 @@
 //! The loss of a few configurations and its gradient with respect to all weights.
 
+use std::mem;
+
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::labels::Labels;
 use super::settings::{CONTACT_WEIGHT, IN_CONTACT, NEAR_WEIGHT};
-use urdd_kinematics::learn::kernel::{LANES, Lanes};
-use urdd_kinematics::learn::network::{Layer, Network};
+use crate::kernel::{self, LANES, Lanes};
+use crate::network::{Layer, Network};
 
 /// Buffers for [`LANES`] configurations.
 pub(super) struct Work {
@@ -79,30 +81,17 @@ impl Work {
 
     #[inline(always)]
     fn back<S: Simd>(&mut self, _: S, network: &Network) {
+        let [by_outputs, by_inputs] = &mut self.by_values;
         for (place, layer) in network.layers.iter().enumerate().rev() {
             let before = &self.values[place];
-            let gradients = &mut self.gradients[place];
-            let [by_outputs, by_inputs] = &mut self.by_values;
-            by_weights(by_outputs, before, gradients);
+            by_weights(by_outputs, before, &mut self.gradients[place]);
             if place == 0 {
                 return;
             }
-            by_inputs.clear();
             by_inputs.resize(before.len(), [0.0; LANES]);
-            let rows = layer.weights.chunks_exact(before.len().max(1));
-            for (row, by_output) in rows.zip(by_outputs.iter()) {
-                for (weight, sums) in row.iter().zip(by_inputs.iter_mut()) {
-                    for (sum, by_output) in sums.iter_mut().zip(by_output) {
-                        *sum += weight * by_output;
-                    }
-                }
-            }
-            // The activation between layers is tanh; its derivative is 1 - t^2.
-            let both = by_inputs.as_flattened_mut().iter_mut();
-            for (by_input, t) in both.zip(before.as_flattened()) {
-                *by_input *= 1.0 - t * t;
-            }
-            self.by_values.swap(0, 1);
+            kernel::dense_back(&layer.weights, by_outputs, by_inputs);
+            kernel::tanh_back(before, by_inputs);
+            mem::swap(by_outputs, by_inputs);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Chooses the margins of the pairs.
 
-use urdd_generate::train::calibration::*;
-use urdd_generate::train::labels::Labels;
+use urdd_learned::train::calibration::*;
+use urdd_learned::train::labels::Labels;
 
 /// Outputs of contacts with exponentially distributed excess, in closed form.
 fn exponential(count: usize) -> Vec<f64> {

@@ -14,49 +14,54 @@ pub mod calibration;
 mod evaluation;
 #[doc(hidden)]
 pub mod labels;
+mod model_inputs;
 mod optimiser;
 mod settings;
 mod subject;
 
-pub use self::settings::Effort;
-pub(crate) use self::settings::MOST_PAIRS;
-pub(crate) use self::subject::{NoModel, Subject};
+pub use self::settings::{Effort, MAX_PAIRS, VERSION};
+pub use self::subject::{NoModel, Subject};
 
 use self::evaluation::Counted;
 use self::labels::Labels;
-use self::settings::MOST_DOFS;
+use self::model_inputs::model_inputs;
+use self::settings::MAX_DOFS;
+use self::subject::rounded;
+use crate::inputs::{self, Input};
+use crate::model::CollisionModel;
+use crate::network::{Layer, Network};
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::index::{Count, LinkIdx, SampleIdx};
 use urdd_format::self_collision_model::{
     CONFIRMATION_COUNT, CONFIRMATION_FIRST, EVALUATION_COUNT, EVALUATION_FIRST, LinkPair,
-    ModelEvaluation, ModelLayer, ModelPair, ModelTestVector, SampleRange, SelfCollisionModelModule,
+    ModelEvaluation, ModelInput, ModelLayer, ModelPair, ModelTestVector, SampleRange,
+    SelfCollisionModelModule,
 };
-use urdd_kinematics::learn::CollisionModel;
-use urdd_kinematics::learn::inputs::{self, Input};
-use urdd_kinematics::learn::network::{Layer, Network};
+use urdd_kinematics::unit;
 
 /// Trains a model. `progress` receives the finished and the total steps.
 ///
 /// # Errors
 /// If a model would be of no use, a configuration has no valid poses, or training is cancelled.
-pub(crate) fn train(
+pub fn train(
     subject: Subject,
     cancellation: &Cancellation,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<SelfCollisionModelModule, NoModel> {
+    let model_inputs = model_inputs(&subject)?;
     let (num_pairs, num_dofs) = (subject.pairs.bodies().len(), subject.space.num_dofs());
     let useless = |why: String| Err(NoModel::OfNoUse(why));
-    if num_pairs > MOST_PAIRS {
+    if num_pairs > MAX_PAIRS {
         return useless(format!(
-            "more than {MOST_PAIRS} pairs of links are not skipped, and a model of so many is no faster than exact distances"
+            "more than {MAX_PAIRS} pairs of links are not skipped, and a model of so many is no faster than exact distances"
         ));
     }
-    if num_dofs > MOST_DOFS {
+    if num_dofs > MAX_DOFS {
         return useless(format!(
-            "the robot has {num_dofs} DOFs, but a model supports at most {MOST_DOFS}"
+            "the robot has {num_dofs} DOFs, but a model supports at most {MAX_DOFS}"
         ));
     }
-    let inputs = inputs::read(&subject.inputs, num_dofs).unwrap_or_default();
+    let inputs = inputs::read(&model_inputs, num_dofs).unwrap_or_default();
     if num_pairs == 0 || inputs.is_empty() {
         return useless("no two links that are not skipped move relative to each other".to_owned());
     }
@@ -67,7 +72,7 @@ pub(crate) fn train(
     step(0);
     let mut training = Labels::new(&subject, training, cancellation)?;
     training.check()?;
-    let near = training.near_pairs(settings::NEAR * subject.clip_distance);
+    let near = training.near_pairs(settings::NEAR * subject.clip_distance());
     training.keep(&near);
     step(1);
     let mut calibration = Labels::new(&subject, calibration, cancellation)?;
@@ -88,7 +93,7 @@ pub(crate) fn train(
             cancellation,
             &|epoch| step(2 + epoch),
         )?;
-        let (mut module, model) = module(&subject, &network, &near, &calibration)?;
+        let (mut module, model) = module(&subject, &model_inputs, &network, &near, &calibration)?;
         module.evaluation = evaluated.count(&model)?;
         let own = counted([evaluation::second_confirmation(&module), CONFIRMATION_COUNT])?;
         let found = [confirming.count(&model)?, own.count(&model)?];
@@ -120,7 +125,7 @@ fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
         let most = (6.0 / (before + after) as f64).sqrt();
         let mut weight = || {
             drawn += 1;
-            (2.0 * urdd_kinematics::unit(sequence, drawn) - 1.0) * most
+            (2.0 * unit(sequence, drawn) - 1.0) * most
         };
         Layer { weights: (0..before * after).map(|_| weight()).collect(), biases: vec![0.0; after] }
     };
@@ -129,11 +134,6 @@ fn start(inputs: &[Input], num_outputs: usize, attempt: u64) -> Network {
         last.biases.fill(settings::FIRST_OUTPUT);
     }
     Network { layers }
-}
-
-/// Rounds to seven significant digits, the precision of numbers in a document.
-pub(crate) fn rounded(number: f64) -> f64 {
-    format!("{number:.6e}").parse().unwrap_or(number)
 }
 
 /// The layers as stored in the module: rounded, with outputs in metres.
@@ -151,6 +151,7 @@ fn layers(network: &Network, clip_distance: f64) -> Vec<ModelLayer> {
 /// The module without its counts, and the model that it defines.
 fn module(
     subject: &Subject,
+    inputs: &[ModelInput],
     network: &Network,
     near: &[usize],
     calibration: &Labels,
@@ -173,9 +174,9 @@ fn module(
     let [trained, calibrated] = subject.effort.ranges();
     let mut module = SelfCollisionModelModule {
         trained_on: subject.trained_on.clone(),
-        clip_distance: subject.clip_distance,
-        layers: layers(network, subject.clip_distance),
-        inputs: subject.inputs.clone(),
+        clip_distance: subject.clip_distance(),
+        layers: layers(network, subject.clip_distance()),
+        inputs: inputs.to_vec(),
         pairs: pairs.collect(),
         other_pairs: others
             .map(|pair| LinkPair { link_a_idx: links[pair][0], link_b_idx: links[pair][1] })

@@ -52,10 +52,15 @@ pub fn tanh(x: f64) -> f64 {
 
 /// The outputs of a layer: `weights` (row-major, one row per output) times `inputs`, plus `biases`.
 #[inline(always)]
-pub(super) fn dense(weights: &[f64], biases: &[f64], inputs: &[Lanes], outputs: &mut [Lanes]) {
-    let rows = weights.chunks_exact(inputs.len().max(1));
+pub(super) fn dense<const N: usize>(
+    weights: &[f64],
+    biases: &[f64],
+    inputs: &[[f64; N]],
+    outputs: &mut [[f64; N]],
+) {
+    let rows = weights.chunks_exact(inputs.len());
     for ((row, bias), output) in rows.zip(biases).zip(outputs) {
-        let mut sums = [*bias; LANES];
+        let mut sums = [*bias; N];
         for (weight, input) in row.iter().zip(inputs) {
             for (sum, x) in sums.iter_mut().zip(input) {
                 *sum += weight * x;
@@ -65,10 +70,37 @@ pub(super) fn dense(weights: &[f64], biases: &[f64], inputs: &[Lanes], outputs: 
     }
 }
 
+/// The derivatives with respect to the inputs of a layer, from those with respect to its outputs: the transpose of
+/// `weights` times `by_outputs`.
+#[inline(always)]
+pub(super) fn dense_back<const N: usize>(
+    weights: &[f64],
+    by_outputs: &[[f64; N]],
+    by_inputs: &mut [[f64; N]],
+) {
+    by_inputs.fill([0.0; N]);
+    for (row, by_output) in weights.chunks_exact(by_inputs.len()).zip(by_outputs) {
+        for (weight, sums) in row.iter().zip(by_inputs.iter_mut()) {
+            for (sum, by_output) in sums.iter_mut().zip(by_output) {
+                *sum += weight * by_output;
+            }
+        }
+    }
+}
+
 /// Replaces values by their hyperbolic tangents.
 #[inline(always)]
-pub(super) fn tanh_all(values: &mut [Lanes]) {
+pub(super) fn tanh_all<const N: usize>(values: &mut [[f64; N]]) {
     for value in values.as_flattened_mut() {
         *value = tanh(*value);
+    }
+}
+
+/// Turns derivatives with respect to hyperbolic tangents into those with respect to their arguments: times 1 - t^2.
+#[inline(always)]
+pub(super) fn tanh_back<const N: usize>(tangents: &[[f64; N]], by_values: &mut [[f64; N]]) {
+    let each = by_values.as_flattened_mut().iter_mut();
+    for (by_value, t) in each.zip(tangents.as_flattened()) {
+        *by_value *= 1.0 - t * t;
     }
 }

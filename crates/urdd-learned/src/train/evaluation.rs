@@ -1,16 +1,15 @@
 //! Measures how often a model is right: SPEC 8.8.9 to 8.8.12.
 
-use nalgebra::Isometry3;
-use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::subject::{NoModel, Subject};
+use super::subject::{BLOCK, NoModel, Subject};
+use crate::model::CollisionModel;
 use urdd_directory::cancellation::Cancellation;
 use urdd_format::self_collision_model::{
     CONFIRMATION_SECOND, EVALUATION_FIRST, EVALUATION_MIN, ModelEvaluation, NEAR_CONTACT_STEP,
     SelfCollisionModelModule,
 };
-use urdd_kinematics::learn::model::CollisionModel;
+use urdd_kinematics::fill;
 
 /// Sampled configurations and the true state of each.
 pub(super) struct Counted {
@@ -26,9 +25,6 @@ enum Truth {
     NearContact,
 }
 
-/// Number of configurations per parallel task.
-const BLOCK: usize = 64;
-
 impl Counted {
     /// `count` sampled configurations from `first` on. Only those of the evaluation are checked for near contact.
     pub fn new(
@@ -36,35 +32,27 @@ impl Counted {
         [first, count]: [u32; 2],
         cancellation: &Cancellation,
     ) -> Result<Self, NoModel> {
+        let configurations = subject.configurations([first, count]);
         let num_dofs = subject.space.num_dofs();
-        let mut configurations = vec![0.0; count as usize * num_dofs];
-        let blocks = configurations.par_chunks_mut(BLOCK * num_dofs.max(1));
-        let truths = blocks.enumerate().map(|(block, configurations)| {
+        let mut truths = vec![Truth::Free; count as usize];
+        fill(&mut truths, 1, BLOCK, |poses: &mut Vec<_>, k, truth| {
             cancellation.check()?;
-            let mut poses: Vec<Isometry3<f64>> = Vec::new();
             let mut collides = |configuration: &[f64]| -> Result<bool, NoModel> {
-                subject.kinematics.link_poses_into(configuration, &mut poses)?;
-                Ok(subject.pairs.any_touches(&poses))
+                subject.kinematics.link_poses_into(configuration, poses)?;
+                Ok(subject.pairs.any_touches(poses))
             };
-            let rows = configurations.chunks_mut(num_dofs.max(1)).enumerate();
-            let truth = |(k, configuration): (usize, &mut [f64])| {
-                let sample = u64::from(first) + (block * BLOCK + k) as u64;
-                configuration.copy_from_slice(&subject.space.sampled(sample));
-                if !collides(configuration)? {
-                    return Ok(Truth::Free);
-                }
-                if first != EVALUATION_FIRST {
-                    return Ok(Truth::Colliding);
-                }
-                Ok(match collides(&stepped(configuration, &subject.space.sampled(sample + 1)))? {
-                    true => Truth::Colliding,
-                    false => Truth::NearContact,
-                })
+            let configuration = &configurations[k * num_dofs..][..num_dofs];
+            let next = || subject.space.sampled(u64::from(first) + k as u64 + 1);
+            truth[0] = if !collides(configuration)? {
+                Truth::Free
+            } else if first != EVALUATION_FIRST || collides(&stepped(configuration, &next()))? {
+                Truth::Colliding
+            } else {
+                Truth::NearContact
             };
-            rows.map(truth).collect()
-        });
-        let truths: Vec<Vec<Truth>> = truths.collect::<Result<_, NoModel>>()?;
-        Ok(Self { configurations, truths: truths.concat() })
+            Ok::<(), NoModel>(())
+        })?;
+        Ok(Self { configurations, truths })
     }
 
     /// Checks that there are enough collisions and free configurations to state rates.

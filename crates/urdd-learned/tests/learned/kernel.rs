@@ -1,6 +1,6 @@
 //! Arithmetic of the network for several configurations at once.
 
-use urdd_kinematics::learn::kernel::*;
+use urdd_learned::kernel::*;
 
 #[test]
 fn tanh_is_that_of_libm() {

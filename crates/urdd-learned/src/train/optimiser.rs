@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use super::backward::Work;
 use super::labels::Labels;
 use super::settings::{BATCH, FIRST_STEP, PATIENCE, SEED, VALIDATION};
+use crate::kernel::LANES;
+use crate::network::{Layer, Network};
 use urdd_directory::cancellation::{Cancellation, Cancelled};
-use urdd_kinematics::learn::kernel::LANES;
-use urdd_kinematics::learn::network::{Layer, Network};
 use urdd_kinematics::unit;
 
 /// Decay rates of the means of the gradients and of their squares.
