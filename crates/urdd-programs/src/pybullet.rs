@@ -13,8 +13,18 @@ use crate::tree::{Attribute, Node};
 
 /// Elements nested in each other, from which tinyxml2 as it is built there refuses.
 const MAX_DEPTH: usize = 99;
-/// Names of robots and joints are copied into so many bytes.
-const NAME_BYTES: usize = 1024;
+/// The longest names with which it was seen to load, bytes: they are copied into 1,024.
+const LONGEST: [(&str, usize); 3] = [("robot", 1025), ("link", 2048), ("joint", 1100)];
+/// What Bullet's own `<contact>` may have, each with a value.
+const CONTACT: [&str; 7] = [
+    "inertia_scaling",
+    "lateral_friction",
+    "rolling_friction",
+    "restitution",
+    "spinning_friction",
+    "stiffness",
+    "damping",
+];
 
 pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let bytes = as_lines(file.bytes);
@@ -94,6 +104,9 @@ impl Reader<'_> {
         if links.is_empty() {
             return self.effects.refuse(robot, Fault::MissingElement("link"));
         }
+        if let Some(nameless) = links.get("") {
+            return self.effects.crash(*nameless, Fault::Empty("name"));
+        }
         let mut joints = HashSet::new();
         let mut all = Vec::new();
         for node in robot.named("joint") {
@@ -107,10 +120,10 @@ impl Reader<'_> {
     }
 
     fn name_fits(&mut self, node: Node<'_>, kind: &'static str, name: &str) -> Reading<()> {
-        if name.len() < NAME_BYTES {
+        if LONGEST.iter().any(|(one, bytes)| *one == kind && name.len() <= *bytes) {
             return Ok(());
         }
-        let rule = "the name has 1,024 bytes or more";
+        let rule = "the name has more than 1,024 bytes";
         self.effects.crash(node, Fault::Name { kind, name: shortened(name), rule })
     }
 
@@ -141,6 +154,12 @@ impl Reader<'_> {
             None => {
                 let fault = Fault::MissingElement("inertial");
                 self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
+            }
+        }
+        let contact = link.child("contact");
+        for node in contact.into_iter().flat_map(|contact| contact.children()) {
+            if CONTACT.contains(&node.name()) && node.attribute("value").is_none() {
+                return self.effects.refuse(node, Fault::Missing("value"));
             }
         }
         for kind in ["visual", "collision"] {
