@@ -222,7 +222,9 @@ impl Finder<'_> {
             let material = format!("material/{}", node.value("name").unwrap_or_default());
             self.add(node, if is_material { &material } else { &place.part }, name, like);
         } else if let Some(other) = of_name(name) {
-            if (other.name, known.name) != ("material", "collision") {
+            let is_default =
+                name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
+            if !is_default && (other.name, known.name) != ("material", "collision") {
                 self.add(node, &place.owner, name, other.name);
             }
         } else if let Some(like) = meant_attribute(parent, name, known) {
@@ -251,7 +253,11 @@ impl Finder<'_> {
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
-        let free = |one: &&str| node.attribute(one).is_none();
+        let plain = |name| match self.reads.names {
+            Names::AnyPrefix => without_prefix(name),
+            _ => name,
+        };
+        let free = |one: &&str| !node.attributes().iter().any(|other| plain(&other.name) == *one);
         let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
         let text = node.text().unwrap_or_default();
         let is_number = |word: &str| word.parse::<f64>().is_ok();
@@ -265,8 +271,10 @@ impl Finder<'_> {
             self.effects.drop(node, format!("{part}/?"), fault);
         }
         for attribute in node.attributes() {
-            let name = &*attribute.name;
-            if known.attributes.contains(&name) || name.starts_with("xml") || has_prefix(name) {
+            let name = plain(&attribute.name);
+            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let is_default = is_zero(&attribute.value) && matches!(known.name, "origin" | "axis");
+            if is_other || is_default || known.attributes.contains(&name) {
                 continue;
             }
             let own = missing.iter().copied().find(|one| is_like(name, one));
@@ -329,6 +337,11 @@ fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'stat
 fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
     let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
     is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+}
+
+/// Whether a value is that of an origin which is not written.
+fn is_zero(value: &str) -> bool {
+    value.split_whitespace().all(|word| word.parse() == Ok(0.0))
 }
 
 fn of_name(name: &str) -> Option<&'static Known> {
