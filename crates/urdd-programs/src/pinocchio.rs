@@ -230,6 +230,9 @@ impl Reader<'_> {
     fn mesh(&mut self, mesh: Node<'_>) -> Reading<()> {
         let Some(filename) = mesh.attribute("filename") else { return Ok(()) };
         self.scheme(filename)?;
+        if filename.value.is_empty() {
+            return self.effects.refuse(filename, Fault::Empty("filename"));
+        }
         let why = match self.file.mesh(&filename.value) {
             Mesh::Unknown => return Ok(()),
             Mesh::Missing => "the file of the mesh was not found",
