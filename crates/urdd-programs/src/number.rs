@@ -25,13 +25,28 @@ pub(crate) fn istream(text: &str) -> Read<'_> {
     let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
     let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
     let (number, rest) = decimal(unsigned).filter(|(number, _)| number.is_finite())?;
-    let is_cut = rest.starts_with(['e', 'E']);
+    let read = &unsigned[..unsigned.len() - rest.len()];
+    let is_cut = rest.starts_with(['e', 'E']) && !read.contains(['e', 'E']);
     (!is_cut).then_some((sign * number, rest))
 }
 
 /// Whether a text is a number and nothing else, by one of the functions above.
 pub(crate) fn whole(read: Read<'_>) -> Option<f64> {
     read.filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
+}
+
+/// Whether what follows a number is part of the number that a person means: `1,5`, `1_000`, `1/2`, `0x1`. A unit, or
+/// another number, is not.
+pub(crate) fn continues(number: &str, rest: &str) -> bool {
+    let mut behind = rest.chars();
+    let (first, second) = (behind.next(), behind.next());
+    let has_digit = second.is_some_and(|second| second.is_ascii_digit());
+    match first {
+        Some(',') => has_digit && !number.contains('.'),
+        Some('_' | '\'' | '.' | '/' | '*' | '^' | '#') => true,
+        Some('x' | 'X' | 'e' | 'E' | 'd' | 'D') => has_digit || matches!(second, Some('+' | '-')),
+        _ => false,
+    }
 }
 
 /// Digits with an optional point and exponent.

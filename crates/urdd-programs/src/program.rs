@@ -2,13 +2,14 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::{pybullet, urdfdom};
+use crate::{drake, pybullet, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Program {
     Urdfdom6,
     Urdfdom4,
+    Drake,
     PyBullet,
 }
 
@@ -25,7 +26,8 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 3] = [Program::Urdfdom6, Program::Urdfdom4, Program::PyBullet];
+    pub const ALL: [Program; 4] =
+        [Program::Urdfdom6, Program::Urdfdom4, Program::Drake, Program::PyBullet];
 
     const fn facts(self) -> Facts {
         match self {
@@ -41,6 +43,9 @@ impl Program {
                 version: "4.0.1",
                 read: urdfdom::read_four,
             },
+            Program::Drake => {
+                Facts { id: "drake", name: "Drake", version: "1.51.1", read: drake::read }
+            }
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }

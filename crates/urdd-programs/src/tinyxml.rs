@@ -101,7 +101,6 @@ impl<'a> Parser<'a> {
             if rest.starts_with(b"<!--") {
                 self.at += 4;
                 self.until(b"-->", "a comment is not closed")?;
-                self.inside(None);
             } else if rest.starts_with(b"<![CDATA[") {
                 self.at += 9;
                 let text = self.until(b"]]>", "a CDATA section is not closed")?;
@@ -144,7 +143,8 @@ impl<'a> Parser<'a> {
             return self.refuse(start, "`<` is not followed by a name");
         };
         let (attributes, is_empty) = self.attributes()?;
-        if closes {
+        // `</name/>` is an empty element.
+        if closes && !is_empty {
             let Some((open, _)) = self.open.pop() else { return Ok(true) };
             let opened = &self.tree.elements[open];
             return match opened.name == String::from_utf8_lossy(name) {

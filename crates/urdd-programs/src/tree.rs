@@ -18,7 +18,7 @@ pub(crate) struct Element<'a> {
     pub attributes: Vec<Attribute<'a>>,
     /// Indices of the elements inside, in order.
     pub children: Vec<usize>,
-    /// The text before the first child of another kind; none if there is an element or a comment first.
+    /// The text before the first child of another kind; none if there is an element first.
     pub text: Option<Cow<'a, str>>,
     /// From `<` to the end of the start tag, bytes of the file.
     pub tag: Range<usize>,
