@@ -19,5 +19,5 @@ mod urdfdom;
 pub use effect::{Deed, Effect, Effects};
 pub use fault::Fault;
 pub use file::File;
-pub use mesh::{Mesh, MeshFacts};
+pub use mesh::{ColladaFacts, Format, Measures, Mesh, MeshFacts, ObjFacts, StlFacts};
 pub use program::Program;

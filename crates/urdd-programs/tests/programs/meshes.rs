@@ -16,9 +16,5 @@ pub fn find(name: &str) -> Mesh {
         _ => base.join(name),
     };
     let Ok(bytes) = fs::read(path) else { return Mesh::Missing };
-    Mesh::Found(Arc::new(MeshFacts {
-        head: bytes.iter().take(84).copied().collect(),
-        size: bytes.len(),
-        ..MeshFacts::default()
-    }))
+    Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
 }
