@@ -76,6 +76,11 @@ impl<'t> Node<'t> {
         self.attribute(name).map(|one| &*one.value)
     }
 
+    /// Whether it has neither attributes nor elements.
+    pub fn is_empty(self) -> bool {
+        self.attributes().is_empty() && self.element().children.is_empty()
+    }
+
     pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
         let tree = self.tree;
         self.element().children.iter().map(move |&index| Node { tree, index })

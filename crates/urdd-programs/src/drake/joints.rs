@@ -136,7 +136,8 @@ impl Reader<'_> {
     }
 
     fn axis(&mut self, joint: Node<'_>, part: &str) -> Reading<()> {
-        let Some(xyz) = joint.child("axis").and_then(|axis| axis.attribute("xyz")) else {
+        let axis = self.first(joint, "axis", part);
+        let Some(xyz) = axis.and_then(|axis| axis.attribute("xyz")) else {
             return Ok(());
         };
         let squares = self.numbers(xyz, 3, part)?.iter().map(|number| number * number).sum::<f64>();
@@ -150,7 +151,8 @@ impl Reader<'_> {
     /// Limits and dynamics. Gives the limit of effort.
     fn motion(&mut self, joint: Node<'_>, kind: &str, part: &str) -> Reading<f64> {
         let (limit_part, dynamics_part) = (format!("{part}/limit"), format!("{part}/dynamics"));
-        let (limit, dynamics) = (joint.child("limit"), joint.child("dynamics"));
+        let limit = self.first(joint, "limit", &limit_part);
+        let dynamics = self.first(joint, "dynamics", &dynamics_part);
         if kind == "planar" {
             if let Some(damping) = dynamics.and_then(|node| node.attribute("damping"))
                 && self.numbers(damping, 3, &dynamics_part)?.iter().any(|number| *number < 0.0)
@@ -181,6 +183,11 @@ impl Reader<'_> {
             }
             if lower > upper && lower.is_some() && upper.is_some() {
                 return self.effects.refuse(limit, Fault::Other("`lower` is above `upper`"));
+            }
+            for (name, value) in [("lower", lower), ("upper", upper)] {
+                if value.is_none() && kind != "continuous" {
+                    self.effects.read_as(limit, &*limit_part, Fault::Missing(name), "no limit");
+                }
             }
             if kind == "continuous" && (lower.is_some() || upper.is_some()) {
                 let fault = Fault::Other("a continuous joint has `lower` or `upper`");

@@ -32,6 +32,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
         reader.material(material, true)?;
     }
     let links = reader.links(robot)?;
+    reader.collision_filters(robot, &links)?;
     reader.joints(robot, &links)
 }
 
@@ -76,7 +77,7 @@ impl Reader<'_> {
             }
             let name = self.named(link, "link")?;
             let part = format!("link/{name}");
-            let inertial = link.child("inertial");
+            let inertial = self.first(link, "inertial", &format!("{part}/inertial"));
             if name == WORLD {
                 if let Some(inertial) = inertial {
                     let fault = Fault::Other("the link `world` is the program's own");
@@ -97,6 +98,19 @@ impl Reader<'_> {
             }
         }
         Ok(links)
+    }
+
+    fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
+        for group in robot.named("drake:collision_filter_group") {
+            self.needed(group, "name")?;
+            for member in group.named("drake:member") {
+                let link = self.needed(member, "link")?;
+                if !links.contains_key(&*link.value) {
+                    return self.effects.refuse(link, Fault::unknown("link", &link.value));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether a link or joint says that Drake has to leave it out.
@@ -157,8 +171,18 @@ impl Reader<'_> {
         Ok(Some((at, rgba)))
     }
 
+    /// The first child of a name, which is the one that counts: also if it is empty, and another one is not.
+    fn first<'t>(&mut self, parent: Node<'t>, name: &str, part: &str) -> Option<Node<'t>> {
+        let mut all = parent.named(name);
+        let first = all.next()?;
+        if first.is_empty() && all.any(|other| !other.is_empty()) {
+            self.effects.drop(first, part, Fault::Repeated(name.to_owned()));
+        }
+        Some(first)
+    }
+
     fn pose(&mut self, parent: Node<'_>, part: &str) -> Reading<()> {
-        let Some(origin) = parent.child("origin") else { return Ok(()) };
+        let Some(origin) = self.first(parent, "origin", part) else { return Ok(()) };
         for name in ["xyz", "rpy"] {
             self.vector(origin, name, 3, part)?;
         }

@@ -44,7 +44,7 @@ impl Reader<'_> {
             }
         }
         if shape.name() == "visual" {
-            self.color(shape)?;
+            self.color(shape, &format!("{part}/material"))?;
         }
         if let Some(name) = shape.attribute("name")
             && name.value.trim_matches(is_space).is_empty()
@@ -57,8 +57,8 @@ impl Reader<'_> {
         }
     }
 
-    fn color(&mut self, visual: Node<'_>) -> Reading<()> {
-        let Some(material) = visual.child("material") else { return Ok(()) };
+    fn color(&mut self, visual: Node<'_>, part: &str) -> Reading<()> {
+        let Some(material) = self.first(visual, "material", part) else { return Ok(()) };
         let Some((at, rgba)) = self.material(material, false)? else { return Ok(()) };
         match rgba.iter().all(|number| (0.0..=1.0).contains(number)) {
             true => Ok(()),
@@ -94,10 +94,15 @@ impl Reader<'_> {
         let name = filename.value.rsplit('/').next().unwrap_or_default();
         let end = name.rsplit_once('.').filter(|(stem, _)| !stem.is_empty());
         let end = end.map(|(_, end)| end.to_ascii_lowercase()).unwrap_or_default();
-        let why = match (&*end, facts) {
-            ("obj", Some(facts)) if facts.vertices < 3 => "the mesh has fewer than three vertices",
-            ("obj", Some(facts)) if facts.triangles == 0 => "the mesh has no face",
-            ("obj" | "vtk" | "gltf", _) => return Ok(()),
+        let why = match &*end {
+            "obj" => match facts.and_then(|facts| Some((facts.obj.as_ref()?, &facts.measures))) {
+                Some((obj, _)) if obj.vertices < 3 => "the mesh has fewer than three vertices",
+                Some((obj, _)) if obj.faces == 0 => "the mesh has no face",
+                Some((_, measures)) if measures.spread[0] < 1e-12 => "the mesh is a point",
+                Some((_, measures)) if measures.spread[1] < 1e-12 => "the mesh is a line",
+                _ => return Ok(()),
+            },
+            "vtk" | "gltf" => return Ok(()),
             _ => "a collision can only have a mesh in OBJ, glTF (.gltf) or VTK",
         };
         self.effects.refuse(filename, Fault::Mesh(why))

@@ -13,8 +13,14 @@ pub fn find(name: &str) -> Mesh {
     let path = match name.split_once("://") {
         Some(("package" | "model", rest)) => base.join("packages").join(rest),
         Some(("file", rest)) => rest.into(),
+        // Programs were given the files in a folder of another name.
+        _ if name.starts_with("../base/") => return Mesh::Missing,
         _ => base.join(name),
     };
-    let Ok(bytes) = fs::read(path) else { return Mesh::Missing };
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(_) if path.is_dir() => Vec::new(),
+        Err(_) => return Mesh::Missing,
+    };
     Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
 }
