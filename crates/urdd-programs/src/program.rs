@@ -2,16 +2,45 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::{drake, pybullet, urdfdom};
+use crate::unknown::{self, Names};
+use crate::{drake, pinocchio, pybullet, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Program {
+    /// ROS lyrical and rolling.
     Urdfdom6,
+    /// ROS jazzy and kilted.
     Urdfdom4,
+    /// ROS noetic, humble and iron.
+    Urdfdom3,
+    /// Pinocchio.
+    Pinocchio,
+    /// Drake.
     Drake,
+    /// `PyBullet`.
     PyBullet,
 }
+
+/// Names in settings, and the programs' own.
+const NAMES: [(&str, &str); 13] = [
+    ("ros", "urdfdom6"),
+    ("lyrical", "urdfdom6"),
+    ("rolling", "urdfdom6"),
+    ("jazzy", "urdfdom4"),
+    ("kilted", "urdfdom4"),
+    ("noetic", "urdfdom3"),
+    ("humble", "urdfdom3"),
+    ("iron", "urdfdom3"),
+    ("mujoco3.3", "mujoco33"),
+    ("gazebo", "sdformat"),
+    ("isaac", "usd"),
+    ("newton", "usd"),
+    ("three", "urdf_loader"),
+];
+
+/// Those that are asked only by name, as newer ones are there.
+const OLD: [&str; 3] = ["urdfdom4", "urdfdom3", "mujoco33"];
 
 /// What is known of a program.
 struct Facts {
@@ -26,8 +55,14 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 4] =
-        [Program::Urdfdom6, Program::Urdfdom4, Program::Drake, Program::PyBullet];
+    pub const ALL: [Program; 6] = [
+        Program::Urdfdom6,
+        Program::Urdfdom4,
+        Program::Urdfdom3,
+        Program::Pinocchio,
+        Program::Drake,
+        Program::PyBullet,
+    ];
 
     const fn facts(self) -> Facts {
         match self {
@@ -39,9 +74,21 @@ impl Program {
             },
             Program::Urdfdom4 => Facts {
                 id: "urdfdom4",
-                name: "ROS (urdfdom 4)",
+                name: "ROS jazzy and kilted (urdfdom 4)",
                 version: "4.0.1",
                 read: urdfdom::read_four,
+            },
+            Program::Urdfdom3 => Facts {
+                id: "urdfdom3",
+                name: "ROS noetic, humble and iron (urdfdom 3)",
+                version: "3.0.1",
+                read: urdfdom::read_three,
+            },
+            Program::Pinocchio => Facts {
+                id: "pinocchio",
+                name: "Pinocchio",
+                version: "4.1.0",
+                read: pinocchio::read,
             },
             Program::Drake => {
                 Facts { id: "drake", name: "Drake", version: "1.51.1", read: drake::read }
@@ -52,7 +99,25 @@ impl Program {
         }
     }
 
-    /// As reports and settings name it.
+    /// The program that settings name: `ros`, `humble`, `urdf-rs`, or by its `id`.
+    pub fn of_name(name: &str) -> Option<Program> {
+        let named = NAMES.iter().find(|(one, _)| *one == name).map(|(_, id)| *id);
+        let id = named.map_or_else(|| name.replace('-', "_"), str::to_owned);
+        Program::ALL.into_iter().find(|program| program.id() == id)
+    }
+
+    /// The name of settings for it.
+    pub fn setting(self) -> String {
+        let named = NAMES.iter().find(|(_, id)| *id == self.id()).map(|(name, _)| *name);
+        named.map_or_else(|| self.id().replace('_', "-"), str::to_owned)
+    }
+
+    /// Whether it is asked if nobody says which programs matter.
+    pub fn is_asked(self) -> bool {
+        !OLD.contains(&self.id())
+    }
+
+    /// As reports and the table name it.
     pub fn id(self) -> &'static str {
         self.facts().id
     }
@@ -72,6 +137,18 @@ impl Program {
         let mut effects = Effects::default();
         // What a reader refuses is among the effects.
         let _ = (self.facts().read)(file, &mut effects);
+        if effects.loads() {
+            unknown::find(file.bytes, self.element_names(), &mut effects);
+        }
         effects
+    }
+
+    /// Which names it takes for those of elements.
+    fn element_names(self) -> Names {
+        match self.id() {
+            "urdf_loader" => Names::AnyCase,
+            "urdf_rs" => Names::AnyPrefix,
+            _ => Names::Exact,
+        }
     }
 }

@@ -115,18 +115,14 @@ impl Reader<'_> {
 
     fn material(&mut self, material: Node<'_>, part: &str) {
         if let Some(texture) = material.child("texture") {
-            self.effects.drop(
-                texture,
-                format!("{part}/texture"),
-                Fault::NeverRead("texture".into()),
-            );
+            self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
         }
         let color = material.child("color");
         if let Some(rgba) = color.and_then(|color| color.attribute("rgba"))
             && pieces(&rgba.value).len() != 4
         {
             let fault = Fault::count("rgba", 4, &rgba.value);
-            self.effects.read_as(rgba, format!("{part}/color"), fault, "0 0 0 0");
+            self.effects.read_as(rgba, part, fault, "0 0 0 0");
         }
     }
 
@@ -156,17 +152,16 @@ impl Reader<'_> {
                 return self.effects.refuse(inertial, Fault::MissingElement(element));
             };
             for attribute in attributes {
-                let Some(value) = node.attribute(attribute) else {
-                    return self.effects.refuse(node, Fault::Missing(attribute));
-                };
-                self.number(value, part);
+                match node.attribute(attribute) {
+                    Some(value) if element == "mass" => self.number(value, part),
+                    Some(_) => {}
+                    None => return self.effects.refuse(node, Fault::Missing(attribute)),
+                }
             }
-        }
-        let inertia = inertial.child("inertia");
-        let products =
-            ["ixy", "ixz", "iyz"].map(|name| inertia.and_then(|node| node.attribute(name)));
-        for product in products.into_iter().flatten() {
-            self.number(product, part);
+            if element == "inertia" {
+                let makes = "that of its mass in the shape of its collisions";
+                self.effects.read_as(node, part, Fault::NeverRead("inertia".into()), makes);
+            }
         }
         Ok(())
     }
@@ -212,7 +207,7 @@ impl Reader<'_> {
         if material.children().any(|child| matches!(child.name(), "color" | "texture" | "specular"))
         {
             self.materials.insert(name.to_owned());
-            self.material(material, part);
+            self.material(material, &format!("{part}/material"));
         }
         Ok(())
     }
@@ -257,9 +252,8 @@ impl Reader<'_> {
 
     fn pose(&mut self, parent: Node<'_>, part: &str) {
         let Some(origin) = parent.child("origin") else { return };
-        let part = format!("{part}/origin");
         for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
-            self.vector(value, &part, "0 0 0");
+            self.vector(value, part, "0 0 0");
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
             self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
@@ -295,7 +289,7 @@ impl Reader<'_> {
         }
         self.name_fits(node, "joint", name)?;
         let part = format!("joint/{name}");
-        self.pose(node, &part);
+        self.pose(node, &format!("{part}/origin"));
         let parent = self.end(node, "parent")?;
         let child = self.end(node, "child")?;
         let Some(kind) = node.attribute("type") else {

@@ -11,7 +11,7 @@ pub(crate) struct Malformed {
     pub why: &'static str,
 }
 
-type Parsed<T> = Result<T, Malformed>;
+pub(crate) type Parsed<T> = Result<T, Malformed>;
 
 /// Parses a file. An element that is open and `max_depth` elements deep is refused.
 pub(crate) fn parse(bytes: &[u8], max_depth: usize) -> Parsed<Tree<'_>> {
