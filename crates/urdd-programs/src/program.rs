@@ -2,7 +2,7 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::unknown::{self, Names};
+use crate::unknown::{self, Names, Reads};
 use crate::{drake, pinocchio, pybullet, urdfdom};
 
 /// A program that reads URDFs.
@@ -138,17 +138,56 @@ impl Program {
         // What a reader refuses is among the effects.
         let _ = (self.facts().read)(file, &mut effects);
         if effects.loads() {
-            unknown::find(file.bytes, self.element_names(), &mut effects);
+            unknown::find(file.bytes, self.reads(), &mut effects);
         }
         effects
     }
 
-    /// Which names it takes for those of elements.
-    fn element_names(self) -> Names {
-        match self.id() {
+    /// What of URDF it reads at all.
+    fn reads(self) -> Reads {
+        let names = match self.id() {
             "urdf_loader" => Names::AnyCase,
             "urdf_rs" => Names::AnyPrefix,
             _ => Names::Exact,
-        }
+        };
+        let never: &[&str] = match self.id() {
+            "drake" => &[
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+            ],
+            "pinocchio" => &[
+                "mimic",
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+            ],
+            "pybullet" => &[
+                "mimic",
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+                "texture",
+                "inertia",
+                "ixx",
+                "ixy",
+                "ixz",
+                "iyy",
+                "iyz",
+                "izz",
+            ],
+            _ => &[],
+        };
+        Reads { names, never }
     }
 }

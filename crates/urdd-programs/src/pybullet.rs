@@ -88,6 +88,7 @@ impl Reader<'_> {
             if links.insert(name, link).is_some() {
                 return self.effects.refuse(link, Fault::not_unique("link", name));
             }
+            self.name_fits(link, "link", name)?;
             self.link(link, name)?;
         }
         if links.is_empty() {
@@ -131,6 +132,12 @@ impl Reader<'_> {
         match link.child("inertial") {
             Some(inertial) => self.inertial(inertial, &format!("{part}/inertial"))?,
             None if name == "world" => {}
+            None if name.contains("%s") || name.contains("%n") => {
+                let rule = "a warning about its missing inertial takes it for a format";
+                return self
+                    .effects
+                    .crash(link, Fault::Name { kind: "link", name: shortened(name), rule });
+            }
             None => {
                 let fault = Fault::MissingElement("inertial");
                 self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
@@ -435,9 +442,12 @@ impl Reader<'_> {
                 open.push(child);
             }
         }
+        let fault = Fault::Tree("it is in a loop, which the root does not reach");
         for (name, node) in links.iter().filter(|(name, _)| !reached.contains(*name)) {
-            let fault = Fault::Tree("the link is in a loop, which the root does not reach");
-            self.effects.drop(*node, format!("link/{name}"), fault);
+            self.effects.drop(*node, format!("link/{name}"), fault.clone());
+        }
+        for joint in joints.iter().filter(|joint| !reached.contains(joint.child)) {
+            self.effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
         }
         Ok(())
     }

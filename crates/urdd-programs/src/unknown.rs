@@ -6,6 +6,14 @@ use crate::fault::{Fault, shortened};
 use crate::tinyxml;
 use crate::tree::Node;
 
+/// What of URDF a program reads at all.
+#[derive(Clone, Copy)]
+pub(crate) struct Reads {
+    pub names: Names,
+    /// Elements and attributes that it never reads: nothing is lost with them.
+    pub never: &'static [&'static str],
+}
+
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Names {
@@ -38,8 +46,8 @@ const KNOWN: &[Known] = &[
     known("color", &["material"], &["rgba"]),
     known("texture", &["material"], &["filename"]),
     known("inertial", &["link"], &[]),
-    known("visual", &["link"], &["name"]),
-    known("collision", &["link"], &["name"]),
+    known("visual", &["link"], &[]),
+    known("collision", &["link"], &[]),
     known("origin", &["inertial", "visual", "collision", "joint"], &["xyz", "rpy", "quat_xyzw"]),
     known("mass", INERTIAL, &["value"]),
     known("inertia", INERTIAL, &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
@@ -93,7 +101,6 @@ const EXTENSIONS: &[&str] = &[
     "models",
     "plugin",
     "disable_collisions",
-    "group",
     "chain",
     "actuator",
     "motor",
@@ -124,54 +131,70 @@ const fn known(
 }
 
 /// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(bytes: &[u8], names: Names, effects: &mut Effects) {
+pub(crate) fn find(bytes: &[u8], reads: Reads, effects: &mut Effects) {
     let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
-    let mut finder = Finder { names, effects };
-    if let (Some(robot), Some(known)) =
-        (tree.tops().find(|top| top.name() == "robot"), of_name("robot"))
-    {
-        finder.attributes(robot, known, "robot");
-        finder.children(robot, known, "robot");
+    let mut finder = Finder { reads, effects };
+    let mut robots = tree.tops().filter(|top| top.name() == "robot");
+    if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
+        let place = Place { part: "robot".into(), owner: "robot".into() };
+        finder.attributes(robot, known, &place.part);
+        finder.children(robot, known, &place);
+    }
+    if let Some(second) = robots.next() {
+        finder.effects.drop(second, "robot/?", Fault::Repeated("robot".into()));
     }
 }
 
+/// Where an element stands.
+#[derive(Clone)]
+struct Place {
+    part: String,
+    /// The link, joint or material.
+    owner: String,
+}
+
 struct Finder<'r> {
-    names: Names,
+    reads: Reads,
     effects: &'r mut Effects,
 }
 
 impl Finder<'_> {
     /// What is in an element. Goes as deep as URDF does.
-    fn children(&mut self, node: Node<'_>, known: &Known, part: &str) {
+    fn children(&mut self, node: Node<'_>, known: &Known, place: &Place) {
         let (mut visuals, mut collisions) = (0, 0);
-        let mut before = None;
+        // What stands between links is of the one before, most likely.
+        let mut here = place.clone();
         for child in node.children() {
             let name = self.read_as(child.name());
-            let count = match name.as_str() {
+            let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
+            else {
+                self.unknown(node, child, known, &here);
+                continue;
+            };
+            let count = match kind.name {
                 "visual" => &mut visuals,
                 "collision" => &mut collisions,
                 _ => &mut 0,
             };
-            match of_name(&name).filter(|child| child.parents.contains(&known.name)) {
-                Some(kind) => {
-                    let part =
-                        part_of(part, &name, child.value("name").unwrap_or_default(), *count);
-                    *count += 1;
-                    self.attributes(child, kind, &part);
-                    self.children(child, kind, &part);
-                    if matches!(kind.name, "link" | "joint") {
-                        before = Some(part);
-                    }
-                }
-                // What stands between links is of the one before, most likely.
-                None => self.unknown(node, child, known, before.as_deref().unwrap_or(part)),
+            let part =
+                part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
+            *count += 1;
+            if self.reads.never.contains(&kind.name) {
+                continue;
+            }
+            let owner = if known.name == "robot" { &part } else { &place.owner };
+            let inside = Place { owner: owner.clone(), part };
+            self.attributes(child, kind, &inside.part);
+            self.children(child, kind, &inside);
+            if known.name == "robot" {
+                here = inside;
             }
         }
     }
 
     /// The name that a program takes a name for.
     fn read_as(&self, name: &str) -> String {
-        match self.names {
+        match self.reads.names {
             Names::Exact => name.to_owned(),
             Names::AnyCase => name.to_lowercase(),
             Names::AnyPrefix => without_prefix(name).to_owned(),
@@ -179,38 +202,40 @@ impl Finder<'_> {
     }
 
     /// An element that does not stand in its parent.
-    fn unknown(&mut self, parent: Node<'_>, node: Node<'_>, known: &Known, part: &str) {
+    fn unknown(&mut self, parent: Node<'_>, node: Node<'_>, known: &Known, place: &Place) {
         let name = node.name();
         if is_extension(name) {
             return;
         }
-        let like = meant_element(parent, name, known).or_else(|| {
-            let elsewhere = of_name(name).map(|one| one.name);
-            elsewhere.filter(|name| (*name, known.name) != ("material", "collision"))
-        });
-        let like = like.or_else(|| meant_attribute(parent, name, known));
-        match like {
-            Some(like) => {
-                self.add(node, part, Fault::UnknownElement { name: shortened(name), like })
+        if let Some(like) = meant_element(parent, name, known) {
+            let is_material = (known.name, like) == ("robot", "material");
+            let material = format!("material/{}", node.value("name").unwrap_or_default());
+            self.add(node, if is_material { &material } else { &place.part }, name, like);
+        } else if let Some(other) = of_name(name) {
+            if (other.name, known.name) != ("material", "collision") {
+                self.add(node, &place.owner, name, other.name);
             }
-            None if without_prefix(name) == name => self.wrapped(parent, node, known, part),
-            None => {}
+        } else if let Some(like) = meant_attribute(parent, name, known) {
+            self.add(node, &place.part, name, like);
+        } else if without_prefix(name) == name {
+            self.wrapped(parent, node, known, place);
         }
     }
 
     /// Elements that would be read outside of an unknown element.
-    fn wrapped(&mut self, parent: Node<'_>, wrapper: Node<'_>, known: &Known, part: &str) {
+    fn wrapped(&mut self, parent: Node<'_>, wrapper: Node<'_>, known: &Known, place: &Place) {
         for inner in wrapper.children() {
             let Some(kind) = of_name(inner.name()) else { continue };
             let is_whole = match kind.name {
-                "link" => SHOWN.iter().chain(&["inertial"]).any(|name| inner.child(name).is_some()),
+                "link" => ["inertial", "visual", "collision"]
+                    .iter()
+                    .any(|name| inner.child(name).is_some()),
                 "joint" => inner.attribute("type").is_some() && inner.child("parent").is_some(),
-                "material" => inner.children().next().is_some(),
+                "material" => inner.attribute("name").is_some(),
                 _ => true,
             };
             if is_whole && kind.parents.contains(&known.name) && would_be_read(parent, kind) {
-                let fault = Fault::UnknownElement { name: kind.name.to_owned(), like: kind.name };
-                self.add(inner, part, fault);
+                self.add(inner, &place.part, kind.name, kind.name);
             }
         }
     }
@@ -233,15 +258,19 @@ impl Finder<'_> {
                 near.find_map(|one| one.attributes.iter().copied().find(|one| *one == name))
             };
             let other = || other().filter(|name| !COMMON.contains(name));
-            if let Some(like) = own.or_else(other) {
+            let like = own.or_else(other).filter(|like| !self.reads.never.contains(like));
+            if let Some(like) = like {
                 let fault = Fault::UnknownAttribute { name: shortened(name), like };
                 self.effects.drop(attribute, format!("{part}/?"), fault);
             }
         }
     }
 
-    fn add(&mut self, node: Node<'_>, part: &str, fault: Fault) {
-        self.effects.drop(node, format!("{part}/?"), fault);
+    fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
+        if !self.reads.never.contains(&like) {
+            let fault = Fault::UnknownElement { name: shortened(name), like };
+            self.effects.drop(node, format!("{part}/?"), fault);
+        }
     }
 }
 

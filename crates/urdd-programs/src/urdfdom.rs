@@ -137,8 +137,11 @@ impl Reader<'_> {
 
     /// Whether a material has a colour or a texture.
     fn color(&mut self, material: Node<'_>, part: &str) -> bool {
-        let texture =
-            material.child("texture").is_some_and(|node| node.attribute("filename").is_some());
+        let texture = material.child("texture").and_then(|node| node.attribute("filename"));
+        if let Some(empty) = texture.filter(|filename| filename.value.is_empty()) {
+            self.effects.drop(empty, part, Fault::Empty("filename"));
+        }
+        let texture = texture.is_some();
         let color = material.child("color").and_then(|node| node.attribute("rgba"));
         let Some(rgba) = color else { return texture };
         let numbers =

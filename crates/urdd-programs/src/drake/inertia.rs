@@ -9,10 +9,11 @@ impl Reader<'_> {
     /// An inertial. One that no body can have is a solid sphere of water of its mass, or of 1 kg.
     pub(super) fn inertial(&mut self, inertial: Node<'_>, part: &str) -> Reading<()> {
         self.pose(inertial, part)?;
-        let mut mass = 0.0;
+        let mut written = None;
         if let Some(node) = inertial.child("mass") {
-            mass = self.number(node, "value", part)?.unwrap_or_default();
+            written = self.number(node, "value", part)?;
         }
+        let mass = written.unwrap_or_default();
         let mut tensor = [0.0; 6];
         if let Some(node) = inertial.child("inertia") {
             let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
@@ -29,6 +30,9 @@ impl Reader<'_> {
         } else if mass == 0.0 && tensor != [0.0; 6] {
             Fault::Other("the mass is 0 or missing, and the inertia is not 0")
         } else {
+            if written.is_none() {
+                self.effects.read_as(inertial, part, Fault::MissingElement("mass"), "no mass");
+            }
             return Ok(());
         };
         let mass = if mass > 0.0 { mass } else { 1.0 };

@@ -97,6 +97,10 @@ impl Reader<'_> {
             self.effects.drop(kind, part, Fault::value("type", "floating"));
             return Ok(());
         }
+        if child.value == WORLD {
+            let fault = Fault::Other("the child of the joint is the world of the program");
+            self.effects.read_as(child, &*part, fault, "a joint of the world");
+        }
         for unread in ["safety_controller", "calibration"] {
             if let Some(found) = node.child(unread) {
                 let fault = Fault::NeverRead(unread.into());
@@ -166,6 +170,10 @@ impl Reader<'_> {
             return Ok(f64::INFINITY);
         }
         if !matches!(kind, "revolute" | "continuous" | "prismatic") {
+            if let Some(dynamics) = dynamics.filter(|_| kind == "fixed") {
+                let fault = Fault::Other("a fixed joint has no dynamics");
+                self.effects.drop(dynamics, dynamics_part, fault);
+            }
             return Ok(f64::INFINITY);
         }
         let mut effort = f64::INFINITY;
@@ -279,7 +287,8 @@ impl Reader<'_> {
             return self.effects.refuse(place, fault);
         }
         if joint.effort == 0.0 {
-            self.effects.drop(of, part, Fault::Other("the joint's `effort` is 0"));
+            let fault = Fault::Other("a transmission of a joint with `effort` 0 is not read");
+            self.effects.drop(of, format!("joint/{}/limit", of.value), fault);
             return Ok(());
         }
         if !actuators.insert(&actuator_name.value) {

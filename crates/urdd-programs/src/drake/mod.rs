@@ -79,8 +79,10 @@ impl Reader<'_> {
             let part = format!("link/{name}");
             let inertial = self.first(link, "inertial", &format!("{part}/inertial"));
             if name == WORLD {
+                let fault = Fault::Other("a link `world` is the world of the program");
+                self.effects.read_as(link, &*part, fault, "the world");
                 if let Some(inertial) = inertial {
-                    let fault = Fault::Other("the link `world` is the program's own");
+                    let fault = Fault::NeverRead("inertial".into());
                     self.effects.drop(inertial, format!("{part}/inertial"), fault);
                 }
             } else {

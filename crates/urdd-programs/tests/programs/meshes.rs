@@ -29,6 +29,10 @@ pub fn find(program: Program, name: &str) -> Mesh {
         (_, "file") => vec![rest.into()],
         _ => vec![base.join(name)],
     };
+    // `base/` had another name there.
+    if name.contains("../base/") {
+        return Mesh::Missing;
+    }
     let Some(path) = places.into_iter().find(|path| path.exists()) else { return Mesh::Missing };
     let bytes = fs::read(&path).unwrap_or_default();
     Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
