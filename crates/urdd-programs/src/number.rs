@@ -35,20 +35,6 @@ pub(crate) fn whole(read: Read<'_>) -> Option<f64> {
     read.filter(|(_, rest)| rest.is_empty()).map(|(number, _)| number)
 }
 
-/// Whether what follows a number is part of the number that a person means: `1,5`, `1_000`, `1/2`, `0x1`. A unit, or
-/// another number, is not.
-pub(crate) fn continues(number: &str, rest: &str) -> bool {
-    let mut behind = rest.chars();
-    let (first, second) = (behind.next(), behind.next());
-    let has_digit = second.is_some_and(|second| second.is_ascii_digit());
-    match first {
-        Some(',') => has_digit && !number.contains('.'),
-        Some('_' | '\'' | '.' | '/' | '*' | '^' | '#') => true,
-        Some('x' | 'X' | 'e' | 'E' | 'd' | 'D') => has_digit || matches!(second, Some('+' | '-')),
-        _ => false,
-    }
-}
-
 /// Digits with an optional point and exponent.
 fn decimal(text: &str) -> Read<'_> {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::number::{continues, is_space, istream};
+use crate::number::{is_space, istream};
 use crate::tinyxml;
 use crate::tree::{Attribute, Node};
 
@@ -220,10 +220,9 @@ impl Reader<'_> {
     /// As many numbers as the text begins with: what follows them is left out.
     fn numbers(&mut self, value: &Attribute<'_>, count: usize, part: &str) -> Reading<Vec<f64>> {
         let text = &*value.value;
-        let (mut numbers, mut rest, mut last) = (Vec::new(), text, "");
+        let (mut numbers, mut rest) = (Vec::new(), text);
         while let Some((number, behind)) = istream(rest) {
             numbers.push(number);
-            last = &rest[..rest.len() - behind.len()];
             rest = behind;
         }
         let is_only_numbers = rest.trim_start_matches(is_space).is_empty();
@@ -234,7 +233,7 @@ impl Reader<'_> {
             };
             return self.effects.refuse(value, fault);
         }
-        if continues(last, rest) {
+        if !is_only_numbers {
             let fault = Fault::not_a_number(&value.name, text);
             let read: Vec<String> = numbers.iter().map(f64::to_string).collect();
             self.effects.read_as(value, part, fault, read.join(" "));
