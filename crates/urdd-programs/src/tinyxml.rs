@@ -225,7 +225,7 @@ fn is_name(byte: u8) -> bool {
     is_name_start(byte) || byte.is_ascii_digit() || matches!(byte, b'.' | b'-')
 }
 
-/// Text with its entities and ends of lines replaced.
+/// Text with its entities and ends of lines replaced, up to a NUL.
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let text = String::from_utf8_lossy(bytes);
     if !text.contains(['&', '\r', '\n']) {
@@ -241,6 +241,9 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
             [b'\r' | b'\n', ..] => ('\n', 1),
             _ => entity(rest).unwrap_or(('&', 1)),
         };
+        if replaced == '\0' {
+            return Cow::Owned(out);
+        }
         out.push(replaced);
         rest = &rest[length..];
     }
@@ -260,11 +263,17 @@ fn entity(text: &str) -> Option<(char, usize)> {
         "gt" => '>',
         other => {
             let number = other.strip_prefix('#')?;
-            let code = match number.strip_prefix('x') {
-                Some(digits) => u32::from_str_radix(digits, 16),
-                None => number.parse(),
+            let (digits, radix) = match number.strip_prefix('x') {
+                Some(digits) => (digits, 16),
+                None => (number, 10),
             };
-            char::from_u32(code.ok()?)?
+            if !digits.chars().all(|digit| digit.is_digit(radix)) {
+                return None;
+            }
+            // No digits are 0, where the text ends.
+            let code =
+                if digits.is_empty() { 0 } else { u32::from_str_radix(digits, radix).ok()? };
+            char::from_u32(code)?
         }
     };
     Some((character, end + 1))

@@ -13,6 +13,8 @@ use crate::{tinyxml, tinyxml1};
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;
 
+const NO_COLOR: &str = "the material has no colour and no texture";
+
 /// Which urdfdom.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Release {
@@ -93,7 +95,26 @@ pub(crate) fn model<'t>(
     let joints = reader.joints(robot)?;
     let model = Model { robot, links, joints };
     reader.tree(robot, &model)?;
+    if release == Release::Four {
+        formats(effects)?;
+    }
     Ok(model)
+}
+
+/// Before 5.1 messages are formats of `printf`: a text in one that has `%s` or `%n` crashes.
+fn formats(effects: &mut Effects) -> Reading<()> {
+    let is_format = |text: &str| text.contains("%s") || text.contains("%n");
+    let found = effects.0.iter().find(|effect| {
+        let is_named = effect.fault == Fault::Other(NO_COLOR) && is_format(&effect.part);
+        is_named || is_format(&effect.fault.to_string())
+    });
+    match found.map(|effect| effect.at) {
+        Some(at) => {
+            let why = "the message about it takes its `%s` or `%n` for a format";
+            effects.crash(at, Fault::Other(why))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Two whole numbers with a point between them.
@@ -125,7 +146,7 @@ impl Reader<'_> {
             if material.attribute("name").is_none() {
                 self.effects.drop(material, part, Fault::Missing("name"));
             } else if !self.color(material, &part) {
-                let fault = Fault::Other("the material has no colour and no texture");
+                let fault = Fault::Other(NO_COLOR);
                 self.effects.read_as(material, part, fault, "black");
             }
             if !self.materials.insert(name.to_owned()) {
