@@ -69,8 +69,8 @@ impl Reader<'_> {
         if self.is_ignored(node) {
             return Ok(());
         }
-        let name = self.needed(node, "name")?;
-        let kind = self.needed(node, "type")?;
+        let name = self.effects.needed(node, "name")?;
+        let kind = self.effects.needed(node, "type")?;
         let (parent, child) = (self.end(node, "parent")?, self.end(node, "child")?);
         let part = format!("joint/{}", name.value);
         for (value, attribute) in
@@ -93,6 +93,9 @@ impl Reader<'_> {
         let Some(freedoms) = freedoms(&kind.value, node.name() == "drake:joint") else {
             return self.effects.refuse(kind, Fault::value("type", &kind.value));
         };
+        if kind.value == "screw" {
+            self.effects.needed_element(node, "drake:screw_thread_pitch")?;
+        }
         if kind.value == "floating" {
             self.effects.drop(kind, part, Fault::value("type", "floating"));
             return Ok(());
@@ -133,10 +136,8 @@ impl Reader<'_> {
 
     /// The name of a joint's parent or child.
     fn end<'t>(&mut self, joint: Node<'t>, name: &'static str) -> Reading<&'t Attribute<'t>> {
-        match joint.child(name) {
-            Some(end) => self.needed(end, "link"),
-            None => self.effects.refuse(joint, Fault::MissingElement(name)),
-        }
+        let end = self.effects.needed_element(joint, name)?;
+        self.effects.needed(end, "link")
     }
 
     fn axis(&mut self, joint: Node<'_>, part: &str) -> Reading<()> {
@@ -229,7 +230,7 @@ impl Reader<'_> {
     fn mimic<'t>(&mut self, node: Node<'t>, model: &Model<'_, 't>) -> Reading<()> {
         let Some(mimic) = node.child("mimic") else { return Ok(()) };
         let name = node.value("name").unwrap_or_default();
-        let of = self.needed(mimic, "joint")?;
+        let of = self.effects.needed(mimic, "joint")?;
         let Some(leader) = model.joints.get(&*of.value) else {
             return self.effects.refuse(of, Fault::unknown("joint", &of.value));
         };
@@ -263,17 +264,16 @@ impl Reader<'_> {
                 Some(text) => text,
                 None => return self.effects.crash(kind, Fault::Other("`<type>` has no text")),
             },
-            None => &*self.needed(node, "type")?.value,
+            None => &*self.effects.needed(node, "type")?.value,
         };
         if !kind.contains("SimpleTransmission") {
             self.effects.drop(node, part, Fault::Other("only a SimpleTransmission is read"));
             return Ok(());
         }
-        let mut named = |name| match node.child(name) {
-            Some(found) => Ok((found, self.needed(found, "name")?)),
-            None => self.effects.refuse(node, Fault::MissingElement(name)),
-        };
-        let ((actuator, actuator_name), (_, of)) = (named("actuator")?, named("joint")?);
+        let actuator = self.effects.needed_element(node, "actuator")?;
+        let actuator_name = self.effects.needed(actuator, "name")?;
+        let of = self.effects.needed_element(node, "joint")?;
+        let of = self.effects.needed(of, "name")?;
         let Some(joint) = model.joints.get_mut(&*of.value) else {
             return self.effects.refuse(of, Fault::unknown("joint", &of.value));
         };
@@ -291,6 +291,10 @@ impl Reader<'_> {
             self.effects.drop(of, format!("joint/{}/limit", of.value), fault);
             return Ok(());
         }
+        if joint.freedoms > 1 {
+            let fault = Fault::Other("a joint with several degrees of freedom has a transmission");
+            return self.effects.refuse(of, fault);
+        }
         if !actuators.insert(&actuator_name.value) {
             let fault = Fault::not_unique("actuator", &actuator_name.value);
             return self.effects.refuse(actuator_name, fault);
@@ -304,7 +308,7 @@ impl Reader<'_> {
         for (element, names) in extensions {
             let Some(found) = actuator.child(element) else { continue };
             for name in names {
-                let value = self.needed(found, name)?;
+                let value = self.effects.needed(found, name)?;
                 let number = self.numbers(value, 1, &part)?;
                 if names.len() == 2 && number.iter().any(|number| *number < 0.0) {
                     return self.negative(value);
@@ -315,7 +319,8 @@ impl Reader<'_> {
     }
 
     fn frame<'t>(&mut self, frame: Node<'t>, model: &mut Model<'_, 't>) -> Reading<()> {
-        let (name, link) = (self.needed(frame, "name")?, self.needed(frame, "link")?);
+        let (name, link) =
+            (self.effects.needed(frame, "name")?, self.effects.needed(frame, "link")?);
         if link.value != WORLD && !model.links.contains_key(&*link.value) {
             return self.effects.refuse(link, Fault::unknown("link", &link.value));
         }

@@ -5,7 +5,7 @@ mod inertia;
 mod joints;
 mod shapes;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
@@ -57,7 +57,7 @@ type Links<'t> = HashMap<&'t str, Node<'t>>;
 impl Reader<'_> {
     /// The name of the robot or of a link. Empty, it ends the process in C++.
     fn named<'t>(&mut self, node: Node<'t>, kind: &'static str) -> Reading<&'t str> {
-        let name = self.needed(node, "name")?;
+        let name = self.effects.needed(node, "name")?;
         let rule = "the program keeps this name for itself";
         match &*name.value {
             "" => self.effects.refuse(name, Fault::Empty("name")),
@@ -103,12 +103,20 @@ impl Reader<'_> {
     }
 
     fn collision_filters(&mut self, robot: Node<'_>, links: &Links<'_>) -> Reading<()> {
-        for group in robot.named("drake:collision_filter_group") {
-            self.needed(group, "name")?;
+        let groups = || robot.named("drake:collision_filter_group");
+        let names: HashSet<&str> = groups().filter_map(|group| group.value("name")).collect();
+        for group in groups() {
+            self.effects.needed(group, "name")?;
             for member in group.named("drake:member") {
-                let link = self.needed(member, "link")?;
+                let link = self.effects.needed(member, "link")?;
                 if !links.contains_key(&*link.value) {
                     return self.effects.refuse(link, Fault::unknown("link", &link.value));
+                }
+            }
+            for ignored in group.named("drake:ignored_collision_filter_group") {
+                let name = self.effects.needed(ignored, "name")?;
+                if !names.contains(&*name.value) {
+                    return self.effects.refuse(name, Fault::unknown("group", &name.value));
                 }
             }
         }
@@ -141,7 +149,7 @@ impl Reader<'_> {
         }
         let mut color = None;
         if let Some(of) = node.child("color") {
-            let rgba = self.needed(of, "rgba")?;
+            let rgba = self.effects.needed(of, "rgba")?;
             color = Some((rgba.range.start, self.numbers(rgba, 4, "material")?));
         }
         if name.is_empty() {
@@ -192,13 +200,6 @@ impl Reader<'_> {
             self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
         }
         Ok(())
-    }
-
-    fn needed<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<&'t Attribute<'t>> {
-        match node.attribute(name) {
-            Some(value) => Ok(value),
-            None => self.effects.refuse(node, Fault::Missing(name)),
-        }
     }
 
     /// A number that may be left out.

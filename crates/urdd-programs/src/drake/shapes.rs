@@ -22,9 +22,7 @@ const SHAPES: [(&str, &[&str]); 7] = [
 
 impl Reader<'_> {
     pub(super) fn shape(&mut self, shape: Node<'_>, part: &str) -> Reading<()> {
-        let Some(geometry) = shape.child("geometry") else {
-            return self.effects.refuse(shape, Fault::MissingElement("geometry"));
-        };
+        let geometry = self.effects.needed_element(shape, "geometry")?;
         self.pose(shape, part)?;
         let known = SHAPES.iter().find_map(|(name, sizes)| Some((geometry.child(name)?, *sizes)));
         let Some((form, sizes)) = known else {
@@ -34,7 +32,7 @@ impl Reader<'_> {
             };
         };
         for name in sizes {
-            let value = self.needed(form, name)?;
+            let value = self.effects.needed(form, name)?;
             let count = if *name == "size" { 3 } else { 1 };
             let numbers = self.numbers(value, count, part)?;
             let may_be_zero = form.name() == "sphere";
@@ -72,7 +70,7 @@ impl Reader<'_> {
     }
 
     fn mesh(&mut self, mesh: Node<'_>, part: &str, is_collision: bool) -> Reading<()> {
-        let filename = self.needed(mesh, "filename")?;
+        let filename = self.effects.needed(mesh, "filename")?;
         let facts = self.found(filename)?;
         if let Some(scale) = mesh.attribute("scale") {
             // One number stands for all three.

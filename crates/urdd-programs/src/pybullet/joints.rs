@@ -85,7 +85,7 @@ impl Reader<'_> {
         name: &'static str,
         links: &Links<'_>,
     ) -> Reading<&'t str> {
-        let end = self.needed_element(joint, name)?;
+        let end = self.effects.needed_element(joint, name)?;
         match end.value("link") {
             Some("") => self.effects.refuse(end, Fault::Empty("link")),
             Some(link) if links.places.contains_key(link) => Ok(link),

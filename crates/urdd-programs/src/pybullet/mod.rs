@@ -25,7 +25,7 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let lines = lines::Lines::of(file.bytes);
     let reading = read_lines(file, &lines.bytes, effects);
     for effect in &mut effects.0 {
-        effect.at = lines.place(effect.at);
+        effect.at = lines.place(effect.at).min(file.bytes.len());
     }
     reading
 }
@@ -94,27 +94,13 @@ impl Reader<'_> {
 
     /// The name of the robot, of a link or of a joint.
     fn named<'t>(&mut self, node: Node<'t>, kind: &'static str) -> Reading<&'t str> {
-        let name = &*self.needed(node, "name")?.value;
+        let name = &*self.effects.needed(node, "name")?.value;
         let longest = LONGEST_NAMES.iter().find(|(one, _)| *one == kind);
         if longest.is_some_and(|(_, longest)| name.len() > *longest) {
             let fault = Fault::Name { kind, name: shortened(name), rule: "the name is too long" };
             return self.effects.crash(node, fault);
         }
         Ok(name)
-    }
-
-    fn needed<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<&'t Attribute<'t>> {
-        match node.attribute(name) {
-            Some(value) => Ok(value),
-            None => self.effects.refuse(node, Fault::Missing(name)),
-        }
-    }
-
-    fn needed_element<'t>(&mut self, node: Node<'t>, name: &'static str) -> Reading<Node<'t>> {
-        match node.child(name) {
-            Some(child) => Ok(child),
-            None => self.effects.refuse(node, Fault::MissingElement(name)),
-        }
     }
 
     fn material(&mut self, material: Node<'_>, part: &str) {
@@ -153,7 +139,7 @@ impl Reader<'_> {
         let contact = link.child("contact");
         for of in contact.into_iter().flat_map(Node::children) {
             if CONTACT.contains(&of.name()) {
-                self.needed(of, "value")?;
+                self.effects.needed(of, "value")?;
             }
         }
         let mut data = link.named("bullet").flat_map(|bullet| bullet.named("user-data"));
@@ -165,12 +151,12 @@ impl Reader<'_> {
 
     fn inertial(&mut self, inertial: Node<'_>, part: &str) -> Reading<()> {
         self.pose(inertial, part);
-        let mass = self.needed_element(inertial, "mass")?;
-        let mass = self.needed(mass, "value")?;
+        let mass = self.effects.needed_element(inertial, "mass")?;
+        let mass = self.effects.needed(mass, "value")?;
         self.number(mass, part);
-        let inertia = self.needed_element(inertial, "inertia")?;
+        let inertia = self.effects.needed_element(inertial, "inertia")?;
         for name in ["ixx", "iyy", "izz"] {
-            self.needed(inertia, name)?;
+            self.effects.needed(inertia, name)?;
         }
         let makes = "that of its mass in the shape of its collisions";
         self.effects.read_as(inertia, part, Fault::NeverRead("inertia".into()), makes);

@@ -12,7 +12,7 @@ const FOLDERS: usize = 8;
 impl Reader<'_> {
     pub(super) fn shape(&mut self, shape: Node<'_>, part: &str) -> Reading<()> {
         self.pose(shape, part);
-        let geometry = self.needed_element(shape, "geometry")?;
+        let geometry = self.effects.needed_element(shape, "geometry")?;
         let Some(form) = geometry.children().next() else {
             return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
         };
@@ -25,7 +25,7 @@ impl Reader<'_> {
             other => return self.effects.refuse(form, Fault::Shape(shortened(other))),
         };
         for &name in needed {
-            let value = self.needed(form, name)?;
+            let value = self.effects.needed(form, name)?;
             match name {
                 "size" => self.vector(value, part),
                 "radius" | "length" => self.number(value, part),
@@ -35,7 +35,7 @@ impl Reader<'_> {
         }
         let material = shape.child("material").filter(|_| shape.name() == "visual");
         let Some(material) = material else { return Ok(()) };
-        let name = &*self.needed(material, "name")?.value;
+        let name = &*self.effects.needed(material, "name")?.value;
         let part = format!("{part}/material");
         self.material(material, &part);
         let first = self.materials.get(name);
