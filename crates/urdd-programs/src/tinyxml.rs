@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use crate::tree::{Attribute, Element, Tree};
+use crate::tree::{Attribute, Element, Tree, repeated};
 
 /// Why a document is refused.
 pub(crate) struct Malformed {
@@ -143,6 +143,9 @@ impl<'a> Parser<'a> {
             return self.refuse(start, "`<` is not followed by a name");
         };
         let (attributes, is_empty) = self.attributes()?;
+        if let Some(second) = repeated(&attributes) {
+            return self.refuse(second, "an attribute stands twice in one element");
+        }
         // `</name/>` is an empty element.
         if closes && !is_empty {
             let Some((open, _)) = self.open.pop() else { return Ok(true) };
@@ -204,9 +207,6 @@ impl<'a> Parser<'a> {
             };
             self.at += 1;
             let value = self.until(&quote, "the value of an attribute is not closed")?;
-            if attributes.iter().any(|one| one.name == name) {
-                return self.refuse(start, "an attribute stands twice in one element");
-            }
             attributes.push(Attribute { name, value: decoded(value), range: start..self.at });
         }
     }

@@ -147,7 +147,7 @@ impl Reader<'_> {
         };
         let squares = self.numbers(xyz, 3, part)?.iter().map(|number| number * number).sum::<f64>();
         if squares.sqrt() < 1e-8 || squares.is_infinite() {
-            let fault = Fault::range("xyz", &xyz.value, "an axis has no length 0");
+            let fault = Fault::range("xyz", &xyz.value, "an axis needs a length");
             return self.effects.refuse(xyz, fault);
         }
         Ok(())
@@ -199,8 +199,8 @@ impl Reader<'_> {
                 }
             }
             if kind == "continuous" && (lower.is_some() || upper.is_some()) {
-                let fault = Fault::Other("a continuous joint has `lower` or `upper`");
-                self.effects.read_as(limit, limit_part, fault, "limits of the position");
+                let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
+                self.effects.read_as(limit, limit_part, fault, "a limited joint");
             }
         }
         if let Some(dynamics) = dynamics {
@@ -235,7 +235,7 @@ impl Reader<'_> {
             return self.effects.refuse(of, Fault::unknown("joint", &of.value));
         };
         if of.value == name {
-            return self.effects.refuse(of, Fault::Other("a joint mimics itself"));
+            return self.effects.refuse(of, Fault::Other("the joint mimics itself"));
         }
         let part = format!("joint/{name}/mimic");
         self.number(mimic, "multiplier", &part)?;

@@ -145,7 +145,7 @@ impl Reader<'_> {
         let texture = node.child("texture").and_then(|texture| texture.attribute("filename"));
         let texture = texture.filter(|filename| !filename.value.is_empty());
         if let Some(filename) = texture {
-            self.found(filename)?;
+            self.found(filename, "the file of the texture was not found")?;
         }
         let mut color = None;
         if let Some(of) = node.child("color") {

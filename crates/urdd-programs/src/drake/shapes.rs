@@ -71,7 +71,7 @@ impl Reader<'_> {
 
     fn mesh(&mut self, mesh: Node<'_>, part: &str, is_collision: bool) -> Reading<()> {
         let filename = self.effects.needed(mesh, "filename")?;
-        let facts = self.found(filename)?;
+        let facts = self.found(filename, "the file of the mesh was not found")?;
         if let Some(scale) = mesh.attribute("scale") {
             // One number stands for all three.
             let count = if scale.value.contains(' ') { 3 } else { 1 };
@@ -107,7 +107,11 @@ impl Reader<'_> {
     }
 
     /// What is in a file that must be there; none if it is not known.
-    pub(super) fn found(&mut self, filename: &Attribute<'_>) -> Reading<Option<Arc<MeshFacts>>> {
+    pub(super) fn found(
+        &mut self,
+        filename: &Attribute<'_>,
+        missing: &'static str,
+    ) -> Reading<Option<Arc<MeshFacts>>> {
         let name = &*filename.value;
         let mesh = match uri(name) {
             Some(("file", _, path)) => self.file.mesh(&format!("file:///{path}")),
@@ -119,7 +123,7 @@ impl Reader<'_> {
         match mesh {
             Mesh::Unknown => Ok(None),
             Mesh::Found(facts) => Ok(Some(facts)),
-            Mesh::Missing => self.effects.refuse(filename, Fault::Mesh("the file was not found")),
+            Mesh::Missing => self.effects.refuse(filename, Fault::Mesh(missing)),
         }
     }
 }

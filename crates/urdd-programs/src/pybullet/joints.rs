@@ -110,7 +110,7 @@ impl Reader<'_> {
         }
         self.vector(xyz, part);
         if pieces[..3].iter().all(|piece| atof(piece) == 0.0) {
-            let fault = Fault::range("xyz", &xyz.value, "an axis has no length 0");
+            let fault = Fault::range("xyz", &xyz.value, "an axis needs a length");
             self.effects.read_as(xyz, part, fault, "nan");
         }
         Ok(())

@@ -5,7 +5,7 @@ mod joints;
 mod lines;
 mod shapes;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
@@ -62,20 +62,26 @@ struct Links<'t> {
 impl Reader<'_> {
     fn robot(&mut self, robot: Node<'_>) -> Reading<()> {
         self.named(robot, "robot")?;
-        let mut names = HashSet::new();
         for material in robot.named("material") {
             let name = material.value("name").unwrap_or_default();
             let part = format!("material/{name}");
-            match names.insert(name) {
-                true => self.material(material, &part),
-                false => self.effects.drop(material, part, Fault::not_unique("material", name)),
+            match self.materials.get(name) {
+                Some(first) if *first == rgba(material) => {}
+                Some(_) => {
+                    self.effects.drop(material, part, Fault::not_unique("material", name));
+                }
+                None => {
+                    self.material(material, &part);
+                    self.materials.insert(name.to_owned(), rgba(material).to_owned());
+                }
             }
         }
         let visuals = robot.named("link").flat_map(|link| link.named("visual"));
-        let of_visuals = visuals.filter_map(|visual| visual.child("material"));
-        for material in robot.named("material").chain(of_visuals.filter(|one| is_defined(*one))) {
-            let name = material.value("name").unwrap_or_default();
-            self.materials.entry(name.to_owned()).or_insert_with(|| rgba(material).to_owned());
+        for material in visuals.filter_map(|visual| visual.child("material")) {
+            if is_defined(material) {
+                let name = material.value("name").unwrap_or_default().to_owned();
+                self.materials.entry(name).or_insert_with(|| rgba(material).to_owned());
+            }
         }
         let mut links = Links::default();
         for link in robot.named("link") {
