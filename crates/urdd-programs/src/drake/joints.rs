@@ -59,7 +59,7 @@ impl Reader<'_> {
             let limit = idle.and_then(|joint| joint.node.child("limit"));
             if let Some(effort) = limit.and_then(|limit| limit.attribute("effort")) {
                 let fault = Fault::Other("`effort` is read only for a joint with a transmission");
-                self.effects.read_as(effort, format!("joint/{name}/limit"), fault, "no effort");
+                self.effects.read_as(effort, format!("joint/{name}/limit"), fault, "no motor");
             }
         }
         Ok(())
@@ -115,11 +115,26 @@ impl Reader<'_> {
             return self.effects.refuse(child, Fault::Tree("a joint has one link on both sides"));
         }
         let joint = Joint { node, freedoms, effort, is_driven: freedoms == 0 };
+        self.add(joint, name, &kind.value, model)?;
+        match model.connect(&parent.value, &child.value) {
+            true => Ok(()),
+            false => self.effects.refuse(node, Fault::Tree("the joint closes a loop")),
+        }
+    }
+
+    /// Adds a joint and its frames, whose names must be new.
+    fn add<'t>(
+        &mut self,
+        joint: Joint<'t>,
+        name: &'t Attribute<'t>,
+        kind: &str,
+        model: &mut Model<'_, 't>,
+    ) -> Reading<()> {
         if model.joints.insert(&name.value, joint).is_some() {
             return self.effects.refuse(name, Fault::not_unique("joint", &name.value));
         }
         model.names.push(&name.value);
-        let ends: &[&str] = if kind.value == "planar" { &["parent", "child"] } else { &["parent"] };
+        let ends: &[&str] = if kind == "planar" { &["parent", "child"] } else { &["parent"] };
         for end in ends {
             let frame = format!("{}_{end}", name.value);
             if !model.frames.insert(frame) {
@@ -128,10 +143,7 @@ impl Reader<'_> {
                 return self.effects.refuse(name, fault);
             }
         }
-        match model.connect(&parent.value, &child.value) {
-            true => Ok(()),
-            false => self.effects.refuse(node, Fault::Tree("the joint closes a loop")),
-        }
+        Ok(())
     }
 
     /// The name of a joint's parent or child.
@@ -158,68 +170,79 @@ impl Reader<'_> {
         let (limit_part, dynamics_part) = (format!("{part}/limit"), format!("{part}/dynamics"));
         let limit = self.first(joint, "limit", &limit_part);
         let dynamics = self.first(joint, "dynamics", &dynamics_part);
-        if kind == "planar" {
-            if let Some(damping) = dynamics.and_then(|node| node.attribute("damping"))
-                && self.numbers(damping, 3, &dynamics_part)?.iter().any(|number| *number < 0.0)
-            {
-                return self.negative(damping);
-            }
-            if let Some(limit) = limit {
-                let fault = Fault::Other("limits of planar joints are not read");
-                self.effects.drop(limit, limit_part, fault);
-            }
-            return Ok(f64::INFINITY);
-        }
-        if !matches!(kind, "revolute" | "continuous" | "prismatic") {
-            if let Some(dynamics) = dynamics.filter(|_| kind == "fixed") {
-                let fault = Fault::Other("a fixed joint has no dynamics");
-                self.effects.drop(dynamics, dynamics_part, fault);
-            }
-            return Ok(f64::INFINITY);
-        }
         let mut effort = f64::INFINITY;
-        if let Some(limit) = limit {
-            let mut number = |name| self.number(limit, name, &limit_part);
-            let (lower, upper) = (number("lower")?, number("upper")?);
-            let others = [number("velocity")?, number("drake:acceleration")?];
-            effort = number("effort")?.unwrap_or(effort);
-            for (name, value) in ["velocity", "drake:acceleration"].into_iter().zip(others) {
-                if value.is_some_and(|value| value < 0.0)
-                    && let Some(value) = limit.attribute(name)
+        match kind {
+            "revolute" | "continuous" | "prismatic" => {
+                if let Some(limit) = limit {
+                    effort = self.limit(limit, kind, &limit_part)?.unwrap_or(effort);
+                }
+                if let Some(dynamics) = dynamics {
+                    self.dynamics(dynamics, &dynamics_part)?;
+                }
+            }
+            "planar" => {
+                if let Some(damping) = dynamics.and_then(|node| node.attribute("damping"))
+                    && self.numbers(damping, 3, &dynamics_part)?.iter().any(|number| *number < 0.0)
                 {
-                    return self.negative(value);
+                    return self.negative(damping);
+                }
+                if let Some(limit) = limit {
+                    let fault = Fault::Other("limits of planar joints are not read");
+                    self.effects.drop(limit, limit_part, fault);
                 }
             }
-            if lower > upper && lower.is_some() && upper.is_some() {
-                return self.effects.refuse(limit, Fault::Other("`lower` is above `upper`"));
-            }
-            for (name, value) in [("lower", lower), ("upper", upper)] {
-                if value.is_none() && kind != "continuous" {
-                    self.effects.read_as(limit, &*limit_part, Fault::Missing(name), "no limit");
+            "fixed" => {
+                if let Some(dynamics) = dynamics {
+                    let fault = Fault::Other("a fixed joint has no dynamics");
+                    self.effects.drop(dynamics, dynamics_part, fault);
                 }
             }
-            if kind == "continuous" && (lower.is_some() || upper.is_some()) {
-                let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
-                self.effects.read_as(limit, limit_part, fault, "a limited joint");
-            }
-        }
-        if let Some(dynamics) = dynamics {
-            let damping = self.number(dynamics, "damping", &dynamics_part)?;
-            if let Some(value) = dynamics.attribute("damping")
-                && damping.is_some_and(|damping| damping < 0.0)
-            {
-                return self.negative(value);
-            }
-            self.number(dynamics, "coulomb_window", &dynamics_part)?;
-            let friction = self.number(dynamics, "friction", &dynamics_part)?;
-            if let Some(value) = dynamics.attribute("friction")
-                && friction.is_some_and(|friction| friction != 0.0)
-            {
-                let fault = Fault::NeverRead("friction".into());
-                self.effects.read_as(value, dynamics_part, fault, "no friction");
-            }
+            _ => {}
         }
         Ok(effort)
+    }
+
+    fn limit(&mut self, limit: Node<'_>, kind: &str, part: &str) -> Reading<Option<f64>> {
+        let mut number = |name| self.number(limit, name, part);
+        let (lower, upper, effort) = (number("lower")?, number("upper")?, number("effort")?);
+        for name in ["velocity", "drake:acceleration"] {
+            self.not_negative(limit, name, part)?;
+        }
+        if let (Some(lower), Some(upper)) = (lower, upper)
+            && lower > upper
+        {
+            return self.effects.refuse(limit, Fault::Other("`lower` is above `upper`"));
+        }
+        for (name, value) in [("lower", lower), ("upper", upper)] {
+            if value.is_none() && kind != "continuous" {
+                self.effects.read_as(limit, part, Fault::Missing(name), "no limit");
+            }
+        }
+        if kind == "continuous" && (lower.is_some() || upper.is_some()) {
+            let fault = Fault::Other("a continuous joint is limited by `lower` and `upper`");
+            self.effects.read_as(limit, part, fault, "a limited joint");
+        }
+        Ok(effort)
+    }
+
+    fn dynamics(&mut self, dynamics: Node<'_>, part: &str) -> Reading<()> {
+        self.not_negative(dynamics, "damping", part)?;
+        self.number(dynamics, "coulomb_window", part)?;
+        let friction = self.number(dynamics, "friction", part)?;
+        if let Some(value) = dynamics.attribute("friction")
+            && friction.is_some_and(|friction| friction != 0.0)
+        {
+            self.effects.read_as(value, part, Fault::NeverRead("friction".into()), "no friction");
+        }
+        Ok(())
+    }
+
+    fn not_negative(&mut self, node: Node<'_>, name: &str, part: &str) -> Reading<()> {
+        let Some(value) = node.attribute(name) else { return Ok(()) };
+        match self.numbers(value, 1, part)?.iter().any(|number| *number < 0.0) {
+            true => self.negative(value),
+            false => Ok(()),
+        }
     }
 
     fn negative<T>(&mut self, value: &Attribute<'_>) -> Reading<T> {
