@@ -4,6 +4,7 @@
 //! A *reader* is a model of one program's way to read, one file a program, and is held to that program by
 //! `tests/figures/programs`. A reader takes any bytes.
 
+mod drake;
 mod effect;
 mod fault;
 mod file;
@@ -22,5 +23,5 @@ mod urdfdom;
 pub use effect::{Deed, Effect, Effects};
 pub use fault::Fault;
 pub use file::File;
-pub use mesh::{Mesh, MeshFacts};
+pub use mesh::{ColladaFacts, Format, Measures, Mesh, MeshFacts, ObjFacts, StlFacts};
 pub use program::Program;

@@ -3,7 +3,7 @@
 use crate::effect::{Effects, Reading};
 use crate::file::File;
 use crate::unknown::{self, Names, Reads};
-use crate::{pinocchio, pybullet, urdfdom};
+use crate::{drake, pinocchio, pybullet, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,6 +16,8 @@ pub enum Program {
     Urdfdom3,
     /// Pinocchio.
     Pinocchio,
+    /// Drake.
+    Drake,
     /// `PyBullet`.
     PyBullet,
 }
@@ -53,11 +55,12 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 5] = [
+    pub const ALL: [Program; 6] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
         Program::Pinocchio,
+        Program::Drake,
         Program::PyBullet,
     ];
 
@@ -87,6 +90,9 @@ impl Program {
                 version: "4.1.0",
                 read: pinocchio::read,
             },
+            Program::Drake => {
+                Facts { id: "drake", name: "Drake", version: "1.51.1", read: drake::read }
+            }
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
@@ -145,6 +151,15 @@ impl Program {
             _ => Names::Exact,
         };
         let never: &[&str] = match self.id() {
+            "drake" => &[
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+            ],
             "pinocchio" => &[
                 "mimic",
                 "safety_controller",

@@ -101,7 +101,6 @@ impl<'a> Parser<'a> {
             if rest.starts_with(b"<!--") {
                 self.at += 4;
                 self.until(b"-->", "a comment is not closed")?;
-                self.inside(None);
             } else if rest.starts_with(b"<![CDATA[") {
                 self.at += 9;
                 let text = self.until(b"]]>", "a CDATA section is not closed")?;

@@ -18,7 +18,7 @@ pub(crate) struct Element<'a> {
     pub attributes: Vec<Attribute<'a>>,
     /// Indices of the elements inside, in order.
     pub children: Vec<usize>,
-    /// The text before the first child of another kind; none if there is an element or a comment first.
+    /// The text before the first child of another kind; none if there is an element first.
     pub text: Option<Cow<'a, str>>,
     /// From `<` to the end of the start tag, bytes of the file.
     pub tag: Range<usize>,
@@ -74,6 +74,11 @@ impl<'t> Node<'t> {
 
     pub fn value(self, name: &str) -> Option<&'t str> {
         self.attribute(name).map(|one| &*one.value)
+    }
+
+    /// Whether it has neither attributes nor elements.
+    pub fn is_empty(self) -> bool {
+        self.attributes().is_empty() && self.element().children.is_empty()
     }
 
     pub fn children(self) -> impl Iterator<Item = Node<'t>> + Clone {
