@@ -8,6 +8,7 @@ mod effect;
 mod fault;
 mod file;
 mod mesh;
+mod mujoco;
 mod number;
 mod program;
 mod pybullet;

@@ -2,7 +2,7 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::{pybullet, urdfdom};
+use crate::{mujoco, pybullet, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,6 +10,10 @@ pub enum Program {
     Urdfdom6,
     Urdfdom4,
     PyBullet,
+    /// MuJoCo 4.
+    MuJoCo,
+    /// MuJoCo 3.3.
+    MuJoCo33,
 }
 
 /// What is known of a program.
@@ -25,7 +29,13 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 3] = [Program::Urdfdom6, Program::Urdfdom4, Program::PyBullet];
+    pub const ALL: [Program; 5] = [
+        Program::Urdfdom6,
+        Program::Urdfdom4,
+        Program::PyBullet,
+        Program::MuJoCo,
+        Program::MuJoCo33,
+    ];
 
     const fn facts(self) -> Facts {
         match self {
@@ -44,6 +54,15 @@ impl Program {
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
+            Program::MuJoCo => {
+                Facts { id: "mujoco", name: "MuJoCo 4", version: "4.0.0", read: mujoco::read_four }
+            }
+            Program::MuJoCo33 => Facts {
+                id: "mujoco33",
+                name: "MuJoCo 3.3",
+                version: "3.3.7",
+                read: mujoco::read_three,
+            },
         }
     }
 
