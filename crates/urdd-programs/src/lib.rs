@@ -10,10 +10,14 @@ mod file;
 mod mesh;
 mod mujoco;
 mod number;
+mod pinocchio;
 mod program;
 mod pybullet;
+mod rapidxml;
 mod tinyxml;
+mod tinyxml1;
 mod tree;
+mod unknown;
 mod urdfdom;
 
 pub use effect::{Deed, Effect, Effects};
