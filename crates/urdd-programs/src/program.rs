@@ -44,7 +44,8 @@ const NAMES: [(&str, &str); 13] = [
 /// Those that are asked only by name, as newer ones are there.
 const OLD: [&str; 3] = ["urdfdom4", "urdfdom3", "mujoco33"];
 
-/// What MuJoCo 3.3 never reads, and 4 but for the first.
+/// What MuJoCo 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is
+/// refused.
 const MUJOCO_33: &[&str] = &[
     "mimic",
     "safety_controller",
@@ -57,6 +58,14 @@ const MUJOCO_33: &[&str] = &[
     "quat_xyzw",
     "texture",
     "visual",
+    "material",
+    "color",
+    "geometry",
+    "box",
+    "cylinder",
+    "sphere",
+    "capsule",
+    "mesh",
 ];
 const MUJOCO: &[&str] = MUJOCO_33.split_at(1).1;
 

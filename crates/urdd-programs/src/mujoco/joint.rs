@@ -50,6 +50,9 @@ impl Reader<'_> {
         if !joint.moves() {
             return Ok(joint);
         }
+        if let Some(origin) = node.child("origin") {
+            self.finite(origin, &["xyz", "rpy"]);
+        }
         if !names.insert(name) && !name.is_empty() {
             let fault = Fault::not_unique("joint", name);
             match self.release {
@@ -61,6 +64,7 @@ impl Reader<'_> {
             let part = format!("{part}/dynamics");
             self.number(dynamics, "damping", &part)?;
             self.number(dynamics, "friction", &part)?;
+            self.finite(dynamics, &["damping", "friction"]);
         }
         self.limit(&joint, &part)?;
         if joint.kind == "planar" {
@@ -85,10 +89,8 @@ impl Reader<'_> {
         if square < LEAST && (joint.is_scalar() || joint.kind == "planar") {
             return self.effects.refuse(axis, Fault::Other("the axis has no length"));
         }
-        if !square.is_finite() {
-            let part = format!("joint/{}/axis", joint.name);
-            let makes = if square.is_nan() { "nan" } else { "0 0 0" };
-            self.effects.read_as(axis, part, Fault::Other("the axis has no finite length"), makes);
+        if joint.moves() {
+            self.finite(axis, &["xyz"]);
         }
         Ok(())
     }
@@ -129,9 +131,10 @@ impl Reader<'_> {
             _ => {}
         }
         self.effort(joint, limit, &part)?;
-        let unread = ["velocity", "acceleration", "deceleration", "jerk"];
-        if let Some(found) = unread.into_iter().find_map(|name| limit.attribute(name)) {
-            self.effects.drop(found, part, Fault::NeverRead(found.name.to_string()));
+        for unread in ["velocity", "acceleration", "deceleration", "jerk"] {
+            if let Some(found) = limit.attribute(unread) {
+                self.effects.drop(found, &*part, Fault::NeverRead(unread.to_owned()));
+            }
         }
         Ok(())
     }

@@ -74,13 +74,11 @@ impl Reader<'_> {
         for (name, value) in ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"].into_iter().zip(&mut six) {
             [*value] = self.needed_numbers(node, name)?;
         }
-        if kilograms < 0.0 {
-            let fault = Fault::Other("a mass below 0 is 0");
+        if kilograms < 0.0 || kilograms.is_nan() {
+            let fault = Fault::Other("a mass that is not above 0 is 0");
             self.effects.read_as(mass, &*part, fault, "0");
         }
-        let least = self.settings.least[0];
-        // NaN stays.
-        let kilograms = if kilograms < least { least } else { kilograms };
+        let kilograms = kilograms.max(self.settings.least[0]);
         let moments = if name == "world" { [0.0; 3] } else { self.moments(node, six, &part)? };
         let [ixx, iyy, izz, ixy, ixz, iyz] = six;
         let tensor = match moments {
@@ -185,17 +183,11 @@ impl Reader<'_> {
                 Solid { volume, moments: [across, across, square / 2.0] }
             }
         };
-        if let Some(name) = node.attribute("name") {
-            let fault = match &*name.value {
-                "" => Some(Fault::Empty("name")),
-                other if !self.geoms.insert(other.to_owned()) => {
-                    Some(Fault::not_unique("collision", other))
-                }
-                _ => None,
-            };
-            if let Some(fault) = fault {
-                self.effects.read_as(name, part, fault, "without a name");
-            }
+        if let Some(name) = node.attribute("name").filter(|name| !name.value.is_empty())
+            && !self.geoms.insert(name.value.to_string())
+        {
+            let fault = Fault::not_unique("collision", &name.value);
+            self.effects.read_as(name, part, fault, "without a name");
         }
         let pose = self.origin(node, part)?;
         Ok((solid, pose))

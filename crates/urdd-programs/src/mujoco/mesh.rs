@@ -5,7 +5,7 @@ use super::{Reader, Release};
 use crate::effect::Reading;
 use crate::fault::Fault;
 use crate::mesh::{Mesh, MeshFacts};
-use crate::tree::Node;
+use crate::tree::{Attribute, Node};
 
 /// The most triangles of an STL file.
 const MAX_TRIANGLES: usize = 200_000;
@@ -33,7 +33,7 @@ impl Reader<'_> {
             let why = "the mesh is in a format that the program cannot read";
             return self.effects.refuse(filename, Fault::Mesh(why));
         }
-        let facts = match self.found(name, strips) {
+        let facts = match self.found(filename, part, strips) {
             Mesh::Unknown => return Ok(Solid::cuboid(1e-3, [0.1; 3])),
             Mesh::Missing => {
                 let fault = Fault::Mesh("the file of the mesh was not found");
@@ -41,11 +41,6 @@ impl Reader<'_> {
             }
             Mesh::Found(facts) => facts,
         };
-        if strips && name.contains(['/', '\\']) {
-            let fault =
-                Fault::Mesh("only the last part of its name is looked for, without folders");
-            self.effects.read_as(filename, part, fault, last(name));
-        }
         let volume = facts.measures.volume * scale.iter().product::<f64>().abs();
         if let Some(why) = bad(&facts, volume) {
             return self.effects.refuse(filename, Fault::Mesh(why));
@@ -66,7 +61,8 @@ impl Reader<'_> {
     }
 
     /// The file of a mesh. Where names lose their folders, a person has put the file beside the URDF.
-    fn found(&self, name: &str, strips: bool) -> Mesh {
+    fn found(&mut self, filename: &Attribute<'_>, part: &str, strips: bool) -> Mesh {
+        let name = &*filename.value;
         let folder = &self.settings.mesh_folder;
         let within = |name: &str| match folder.is_empty() || name.starts_with('/') {
             true => self.file.mesh(name),
@@ -75,10 +71,16 @@ impl Reader<'_> {
         if !strips {
             return within(&name.replace('\\', "/"));
         }
-        match within(last(name)) {
-            Mesh::Missing => self.file.mesh(name),
-            found => found,
+        let beside = within(last(name));
+        if !matches!(beside, Mesh::Missing) {
+            return beside;
         }
+        let there = self.file.mesh(name);
+        if !matches!(there, Mesh::Missing) {
+            let why = "the mesh is looked for beside the URDF, and its folders do not count";
+            self.effects.read_as(filename, part, Fault::Mesh(why), last(name));
+        }
+        there
     }
 }
 

@@ -167,6 +167,7 @@ impl Reader<'_> {
             let Some(joint) = moving(link) else {
                 is_static[index] = link.name == "world" || on_static;
                 self.unmoved(link, is_static[index]);
+                self.finite_inertial(link, is_static[index]);
                 continue;
             };
             if link.name == "world" {
@@ -176,6 +177,7 @@ impl Reader<'_> {
                 let fault = Fault::Tree("a floating joint is below a joint that moves");
                 return self.effects.refuse(joint.node, fault);
             }
+            self.finite_inertial(link, false);
             let inertial = link.node.child("inertial").unwrap_or(link.node);
             let sum = self.fused(index, inertial, links, bodies, joints)?;
             if link::is_light(&sum) {
@@ -199,6 +201,15 @@ impl Reader<'_> {
             let part = format!("joint/{}", joint.value("name").unwrap_or_default());
             let fault = Fault::Other("links that are fixed to each other become one body");
             self.effects.read_as(joint, part, fault, "one body");
+        }
+    }
+
+    fn finite_inertial(&mut self, link: &Link<'_>, is_static: bool) {
+        let Some(inertial) = link.node.child("inertial").filter(|_| !is_static) else { return };
+        for (name, attributes) in [("origin", &["xyz", "rpy"][..]), ("mass", &["value"])] {
+            if let Some(node) = inertial.child(name) {
+                self.finite(node, attributes);
+            }
         }
     }
 

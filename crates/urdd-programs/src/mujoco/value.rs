@@ -74,6 +74,17 @@ impl Reader<'_> {
         }
     }
 
+    /// Says of numbers that were read whether they are finite: those of parts that move make all that moves unstable.
+    pub fn finite(&mut self, node: Node<'_>, names: &[&str]) {
+        for value in names.iter().filter_map(|name| node.attribute(name)) {
+            let is_finite = |word| whole(strtod(word)).is_none_or(f64::is_finite);
+            if !words(&value.value).all(is_finite) {
+                let fault = Fault::range(&value.name, &value.value, "must be finite");
+                self.effects.read_as(value, "robot/?", fault, "a simulation that is unstable");
+            }
+        }
+    }
+
     /// A colour, which is read in single precision.
     pub fn color(&mut self, color: Node<'_>) -> Reading<[f64; 4]> {
         let rgba: [f64; 4] = self.needed_numbers(color, "rgba")?;
