@@ -64,6 +64,10 @@ fn read(file: &File, effects: &mut Effects, release: Release) -> Reading<()> {
     let tree = tinyxml::parse(file.bytes, MAX_DEPTH)
         .or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
     let root = tree.tops().next();
+    let is_mjcf = |root: &Node<'_>| root.name().eq_ignore_ascii_case("mujoco");
+    if root.as_ref().is_some_and(|root| is_mjcf(root) && root.child("link").is_none()) {
+        return Ok(());
+    }
     let Some(robot) = root.filter(|root| root.name().eq_ignore_ascii_case("robot")) else {
         return effects.refuse(root.map_or(0, Node::start), Fault::NotRobot);
     };
