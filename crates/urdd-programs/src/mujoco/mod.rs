@@ -33,6 +33,16 @@ enum Release {
     Four,
 }
 
+impl Release {
+    /// What counts as nothing off the diagonal of a tensor.
+    fn epsilon(self) -> f64 {
+        match self {
+            Release::Three => 1e-12,
+            Release::Four => 0.0,
+        }
+    }
+}
+
 struct Reader<'r> {
     release: Release,
     file: &'r File<'r>,
@@ -235,7 +245,7 @@ impl Reader<'_> {
                 let at = at.then(&joint.pose);
                 open.push((child, at));
                 if bodies[child].mass >= LEAST {
-                    sum = sum.with(&bodies[child].placed(&at));
+                    sum = sum.with(&bodies[child].placed(&at), self.release.epsilon());
                     if sum.moments[2] < inertia::LEAST_EIGENVALUE {
                         let why = "masses that are fixed together have no inertia about a line";
                         return self.effects.refuse(inertial, Fault::Other(why));
