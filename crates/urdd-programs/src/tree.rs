@@ -89,3 +89,11 @@ impl<'t> Node<'t> {
         self.named(name).next()
     }
 }
+
+/// The place of an attribute that stands twice in an element.
+pub(crate) fn repeated(attributes: &[Attribute<'_>]) -> Option<usize> {
+    let mut names: Vec<(&str, usize)> =
+        attributes.iter().map(|one| (&*one.name, one.range.start)).collect();
+    names.sort_unstable();
+    names.windows(2).find(|two| two[0].0 == two[1].0).map(|two| two[1].1)
+}
