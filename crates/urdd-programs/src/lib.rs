@@ -9,6 +9,7 @@ mod effect;
 mod fault;
 mod file;
 mod mesh;
+mod mujoco;
 mod number;
 mod pinocchio;
 mod program;

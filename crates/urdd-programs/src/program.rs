@@ -3,7 +3,7 @@
 use crate::effect::{Effects, Reading};
 use crate::file::File;
 use crate::unknown::{self, Names, Reads};
-use crate::{drake, pinocchio, pybullet, urdfdom};
+use crate::{drake, mujoco, pinocchio, pybullet, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -20,6 +20,10 @@ pub enum Program {
     Drake,
     /// `PyBullet`.
     PyBullet,
+    /// MuJoCo 4.
+    MuJoCo,
+    /// MuJoCo 3.3.
+    MuJoCo33,
 }
 
 /// Names in settings, and the programs' own.
@@ -42,6 +46,31 @@ const NAMES: [(&str, &str); 13] = [
 /// Those that are asked only by name, as newer ones are there.
 const OLD: [&str; 3] = ["urdfdom4", "urdfdom3", "mujoco33"];
 
+/// What MuJoCo 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is
+/// refused.
+const MUJOCO_33: &[&str] = &[
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "version",
+    "quat_xyzw",
+    "texture",
+    "visual",
+    "material",
+    "color",
+    "geometry",
+    "box",
+    "cylinder",
+    "sphere",
+    "capsule",
+    "mesh",
+];
+const MUJOCO: &[&str] = MUJOCO_33.split_at(1).1;
+
 /// What is known of a program.
 struct Facts {
     /// As reports and settings name it.
@@ -55,13 +84,15 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 6] = [
+    pub const ALL: [Program; 8] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
         Program::Pinocchio,
         Program::Drake,
         Program::PyBullet,
+        Program::MuJoCo,
+        Program::MuJoCo33,
     ];
 
     const fn facts(self) -> Facts {
@@ -96,6 +127,15 @@ impl Program {
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
+            Program::MuJoCo => {
+                Facts { id: "mujoco", name: "MuJoCo 4", version: "4.0.0", read: mujoco::read_four }
+            }
+            Program::MuJoCo33 => Facts {
+                id: "mujoco33",
+                name: "MuJoCo 3.3",
+                version: "3.3.7",
+                read: mujoco::read_three,
+            },
         }
     }
 
@@ -168,6 +208,8 @@ impl Program {
                 "deceleration",
                 "jerk",
             ],
+            "mujoco" => MUJOCO,
+            "mujoco33" => MUJOCO_33,
             "pybullet" => &[
                 "mimic",
                 "safety_controller",

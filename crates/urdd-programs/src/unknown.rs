@@ -218,9 +218,7 @@ impl Finder<'_> {
             return;
         }
         if let Some(like) = meant_element(inside, name, known) {
-            let is_material = (known.name, like) == ("robot", "material");
-            let material = format!("material/{}", node.value("name").unwrap_or_default());
-            self.add(node, if is_material { &material } else { &place.part }, name, like);
+            self.add(node, &part_meant(node, like, known, place), name, like);
         } else if let Some(other) = of_name(name) {
             let is_default =
                 name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
@@ -247,7 +245,7 @@ impl Finder<'_> {
                 _ => true,
             };
             if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
-                self.add(inner, &place.part, kind.name, kind.name);
+                self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
             }
         }
     }
@@ -301,6 +299,16 @@ impl Finder<'_> {
             let fault = Fault::UnknownElement { name: shortened(name), like };
             self.effects.drop(node, format!("{part}/?"), fault);
         }
+    }
+}
+
+/// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
+fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> String {
+    match (known.name, like) {
+        ("robot", "link" | "joint" | "material") => {
+            part_of("robot", like, node.value("name").unwrap_or_default(), 0)
+        }
+        _ => place.part.clone(),
     }
 }
 
