@@ -4,10 +4,12 @@
 //! A *reader* is a model of one program's way to read, one file a program, and is held to that program by
 //! `tests/figures/programs`. A reader takes any bytes.
 
+mod drake;
 mod effect;
 mod fault;
 mod file;
 mod mesh;
+mod mujoco;
 mod number;
 mod pinocchio;
 mod program;
@@ -24,5 +26,5 @@ mod urdfdom;
 pub use effect::{Deed, Effect, Effects};
 pub use fault::Fault;
 pub use file::File;
-pub use mesh::{Mesh, MeshFacts};
+pub use mesh::{ColladaFacts, Format, Measures, Mesh, MeshFacts, ObjFacts, StlFacts};
 pub use program::Program;

@@ -20,6 +20,9 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     if let Err(bad) = rapidxml::check(file.bytes) {
         return effects.refuse(bad.at, Fault::Xml(bad.why));
     }
+    if let Some(link) = model.robot.named("link").find(|link| link.attribute("name").is_none()) {
+        return effects.refuse(link, Fault::Missing("name"));
+    }
     let textures = textures(&model);
     for kind in ["collision", "visual"] {
         for (name, link) in model.links.iter().filter(|(name, _)| is_reached.contains(*name)) {
@@ -136,7 +139,11 @@ impl Reader<'_> {
         let numbers: Vec<f64> = xyz.unwrap_or("1 0 0").split(' ').map(number).collect();
         let (at, part) = (axis.unwrap_or(joint.node), format!("joint/{name}/axis"));
         match joint.kind {
-            "planar" if !is_up(&numbers) => {
+            "planar" => {
+                self.limits(joint, name);
+                if is_up(&numbers) {
+                    return;
+                }
                 let fault = Fault::Other("the plane of a planar joint is always that of x and y");
                 self.effects.read_as(at, part, fault, "0 0 1");
             }
@@ -145,8 +152,8 @@ impl Reader<'_> {
                 let fault = Fault::range("xyz", text, "an axis has a length above 0");
                 self.effects.read_as(at, part, fault, "a joint that does not move");
             }
-            "revolute" | "continuous" | "prismatic" | "planar" => {}
-            _ => self.limits(joint, name),
+            "floating" => self.limits(joint, name),
+            _ => {}
         }
     }
 
@@ -176,7 +183,8 @@ impl Reader<'_> {
             }
             return Ok(());
         }
-        for shape in link.node.named(kind) {
+        let link_name = name;
+        for (index, shape) in link.node.named(kind).enumerate() {
             let form = shape.child("geometry").and_then(|geometry| geometry.children().next());
             let Some(form) = form else { continue };
             if form.name() == "mesh" {
@@ -189,13 +197,27 @@ impl Reader<'_> {
             let texture = material.and_then(|material| material.child("texture"));
             if let Some(image) = texture.and_then(|texture| texture.attribute("filename")) {
                 self.scheme(image)?;
+                if !image.value.is_empty() && matches!(self.file.mesh(&image.value), Mesh::Missing)
+                {
+                    let fault = Fault::Mesh("the file of the texture was not found");
+                    self.effects.drop(
+                        image,
+                        format!("link/{link_name}/visual/{index}/material"),
+                        fault,
+                    );
+                }
             }
         }
         Ok(())
     }
 
-    /// Refuses a name of a file that has another scheme than those that it knows.
+    /// Refuses a name of a file that is too long, or has another scheme than those that it knows.
     fn scheme(&mut self, file: &Attribute<'_>) -> Reading<()> {
+        const LONGEST: usize = 255;
+        if file.value.split('/').any(|name| name.len() > LONGEST) {
+            let why = "its name has a part of more than 255 bytes";
+            return self.effects.refuse(file, Fault::Mesh(why));
+        }
         match file.value.split_once("://") {
             Some((scheme, _)) if !matches!(scheme, "package" | "model" | "file") => {
                 let why = "the scheme of its name is none of package, model and file";
@@ -208,6 +230,9 @@ impl Reader<'_> {
     fn mesh(&mut self, mesh: Node<'_>) -> Reading<()> {
         let Some(filename) = mesh.attribute("filename") else { return Ok(()) };
         self.scheme(filename)?;
+        if filename.value.is_empty() {
+            return self.effects.refuse(filename, Fault::Empty("filename"));
+        }
         let why = match self.file.mesh(&filename.value) {
             Mesh::Unknown => return Ok(()),
             Mesh::Missing => "the file of the mesh was not found",
@@ -275,6 +300,7 @@ fn is_read(name: &str, facts: &MeshFacts) -> bool {
         "stl" if is_stl => facts.size > 84,
         "stl" => facts.head.starts_with(b"solid") && facts.triangles > 0,
         "obj" => facts.size >= 16 && facts.triangles > 0,
+        "ply" | "glb" | "gltf" | "off" | "3ds" | "fbx" | "step" => facts.size > 0,
         // A file without an ending that is known is guessed by what is in it.
         _ => facts.triangles > 0 && !is_stl,
     }

@@ -2,8 +2,8 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::unknown::{self, Names};
-use crate::{pinocchio, pybullet, sdformat, urdf_rs, urdfdom};
+use crate::unknown::{self, Names, Reads};
+use crate::{drake, mujoco, pinocchio, pybullet, sdformat, urdf_rs, urdfdom};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,12 +16,18 @@ pub enum Program {
     Urdfdom3,
     /// Pinocchio.
     Pinocchio,
+    /// Drake.
+    Drake,
     /// `PyBullet`.
     PyBullet,
     /// Gazebo, by libsdformat 12.
     Sdformat,
     /// urdf-rs, of openrr.
     UrdfRs,
+    /// MuJoCo 4.
+    MuJoCo,
+    /// MuJoCo 3.3.
+    MuJoCo33,
 }
 
 /// Names in settings, and the programs' own.
@@ -44,6 +50,31 @@ const NAMES: [(&str, &str); 13] = [
 /// Those that are asked only by name, as newer ones are there.
 const OLD: [&str; 3] = ["urdfdom4", "urdfdom3", "mujoco33"];
 
+/// What MuJoCo 3.3 never reads, and 4 but for the first: only visuals can lose a shape, as a collision without one is
+/// refused.
+const MUJOCO_33: &[&str] = &[
+    "mimic",
+    "safety_controller",
+    "calibration",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "version",
+    "quat_xyzw",
+    "texture",
+    "visual",
+    "material",
+    "color",
+    "geometry",
+    "box",
+    "cylinder",
+    "sphere",
+    "capsule",
+    "mesh",
+];
+const MUJOCO: &[&str] = MUJOCO_33.split_at(1).1;
+
 /// What is known of a program.
 struct Facts {
     /// As reports and settings name it.
@@ -57,14 +88,17 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 7] = [
+    pub const ALL: [Program; 10] = [
         Program::Urdfdom6,
         Program::Urdfdom4,
         Program::Urdfdom3,
         Program::Pinocchio,
+        Program::Drake,
         Program::PyBullet,
         Program::Sdformat,
         Program::UrdfRs,
+        Program::MuJoCo,
+        Program::MuJoCo33,
     ];
 
     const fn facts(self) -> Facts {
@@ -93,6 +127,9 @@ impl Program {
                 version: "4.1.0",
                 read: pinocchio::read,
             },
+            Program::Drake => {
+                Facts { id: "drake", name: "Drake", version: "1.51.1", read: drake::read }
+            }
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
             }
@@ -105,6 +142,15 @@ impl Program {
             Program::UrdfRs => {
                 Facts { id: "urdf_rs", name: "urdf-rs", version: "0.10.0", read: urdf_rs::read }
             }
+            Program::MuJoCo => {
+                Facts { id: "mujoco", name: "MuJoCo 4", version: "4.0.0", read: mujoco::read_four }
+            }
+            Program::MuJoCo33 => Facts {
+                id: "mujoco33",
+                name: "MuJoCo 3.3",
+                version: "3.3.7",
+                read: mujoco::read_three,
+            },
         }
     }
 
@@ -147,17 +193,69 @@ impl Program {
         // What a reader refuses is among the effects.
         let _ = (self.facts().read)(file, &mut effects);
         if effects.loads() {
-            unknown::find(file.bytes, self.element_names(), &mut effects);
+            unknown::find(file.bytes, self.reads(), &mut effects);
         }
         effects
     }
 
-    /// Which names it takes for those of elements.
-    fn element_names(self) -> Names {
-        match self.id() {
+    /// What of URDF it reads at all.
+    fn reads(self) -> Reads {
+        let names = match self.id() {
             "urdf_loader" => Names::AnyCase,
             "urdf_rs" => Names::AnyPrefix,
             _ => Names::Exact,
-        }
+        };
+        let never: &[&str] = match self.id() {
+            "drake" => &[
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+            ],
+            "pinocchio" => &[
+                "mimic",
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+            ],
+            "sdformat" => &[
+                "mimic",
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "texture",
+                "quat_xyzw",
+            ],
+            "urdf_rs" => &["reference_position"],
+            "mujoco" => MUJOCO,
+            "mujoco33" => MUJOCO_33,
+            "pybullet" => &[
+                "mimic",
+                "safety_controller",
+                "calibration",
+                "acceleration",
+                "deceleration",
+                "jerk",
+                "version",
+                "quat_xyzw",
+                "texture",
+                "inertia",
+                "ixx",
+                "ixy",
+                "ixz",
+                "iyy",
+                "iyz",
+                "izz",
+            ],
+            _ => &[],
+        };
+        Reads { names, never }
     }
 }

@@ -1,10 +1,20 @@
 //! Elements and attributes that look like those of URDF, and that programs ignore: `<Visual>`, `x:origin`, `efort="3"`,
 //! `<inertial>` below `<robot>`. What resembles nothing is an extension, and is not judged.
 
+use std::collections::HashSet;
+
 use crate::effect::Effects;
 use crate::fault::{Fault, shortened};
 use crate::tinyxml;
 use crate::tree::Node;
+
+/// What of URDF a program reads at all.
+#[derive(Clone, Copy)]
+pub(crate) struct Reads {
+    pub names: Names,
+    /// Elements and attributes that it never reads: nothing is lost with them.
+    pub never: &'static [&'static str],
+}
 
 /// Which names a program takes for those of elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -38,8 +48,8 @@ const KNOWN: &[Known] = &[
     known("color", &["material"], &["rgba"]),
     known("texture", &["material"], &["filename"]),
     known("inertial", &["link"], &[]),
-    known("visual", &["link"], &["name"]),
-    known("collision", &["link"], &["name"]),
+    known("visual", &["link"], &[]),
+    known("collision", &["link"], &[]),
     known("origin", &["inertial", "visual", "collision", "joint"], &["xyz", "rpy", "quat_xyzw"]),
     known("mass", INERTIAL, &["value"]),
     known("inertia", INERTIAL, &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
@@ -93,7 +103,6 @@ const EXTENSIONS: &[&str] = &[
     "models",
     "plugin",
     "disable_collisions",
-    "group",
     "chain",
     "actuator",
     "motor",
@@ -124,54 +133,72 @@ const fn known(
 }
 
 /// Adds what a program ignores in a file that it loads.
-pub(crate) fn find(bytes: &[u8], names: Names, effects: &mut Effects) {
+pub(crate) fn find(bytes: &[u8], reads: Reads, effects: &mut Effects) {
     let Ok(tree) = tinyxml::parse(bytes, MAX_DEPTH) else { return };
-    let mut finder = Finder { names, effects };
-    if let (Some(robot), Some(known)) =
-        (tree.tops().find(|top| top.name() == "robot"), of_name("robot"))
-    {
-        finder.attributes(robot, known, "robot");
-        finder.children(robot, known, "robot");
+    let mut finder = Finder { reads, effects };
+    let mut robots = tree.tops().filter(|top| top.name() == "robot");
+    if let (Some(robot), Some(known)) = (robots.next(), of_name("robot")) {
+        let place = Place { part: "robot".into(), owner: "robot".into() };
+        finder.attributes(robot, known, &place.part);
+        finder.children(robot, known, &place);
+    }
+    if let Some(second) = robots.next() {
+        finder.effects.drop(second, "robot/?", Fault::Repeated("robot".into()));
     }
 }
 
+/// Where an element stands.
+#[derive(Clone)]
+struct Place {
+    part: String,
+    /// The link, joint or material.
+    owner: String,
+}
+
 struct Finder<'r> {
-    names: Names,
+    reads: Reads,
     effects: &'r mut Effects,
 }
 
 impl Finder<'_> {
     /// What is in an element. Goes as deep as URDF does.
-    fn children(&mut self, node: Node<'_>, known: &Known, part: &str) {
+    fn children(&mut self, node: Node<'_>, known: &Known, place: &Place) {
         let (mut visuals, mut collisions) = (0, 0);
-        let mut before = None;
+        // What stands between links is of the one before, most likely.
+        let mut here = place.clone();
+        let kinds = node.children().filter_map(|child| of_name(child.name()));
+        let inside: HashSet<&str> = kinds.map(|kind| kind.name).collect();
         for child in node.children() {
             let name = self.read_as(child.name());
-            let count = match name.as_str() {
+            let Some(kind) = of_name(&name).filter(|child| child.parents.contains(&known.name))
+            else {
+                self.unknown((node, &inside), child, known, &here);
+                continue;
+            };
+            let count = match kind.name {
                 "visual" => &mut visuals,
                 "collision" => &mut collisions,
                 _ => &mut 0,
             };
-            match of_name(&name).filter(|child| child.parents.contains(&known.name)) {
-                Some(kind) => {
-                    let part =
-                        part_of(part, &name, child.value("name").unwrap_or_default(), *count);
-                    *count += 1;
-                    self.attributes(child, kind, &part);
-                    self.children(child, kind, &part);
-                    if matches!(kind.name, "link" | "joint") {
-                        before = Some(part);
-                    }
-                }
-                // What stands between links is of the one before, most likely.
-                None => self.unknown(node, child, known, before.as_deref().unwrap_or(part)),
+            let part =
+                part_of(&place.part, kind.name, child.value("name").unwrap_or_default(), *count);
+            *count += 1;
+            if self.reads.never.contains(&kind.name) {
+                continue;
+            }
+            let owner = if known.name == "robot" { &part } else { &place.owner };
+            let inside = Place { owner: owner.clone(), part };
+            self.attributes(child, kind, &inside.part);
+            self.children(child, kind, &inside);
+            if known.name == "robot" {
+                here = inside;
             }
         }
     }
 
     /// The name that a program takes a name for.
     fn read_as(&self, name: &str) -> String {
-        match self.names {
+        match self.reads.names {
             Names::Exact => name.to_owned(),
             Names::AnyCase => name.to_lowercase(),
             Names::AnyPrefix => without_prefix(name).to_owned(),
@@ -179,54 +206,77 @@ impl Finder<'_> {
     }
 
     /// An element that does not stand in its parent.
-    fn unknown(&mut self, parent: Node<'_>, node: Node<'_>, known: &Known, part: &str) {
+    fn unknown(
+        &mut self,
+        (parent, inside): (Node<'_>, &HashSet<&str>),
+        node: Node<'_>,
+        known: &Known,
+        place: &Place,
+    ) {
         let name = node.name();
-        if name == "group" {
-            return self.wrapped(parent, node, known, part);
-        }
-        let is_value = self.names == Names::AnyPrefix && known.attributes.contains(&name);
+        let is_value = self.reads.names == Names::AnyPrefix && known.attributes.contains(&name);
         if is_extension(name) || is_value && !matches!(known.name, "robot" | "link") {
             return;
         }
-        let like = meant_element(parent, name, known).or_else(|| {
-            let elsewhere = of_name(name).map(|one| one.name);
-            elsewhere.filter(|name| (*name, known.name) != ("material", "collision"))
-        });
-        let like = like.or_else(|| meant_attribute(parent, name, known));
-        match like {
-            Some(like) => {
-                self.add(node, part, Fault::UnknownElement { name: shortened(name), like })
+        if let Some(like) = meant_element(inside, name, known) {
+            self.add(node, &part_meant(node, like, known, place), name, like);
+        } else if let Some(other) = of_name(name) {
+            let is_default =
+                name == "origin" && node.attributes().iter().all(|one| is_zero(&one.value));
+            if !is_default && (other.name, known.name) != ("material", "collision") {
+                self.add(node, &place.owner, name, other.name);
             }
-            None if without_prefix(name) == name => self.wrapped(parent, node, known, part),
-            None => {}
+        } else if let Some(like) = meant_attribute(parent, name, known) {
+            self.add(node, &place.part, name, like);
+        } else if without_prefix(name) == name {
+            self.wrapped(inside, node, known, place);
         }
     }
 
     /// Elements that would be read outside of an unknown element.
-    fn wrapped(&mut self, parent: Node<'_>, wrapper: Node<'_>, known: &Known, part: &str) {
+    fn wrapped(&mut self, beside: &HashSet<&str>, wrapper: Node<'_>, known: &Known, place: &Place) {
         for inner in wrapper.children() {
             let Some(kind) = of_name(inner.name()) else { continue };
             let is_whole = match kind.name {
-                "link" => SHOWN.iter().chain(&["inertial"]).any(|name| inner.child(name).is_some()),
+                "link" => ["inertial", "visual", "collision"]
+                    .iter()
+                    .any(|name| inner.child(name).is_some()),
                 "joint" => inner.attribute("type").is_some() && inner.child("parent").is_some(),
-                "material" => inner.children().next().is_some(),
+                "material" => inner.attribute("name").is_some(),
                 _ => true,
             };
-            if is_whole && kind.parents.contains(&known.name) && would_be_read(parent, kind) {
-                let fault = Fault::UnknownElement { name: kind.name.to_owned(), like: kind.name };
-                self.add(inner, part, fault);
+            if is_whole && kind.parents.contains(&known.name) && would_be_read(beside, kind) {
+                self.add(inner, &part_meant(inner, kind.name, known, place), kind.name, kind.name);
             }
         }
     }
 
     fn attributes(&mut self, node: Node<'_>, known: &Known, part: &str) {
+        let plain = |name| match self.reads.names {
+            Names::AnyPrefix => without_prefix(name),
+            _ => name,
+        };
+        let free = |one: &&str| !node.attributes().iter().any(|other| plain(&other.name) == *one);
+        let missing: Vec<&'static str> = known.attributes.iter().copied().filter(free).collect();
+        let text = node.text().unwrap_or_default();
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let is_value = !text.trim().is_empty() && text.split_whitespace().all(is_number);
+        if is_value
+            && !missing.is_empty()
+            && !missing.iter().any(|one| self.reads.never.contains(one))
+        {
+            let fault =
+                Fault::Other("numbers are inside of the element, and not in its attributes");
+            self.effects.drop(node, format!("{part}/?"), fault);
+        }
         for attribute in node.attributes() {
-            let name = &*attribute.name;
-            if known.attributes.contains(&name) || name.starts_with("xml") || has_prefix(name) {
+            let name = plain(&attribute.name);
+            let is_other = attribute.name.starts_with("xml") || has_prefix(&attribute.name);
+            let is_default = is_zero(&attribute.value) && matches!(known.name, "origin" | "axis");
+            if is_other || is_default || known.attributes.contains(&name) {
                 continue;
             }
-            let free = |one: &&str| node.attribute(one).is_none();
-            let own = known.attributes.iter().copied().filter(free).find(|one| is_like(name, one));
+            let own = missing.iter().copied().find(|one| is_like(name, one));
             // The attribute of an element beside or inside.
             let is_near = |one: &Known| {
                 one.parents.contains(&known.name)
@@ -237,22 +287,29 @@ impl Finder<'_> {
                 near.find_map(|one| one.attributes.iter().copied().find(|one| *one == name))
             };
             let other = || other().filter(|name| !COMMON.contains(name));
-            if let Some(like) = own.or_else(other) {
+            let like = own.or_else(other).filter(|like| !self.reads.never.contains(like));
+            if let Some(like) = like {
                 let fault = Fault::UnknownAttribute { name: shortened(name), like };
                 self.effects.drop(attribute, format!("{part}/?"), fault);
             }
         }
     }
 
-    fn add(&mut self, node: Node<'_>, part: &str, fault: Fault) {
-        // A link or joint is a part itself.
-        if let (Fault::UnknownElement { like: like @ ("link" | "joint"), .. }, Some(name)) =
-            (&fault, node.value("name"))
-        {
-            let part = format!("{like}/{name}");
-            return self.effects.drop(node, part, fault);
+    fn add(&mut self, node: Node<'_>, part: &str, name: &str, like: &'static str) {
+        if !self.reads.never.contains(&like) {
+            let fault = Fault::UnknownElement { name: shortened(name), like };
+            self.effects.drop(node, format!("{part}/?"), fault);
         }
-        self.effects.drop(node, format!("{part}/?"), fault);
+    }
+}
+
+/// The part that an element of an unknown name, or in a wrong place, is about: a link, joint or material itself.
+fn part_meant(node: Node<'_>, like: &str, known: &Known, place: &Place) -> String {
+    match (known.name, like) {
+        ("robot", "link" | "joint" | "material") => {
+            part_of("robot", like, node.value("name").unwrap_or_default(), 0)
+        }
+        _ => place.part.clone(),
     }
 }
 
@@ -270,24 +327,30 @@ fn part_of(parent: &str, element: &str, name: &str, count: usize) -> String {
 }
 
 /// The element that is meant by a name that is not one, if it would be read.
-fn meant_element(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
+fn meant_element(beside: &HashSet<&str>, name: &str, known: &Known) -> Option<&'static str> {
     let mut children = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
     let one = children.find(|one| is_like(name, one.name))?;
-    would_be_read(parent, one).then_some(one.name)
+    would_be_read(beside, one).then_some(one.name)
 }
 
 /// The attribute that is written as an element: `<value>3</value>`.
 fn meant_attribute(parent: Node<'_>, name: &str, known: &Known) -> Option<&'static str> {
     let inside = KNOWN.iter().filter(|one| one.parents.contains(&known.name));
-    let own = known.attributes.iter().copied().filter(|one| parent.attribute(one).is_none());
+    let own = known.attributes.iter().copied();
     let inside = inside.flat_map(|one| one.attributes.iter().copied());
-    own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)
+    let found = own.chain(inside.filter(|one| !COMMON.contains(one))).find(|one| *one == name)?;
+    parent.attribute(found).is_none().then_some(found)
 }
 
 /// Whether another element of a kind is read where there may be one already.
-fn would_be_read(parent: Node<'_>, kind: &Known) -> bool {
+fn would_be_read(beside: &HashSet<&str>, kind: &Known) -> bool {
     let is_often = matches!(kind.name, "link" | "joint" | "visual" | "collision");
-    is_often || kind.parents.contains(&"robot") || parent.child(kind.name).is_none()
+    is_often || kind.parents.contains(&"robot") || !beside.contains(kind.name)
+}
+
+/// Whether a value is that of an origin which is not written.
+fn is_zero(value: &str) -> bool {
+    value.split_whitespace().all(|word| word.parse() == Ok(0.0))
 }
 
 fn of_name(name: &str) -> Option<&'static Known> {

@@ -65,6 +65,19 @@ fn readers_do_what_their_programs_do() {
     assert!(failed.is_empty(), "{failed:?}: URDD_PROGRAM=NAME lists each with --nocapture");
 }
 
+#[test]
+fn programs_have_names() {
+    for program in Program::ALL {
+        for name in [program.id(), &program.setting()] {
+            assert_eq!(Program::of_name(name), Some(program), "{name}");
+        }
+    }
+    assert_eq!(Program::of_name("humble"), Some(Program::Urdfdom3));
+    assert_eq!(Program::of_name("ros"), Some(Program::Urdfdom6));
+    assert_eq!(Program::of_name("webots"), None);
+    assert!(Program::Urdfdom6.is_asked() && !Program::Urdfdom4.is_asked());
+}
+
 fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 { 100.0 } else { 100.0 * part as f64 / whole as f64 }
 }
@@ -75,18 +88,22 @@ fn share(part: usize, whole: usize) -> f64 {
 /// - A *loss* is a change after which the program lacks a fact of a part, an element of a link or joint, that the changed
 ///   file still has: not a link or joint that is renamed, and not a part of which the change itself takes facts away. It is
 ///   named if a claim is about the part, what it is in, or something in it.
-/// - A *claim* counts if it is not made of the unchanged file, whatever the link or joint: the table has only what is
-///   otherwise than in the unchanged file, so that it cannot say whether such a claim is so. It is not so if the program
+/// - A *claim* counts if it is not made of an unchanged file, whatever the link or joint: the table has only what is
+///   otherwise than in the unchanged ones, so that it cannot say whether such a claim is so. It is not so if the program
 ///   reads all that is near that part as it is meant. Claims about text that is no number by any reading are so, also where
 ///   the program reads the number that was there before; and those about materials that nothing has, or about parts of
 ///   which the change takes facts away, cannot be judged.
 fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
     let mut score = Score::default();
-    let mut bases: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    let unchanged = rows.iter().filter(|row| row.id.ends_with("/unchanged"));
-    let refused: BTreeSet<&str> = unchanged
-        .filter(|row| row.verdicts.get(&letter) != Some(&'+'))
-        .map(|row| row.base.as_str())
+    let unchanged: BTreeMap<&str, &table::Row> = rows
+        .iter()
+        .filter(|row| row.id.ends_with("/unchanged"))
+        .map(|row| (row.base.as_str(), row))
+        .collect();
+    let known: BTreeSet<String> = unchanged
+        .values()
+        .flat_map(|row| claims(&read(program, &row.bytes)))
+        .map(|claim| claim.kind)
         .collect();
     for row in rows {
         let Some(&verdict) = row.verdicts.get(&letter) else { continue };
@@ -104,32 +121,29 @@ fn score(program: Program, letter: char, rows: &[table::Row]) -> Score {
             continue;
         }
         // There are no differences where the unchanged file is refused.
-        if verdict != '+' || refused.contains(&*row.base) {
-            continue;
+        let base = unchanged[&*row.base];
+        if verdict == '+' && base.verdicts.get(&letter) == Some(&'+') {
+            judge((row, base), letter, &claims(&effects), &known, &mut score);
         }
-        let base = bases.entry(&row.base).or_insert_with(|| {
-            let unchanged = std::fs::read(table::folder().join("base").join(&row.base)).unwrap();
-            claims(&read(program, &unchanged)).into_iter().map(|claim| claim.kind).collect()
-        });
-        judge(row, letter, &claims(&effects), base, &mut score);
     }
     score
 }
 
 /// The losses and claims of a change that the program loads.
 fn judge(
-    row: &table::Row,
+    (row, base): (&table::Row, &table::Row),
     letter: char,
     claims: &BTreeSet<Claim>,
-    base: &BTreeSet<String>,
+    known: &BTreeSet<String>,
     score: &mut Score,
 ) {
-    let written = parts::written(&row.bytes);
+    let (written, unchanged) = (parts::written(&row.bytes), parts::written(&base.bytes));
+    let is_written = |part: &str| parts::is_written(part, &written, &unchanged);
     let gone: BTreeSet<String> = row.gone.iter().filter_map(|fact| parts::of_fact(fact)).collect();
     let (mut lost, mut otherwise) = (BTreeSet::new(), BTreeSet::new());
     for fact in row.differences.get(&letter).into_iter().flatten() {
         let Some(part) = parts::of_fact(fact) else { continue };
-        if fact.starts_with('-') && parts::is_written(&part, &written) && !gone.contains(&part) {
+        if fact.starts_with('-') && is_written(&part) && !gone.contains(&part) {
             lost.insert(part.clone());
         }
         otherwise.insert(part);
@@ -144,10 +158,12 @@ fn judge(
     let is_judged = |claim: &&Claim| {
         let material = claim.part.strip_prefix("material/");
         let is_used = material.is_none_or(|name| text.matches(&format!("\"{name}\"")).count() > 1);
-        is_used && !base.contains(&claim.kind) && !gone.iter().any(|one| are_near(one, &claim.part))
+        is_used
+            && !known.contains(&claim.kind)
+            && !gone.iter().any(|one| are_near(&claim.part, one))
     };
     let judged: Vec<&Claim> = claims.iter().filter(is_judged).collect();
-    let is_so = |claim: &Claim| otherwise.iter().any(|one| are_near(one, &claim.part));
+    let is_so = |claim: &Claim| otherwise.iter().any(|one| are_near(&claim.part, one));
     let invented: Vec<&String> = judged
         .iter()
         .filter(|claim| claim.is_doubtful && !is_so(claim))

@@ -20,11 +20,8 @@ pub fn find(program: Program, name: &str) -> Mesh {
     let in_any =
         |rest: &str| [&base, &packages].map(|folder| folder.join(rest.trim_start_matches('/')));
     let places: Vec<PathBuf> = match (program.id(), scheme) {
-        // Schemes are cut off, and packages are looked for in the file's folder alone.
-        ("pybullet", "file" | "package" | "model" | "") => {
-            let rest = rest.strip_prefix("package://").or(rest.strip_prefix("model://"));
-            vec![base.join(rest.unwrap_or(name.split("://").last().unwrap()))]
-        }
+        // Programs were given the files in a folder of another name.
+        (_, "") if rest.starts_with("../base/") => Vec::new(),
         // What is no scheme is a name, relative ones in the folders of packages too.
         ("pinocchio", "") if !rest.starts_with('/') => in_any(rest).into(),
         ("pinocchio", "package" | "model") => in_any(rest).into(),
@@ -32,30 +29,11 @@ pub fn find(program: Program, name: &str) -> Mesh {
         (_, "file") => vec![rest.into()],
         _ => vec![base.join(name)],
     };
+    // `base/` had another name there.
+    if name.contains("../base/") {
+        return Mesh::Missing;
+    }
     let Some(path) = places.into_iter().find(|path| path.exists()) else { return Mesh::Missing };
     let bytes = fs::read(&path).unwrap_or_default();
-    Mesh::Found(Arc::new(MeshFacts {
-        head: bytes.iter().take(84).copied().collect(),
-        size: bytes.len(),
-        triangles: triangles(&path.to_string_lossy().to_lowercase(), &bytes),
-        ..MeshFacts::default()
-    }))
-}
-
-/// How many triangles a mesh has, near enough.
-fn triangles(name: &str, bytes: &[u8]) -> usize {
-    let text = String::from_utf8_lossy(bytes);
-    let is_stl = bytes.get(80..84).is_some_and(|count| {
-        let count = u32::from_le_bytes(count.try_into().unwrap()) as usize;
-        bytes.len() == 84 + 50 * count
-    });
-    match name.rsplit('.').next().unwrap() {
-        "stl" if is_stl => (bytes.len() - 84) / 50,
-        "stl" => text.matches("facet normal").count(),
-        "obj" => text.lines().filter(|line| line.starts_with("f ")).count(),
-        "dae" => text.matches("<triangles").count(),
-        "ply" => usize::from(text.starts_with("ply")),
-        "glb" | "gltf" => usize::from(text.contains("meshes")),
-        _ => 0,
-    }
+    Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
 }

@@ -1,6 +1,6 @@
 //! The parts of a robot that facts and claims are about.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use urdd_programs::{Deed, Effects, Fault};
 
@@ -22,7 +22,7 @@ pub fn claims(effects: &Effects) -> BTreeSet<Claim> {
             part: effect.part.clone(),
             kind: format!("{} {:?}", kind(&effect.part), effect.fault),
             is_doubtful: match &effect.fault {
-                Fault::NotANumber { text, .. } => numbers(text).is_some(),
+                Fault::NotANumber { text, .. } => numbers(text) == Some(1),
                 Fault::Count { text, expected, .. } => numbers(text) == Some(*expected),
                 _ => true,
             },
@@ -53,12 +53,13 @@ pub fn covers(claims: &BTreeSet<Claim>, part: &str) -> bool {
     claims.iter().any(|claim| are_near(&claim.part, part))
 }
 
-/// Whether one part is in the other. Materials of the robot are seen in the visuals that have them.
+/// Whether a claim's part and another are one in the other. `robot/?` is about all; materials of the robot are seen in the visuals that have them.
 pub fn are_near(one: &str, other: &str) -> bool {
     let is_material = |part: &str| part.starts_with("material/") || part.ends_with("/material");
     let are_materials = is_material(one) && is_material(other);
     let is_of_robot = |part: &str| part.starts_with("material/");
-    is_in(one, other)
+    one == "robot/?"
+        || is_in(one, other)
         || is_in(other, one)
         || are_materials && (is_of_robot(one) || is_of_robot(other))
 }
@@ -87,6 +88,8 @@ pub fn of_fact(fact: &str) -> Option<String> {
         "damping" | "friction" => "dynamics",
         "safety" => "safety_controller",
         "mass" | "com" | "inertia" => return Some(above.to_owned()),
+        // URDF has none in a collision.
+        "color" | "texture" if above.contains("/collision/") => return None,
         "color" | "texture" => "material",
         "name" if is_shape => return None,
         "geometry" | "origin" if is_shape => return Some(above.to_owned()),
@@ -95,27 +98,46 @@ pub fn of_fact(fact: &str) -> Option<String> {
     Some(format!("{above}/{element}"))
 }
 
-/// The links and joints that a file has by these names: `link/base`. One that is renamed is not lost.
-pub fn written(bytes: &[u8]) -> BTreeSet<String> {
+/// The links and joints that a file has by these names, such as `link/base`, and what is in them. One that is renamed is
+/// not lost.
+pub fn written(bytes: &[u8]) -> HashMap<String, String> {
     let text = String::from_utf8_lossy(bytes);
-    let mut found = BTreeSet::new();
+    let mut found = HashMap::new();
     for kind in ["link", "joint"] {
-        for tag in text.split(&format!("<{kind}")).skip(1) {
-            let tag = tag.split('>').next().unwrap_or_default();
+        for element in text.split(&format!("<{kind}")).skip(1) {
+            let tag = element.split('>').next().unwrap_or_default();
             let Some((_, behind)) = tag.split_once("name") else { continue };
             let behind = behind.trim_start().trim_start_matches('=').trim_start();
             let Some(quote @ ('"' | '\'')) = behind.chars().next() else { continue };
             let name = behind[1..].split(quote).next().unwrap_or_default();
             let name = name.replace("&#10;", "\n").replace("&#13;", "\r").replace("&#9;", "\t");
             let name = name.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
-            found.insert(format!("{kind}/{}", name.replace("&apos;", "'").replace("&amp;", "&")));
+            let name = name.replace("&apos;", "'").replace("&amp;", "&");
+            // Joints of transmissions have no type.
+            if kind == "link" || tag.to_lowercase().contains("type") {
+                let inside = element.split(&format!("</{kind}")).next().unwrap_or_default();
+                found.insert(format!("{kind}/{name}"), inside.to_owned());
+            }
         }
     }
     found
 }
 
-/// Whether a part is of a link or joint that is in a file.
-pub fn is_written(part: &str, written: &BTreeSet<String>) -> bool {
+/// Whether a part is of a link or joint that a file has. What is in a joint is also in that of the unchanged file, or is
+/// written there now.
+pub fn is_written(
+    part: &str,
+    written: &HashMap<String, String>,
+    unchanged: &HashMap<String, String>,
+) -> bool {
     let mut owners = part.match_indices('/').map(|(end, _)| &part[..end]).chain([part]);
-    owners.any(|owner| written.contains(owner))
+    let Some(owner) = owners.rfind(|owner| written.contains_key(*owner)) else { return false };
+    let Some(element) = part[owner.len()..].strip_prefix('/').filter(|_| part.starts_with("joint"))
+    else {
+        return true;
+    };
+    let has = |of: &HashMap<String, String>| {
+        of.get(owner).is_some_and(|text| text.contains(&format!("<{element}")))
+    };
+    has(written) || has(unchanged)
 }
