@@ -11,7 +11,10 @@ pub(super) fn check(bytes: &[u8], tree: &Tree<'_>, effects: &mut Effects) -> Rea
     if let Some(text) = tree.stray.filter(|text| *text < robot) {
         return effects.refuse(text, Fault::Xml("text stands before the root"));
     }
-    if declaration(bytes).is_some_and(|inside| inside.contains(&b'>')) {
+    let mut outside_quotes = declaration(bytes)
+        .into_iter()
+        .flat_map(|inside| inside.split(|&byte| byte == b'"').step_by(2));
+    if outside_quotes.any(|piece| piece.contains(&b'>')) {
         return effects.refuse(0, Fault::Xml("the declaration has `>` inside"));
     }
     let is_checked = is_utf8(bytes) && std::str::from_utf8(bytes).is_err();

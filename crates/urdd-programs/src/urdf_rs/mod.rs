@@ -37,7 +37,7 @@ fn version(text: &str) -> Option<(u32, u32)> {
 
 /// What is in each element. A word is an element, or with `:` an attribute, for which an element may stand; `!` is behind
 /// those that are needed. An attribute is text, a number (`1`), so many numbers, or the type of a joint.
-const ELEMENTS: [(&str, &str); 24] = [
+const ELEMENTS: [(&str, &str); 23] = [
     ("inertial", "origin mass! inertia!"),
     ("mass", "value:1!"),
     ("inertia", "ixx:1! ixy:1! ixz:1! iyy:1! iyz:1! izz:1!"),
@@ -65,7 +65,6 @@ const ELEMENTS: [(&str, &str); 24] = [
     ("dynamics", "damping:1 friction:1"),
     ("mimic", "joint:! multiplier:1 offset:1"),
     ("safety_controller", "soft_lower_limit:1 soft_upper_limit:1 k_position:1 k_velocity:1!"),
-    ("geometry", ""),
 ];
 
 /// The text of an attribute, or of an element that stands for it.
