@@ -11,9 +11,14 @@ mod mesh;
 mod number;
 mod program;
 mod pybullet;
+mod recover;
+mod strict;
+mod three;
 mod tinyxml;
 mod tree;
 mod urdfdom;
+mod usd;
+mod yourdfpy;
 
 pub use effect::{Deed, Effect, Effects};
 pub use fault::Fault;

@@ -2,7 +2,7 @@
 
 use crate::effect::{Effects, Reading};
 use crate::file::File;
-use crate::{pybullet, urdfdom};
+use crate::{pybullet, three, urdfdom, usd, yourdfpy};
 
 /// A program that reads URDFs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,6 +10,9 @@ pub enum Program {
     Urdfdom6,
     Urdfdom4,
     PyBullet,
+    Usd,
+    UrdfLoader,
+    Yourdfpy,
 }
 
 /// What is known of a program.
@@ -25,7 +28,14 @@ struct Facts {
 
 impl Program {
     /// All, in the order in which they are reported.
-    pub const ALL: [Program; 3] = [Program::Urdfdom6, Program::Urdfdom4, Program::PyBullet];
+    pub const ALL: [Program; 6] = [
+        Program::Urdfdom6,
+        Program::Urdfdom4,
+        Program::PyBullet,
+        Program::Usd,
+        Program::UrdfLoader,
+        Program::Yourdfpy,
+    ];
 
     const fn facts(self) -> Facts {
         match self {
@@ -43,6 +53,21 @@ impl Program {
             },
             Program::PyBullet => {
                 Facts { id: "pybullet", name: "PyBullet", version: "3.2.7", read: pybullet::read }
+            }
+            Program::Usd => Facts {
+                id: "usd",
+                name: "Isaac and Newton (urdf-usd-converter)",
+                version: "0.3.4",
+                read: usd::read,
+            },
+            Program::UrdfLoader => Facts {
+                id: "urdf_loader",
+                name: "three.js (urdf-loader)",
+                version: "0.13.1",
+                read: three::read,
+            },
+            Program::Yourdfpy => {
+                Facts { id: "yourdfpy", name: "yourdfpy", version: "0.0.60", read: yourdfpy::read }
             }
         }
     }

@@ -46,6 +46,20 @@ impl<'t> Tree<'t> {
     }
 }
 
+impl Tree<'_> {
+    /// The most elements that are in each other.
+    pub fn depth(&self) -> usize {
+        let mut depths = vec![1; self.elements.len()];
+        // An element is before those in it.
+        for (index, element) in self.elements.iter().enumerate() {
+            for &child in &element.children {
+                depths[child] = depths[index] + 1;
+            }
+        }
+        depths.into_iter().max().unwrap_or(0)
+    }
+}
+
 impl<'t> Node<'t> {
     fn element(self) -> &'t Element<'t> {
         &self.tree.elements[self.index]

@@ -1,0 +1,206 @@
+//! XML as parsers have it that keep to the standard: expat of Python, libxml2, and those of browsers.
+
+use std::borrow::Cow;
+
+use roxmltree::{Document, Error, Node, ParsingOptions, StringStorage, TextPos};
+
+use crate::tinyxml::Malformed;
+use crate::tree::{Attribute, Element, Tree};
+
+/// How a parser names elements and attributes that have a prefix.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Names {
+    /// `{namespace}name`.
+    Expanded,
+    /// `prefix:name`.
+    Written,
+}
+
+/// The text of a file.
+pub(crate) struct Text<'a> {
+    pub text: Cow<'a, str>,
+    /// The place in the file of each byte of the text, if they differ.
+    places: Option<Vec<usize>>,
+}
+
+impl<'a> Text<'a> {
+    /// UTF-8, whatever the file says; bytes that are none become U+FFFD.
+    pub fn utf8(bytes: &'a [u8]) -> Text<'a> {
+        if let Ok(text) = std::str::from_utf8(bytes) {
+            return Text { text: text.into(), places: None };
+        }
+        let mut at = 0;
+        let mut characters = Vec::with_capacity(bytes.len());
+        for chunk in bytes.utf8_chunks() {
+            characters.extend(chunk.valid().char_indices().map(|(of, one)| (one, at + of)));
+            at += chunk.valid().len();
+            if !chunk.invalid().is_empty() {
+                characters.push((char::REPLACEMENT_CHARACTER, at));
+            }
+            at += chunk.invalid().len();
+        }
+        Text::of(characters.into_iter())
+    }
+
+    /// As libxml2 decodes it: by the mark at its beginning, by what `<?` looks like, or by its declaration.
+    pub fn declared(bytes: &'a [u8]) -> Text<'a> {
+        match bytes {
+            [0xff, 0xfe, ..] | [b'<', 0, b'?', 0, ..] => Text::utf16(bytes, u16::from_le_bytes),
+            [0xfe, 0xff, ..] | [0, b'<', 0, b'?', ..] => Text::utf16(bytes, u16::from_be_bytes),
+            [0xef, 0xbb, 0xbf, ..] => Text::utf8(bytes),
+            _ if is_latin(bytes) => {
+                Text::of(bytes.iter().enumerate().map(|(at, &byte)| (char::from(byte), at)))
+            }
+            _ => Text::utf8(bytes),
+        }
+    }
+
+    fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Text<'a> {
+        let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        let mut at = 0;
+        Text::of(char::decode_utf16(units).map(|character| {
+            let character = character.unwrap_or(char::REPLACEMENT_CHARACTER);
+            let place = at;
+            at += 2 * character.len_utf16();
+            (character, place)
+        }))
+    }
+
+    fn of(characters: impl Iterator<Item = (char, usize)>) -> Text<'a> {
+        let (mut text, mut places) = (String::new(), Vec::new());
+        for (character, place) in characters {
+            text.push(character);
+            places.resize(text.len(), place);
+        }
+        Text { text: text.into(), places: Some(places) }
+    }
+
+    /// The place in the file of a place in the text.
+    fn place(&self, at: usize) -> usize {
+        match &self.places {
+            Some(places) => places.get(at).or(places.last()).copied().unwrap_or(0),
+            None => at,
+        }
+    }
+
+    /// A tree of the text with its places as they are in the file.
+    pub fn placed<'t>(&self, mut tree: Tree<'t>) -> Tree<'t> {
+        for element in &mut tree.elements {
+            element.tag = self.place(element.tag.start)..self.place(element.tag.end);
+            for attribute in &mut element.attributes {
+                attribute.range =
+                    self.place(attribute.range.start)..self.place(attribute.range.end);
+            }
+        }
+        tree
+    }
+
+    /// Parses it.
+    pub fn parse(&self, names: Names) -> Result<Tree<'_>, Malformed> {
+        match parse(&self.text, names) {
+            Ok(tree) => Ok(self.placed(tree)),
+            Err(bad) => Err(Malformed { at: self.place(bad.at), why: bad.why }),
+        }
+    }
+}
+
+/// Whether a declaration says that each byte is a character.
+fn is_latin(bytes: &[u8]) -> bool {
+    const LATIN: [&str; 6] = ["iso-8859-1", "latin1", "iso_8859-1", "l1", "windows-1252", "cp1252"];
+    let head = bytes.strip_prefix(b"<?xml").unwrap_or_default();
+    let head = head.split(|&byte| byte == b'>').next().unwrap_or_default();
+    let head = String::from_utf8_lossy(head).to_ascii_lowercase();
+    let encoding = head.split_once("encoding").map_or("", |(_, behind)| behind);
+    encoding.split(['"', '\'']).nth(1).is_some_and(|name| LATIN.contains(&name))
+}
+
+/// Parses text that is well-formed and has its prefixes declared.
+pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error| Malformed { at: place_of(text, error.pos()), why: why(&error) })?;
+    let mut tree = Tree::default();
+    // The element of each node that has one.
+    let mut indices: Vec<usize> = Vec::new();
+    for node in document.descendants() {
+        indices.resize(node.id().get_usize() + 1, usize::MAX);
+        let Some(element) = element(node, names, text) else { continue };
+        let index = tree.elements.len();
+        indices[node.id().get_usize()] = index;
+        let above = node.parent().and_then(|parent| indices.get(parent.id().get_usize()));
+        match above.and_then(|&above| tree.elements.get_mut(above)) {
+            Some(above) => above.children.push(index),
+            None => tree.tops.push(index),
+        }
+        tree.elements.push(element);
+    }
+    // Instructions may be beside the root.
+    tree.tops.retain(|&top| tree.elements[top].name != INSTRUCTION);
+    Ok(tree)
+}
+
+/// The name of an element that is a processing instruction.
+pub(crate) const INSTRUCTION: &str = "?";
+
+fn element<'a>(node: Node<'_, 'a>, names: Names, text: &'a str) -> Option<Element<'a>> {
+    let range = node.range();
+    let written = |range: std::ops::Range<usize>| text.get(range).unwrap_or_default();
+    let name = match names {
+        _ if node.is_pi() => INSTRUCTION.into(),
+        _ if !node.is_element() => return None,
+        Names::Expanded => expanded(node.tag_name().namespace(), node.tag_name().name()),
+        Names::Written => {
+            let tag = written(range.start + 1..range.end);
+            let ends =
+                |character: char| character.is_ascii_whitespace() || "/>".contains(character);
+            tag.split(ends).next().unwrap_or_default().into()
+        }
+    };
+    let attributes = node.attributes().map(|attribute| Attribute {
+        name: match names {
+            Names::Expanded => expanded(attribute.namespace(), attribute.name()),
+            Names::Written => written(attribute.range_qname()).into(),
+        },
+        value: match attribute.value_storage() {
+            StringStorage::Borrowed(value) => Cow::Borrowed(*value),
+            StringStorage::Owned(value) => Cow::Owned(value.to_string()),
+        },
+        range: attribute.range(),
+    });
+    let attributes = attributes.collect();
+    Some(Element { name, attributes, children: Vec::new(), text: None, tag: range })
+}
+
+fn expanded<'a>(namespace: Option<&str>, name: &'a str) -> Cow<'a, str> {
+    match namespace {
+        Some(namespace) => format!("{{{namespace}}}{name}").into(),
+        None => name.into(),
+    }
+}
+
+fn place_of(text: &str, pos: TextPos) -> usize {
+    let row = pos.row.saturating_sub(1) as usize;
+    let start: usize = text.split_inclusive('\n').take(row).map(str::len).sum();
+    let line = text[start..].char_indices();
+    line.map(|(at, _)| start + at).nth(pos.col.saturating_sub(1) as usize).unwrap_or(text.len())
+}
+
+fn why(error: &Error) -> &'static str {
+    match error {
+        Error::UnknownNamespace(..) => "a prefix is not declared",
+        Error::DuplicatedNamespace(..) | Error::DuplicatedAttribute(..) => {
+            "an attribute is there twice in one element"
+        }
+        Error::UnexpectedCloseTag(..) => "an element is closed by another name",
+        Error::UnknownEntityReference(..) => "an entity is not declared",
+        Error::MalformedEntityReference(_) => "`&` does not begin an entity",
+        Error::UnexpectedDeclaration(_) => {
+            "the XML declaration is not at the beginning of the file"
+        }
+        Error::NoRootNode => "the file has no element",
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => "an element is not closed",
+        Error::NonXmlChar(..) => "the file has a character that XML does not allow",
+        Error::InvalidComment(_) => "a comment has `--` in it",
+        _ => "the file is not well-formed XML",
+    }
+}
