@@ -19,11 +19,13 @@ pub enum Deed {
 /// What a program does, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Effect {
+    /// What it does.
     pub deed: Deed,
     /// The element or attribute that is the reason: its first byte in the file.
     pub at: usize,
     /// The part that is lost or read otherwise, such as `joint/elbow/limit`; empty for the whole file.
     pub part: String,
+    /// What is wrong there, or what the program does not know.
     pub fault: Fault,
     /// What it makes of the part, if it reads it otherwise: `1`, `fixed`.
     pub makes: Option<String>,

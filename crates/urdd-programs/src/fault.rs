@@ -3,6 +3,8 @@
 use std::fmt;
 
 /// A reason. Programs that do something at one place for one reason share a sentence.
+// Fields are what the sentence of a fault names.
+#[allow(missing_docs)]
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Fault {
     /// The parser of XML cannot read the file.
@@ -33,6 +35,10 @@ pub enum Fault {
     Shape(String),
     /// An element or attribute that the program never reads.
     NeverRead(String),
+    /// An element that URDF does not have in its place, and the one that it looks like.
+    UnknownElement { name: String, like: &'static str },
+    /// An attribute that its element does not have, and the one that it looks like.
+    UnknownAttribute { name: String, like: &'static str },
     /// The joints and links make no tree.
     Tree(&'static str),
     /// A mesh file: "its file was not found".
@@ -87,6 +93,9 @@ impl Fault {
             Fault::Value { .. } => "write one of those that URDF defines",
             Fault::Shape(_) => "use box, cylinder, sphere or mesh",
             Fault::NeverRead(_) => "do not rely on it there",
+            Fault::UnknownElement { .. } | Fault::UnknownAttribute { .. } => {
+                "correct the name, or move it to its place"
+            }
             Fault::Tree(_) => "give each link but one a joint of which it is the child",
             Fault::Mesh(_) => "export the mesh in another format, or mend its file",
             Fault::Version(_) => "write `1.0`, or remove it",
@@ -122,6 +131,18 @@ impl fmt::Display for Fault {
             Fault::Value { attribute, text } => write!(f, "`{attribute}` cannot be `{text}`"),
             Fault::Shape(shape) => write!(f, "`<{shape}>` is not a shape"),
             Fault::NeverRead(what) => write!(f, "`{what}` is not read"),
+            Fault::UnknownElement { name, like } if name == like => {
+                write!(f, "`<{name}>` is in a place where URDF does not have it")
+            }
+            Fault::UnknownElement { name, like } => {
+                write!(f, "`<{name}>` is not an element that URDF has there, unlike `{like}`")
+            }
+            Fault::UnknownAttribute { name, like } if name == like => {
+                write!(f, "`{name}` is on an element that does not have it")
+            }
+            Fault::UnknownAttribute { name, like } => {
+                write!(f, "`{name}` is not an attribute that URDF has there, unlike `{like}`")
+            }
             Fault::Version(version) => write!(f, "URDF has no version `{version}`"),
             Fault::Name { kind, name, rule } => {
                 write!(f, "a {kind} is called `{name}`, and {rule}")

@@ -88,6 +88,7 @@ impl Reader<'_> {
             if links.insert(name, link).is_some() {
                 return self.effects.refuse(link, Fault::not_unique("link", name));
             }
+            self.name_fits(link, "link", name)?;
             self.link(link, name)?;
         }
         if links.is_empty() {
@@ -115,18 +116,14 @@ impl Reader<'_> {
 
     fn material(&mut self, material: Node<'_>, part: &str) {
         if let Some(texture) = material.child("texture") {
-            self.effects.drop(
-                texture,
-                format!("{part}/texture"),
-                Fault::NeverRead("texture".into()),
-            );
+            self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
         }
         let color = material.child("color");
         if let Some(rgba) = color.and_then(|color| color.attribute("rgba"))
             && pieces(&rgba.value).len() != 4
         {
             let fault = Fault::count("rgba", 4, &rgba.value);
-            self.effects.read_as(rgba, format!("{part}/color"), fault, "0 0 0 0");
+            self.effects.read_as(rgba, part, fault, "0 0 0 0");
         }
     }
 
@@ -135,6 +132,12 @@ impl Reader<'_> {
         match link.child("inertial") {
             Some(inertial) => self.inertial(inertial, &format!("{part}/inertial"))?,
             None if name == "world" => {}
+            None if name.contains("%s") || name.contains("%n") => {
+                let rule = "a warning about its missing inertial takes it for a format";
+                return self
+                    .effects
+                    .crash(link, Fault::Name { kind: "link", name: shortened(name), rule });
+            }
             None => {
                 let fault = Fault::MissingElement("inertial");
                 self.effects.read_as(link, format!("{part}/inertial"), fault, "mass 1");
@@ -156,17 +159,16 @@ impl Reader<'_> {
                 return self.effects.refuse(inertial, Fault::MissingElement(element));
             };
             for attribute in attributes {
-                let Some(value) = node.attribute(attribute) else {
-                    return self.effects.refuse(node, Fault::Missing(attribute));
-                };
-                self.number(value, part);
+                match node.attribute(attribute) {
+                    Some(value) if element == "mass" => self.number(value, part),
+                    Some(_) => {}
+                    None => return self.effects.refuse(node, Fault::Missing(attribute)),
+                }
             }
-        }
-        let inertia = inertial.child("inertia");
-        let products =
-            ["ixy", "ixz", "iyz"].map(|name| inertia.and_then(|node| node.attribute(name)));
-        for product in products.into_iter().flatten() {
-            self.number(product, part);
+            if element == "inertia" {
+                let makes = "that of its mass in the shape of its collisions";
+                self.effects.read_as(node, part, Fault::NeverRead("inertia".into()), makes);
+            }
         }
         Ok(())
     }
@@ -212,7 +214,7 @@ impl Reader<'_> {
         if material.children().any(|child| matches!(child.name(), "color" | "texture" | "specular"))
         {
             self.materials.insert(name.to_owned());
-            self.material(material, part);
+            self.material(material, &format!("{part}/material"));
         }
         Ok(())
     }
@@ -257,9 +259,8 @@ impl Reader<'_> {
 
     fn pose(&mut self, parent: Node<'_>, part: &str) {
         let Some(origin) = parent.child("origin") else { return };
-        let part = format!("{part}/origin");
         for value in ["xyz", "rpy"].into_iter().filter_map(|name| origin.attribute(name)) {
-            self.vector(value, &part, "0 0 0");
+            self.vector(value, part, "0 0 0");
         }
         if let Some(quaternion) = origin.attribute("quat_xyzw") {
             self.effects.drop(quaternion, part, Fault::NeverRead("quat_xyzw".into()));
@@ -295,7 +296,7 @@ impl Reader<'_> {
         }
         self.name_fits(node, "joint", name)?;
         let part = format!("joint/{name}");
-        self.pose(node, &part);
+        self.pose(node, &format!("{part}/origin"));
         let parent = self.end(node, "parent")?;
         let child = self.end(node, "child")?;
         let Some(kind) = node.attribute("type") else {
@@ -441,9 +442,12 @@ impl Reader<'_> {
                 open.push(child);
             }
         }
+        let fault = Fault::Tree("it is in a loop, which the root does not reach");
         for (name, node) in links.iter().filter(|(name, _)| !reached.contains(*name)) {
-            let fault = Fault::Tree("the link is in a loop, which the root does not reach");
-            self.effects.drop(*node, format!("link/{name}"), fault);
+            self.effects.drop(*node, format!("link/{name}"), fault.clone());
+        }
+        for joint in joints.iter().filter(|joint| !reached.contains(joint.child)) {
+            self.effects.drop(joint.node, format!("joint/{}", joint.name), fault.clone());
         }
         Ok(())
     }

@@ -8,13 +8,17 @@ use crate::tree::{Attribute, Element, Tree};
 const MAX_DEPTH: usize = 256;
 
 /// Reads as much as can be read. Elements with a prefix or a namespace of their own are left out.
-pub(crate) fn parse(text: &str) -> Tree<'_> {
-    let mut parser = Parser { text, at: 0, tree: Tree::default(), open: Vec::new(), names: 0 };
+/// Also whether all of it was read, as far as can be known.
+pub(crate) fn parse(text: &str) -> (Tree<'_>, bool) {
+    let tree = Tree::default();
+    let mut parser = Parser { text, at: 0, tree, open: Vec::new(), names: 0, is_whole: true };
     parser.prologue();
     if parser.tag() {
         parser.content();
     }
-    parser.tree
+    parser.skip(is_space);
+    let is_whole = parser.is_whole && !parser.rest().contains("<link") && parser.open.is_empty();
+    (parser.tree, is_whole)
 }
 
 struct Parser<'a> {
@@ -25,6 +29,7 @@ struct Parser<'a> {
     open: Vec<Option<usize>>,
     /// How many end tags are expected: a start tag that is cut counts here alone.
     names: usize,
+    is_whole: bool,
 }
 
 impl<'a> Parser<'a> {
@@ -75,10 +80,12 @@ impl<'a> Parser<'a> {
                 return;
             } else if rest.starts_with("</") {
                 self.at += 2;
-                self.skip(is_name);
+                let name = self.skip(is_name);
                 self.skip(is_space);
                 self.at += usize::from(self.rest().starts_with('>'));
-                self.open.pop();
+                if let Some(Some(open)) = self.open.pop() {
+                    self.is_whole &= self.tree.elements[open].name == name;
+                }
                 self.names = self.names.saturating_sub(1);
             } else if rest.starts_with("<!--") {
                 self.at += 4;
@@ -134,6 +141,10 @@ impl<'a> Parser<'a> {
         let is_root = self.open.is_empty();
         self.add(name.into(), attributes, start, opens);
         self.names += usize::from(!closes);
+        if !opens && !closes {
+            let cut = self.rest().split('>').next().unwrap_or_default();
+            self.is_whole &= !cut.contains('=') && cut.ends_with('/');
+        }
         !is_root || opens
     }
 
@@ -163,7 +174,10 @@ impl<'a> Parser<'a> {
                 self.at = self.text.len();
                 return attributes;
             };
-            let Some(value) = value(&rest[..end]) else { return attributes };
+            let Some(value) = value(&rest[..end]) else {
+                self.is_whole = false;
+                return attributes;
+            };
             self.at += end + 1;
             if attributes.iter().all(|one| one.name != name) {
                 attributes.push(Attribute { name: name.into(), value, range: start..self.at });

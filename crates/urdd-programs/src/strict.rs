@@ -48,10 +48,18 @@ impl<'a> Text<'a> {
             [0xff, 0xfe, ..] | [b'<', 0, b'?', 0, ..] => Text::utf16(bytes, u16::from_le_bytes),
             [0xfe, 0xff, ..] | [0, b'<', 0, b'?', ..] => Text::utf16(bytes, u16::from_be_bytes),
             [0xef, 0xbb, 0xbf, ..] => Text::utf8(bytes),
-            _ if is_latin(bytes) => {
-                Text::of(bytes.iter().enumerate().map(|(at, &byte)| (char::from(byte), at)))
-            }
-            _ => Text::utf8(bytes),
+            _ => match &*encoding(bytes) {
+                "iso-8859-1" | "latin1" | "iso_8859-1" | "windows-1252" | "cp1252" => {
+                    Text::of(bytes.iter().enumerate().map(|(at, &byte)| (char::from(byte), at)))
+                }
+                // What is none of it ends the file.
+                "us-ascii" | "ascii" => {
+                    let end = bytes.iter().position(|byte| !byte.is_ascii());
+                    Text::utf8(&bytes[..end.unwrap_or(bytes.len())])
+                }
+                "utf-16" | "utf-16le" | "utf-16be" => Text::utf8(&[]),
+                _ => Text::utf8(bytes),
+            },
         }
     }
 
@@ -104,18 +112,20 @@ impl<'a> Text<'a> {
     }
 }
 
-/// Whether a declaration says that each byte is a character.
-fn is_latin(bytes: &[u8]) -> bool {
-    const LATIN: [&str; 6] = ["iso-8859-1", "latin1", "iso_8859-1", "l1", "windows-1252", "cp1252"];
+/// The encoding that a declaration says, in lower case.
+fn encoding(bytes: &[u8]) -> String {
     let head = bytes.strip_prefix(b"<?xml").unwrap_or_default();
     let head = head.split(|&byte| byte == b'>').next().unwrap_or_default();
     let head = String::from_utf8_lossy(head).to_ascii_lowercase();
     let encoding = head.split_once("encoding").map_or("", |(_, behind)| behind);
-    encoding.split(['"', '\'']).nth(1).is_some_and(|name| LATIN.contains(&name))
+    encoding.split(['"', '\'']).nth(1).unwrap_or_default().to_owned()
 }
 
 /// Parses text that is well-formed and has its prefixes declared.
 pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
+    if let Some((at, why)) = oddity(text) {
+        return Err(Malformed { at, why });
+    }
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options)
         .map_err(|error| Malformed { at: place_of(text, error.pos()), why: why(&error) })?;
@@ -137,6 +147,63 @@ pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
     // Instructions may be beside the root.
     tree.tops.retain(|&top| tree.elements[top].name != INSTRUCTION);
     Ok(tree)
+}
+
+/// What is not well-formed, and `roxmltree` lets through.
+fn oddity(text: &str) -> Option<(usize, &'static str)> {
+    let is_bad = |&(at, _): &(usize, &str)| {
+        let number = text[at + 2..].split(';').next().unwrap_or_default();
+        let code = match number.strip_prefix('x') {
+            Some(digits) => u32::from_str_radix(digits, 16),
+            None => number.parse(),
+        };
+        code.is_ok_and(|code| char::from_u32(code).is_none())
+    };
+    if let Some((at, _)) = text.match_indices("&#").find(is_bad) {
+        return Some((at, "a reference is of no character"));
+    }
+    let is_empty = |&(at, _): &(usize, &str)| {
+        let value = text[at..].split_once('=').map_or("", |(_, value)| value.trim_start());
+        value.starts_with("\"\"") || value.starts_with("''")
+    };
+    if let Some((at, _)) = text.match_indices("xmlns:").find(is_empty) {
+        return Some((at, "a prefix is declared as nothing"));
+    }
+    if let Some((at, _)) = text.match_indices(" :").find(|(at, _)| is_attribute(&text[at + 2..])) {
+        return Some((at + 1, "an attribute begins with `:`"));
+    }
+    let head = text.trim_start_matches('\u{feff}');
+    if head.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("<?xml"))
+        && head[5..].starts_with([' ', '\n', '\t', '\r', '?'])
+        && !is_declaration(head)
+    {
+        return Some((text.len() - head.len(), "the XML declaration is not right"));
+    }
+    None
+}
+
+/// Whether a name, `=` and a quote are next.
+fn is_attribute(text: &str) -> bool {
+    let behind = text.trim_start_matches(|one: char| one.is_alphanumeric() || "._-".contains(one));
+    behind.starts_with("=\"") || behind.starts_with("='")
+}
+
+/// Whether a text begins with a declaration that says its version, and perhaps more.
+fn is_declaration(text: &str) -> bool {
+    let inside = text.strip_prefix("<?xml").and_then(|text| text.split_once("?>"));
+    let words = inside.map_or("", |(inside, _)| inside).split(['"', '\'']).map(str::trim);
+    let words: Vec<&str> = words.collect();
+    let mut pairs =
+        words.chunks_exact(2).map(|pair| (pair[0].trim_end_matches('=').trim(), pair[1]));
+    let is_version = |version: &str| {
+        version.strip_prefix("1.").is_some_and(|minor| minor.parse::<u32>().is_ok())
+    };
+    pairs.next().is_some_and(|(name, value)| name == "version" && is_version(value))
+        && pairs.all(|(name, value)| match name {
+            "encoding" => value.starts_with(|first: char| first.is_ascii_alphabetic()),
+            "standalone" => matches!(value, "yes" | "no"),
+            _ => false,
+        })
 }
 
 /// The name of an element that is a processing instruction.

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshFacts};
 use crate::number::parse_float;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
@@ -148,8 +148,10 @@ impl<'t> Reader<'_, 't> {
         let mut all = named(parent, name);
         let first = all.next()?;
         let Some(last) = all.last() else { return Some(first) };
-        let fault = Fault::Repeated(name.to_owned());
-        self.effects.read_as(last, format!("{part}/{name}"), fault, "the last");
+        if !last.is_like(first) {
+            let fault = Fault::Repeated(name.to_owned());
+            self.effects.read_as(last, format!("{part}/{name}"), fault, "the last");
+        }
         Some(last)
     }
 
@@ -249,15 +251,17 @@ impl<'t> Reader<'_, 't> {
             self.vector(scale, scale.value.split_whitespace(), 3, part);
         }
         let packaged = name.value.starts_with("package://");
-        let ending = name.value.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-        let why = match self.file.mesh(&name.value) {
+        let ending = name.value.rsplit('.').next().unwrap_or_default();
+        let ending = ending.to_ascii_lowercase();
+        let why = match self.file.mesh(&as_path(&name.value)) {
             _ if !matches!(&*ending, "stl" | "dae") => {
                 "the mesh is in a format that the program cannot read"
             }
             _ if !packaged && (name.value.contains("://") || name.value.starts_with('/')) => {
-                "the program looks for every file beside the URDF, unless its name begins with `package://`"
+                "only `package://` names a file that is not beside the URDF"
             }
             Mesh::Missing => "the file of the mesh was not found",
+            Mesh::Found(facts) if !is_mesh(&facts, &ending) => "the program cannot read the mesh",
             _ => return,
         };
         self.effects.drop(name, part, Fault::Mesh(why));
@@ -382,6 +386,34 @@ impl<'t> Reader<'_, 't> {
         }
         Ok(())
     }
+}
+
+/// The file of a name that is taken for a part of a URL.
+fn as_path(name: &str) -> String {
+    let mut bytes = Vec::with_capacity(name.len());
+    let mut rest = name.replace('\\', "/").replace(['\n', '\t', '\r'], "").into_bytes().into_iter();
+    while let Some(byte) = rest.next() {
+        let hex = |byte: &u8| char::from(*byte).to_digit(16);
+        let pair = rest.as_slice().get(..2).map(|pair| (hex(&pair[0]), hex(&pair[1])));
+        match pair {
+            Some((Some(high), Some(low))) if byte == b'%' => {
+                bytes.push(u8::try_from(16 * high + low).unwrap_or_default());
+                rest.nth(1);
+            }
+            _ => bytes.push(byte),
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Whether it reads a mesh.
+fn is_mesh(facts: &MeshFacts, ending: &str) -> bool {
+    if ending == "dae" {
+        return facts.collada.is_some();
+    }
+    let Some(count) = facts.stl.as_ref().and_then(|stl| stl.written) else { return false };
+    let is_text = facts.head.starts_with(b"solid") && !facts.is_binary_stl();
+    is_text || count.checked_mul(50).is_some_and(|size| size + 84 <= facts.size)
 }
 
 /// What is named by a `<child>` anywhere: no such link is a root.

@@ -11,7 +11,7 @@ pub(crate) struct Malformed {
     pub why: &'static str,
 }
 
-type Parsed<T> = Result<T, Malformed>;
+pub(crate) type Parsed<T> = Result<T, Malformed>;
 
 /// Parses a file. An element that is open and `max_depth` elements deep is refused.
 pub(crate) fn parse(bytes: &[u8], max_depth: usize) -> Parsed<Tree<'_>> {
@@ -144,7 +144,8 @@ impl<'a> Parser<'a> {
             return self.refuse(start, "`<` is not followed by a name");
         };
         let (attributes, is_empty) = self.attributes()?;
-        if closes {
+        // `</name/>` is an empty element.
+        if closes && !is_empty {
             let Some((open, _)) = self.open.pop() else { return Ok(true) };
             let opened = &self.tree.elements[open];
             return match opened.name == String::from_utf8_lossy(name) {

@@ -99,6 +99,24 @@ impl<'t> Node<'t> {
         self.children().filter(move |child| child.name() == name)
     }
 
+    /// Whether another element has the same attributes and elements in it.
+    pub fn is_like(self, other: Node<'_>) -> bool {
+        let mut open = vec![(self, other)];
+        while let Some((one, other)) = open.pop() {
+            let (first, second) = (one.attributes().iter(), other.attributes().iter());
+            let (inside, beside) = (one.children(), other.children());
+            let is_same = one.name() == other.name()
+                && first.len() == second.len()
+                && first.zip(second).all(|(a, b)| a.name == b.name && a.value == b.value)
+                && one.element().children.len() == other.element().children.len();
+            if !is_same {
+                return false;
+            }
+            open.extend(inside.zip(beside));
+        }
+        true
+    }
+
     pub fn child(self, name: &str) -> Option<Node<'t>> {
         self.named(name).next()
     }

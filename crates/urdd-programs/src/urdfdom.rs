@@ -1,14 +1,14 @@
 //! urdfdom 6.0.0 and 4.0.1, with which all of ROS and Pinocchio read URDF. A fault in a joint refuses the file; a fault
 //! in a link loses that part of the link and all that is read after it.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashSet};
 
 use crate::effect::{At, Effects, Reading};
 use crate::fault::Fault;
 use crate::file::File;
 use crate::number::{istream, whole};
-use crate::tinyxml;
 use crate::tree::{Attribute, Node, Tree};
+use crate::{tinyxml, tinyxml1};
 
 /// Open elements, the root among them, from which tinyxml2 refuses.
 const MAX_DEPTH: usize = 499;
@@ -25,8 +25,8 @@ pub(crate) enum Release {
 /// What it has of a link.
 pub(crate) struct Link<'t> {
     pub node: Node<'t>,
-    /// Whether the first visual and the first collision can be asked for; not if any of them is faulty.
-    pub has: [bool; 2],
+    /// How many visuals and collisions it reads, and whether these are all.
+    pub kept: [(usize, bool); 2],
 }
 
 /// What it has of a joint.
@@ -39,6 +39,7 @@ pub(crate) struct Joint<'t> {
 
 /// What it has of a robot.
 pub(crate) struct Model<'t> {
+    pub robot: Node<'t>,
     pub links: BTreeMap<&'t str, Link<'t>>,
     /// In the order of their names.
     pub joints: BTreeMap<&'t str, Joint<'t>>,
@@ -47,6 +48,13 @@ pub(crate) struct Model<'t> {
 pub(crate) fn read_six(file: &File, effects: &mut Effects) -> Reading<()> {
     let tree = parse(file, effects)?;
     model(&tree, Release::Six, effects).map(|_| ())
+}
+
+/// 3.0.1 reads as 4.0.1 does, but for the parser of its XML.
+pub(crate) fn read_three(file: &File, effects: &mut Effects) -> Reading<()> {
+    let tree =
+        tinyxml1::parse(file.bytes).or_else(|bad| effects.refuse(bad.at, Fault::Xml(bad.why)))?;
+    model(&tree, Release::Four, effects).map(|_| ())
 }
 
 pub(crate) fn read_four(file: &File, effects: &mut Effects) -> Reading<()> {
@@ -79,11 +87,11 @@ pub(crate) fn model<'t>(
             _ => return effects.refuse(written, Fault::Version(written.value.to_string())),
         },
     };
-    let mut reader = Reader { release, minor, effects, materials: HashMap::new() };
+    let mut reader = Reader { release, minor, effects, materials: HashSet::new() };
     reader.materials(robot)?;
     let links = reader.links(robot)?;
     let joints = reader.joints(robot)?;
-    let model = Model { links, joints };
+    let model = Model { robot, links, joints };
     reader.tree(robot, &model)?;
     Ok(model)
 }
@@ -100,16 +108,13 @@ fn version(text: &str) -> Option<(u32, u32)> {
     Some((part(major)?, part(minor)?))
 }
 
-/// A part of a link that is not read.
-struct Faulty;
-
 struct Reader<'r> {
     release: Release,
     /// The version of URDF is 1 and this.
     minor: u32,
     effects: &'r mut Effects,
-    /// Materials that are known, and whether they have what makes one.
-    materials: HashMap<String, bool>,
+    /// Materials that are known.
+    materials: HashSet<String>,
 }
 
 impl Reader<'_> {
@@ -123,7 +128,7 @@ impl Reader<'_> {
                 let fault = Fault::Other("the material has no colour and no texture");
                 self.effects.read_as(material, part, fault, "black");
             }
-            if self.materials.insert(name.to_owned(), true).is_some() {
+            if !self.materials.insert(name.to_owned()) {
                 return self.effects.refuse(material, Fault::not_unique("material", name));
             }
         }
@@ -132,13 +137,15 @@ impl Reader<'_> {
 
     /// Whether a material has a colour or a texture.
     fn color(&mut self, material: Node<'_>, part: &str) -> bool {
-        let texture =
-            material.child("texture").is_some_and(|node| node.attribute("filename").is_some());
+        let texture = material.child("texture").and_then(|node| node.attribute("filename"));
+        if let Some(empty) = texture.filter(|filename| filename.value.is_empty()) {
+            self.effects.drop(empty, part, Fault::Empty("filename"));
+        }
+        let texture = texture.is_some();
         let color = material.child("color").and_then(|node| node.attribute("rgba"));
         let Some(rgba) = color else { return texture };
         let numbers =
             pieces(&rgba.value).map(|piece| whole(istream(piece))).collect::<Option<Vec<f64>>>();
-        let part = format!("{part}/color");
         match numbers {
             None => {
                 let fault = Fault::not_a_number("rgba", &rgba.value);
@@ -164,14 +171,14 @@ impl Reader<'_> {
         let mut links = BTreeMap::new();
         for node in robot.named("link") {
             let name = node.value("name").unwrap_or_default();
-            let has = match node.attribute("name") {
+            let kept = match node.attribute("name") {
                 Some(_) => self.link(node, name),
                 None => {
                     self.effects.drop(node, format!("link/{name}"), Fault::Missing("name"));
-                    [false; 2]
+                    [(0, true); 2]
                 }
             };
-            if links.insert(name, Link { node, has }).is_some() {
+            if links.insert(name, Link { node, kept }).is_some() {
                 return self.effects.refuse(node, Fault::not_unique("link", name));
             }
         }
@@ -182,7 +189,7 @@ impl Reader<'_> {
     }
 
     /// Reads the parts of a link. The first that is faulty is lost, with all that come after it.
-    fn link(&mut self, link: Node<'_>, name: &str) -> [bool; 2] {
+    fn link(&mut self, link: Node<'_>, name: &str) -> [(usize, bool); 2] {
         let mut bad = None;
         if let Some(inertial) = link.child("inertial") {
             let part = format!("link/{name}/inertial");
@@ -191,21 +198,23 @@ impl Reader<'_> {
                 bad = Some((at, fault));
             }
         }
-        let mut has = [false; 2];
-        for (kind, has) in ["visual", "collision"].into_iter().zip(&mut has) {
-            *has = link.child(kind).is_some() && bad.is_none();
+        let mut kept = [(0, true); 2];
+        for (kind, kept) in ["visual", "collision"].into_iter().zip(&mut kept) {
             for (index, node) in link.named(kind).enumerate() {
                 let part = format!("link/{name}/{kind}/{index}");
                 if bad.is_none() {
                     bad = self.shape(node, &part).err();
                 }
-                if let Some((at, fault)) = &bad {
-                    *has = false;
-                    self.effects.drop(*at, part, fault.clone());
+                match &bad {
+                    None => kept.0 += 1,
+                    Some((at, fault)) => {
+                        kept.1 = false;
+                        self.effects.drop(*at, part, fault.clone());
+                    }
                 }
             }
         }
-        has
+        kept
     }
 
     fn inertial(&mut self, inertial: Node<'_>) -> Part<()> {
@@ -228,13 +237,17 @@ impl Reader<'_> {
             return Ok(());
         };
         let name = &*needed(material, "name")?.value;
-        if name.is_empty() || !self.materials.contains_key(name) {
-            let is_defined = self.color(material, part);
+        if name.is_empty() || !self.materials.contains(name) {
+            let part = format!("{part}/material");
+            let is_defined = self.color(material, &part);
             if is_defined && !name.is_empty() {
-                self.materials.insert(name.to_owned(), true);
-            } else if !is_defined && !name.is_empty() {
-                let fault = Fault::unknown("material", name);
-                self.effects.drop(material, format!("{part}/material"), fault);
+                self.materials.insert(name.to_owned());
+            } else if !is_defined {
+                let fault = match name.is_empty() {
+                    true => Fault::Other("the material has no name, no colour and no texture"),
+                    false => Fault::unknown("material", name),
+                };
+                self.effects.drop(material, part, fault);
             }
         }
         Ok(())

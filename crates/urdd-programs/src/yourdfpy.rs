@@ -6,11 +6,11 @@ use std::collections::HashMap;
 use crate::effect::{At, Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, StlFacts};
 use crate::number::python;
 use crate::recover;
 use crate::strict::{Names, Text};
-use crate::tree::{Attribute, Node};
+use crate::tree::{Attribute, Node, Tree};
 
 /// libxml2 parses no deeper.
 const MAX_DEPTH: usize = 256;
@@ -19,24 +19,32 @@ pub(crate) fn read(file: &File, effects: &mut Effects) -> Reading<()> {
     let text = Text::declared(file.bytes);
     let (tree, bad) = match text.parse(Names::Expanded) {
         Ok(tree) if tree.depth() <= MAX_DEPTH => (tree, None),
-        Ok(_) => {
-            (text.placed(recover::parse(&text.text)), Some((0, "elements are nested too deep")))
-        }
-        Err(bad) => (text.placed(recover::parse(&text.text)), Some((bad.at, bad.why))),
+        Ok(_) => recovered(&text, 0, "elements are nested too deep"),
+        Err(bad) => recovered(&text, bad.at, bad.why),
     };
     let Some(root) = tree.tops().next() else {
-        let (at, why) = bad.unwrap_or((0, "the file has no element"));
+        let (at, why, _) = bad.unwrap_or((0, "the file has no element", true));
         return effects.refuse(at, Fault::Xml(why));
     };
-    if let Some((at, why)) = bad {
+    if let Some((at, why, is_whole)) = bad {
         let has_namespace = root.value("xmlns").is_some_and(|namespace| namespace.contains(':'));
         if has_namespace || root.name().contains(':') {
             return effects.refuse(at, Fault::Xml(why));
         }
-        effects.read_as(at, "robot/?", Fault::Xml(why), "what can be recovered");
+        if !is_whole {
+            effects.read_as(at, "robot/?", Fault::Xml(why), "what can be recovered");
+        }
     }
     let mut reader = Reader { file, effects, materials: HashMap::new() };
     reader.robot(root)
+}
+
+/// The fault of a document: where, what, and whether all is read nevertheless.
+type Bad = Option<(usize, &'static str, bool)>;
+
+fn recovered<'t>(text: &'t Text<'_>, at: usize, why: &'static str) -> (Tree<'t>, Bad) {
+    let (tree, is_whole) = recover::parse(&text.text);
+    (text.placed(tree), Some((at, why, is_whole)))
 }
 
 struct Reader<'r, 't> {
@@ -115,8 +123,12 @@ impl<'t> Reader<'_, 't> {
                     }
                 }
             }
-            if let Some(mass) = inertial.child("mass") {
-                self.numbers(mass, &["value"])?;
+            match inertial.child("mass") {
+                Some(mass) => self.numbers(mass, &["value"])?,
+                None => {
+                    let fault = Fault::MissingElement("mass");
+                    self.effects.read_as(inertial, part, fault, "no mass");
+                }
             }
         }
         for kind in ["visual", "collision"] {
@@ -138,7 +150,10 @@ impl<'t> Reader<'_, 't> {
 
     /// Of elements that repeat it reads the first.
     fn first(&mut self, parent: Node<'t>, name: &str, part: &str) {
-        if let Some(second) = parent.named(name).nth(1) {
+        let mut all = parent.named(name);
+        if let Some(first) = all.next()
+            && let Some(second) = all.find(|second| !second.is_like(first))
+        {
             let part = format!("{part}/{name}");
             self.effects.read_as(second, part, Fault::Repeated(name.to_owned()), "the first");
         }
@@ -259,7 +274,11 @@ impl<'t> Reader<'_, 't> {
             self.numbers(element, numbers)?;
             self.first(node, name, &part);
         }
+        self.nothing(node, "dynamics", &["damping", "friction"], &part);
         let kind = node.value("type");
+        if matches!(kind, Some("revolute" | "prismatic")) {
+            self.nothing(node, "limit", &["lower", "upper"], &part);
+        }
         let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
         if kind.is_none_or(|kind| !known.contains(&kind)) {
             let (at, fault) = match node.attribute("type") {
@@ -269,6 +288,15 @@ impl<'t> Reader<'_, 't> {
             self.effects.read_as(at, part, fault, "fixed");
         }
         Ok(Joint { node, name, kind, mimics: node.child("mimic") })
+    }
+
+    /// What is missing is no number, and not 0.
+    fn nothing(&mut self, joint: Node<'t>, name: &str, values: &[&'static str], part: &str) {
+        let Some(element) = joint.child(name) else { return };
+        for value in values.iter().filter(|value| element.attribute(value).is_none()) {
+            let part = format!("{part}/{name}");
+            self.effects.read_as(element, part, Fault::Missing(value), "none");
+        }
     }
 
     /// Each joint takes its child from the list of links: it must be there, and once for each joint.
@@ -366,6 +394,12 @@ impl<'t> Reader<'_, 't> {
             self.effects.drop(material, part, Fault::unknown("material of the robot", name));
         }
         let Some(rgba) = color.and_then(|color| color.attribute("rgba")) else { return Ok(()) };
+        let size = form.and_then(|form| form.attribute("size"));
+        if let Some(size) = size
+            && size.value.replace(',', " ").split_whitespace().count() != 3
+        {
+            return self.effects.refuse(size, Fault::count("size", 3, &size.value));
+        }
         let numbers = self.vector(rgba, &rgba.value)?;
         if !matches!(numbers.len(), 1 | 4) {
             return self.effects.refuse(rgba, Fault::count("rgba", 4, &rgba.value));
@@ -396,16 +430,36 @@ impl<'t> Reader<'_, 't> {
             }
             return Ok(false);
         };
-        let _ = facts;
+        let ending = name.value.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+        let is_stl = |stl: &StlFacts| stl.binary.is_some_and(|count| count > 0) || stl.corners > 0;
+        let (is_refused, is_empty) = match &*ending {
+            "stl" => (false, !facts.stl.as_ref().is_some_and(is_stl)),
+            "obj" => (false, facts.obj.as_ref().is_none_or(|obj| obj.vertices == 0)),
+            "dae" => (facts.collada.is_none(), false),
+            "ply" | "glb" | "gltf" | "off" | "3mf" | "zae" => (false, false),
+            // A folder.
+            _ if facts.size == 0 => (false, true),
+            _ => (true, false),
+        };
         let scale = self.scale(mesh)?;
+        // The size of nothing cannot be changed evenly.
+        let is_even = !scale.is_empty() && scale.iter().all(|one| *one == scale[0]);
+        if is_refused || (is_empty && is_even) {
+            let fault = Fault::Mesh("the program cannot read the mesh");
+            return self.effects.refuse(name, fault);
+        }
         if let Some(value) = mesh.attribute("scale") {
             if !matches!(scale.len(), 0 | 1 | 3) {
                 return self.effects.refuse(value, Fault::count("scale", 3, &value.value));
             }
-            if scale.contains(&0.0) {
+            if is_even && scale.first() == Some(&0.0) {
                 let fault = Fault::range("scale", &value.value, "a mesh cannot have the size 0");
                 return self.effects.refuse(value, fault);
             }
+        }
+        if is_empty {
+            self.effects.drop(name, part, Fault::Mesh("the program finds nothing in the mesh"));
+            return Ok(false);
         }
         Ok(true)
     }

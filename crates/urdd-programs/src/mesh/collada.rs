@@ -40,7 +40,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<ColladaFacts> {
     while let Some((node, depth)) = open.pop() {
         match node.tag_name().name() {
             "triangles" | "polylist" | "polygons" | "tristrips" | "trifans" => {
-                facts.triangles += triangles(node);
+                facts.triangles = facts.triangles.saturating_add(triangles(node));
                 continue;
             }
             "instance_geometry" | "instance_controller" => {
@@ -74,7 +74,9 @@ fn triangles(primitive: Node<'_, '_>) -> usize {
         }
         "polylist" => {
             let counts = texts("vcount").flat_map(str::split_ascii_whitespace);
-            counts.map(|count| count.parse().unwrap_or(0_usize).saturating_sub(2)).sum()
+            counts
+                .map(|count| count.parse().unwrap_or(0_usize).saturating_sub(2))
+                .fold(0, usize::saturating_add)
         }
         _ => texts("p").filter(|text| !text.trim().is_empty()).count(),
     }

@@ -107,7 +107,8 @@ impl MeshFacts {
 
     /// Whether it is as long as a binary STL file of its number of triangles.
     pub fn is_binary_stl(&self) -> bool {
-        stl::written_count(&self.head).is_some_and(|count| count * 50 + 84 == self.size)
+        let count = stl::written_count(&self.head).and_then(|count| count.checked_mul(50));
+        count.is_some_and(|body| self.size.checked_sub(84) == Some(body))
     }
 }
 

@@ -86,7 +86,9 @@ impl Reader {
             self.facts.has_bad_index = true;
             return;
         };
-        self.highest = corners.iter().fold(self.highest, |highest, index| highest.max(index + 1));
+        self.highest = corners
+            .iter()
+            .fold(self.highest, |highest, index| highest.max(index.saturating_add(1)));
         self.facts.triangles += corners.len().saturating_sub(2);
         let second = corners.iter().find(|corner| **corner != corners[0]);
         let third = corners.iter().find(|corner| **corner != corners[0] && Some(*corner) != second);

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshFacts};
 use crate::number::python;
 use crate::tinyxml::Malformed;
 use crate::tree::{Attribute, Node};
@@ -81,7 +81,13 @@ impl<'t> Reader<'_, 't> {
         const LONGEST: usize = 248;
         let Some(attribute) = robot.attribute("name") else { return Ok(()) };
         let name = &*attribute.value;
-        if name.len() > LONGEST || name.starts_with('/') || name.contains(char::is_control) {
+        if name.contains('\\') {
+            let rule = "it is the name of a file, too";
+            let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
+            self.effects.drop(attribute, "robot/?", fault);
+        }
+        let has_slash = name.starts_with('/') || name.ends_with('/');
+        if name.len() > LONGEST || has_slash || name.contains(char::is_control) {
             let rule = "it is the name of a file, too";
             let fault = Fault::Name { kind: "robot", name: shortened(name), rule };
             return self.effects.refuse(attribute, fault);
@@ -108,7 +114,9 @@ impl<'t> Reader<'_, 't> {
     /// Of elements that repeat it reads the last.
     fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
         for name in names {
-            if let Some(second) = node.named(name).nth(1) {
+            let mut all = node.named(name);
+            let Some(first) = all.next() else { continue };
+            if let Some(second) = all.find(|second| !second.is_like(first)) {
                 let fault = Fault::Repeated((*name).to_owned());
                 self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
             }
@@ -170,6 +178,10 @@ impl<'t> Reader<'_, 't> {
             None if matches!(kind, "revolute" | "prismatic") => {
                 let fault = Fault::MissingElement("limit");
                 self.effects.read_as(node, part, fault, "locked at 0");
+            }
+            Some(limit) if kind == "planar" => {
+                let fault = Fault::Other("a planar joint has no limit in USD");
+                self.effects.drop(limit, part, fault);
             }
             Some(limit) => {
                 for name in ["acceleration", "deceleration", "jerk"] {
@@ -325,9 +337,29 @@ impl<'t> Reader<'_, 't> {
             _ if !matches!(&*ending, "stl" | "obj" | "dae") => {
                 Some("the mesh is in a format that the program cannot read")
             }
+            Mesh::Found(facts) => {
+                let has_faces = match &*ending {
+                    "stl" => is_stl(&facts),
+                    "obj" => facts.obj.as_ref().is_some_and(|obj| obj.faces > 0),
+                    _ => facts.collada.is_some(),
+                };
+                (!has_faces).then_some("the program finds nothing in the mesh")
+            }
             Mesh::Missing => Some("the file of the mesh was not found"),
             _ => None,
         }
+    }
+}
+
+/// Whether it reads an STL file: one without two corners that are one point is none to it.
+fn is_stl(facts: &MeshFacts) -> bool {
+    const MOST: usize = 100_000_000;
+    let Some(stl) = &facts.stl else { return false };
+    match (stl.binary, stl.written) {
+        (Some(_), _) => stl.shares_corners,
+        _ if facts.head.starts_with(b"solid") => stl.corners > 3,
+        (None, Some(count)) => (1..=MOST).contains(&count) && facts.size >= 84 + 50,
+        (None, None) => false,
     }
 }
 

@@ -1,20 +1,47 @@
 //! What is in the meshes of the bases.
 
 use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use urdd_programs::{Mesh, MeshFacts};
+use urdd_programs::{Mesh, MeshFacts, Program};
 
 use crate::table::folder;
 
-/// The mesh that a base names.
-pub fn find(name: &str) -> Mesh {
+/// The mesh that a base names, where a program looks for it: the table was made with `base/` beside the file, `packages/` in
+/// it, and packages in the latter.
+pub fn find(program: Program, name: &str) -> Mesh {
     let base = folder().join("base");
-    let path = match name.split_once("://") {
-        Some(("package" | "model", rest)) => base.join("packages").join(rest),
-        Some(("file", rest)) => rest.into(),
-        _ => base.join(name),
+    let packages = base.join("packages");
+    let (scheme, rest) = match name.split_once("://") {
+        Some((scheme, rest)) => (scheme, rest),
+        None => ("", name),
     };
-    let Ok(bytes) = fs::read(path) else { return Mesh::Missing };
+    let in_any =
+        |rest: &str| [&base, &packages].map(|folder| folder.join(rest.trim_start_matches('/')));
+    let places: Vec<PathBuf> = match (program.id(), scheme) {
+        // Schemes are cut off, and packages are looked for in the file's folder alone.
+        ("pybullet", "file" | "package" | "model" | "") => {
+            let rest = rest.strip_prefix("package://").or(rest.strip_prefix("model://"));
+            vec![base.join(rest.unwrap_or(name.split("://").last().unwrap()))]
+        }
+        // What is no scheme is a name, relative ones in the folders of packages too.
+        ("pinocchio", "") if !rest.starts_with('/') => in_any(rest).into(),
+        ("pinocchio", "package" | "model") => in_any(rest).into(),
+        // The package's name is left out, and any scheme.
+        ("yourdfpy", "package") => {
+            vec![base.join(rest.split_once('/').map_or("", |(_, path)| path))]
+        }
+        ("yourdfpy", _) => vec![base.join(rest)],
+        (_, "package" | "model") => vec![packages.join(rest)],
+        (_, "file") => vec![rest.into()],
+        _ => vec![base.join(name)],
+    };
+    // `base/` had another name there.
+    if name.contains("../base/") {
+        return Mesh::Missing;
+    }
+    let Some(path) = places.into_iter().find(|path| path.exists()) else { return Mesh::Missing };
+    let bytes = fs::read(&path).unwrap_or_default();
     Mesh::Found(Arc::new(MeshFacts::of(name, &bytes)))
 }

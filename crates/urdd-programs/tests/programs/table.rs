@@ -10,6 +10,8 @@ pub struct Row {
     pub base: String,
     /// The changed file.
     pub bytes: Vec<u8>,
+    /// The facts that the change takes away in a program that reads all as it is written.
+    pub gone: Vec<String>,
     /// What each program did, by its letter: `+` loads, `-` refuses, `!` crashes, `?` does not end.
     pub verdicts: HashMap<char, char>,
     /// The facts that are otherwise than meant, by a program's letter.
@@ -50,9 +52,15 @@ pub fn read(path: &Path) -> (Letters, Vec<Row>) {
                     id: String::from_utf8_lossy(&id).into_owned(),
                     base,
                     bytes,
+                    gone: Vec::new(),
                     verdicts: HashMap::new(),
                     differences: HashMap::new(),
                 });
+            }
+            "~" => {
+                let facts = rest.split('\t').filter(|fact| fact.starts_with('-'));
+                let facts = facts.map(|fact| String::from_utf8_lossy(&plain(fact)).into_owned());
+                rows.last_mut().unwrap().gone = facts.collect();
             }
             "=" => {
                 let mut parts = rest[1..].split('\t');
