@@ -16,8 +16,7 @@ pub(crate) fn parse(text: &str) -> (Tree<'_>, bool) {
     if parser.tag() {
         parser.content();
     }
-    parser.skip(is_space);
-    let is_whole = parser.is_whole && !parser.rest().contains("<link") && parser.open.is_empty();
+    let is_whole = parser.is_whole && parser.open.len() < 2;
     (parser.tree, is_whole)
 }
 
@@ -89,7 +88,12 @@ impl<'a> Parser<'a> {
                 self.names = self.names.saturating_sub(1);
             } else if rest.starts_with("<!--") {
                 self.at += 4;
+                let body = self.at;
                 self.behind("-->");
+                // A comment does not end at `--->`.
+                if self.text[body..self.at].ends_with("--->") {
+                    return;
+                }
             } else if rest.starts_with("<![CDATA[") {
                 self.behind("]]>");
             } else if rest.starts_with("<??>") {
@@ -142,8 +146,8 @@ impl<'a> Parser<'a> {
         self.add(name.into(), attributes, start, opens);
         self.names += usize::from(!closes);
         if !opens && !closes {
-            let cut = self.rest().split('>').next().unwrap_or_default();
-            self.is_whole &= !cut.contains('=') && cut.ends_with('/');
+            let cut = self.rest().split(['<', '>']).next().unwrap_or_default();
+            self.is_whole &= !cut.contains('=');
         }
         !is_root || opens
     }
@@ -160,12 +164,14 @@ impl<'a> Parser<'a> {
             let name = self.skip(is_name);
             self.skip(is_space);
             if !self.rest().starts_with('=') {
+                self.is_whole = false;
                 // What is next is an attribute only behind a space, which is taken already.
                 return attributes;
             }
             self.at += 1;
             self.skip(is_space);
             let Some(quote) = self.rest().chars().next().filter(|one| "\"'".contains(*one)) else {
+                self.is_whole = false;
                 return attributes;
             };
             self.at += 1;

@@ -152,7 +152,8 @@ pub(crate) fn parse(text: &str, names: Names) -> Result<Tree<'_>, Malformed> {
 /// What is not well-formed, and `roxmltree` lets through.
 fn oddity(text: &str) -> Option<(usize, &'static str)> {
     let is_bad = |&(at, _): &(usize, &str)| {
-        let number = text[at + 2..].split(';').next().unwrap_or_default();
+        let ends = |one: char| !one.is_ascii_alphanumeric();
+        let number = text[at + 2..].split(ends).next().unwrap_or_default();
         let code = match number.strip_prefix('x') {
             Some(digits) => u32::from_str_radix(digits, 16),
             None => number.parse(),
@@ -163,8 +164,9 @@ fn oddity(text: &str) -> Option<(usize, &'static str)> {
         return Some((at, "a reference is of no character"));
     }
     let is_empty = |&(at, _): &(usize, &str)| {
-        let value = text[at..].split_once('=').map_or("", |(_, value)| value.trim_start());
-        value.starts_with("\"\"") || value.starts_with("''")
+        let value = text[at..]
+            .trim_start_matches(|one: char| one.is_alphanumeric() || "_-.: ".contains(one));
+        value.starts_with("=\"\"") || value.starts_with("=''")
     };
     if let Some((at, _)) = text.match_indices("xmlns:").find(is_empty) {
         return Some((at, "a prefix is declared as nothing"));

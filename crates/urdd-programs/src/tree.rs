@@ -108,13 +108,25 @@ impl<'t> Node<'t> {
             let is_same = one.name() == other.name()
                 && first.len() == second.len()
                 && first.zip(second).all(|(a, b)| a.name == b.name && a.value == b.value)
-                && one.element().children.len() == other.element().children.len();
+                && one.child_count() == other.child_count();
             if !is_same {
                 return false;
             }
             open.extend(inside.zip(beside));
         }
         true
+    }
+
+    /// Another element beside the first of a name that says something else than it does.
+    pub fn repeated(self, name: &str) -> Option<Node<'t>> {
+        let is_empty = |node: Node<'_>| node.attributes().is_empty() && node.child_count() == 0;
+        let mut all = self.named(name).filter(|node| !is_empty(*node));
+        let first = all.next()?;
+        all.find(|other| !other.is_like(first))
+    }
+
+    fn child_count(self) -> usize {
+        self.element().children.len()
     }
 
     pub fn child(self, name: &str) -> Option<Node<'t>> {

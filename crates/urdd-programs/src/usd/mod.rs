@@ -114,9 +114,7 @@ impl<'t> Reader<'_, 't> {
     /// Of elements that repeat it reads the last.
     fn repeated(&mut self, node: Node<'t>, names: &[&str], part: &str) {
         for name in names {
-            let mut all = node.named(name);
-            let Some(first) = all.next() else { continue };
-            if let Some(second) = all.find(|second| !second.is_like(first)) {
+            if let Some(second) = node.repeated(name) {
                 let fault = Fault::Repeated((*name).to_owned());
                 self.effects.read_as(second, format!("{part}/{name}"), fault, "the last");
             }
@@ -228,7 +226,7 @@ impl<'t> Reader<'_, 't> {
     fn look(&mut self, material: Node<'t>, part: &str) -> Reading<()> {
         if let Some(rgba) = last(material, "color").and_then(|color| color.attribute("rgba")) {
             let opacity = rgba.value.split_whitespace().nth(3).and_then(python).unwrap_or(1.0);
-            if opacity < 0.0 || opacity > 1.0 {
+            if !opacity.is_nan() && !(0.0..=1.0).contains(&opacity) {
                 let fault = Fault::range("rgba", &rgba.value, "opacity is from 0 to 1");
                 return self.effects.refuse(rgba, fault);
             }
@@ -236,6 +234,13 @@ impl<'t> Reader<'_, 't> {
         let texture = last(material, "texture").and_then(|texture| texture.attribute("filename"));
         let Some(texture) = texture.filter(|name| !name.value.is_empty()) else { return Ok(()) };
         let name = &*texture.value;
+        if let Some(color) = last(material, "color") {
+            self.effects.drop(
+                color,
+                part,
+                Fault::Other("the texture is in the place of the colour"),
+            );
+        }
         if is_elsewhere(name) || matches!(name, "." | "..") || name.ends_with('/') {
             let fault = Fault::Other("the name of the texture is not that of a file");
             return self.effects.refuse(texture, fault);
@@ -294,11 +299,9 @@ impl<'t> Reader<'_, 't> {
         let shapes = ["box", "sphere", "cylinder", "mesh"];
         let Some(form) = geometry.children().filter(|form| shapes.contains(&form.name())).last()
         else {
-            let fault = match geometry.children().next() {
-                Some(form) => Fault::Shape(shortened(form.name())),
-                None => Fault::Other("`<geometry>` has no shape"),
-            };
-            self.effects.drop(geometry, part, fault);
+            if let Some(form) = geometry.children().next() {
+                self.effects.drop(form, part, Fault::Shape(shortened(form.name())));
+            }
             return Ok(());
         };
         let needed: &[&'static str] = match form.name() {

@@ -34,6 +34,7 @@ pub fn find(program: Program, name: &str) -> Mesh {
         }
         ("yourdfpy", _) => vec![base.join(rest)],
         (_, "package" | "model") => vec![packages.join(rest)],
+        ("usd", "file") => vec![base.join(rest)],
         (_, "file") => vec![rest.into()],
         _ => vec![base.join(name)],
     };

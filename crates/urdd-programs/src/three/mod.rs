@@ -1,12 +1,14 @@
 //! urdf-loader 0.13.1 of three.js, with its defaults: visuals, no collisions. Any text is a number to it, perhaps NaN.
 //! Names of elements may be in any case. Chromium reads a file that is not well-formed as far as the first error.
 
+mod mesh;
+
 use std::collections::{HashMap, HashSet};
 
 use crate::effect::{Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::mesh::{Mesh, MeshFacts};
+use crate::mesh::Mesh;
 use crate::number::parse_float;
 use crate::strict::{Names, Text};
 use crate::tree::{Attribute, Node};
@@ -77,7 +79,9 @@ impl<'t> Reader<'_, 't> {
         let mut all = Vec::new();
         for node in named(robot, "joint") {
             let joint = self.joint(node, &links)?;
-            if let Some(_other) = joints.insert(name_of(node), all.len()) {
+            if let Some(other) = joints.insert(name_of(node), all.len())
+                && all.get(other).is_some_and(|other: &Joint| !other.node.is_like(node))
+            {
                 let fault = Fault::not_unique("joint", name_of(node));
                 self.effects.read_as(node, format!("joint/{}", name_of(node)), fault, "the last");
             }
@@ -148,7 +152,8 @@ impl<'t> Reader<'_, 't> {
         let mut all = named(parent, name);
         let first = all.next()?;
         let Some(last) = all.last() else { return Some(first) };
-        if !last.is_like(first) {
+        let is_empty = first.attributes().is_empty() && first.children().next().is_none();
+        if !is_empty && !last.is_like(first) {
             let fault = Fault::Repeated(name.to_owned());
             self.effects.read_as(last, format!("{part}/{name}"), fault, "the last");
         }
@@ -163,11 +168,13 @@ impl<'t> Reader<'_, 't> {
             self.vector(rgba, rgba.value.split(char::is_whitespace), 4, part);
         }
         for texture in named(material, "texture") {
-            if let Some(name) = texture.attribute("filename")
-                && matches!(self.file.mesh(&name.value), Mesh::Missing)
-            {
-                let fault = Fault::Other("the file of the texture was not found");
-                self.effects.drop(name, part, fault);
+            match texture.attribute("filename").filter(|name| !name.value.is_empty()) {
+                None => self.effects.drop(texture, part, Fault::Empty("filename")),
+                Some(name) if matches!(self.file.mesh(&name.value), Mesh::Missing) => {
+                    let fault = Fault::Other("the file of the texture was not found");
+                    self.effects.drop(name, part, fault);
+                }
+                Some(_) => {}
             }
         }
         Ok(())
@@ -208,11 +215,10 @@ impl<'t> Reader<'_, 't> {
             }
         }
         self.pose(visual, part);
-        let mut geometries = named(visual, "geometry").peekable();
-        if geometries.peek().is_none() {
+        if named(visual, "geometry").next().is_none() {
             self.effects.drop(visual, part, Fault::MissingElement("geometry"));
         }
-        for geometry in geometries {
+        for geometry in named(visual, "geometry") {
             let Some(form) = geometry.children().next() else {
                 return self.effects.refuse(geometry, Fault::Other("`<geometry>` has no shape"));
             };
@@ -241,30 +247,6 @@ impl<'t> Reader<'_, 't> {
                 None => self.effects.read_as(form, part, Fault::Missing(name), "0"),
             }
         }
-    }
-
-    fn mesh(&mut self, mesh: Node<'t>, part: &str) {
-        let Some(name) = mesh.attribute("filename") else {
-            return self.effects.drop(mesh, part, Fault::Missing("filename"));
-        };
-        if let Some(scale) = mesh.attribute("scale").filter(|scale| !scale.value.is_empty()) {
-            self.vector(scale, scale.value.split_whitespace(), 3, part);
-        }
-        let packaged = name.value.starts_with("package://");
-        let ending = name.value.rsplit('.').next().unwrap_or_default();
-        let ending = ending.to_ascii_lowercase();
-        let why = match self.file.mesh(&as_path(&name.value)) {
-            _ if !matches!(&*ending, "stl" | "dae") => {
-                "the mesh is in a format that the program cannot read"
-            }
-            _ if !packaged && (name.value.contains("://") || name.value.starts_with('/')) => {
-                "only `package://` names a file that is not beside the URDF"
-            }
-            Mesh::Missing => "the file of the mesh was not found",
-            Mesh::Found(facts) if !is_mesh(&facts, &ending) => "the program cannot read the mesh",
-            _ => return,
-        };
-        self.effects.drop(name, part, Fault::Mesh(why));
     }
 
     fn joint(&mut self, node: Node<'t>, links: &HashMap<&str, Node<'t>>) -> Reading<Joint<'t>> {
@@ -386,34 +368,6 @@ impl<'t> Reader<'_, 't> {
         }
         Ok(())
     }
-}
-
-/// The file of a name that is taken for a part of a URL.
-fn as_path(name: &str) -> String {
-    let mut bytes = Vec::with_capacity(name.len());
-    let mut rest = name.replace('\\', "/").replace(['\n', '\t', '\r'], "").into_bytes().into_iter();
-    while let Some(byte) = rest.next() {
-        let hex = |byte: &u8| char::from(*byte).to_digit(16);
-        let pair = rest.as_slice().get(..2).map(|pair| (hex(&pair[0]), hex(&pair[1])));
-        match pair {
-            Some((Some(high), Some(low))) if byte == b'%' => {
-                bytes.push(u8::try_from(16 * high + low).unwrap_or_default());
-                rest.nth(1);
-            }
-            _ => bytes.push(byte),
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
-}
-
-/// Whether it reads a mesh.
-fn is_mesh(facts: &MeshFacts, ending: &str) -> bool {
-    if ending == "dae" {
-        return facts.collada.is_some();
-    }
-    let Some(count) = facts.stl.as_ref().and_then(|stl| stl.written) else { return false };
-    let is_text = facts.head.starts_with(b"solid") && !facts.is_binary_stl();
-    is_text || count.checked_mul(50).is_some_and(|size| size + 84 <= facts.size)
 }
 
 /// What is named by a `<child>` anywhere: no such link is a root.

@@ -1,12 +1,13 @@
 //! yourdfpy 0.0.60: `URDF.load` with its defaults, which shows visuals with their meshes. It reads XML by libxml2, and
 //! recovers what it can of a file that is not well-formed; numbers are those of Python.
 
+mod shown;
+
 use std::collections::HashMap;
 
 use crate::effect::{At, Effects, Reading};
 use crate::fault::{Fault, shortened};
 use crate::file::File;
-use crate::mesh::{Mesh, StlFacts};
 use crate::number::python;
 use crate::recover;
 use crate::strict::{Names, Text};
@@ -138,10 +139,7 @@ impl<'t> Reader<'_, 't> {
                 self.origin(shape, &part)?;
                 if let Some(material) = shape.child("material").filter(|_| kind == "visual") {
                     self.color(material)?;
-                    if let Some(texture) = material.child("texture") {
-                        let part = format!("{part}/material");
-                        self.effects.drop(texture, part, Fault::NeverRead("texture".into()));
-                    }
+                    self.first(shape, "material", &part);
                 }
             }
         }
@@ -150,10 +148,7 @@ impl<'t> Reader<'_, 't> {
 
     /// Of elements that repeat it reads the first.
     fn first(&mut self, parent: Node<'t>, name: &str, part: &str) {
-        let mut all = parent.named(name);
-        if let Some(first) = all.next()
-            && let Some(second) = all.find(|second| !second.is_like(first))
-        {
+        if let Some(second) = parent.repeated(name) {
             let part = format!("{part}/{name}");
             self.effects.read_as(second, part, Fault::Repeated(name.to_owned()), "the first");
         }
@@ -276,7 +271,7 @@ impl<'t> Reader<'_, 't> {
         }
         self.nothing(node, "dynamics", &["damping", "friction"], &part);
         let kind = node.value("type");
-        if matches!(kind, Some("revolute" | "prismatic")) {
+        if !matches!(kind, Some("continuous" | "fixed")) {
             self.nothing(node, "limit", &["lower", "upper"], &part);
         }
         let known = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
@@ -314,12 +309,6 @@ impl<'t> Reader<'_, 't> {
                 }
                 Some(count) => *count -= 1,
                 None => return self.effects.refuse(link, Fault::unknown("link", &link.value)),
-            }
-            let parent = end("parent").value("link").unwrap_or_default();
-            if !links.contains_key(parent) {
-                let part = format!("joint/{}/parent", joint.name);
-                let fault = Fault::unknown("link", parent);
-                self.effects.read_as(end("parent"), part, fault, "a link of that name");
             }
         }
         Ok(())
@@ -372,95 +361,5 @@ impl<'t> Reader<'_, 't> {
             }
         }
         Ok(())
-    }
-
-    /// A visual in the scene.
-    fn shown(&mut self, visual: Node<'t>, part: &str) -> Reading<()> {
-        let form = visual.child("geometry").and_then(|geometry| geometry.children().next());
-        if let Some(mesh) = form.filter(|form| form.name() == "mesh")
-            && !self.mesh(mesh, part)?
-        {
-            return Ok(());
-        }
-        let Some(material) = visual.child("material") else { return Ok(()) };
-        let of_robot = material.value("name").and_then(|name| self.materials.get(name));
-        let own = material.child("color");
-        let color = own.or_else(|| of_robot.and_then(|material| material.child("color")));
-        if own.is_none()
-            && of_robot.is_none()
-            && let Some(name) = material.value("name")
-        {
-            let part = format!("{part}/material");
-            self.effects.drop(material, part, Fault::unknown("material of the robot", name));
-        }
-        let Some(rgba) = color.and_then(|color| color.attribute("rgba")) else { return Ok(()) };
-        let size = form.and_then(|form| form.attribute("size"));
-        if let Some(size) = size
-            && size.value.replace(',', " ").split_whitespace().count() != 3
-        {
-            return self.effects.refuse(size, Fault::count("size", 3, &size.value));
-        }
-        let numbers = self.vector(rgba, &rgba.value)?;
-        if !matches!(numbers.len(), 1 | 4) {
-            return self.effects.refuse(rgba, Fault::count("rgba", 4, &rgba.value));
-        }
-        // Each is kept as a whole number from 0 to 255.
-        if !numbers
-            .iter()
-            .all(|number| (255.0 * number).trunc().abs() <= 255.0 && 255.0 * number > -1.0)
-        {
-            let fault = Fault::range("rgba", &rgba.value, "a colour is of numbers from 0 to 1");
-            return self.effects.refuse(rgba, fault);
-        }
-        Ok(())
-    }
-
-    /// Whether a mesh is shown.
-    fn mesh(&mut self, mesh: Node<'t>, part: &str) -> Reading<bool> {
-        let name = self.needed(mesh, "filename")?;
-        let packaged = name.value.strip_prefix("package://");
-        if packaged.is_some_and(|path| !path.trim_end_matches('/').contains('/')) {
-            let fault = Fault::Mesh("the name of the mesh has a package, and no file in it");
-            return self.effects.refuse(name, fault);
-        }
-        let Mesh::Found(facts) = self.file.mesh(&name.value) else {
-            if matches!(self.file.mesh(&name.value), Mesh::Missing) {
-                let fault = Fault::Mesh("the file of the mesh was not found");
-                self.effects.drop(name, part, fault);
-            }
-            return Ok(false);
-        };
-        let ending = name.value.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-        let is_stl = |stl: &StlFacts| stl.binary.is_some_and(|count| count > 0) || stl.corners > 0;
-        let (is_refused, is_empty) = match &*ending {
-            "stl" => (false, !facts.stl.as_ref().is_some_and(is_stl)),
-            "obj" => (false, facts.obj.as_ref().is_none_or(|obj| obj.vertices == 0)),
-            "dae" => (facts.collada.is_none(), false),
-            "ply" | "glb" | "gltf" | "off" | "3mf" | "zae" => (false, false),
-            // A folder.
-            _ if facts.size == 0 => (false, true),
-            _ => (true, false),
-        };
-        let scale = self.scale(mesh)?;
-        // The size of nothing cannot be changed evenly.
-        let is_even = !scale.is_empty() && scale.iter().all(|one| *one == scale[0]);
-        if is_refused || (is_empty && is_even) {
-            let fault = Fault::Mesh("the program cannot read the mesh");
-            return self.effects.refuse(name, fault);
-        }
-        if let Some(value) = mesh.attribute("scale") {
-            if !matches!(scale.len(), 0 | 1 | 3) {
-                return self.effects.refuse(value, Fault::count("scale", 3, &value.value));
-            }
-            if is_even && scale.first() == Some(&0.0) {
-                let fault = Fault::range("scale", &value.value, "a mesh cannot have the size 0");
-                return self.effects.refuse(value, fault);
-            }
-        }
-        if is_empty {
-            self.effects.drop(name, part, Fault::Mesh("the program finds nothing in the mesh"));
-            return Ok(false);
-        }
-        Ok(true)
     }
 }
