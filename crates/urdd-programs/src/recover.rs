@@ -16,7 +16,7 @@ pub(crate) fn parse(text: &str) -> (Tree<'_>, bool) {
     if parser.tag() {
         parser.content();
     }
-    let is_whole = parser.is_whole && parser.open.len() < 2;
+    let is_whole = parser.is_whole && parser.open.is_empty();
     (parser.tree, is_whole)
 }
 
@@ -147,7 +147,7 @@ impl<'a> Parser<'a> {
         self.names += usize::from(!closes);
         if !opens && !closes {
             let cut = self.rest().split(['<', '>']).next().unwrap_or_default();
-            self.is_whole &= !cut.contains('=');
+            self.is_whole &= !cut.contains('=') && !is_root;
         }
         !is_root || opens
     }
